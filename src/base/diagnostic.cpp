@@ -1,0 +1,93 @@
+#include "base/diagnostic.h"
+
+#include <algorithm>
+
+namespace ombre {
+namespace {
+
+constexpr size_t widest_line = 160;  // longer source lines are shown from the mistake on
+
+std::string_view label(Severity severity) {
+  switch (severity) {
+    case Severity::note: return "note";
+    case Severity::warning: return "warning";
+    case Severity::error: break;
+  }
+  return "error";
+}
+
+// The source line and, under it, a caret with the length of the range.
+std::string excerpt(const SourceRange& where, Place place) {
+  std::string_view line = where.source->line(place.line);
+  if (line.empty()) return {};
+  const SourceText& source = *where.source;
+  const Place end = source.place(std::max(where.end, where.begin));
+  // A caret line repeats tabs, so that it lines up whatever their width.
+  size_t at = 0;
+  for (int column = 1; column < place.column && at < line.size(); ++at)
+    if (at + 1 >= line.size() || (static_cast<unsigned char>(line[at + 1]) & 0xC0) != 0x80) ++column;
+  size_t from = 0;
+  if (at > widest_line / 2) from = at - 20;
+  while (from > 0 && (static_cast<unsigned char>(line[from]) & 0xC0) == 0x80) --from;
+  size_t to = std::min(line.size(), from + widest_line);
+  while (to < line.size() && (static_cast<unsigned char>(line[to]) & 0xC0) == 0x80) ++to;
+
+  const std::string number = std::to_string(place.line);
+  std::string text = "  " + number + " | ";
+  text += line.substr(from, to - from);
+  text += "\n  " + std::string(number.size(), ' ') + " | ";
+  for (size_t i = from; i < at && i < line.size(); ++i) {
+    if (line[i] == '\t')
+      text += '\t';
+    else if ((static_cast<unsigned char>(line[i]) & 0xC0) != 0x80)
+      text += ' ';
+  }
+  int width = end.line == place.line ? end.column - place.column : 1;
+  width = std::clamp(width, 1, static_cast<int>(widest_line));
+  text += '^' + std::string(width - 1, '~') + '\n';
+  return text;
+}
+
+}  // namespace
+
+void Diagnostics::add(Diagnostic diagnostic) {
+  if (diagnostic.severity == Severity::error && ++error_count_ > most) return;
+  list_.push_back(std::move(diagnostic));
+}
+
+void Diagnostics::error(SourceRange where, std::string message, std::string hint) {
+  add({Severity::error, std::move(where), std::move(message), std::move(hint)});
+}
+
+void Diagnostics::warning(SourceRange where, std::string message, std::string hint) {
+  add({Severity::warning, std::move(where), std::move(message), std::move(hint)});
+}
+
+void Diagnostics::note(SourceRange where, std::string message) {
+  add({Severity::note, std::move(where), std::move(message), {}});
+}
+
+std::string to_text(const Diagnostic& diagnostic) {
+  std::string text;
+  Place place;
+  if (diagnostic.where.source) {
+    place = diagnostic.where.source->place(diagnostic.where.begin);
+    text += diagnostic.where.source->name() + ':' + std::to_string(place.line) + ':' + std::to_string(place.column) + ": ";
+  }
+  text += label(diagnostic.severity);
+  text += ": " + diagnostic.message;
+  if (!diagnostic.hint.empty()) text += "; " + diagnostic.hint;
+  text += '\n';
+  if (diagnostic.where.source) text += excerpt(diagnostic.where, place);
+  return text;
+}
+
+std::string to_text(const Diagnostics& diagnostics) {
+  std::string text;
+  for (const Diagnostic& diagnostic : diagnostics.list()) text += to_text(diagnostic);
+  if (diagnostics.error_count() > Diagnostics::most)
+    text += "and " + std::to_string(diagnostics.error_count() - Diagnostics::most) + " more errors\n";
+  return text;
+}
+
+}  // namespace ombre

@@ -1,0 +1,49 @@
+// What a designer is told about a design: where, what was expected, what to write instead.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/source_text.h"
+
+namespace ombre {
+
+enum class Severity { note, warning, error };
+
+struct Diagnostic {
+  Severity severity = Severity::error;
+  SourceRange where;
+  std::string message;  // one sentence, lower case, no full stop
+  std::string hint;     // what to write instead; may be empty
+};
+
+// Collects what is found, so that one run reports several mistakes.
+class Diagnostics {
+ public:
+  static constexpr size_t most = 20;  // errors kept; the rest are counted
+
+  void add(Diagnostic diagnostic);
+  void error(SourceRange where, std::string message, std::string hint = "");
+  void warning(SourceRange where, std::string message, std::string hint = "");
+  void note(SourceRange where, std::string message);
+
+  const std::vector<Diagnostic>& list() const { return list_; }
+  size_t error_count() const { return error_count_; }
+  bool has_errors() const { return error_count_ > 0; }
+
+ private:
+  std::vector<Diagnostic> list_;
+  size_t error_count_ = 0;
+};
+
+// "file:line:column: error: message; hint", then the source line and a caret line.
+std::string to_text(const Diagnostic& diagnostic);
+// All of them, and how many more there were.
+std::string to_text(const Diagnostics& diagnostics);
+
+// Ends a front end's work early after its diagnostics were recorded.
+struct DesignError : std::exception {
+  const char* what() const noexcept override { return "the design has errors"; }
+};
+
+}  // namespace ombre

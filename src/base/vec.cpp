@@ -1,0 +1,95 @@
+#include "base/vec.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace ombre {
+namespace {
+
+// Whole quarter turns give exact zeros and ones, so that turned boxes keep their faces.
+struct CosSin {
+  double cos, sin;
+};
+
+CosSin cos_sin_degrees(double degrees) {
+  const double turn = std::remainder(degrees, 360.0);
+  if (turn == 0) return {1, 0};
+  if (turn == 90) return {0, 1};
+  if (turn == -90) return {0, -1};
+  if (std::abs(turn) == 180) return {-1, 0};
+  const double radians = turn * std::numbers::pi / 180;
+  return {std::cos(radians), std::sin(radians)};
+}
+
+// Eigenvalues of a symmetric 3x3 matrix by Jacobi rotations.
+Vec3 symmetric_eigenvalues(std::array<std::array<double, 3>, 3> m) {
+  for (int sweep = 0; sweep < 32; ++sweep) {
+    if (std::abs(m[0][1]) + std::abs(m[0][2]) + std::abs(m[1][2]) == 0) break;
+    for (int p = 0; p < 2; ++p) {
+      for (int q = p + 1; q < 3; ++q) {
+        if (m[p][q] == 0) continue;
+        const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
+        const double t = (theta >= 0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+        const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+        for (int k = 0; k < 3; ++k) {
+          const double kp = m[k][p], kq = m[k][q];
+          m[k][p] = c * kp - s * kq;
+          m[k][q] = s * kp + c * kq;
+        }
+        for (int k = 0; k < 3; ++k) {
+          const double pk = m[p][k], qk = m[q][k];
+          m[p][k] = c * pk - s * qk;
+          m[q][k] = s * pk + c * qk;
+        }
+      }
+    }
+  }
+  return {m[0][0], m[1][1], m[2][2]};
+}
+
+}  // namespace
+
+Affine Affine::rotation(Vec3 axis, double degrees) {
+  const Vec3 n = (1 / ombre::length(axis)) * axis;
+  const auto [c, s] = cos_sin_degrees(degrees);
+  const double k = 1 - c;
+  return {{Vec3{c + k * n.x * n.x, k * n.x * n.y - s * n.z, k * n.x * n.z + s * n.y},
+           Vec3{k * n.x * n.y + s * n.z, c + k * n.y * n.y, k * n.y * n.z - s * n.x},
+           Vec3{k * n.x * n.z - s * n.y, k * n.y * n.z + s * n.x, c + k * n.z * n.z}},
+          {}};
+}
+
+Affine operator*(const Affine& c_from_b, const Affine& b_from_a) {
+  Affine result;
+  for (int row = 0; row < 3; ++row) {
+    const Vec3& r = c_from_b.rows[row];
+    result.rows[row] = r.x * b_from_a.rows[0] + r.y * b_from_a.rows[1] + r.z * b_from_a.rows[2];
+  }
+  result.offset = c_from_b(b_from_a.offset);
+  return result;
+}
+
+double determinant(const Affine& map) { return dot(map.rows[0], cross(map.rows[1], map.rows[2])); }
+
+Affine inverse(const Affine& map) {
+  const double scale = 1 / determinant(map);
+  // The columns of the inverse are the cross products of the rows.
+  const Vec3 a = scale * cross(map.rows[1], map.rows[2]);
+  const Vec3 b = scale * cross(map.rows[2], map.rows[0]);
+  const Vec3 c = scale * cross(map.rows[0], map.rows[1]);
+  Affine result{{Vec3{a.x, b.x, c.x}, Vec3{a.y, b.y, c.y}, Vec3{a.z, b.z, c.z}}, {}};
+  result.offset = -result.linear(map.offset);
+  return result;
+}
+
+Stretch stretch(const Affine& map) {
+  std::array<std::array<double, 3>, 3> gram{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k) gram[i][j] += map.rows[k][i] * map.rows[k][j];
+  const Vec3 squares = symmetric_eigenvalues(gram);
+  return {std::sqrt(std::max(0.0, std::min({squares.x, squares.y, squares.z}))),
+          std::sqrt(std::max({squares.x, squares.y, squares.z}))};
+}
+
+}  // namespace ombre

@@ -1,0 +1,49 @@
+// Field sources: how anything not written in ops (meshes, volumes, results) enters a program.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/box.h"
+#include "base/hash.h"
+
+namespace ombre::program {
+
+// Voxels [begin, end) of a row.
+struct Span {
+  int64_t begin = 0, end = 0;
+  bool operator==(const Span&) const = default;
+};
+
+// Answers "which voxels of this row are inside" for one placement of a source on one voxel lattice.
+// Thread-safe.
+class RowSampler {
+ public:
+  virtual ~RowSampler() = default;
+  // rows[j - j_begin] gets the spans of row j of layer k that lie in [0, width): sorted, disjoint, not empty.
+  virtual void layer(int64_t k, int64_t j_begin, int64_t j_end, int64_t width,
+                     std::vector<std::vector<Span>>& rows) const = 0;
+};
+
+// A source has channels, each a scalar field over its own space (mm). Thread-safe once built;
+// what is expensive and not always needed (a search tree) is built on first use.
+class FieldSource {
+ public:
+  virtual ~FieldSource() = default;
+  virtual std::string name() const = 0;  // for messages
+  virtual Hash content() const = 0;      // of the bytes it was read from, and of the options that matter
+  virtual Box bounds() const = 0;        // outside of it, nothing is inside
+  virtual int channel(std::string_view channel_name) const = 0;  // -1: there is none of that name
+  virtual double sample(int channel, Vec3 p) const = 0;
+  virtual Interval range(int, const Box&) const { return Interval::everything(); }
+  // For a channel that is 1 inside and 0 outside: exact row spans under an affine map from index
+  // coordinates (voxel (i, j, k) has its centre at index (i, j, k)) to the source's space.
+  // Null if the source cannot.
+  virtual std::unique_ptr<RowSampler> rows(int, const Affine& /*source_from_index*/) const { return nullptr; }
+};
+
+using SourceField = std::shared_ptr<const FieldSource>;
+
+}  // namespace ombre::program

@@ -1,0 +1,37 @@
+# One library per folder of src/, its tests beside its sources.
+
+if(OMBRE_TESTS)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+endif()
+
+# ombre_folder(<name> [DEPENDS ombre libraries] [LINKS third-party libraries])
+# Every .cpp here belongs to the library, every *_test.cpp to its test program.
+function(ombre_folder name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;LINKS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
+  set(tests ${sources})
+  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+
+  if(NOT sources) # headers alone
+    add_library(ombre_${name} INTERFACE)
+    foreach(dependency ${ARG_DEPENDS})
+      target_link_libraries(ombre_${name} INTERFACE ombre_${dependency})
+    endforeach()
+    return()
+  endif()
+  add_library(ombre_${name} STATIC ${sources})
+  target_include_directories(ombre_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  foreach(dependency ${ARG_DEPENDS})
+    target_link_libraries(ombre_${name} PUBLIC ombre_${dependency})
+  endforeach()
+  target_link_libraries(ombre_${name} PRIVATE ${ARG_LINKS})
+
+  if(OMBRE_TESTS AND tests)
+    add_executable(test_${name} ${tests})
+    target_link_libraries(test_${name} PRIVATE ombre_${name} GTest::gtest_main)
+    target_compile_definitions(test_${name} PRIVATE OMBRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  endif()
+endfunction()
