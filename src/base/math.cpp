@@ -1,0 +1,23 @@
+#include "base/math.h"
+
+#include <sleef.h>
+
+namespace ombre::math {
+
+double sin(double v) { return Sleef_cinz_sind1_u10purec(v); }
+double cos(double v) { return Sleef_cinz_cosd1_u10purec(v); }
+double tan(double v) { return Sleef_cinz_tand1_u10purec(v); }
+double asin(double v) { return Sleef_cinz_asind1_u10purec(v); }
+double acos(double v) { return Sleef_cinz_acosd1_u10purec(v); }
+double atan(double v) { return Sleef_cinz_atand1_u10purec(v); }
+double atan2(double y, double x) { return Sleef_cinz_atan2d1_u10purec(y, x); }
+double sinh(double v) { return Sleef_cinz_sinhd1_u10purec(v); }
+double cosh(double v) { return Sleef_cinz_coshd1_u10purec(v); }
+double tanh(double v) { return Sleef_cinz_tanhd1_u10purec(v); }
+double exp(double v) { return Sleef_cinz_expd1_u10purec(v); }
+double log(double v) { return Sleef_cinz_logd1_u10purec(v); }
+double log10(double v) { return Sleef_cinz_log10d1_u10purec(v); }
+double log2(double v) { return Sleef_cinz_log2d1_u10purec(v); }
+double pow(double base, double exponent) { return Sleef_cinz_powd1_u10purec(base, exponent); }
+
+}  // namespace ombre::math

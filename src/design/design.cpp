@@ -1,0 +1,133 @@
+#include "design/design.h"
+
+#include <map>
+
+#include "base/json.h"
+#include "base/text.h"
+
+namespace ombre::design {
+namespace {
+
+constexpr double format_version = 1;
+
+Data node_parameters(const Node& node, bool for_hash) {
+  DataMembers members;
+  for (size_t i = 0; i < node.type().parameters.size(); ++i)
+    members.emplace_back(node.type().parameters[i].name, node.type().get(node.value(), i, for_hash));
+  return Data(std::move(members));
+}
+
+Data vector_data(Vec3 v) { return Data(DataList{Data(v.x), Data(v.y), Data(v.z)}); }
+
+Data sampling_data(const Sampling& sampling) {
+  DataList voxel;
+  for (const Pitch& pitch : sampling.pitch) voxel.emplace_back(pitch.text());
+  return Data(DataMembers{{"min", vector_data(sampling.box.lo)}, {"max", vector_data(sampling.box.hi)}, {"voxel", Data(std::move(voxel))}});
+}
+
+// Ids count nodes in the order in which they are first needed.
+std::map<const Node*, std::string> node_ids(const std::vector<const Node*>& nodes) {
+  std::map<const Node*, std::string> ids;
+  for (const Node* node : nodes) ids.emplace(node, "n" + std::to_string(ids.size() + 1));
+  return ids;
+}
+
+}  // namespace
+
+std::vector<NodePtr> Design::roots() const {
+  std::vector<NodePtr> roots;
+  for (const Part& part : parts) roots.push_back(part.solid);
+  return roots;
+}
+
+Data to_data(const Design& design) {
+  const auto nodes = topological(design.roots());
+  const auto ids = node_ids(nodes);
+  DataList node_list, part_list;
+  for (const Node* node : nodes) {
+    DataMembers entry{{"id", Data(ids.at(node))}, {"type", Data(node->type().name)}, {"parameters", node_parameters(*node, false)}};
+    if (!node->inputs().empty()) {
+      DataList inputs;
+      for (const NodePtr& input : node->inputs()) inputs.emplace_back(ids.at(input.get()));
+      entry.emplace_back("inputs", Data(std::move(inputs)));
+    }
+    node_list.emplace_back(std::move(entry));
+  }
+  for (const Part& part : design.parts)
+    part_list.emplace_back(DataMembers{{"name", Data(part.name)}, {"node", Data(ids.at(part.solid.get()))}});
+
+  DataMembers members{{"format", Data("ombre-design")}, {"version", Data(format_version)}};
+  members.push_back(design.materials.to_data().members()->front());
+  if (design.sampling) members.emplace_back("sampling", sampling_data(*design.sampling));
+  members.emplace_back("nodes", Data(std::move(node_list)));
+  members.emplace_back("parts", Data(std::move(part_list)));
+  return Data(std::move(members));
+}
+
+Hash hash(const Design& design) {
+  // Each node's hash covers its inputs' hashes, so equal sub-designs count as one.
+  std::map<const Node*, std::string> hashes;
+  for (const Node* node : topological(design.roots())) {
+    std::string text = node->type().name + print_json_line(node_parameters(*node, true));
+    for (const NodePtr& input : node->inputs()) text += hashes.at(input.get());
+    hashes.emplace(node, hash_bytes(text).hex());
+  }
+  DataList parts;
+  for (const Part& part : design.parts)
+    parts.emplace_back(DataList{Data(part.name), Data(hashes.at(part.solid.get()))});
+  DataMembers members{{"version", Data(format_version)}, {"materials", design.materials.to_data()}, {"parts", Data(std::move(parts))}};
+  if (design.sampling) members.emplace_back("sampling", sampling_data(*design.sampling));
+  return hash_bytes(print_json_line(Data(std::move(members))));
+}
+
+namespace {
+
+class TreePrinter {
+ public:
+  std::string text;
+
+  void print(const Node& node, size_t indent) {
+    text.append(indent, ' ');
+    text += node.type().name + "(" + parameters(node) + ")";
+    if (node.type().output == ValueType::solid) text += "  [" + std::string(name(node.metric().kind)) + "]";
+    if (!numbers_.try_emplace(&node, numbers_.size() + 1).second && !node.inputs().empty()) {
+      text += "  as above, #" + std::to_string(numbers_.at(&node)) + "\n";
+      return;
+    }
+    if (!node.inputs().empty()) text += "  #" + std::to_string(numbers_.at(&node));
+    text += '\n';
+    for (const NodePtr& input : node.inputs()) print(*input, indent + 2);
+  }
+
+ private:
+  static std::string parameters(const Node& node) {
+    std::string list;
+    for (size_t i = 0; i < node.type().parameters.size(); ++i) {
+      const ParameterInfo& parameter = node.type().parameters[i];
+      const Data value = node.type().get(node.value(), i, false);
+      if (value == parameter.default_value) continue;
+      list += (list.empty() ? "" : ", ") + parameter.name + "=" + print_json_line(value);
+    }
+    return list;
+  }
+
+  std::map<const Node*, size_t> numbers_;
+};
+
+}  // namespace
+
+std::string to_tree(const Design& design) {
+  TreePrinter printer;
+  if (design.sampling) {
+    const auto& [box, pitch] = *design.sampling;
+    printer.text += "sampling " + print_json_line(vector_data(box.lo)) + " to " + print_json_line(vector_data(box.hi)) +
+                    " mm at " + pitch[0].text() + ", " + pitch[1].text() + ", " + pitch[2].text() + " mm\n";
+  }
+  for (const Part& part : design.parts) {
+    printer.text += "part \"" + part.name + "\"\n";
+    printer.print(*part.solid, 2);
+  }
+  return printer.text;
+}
+
+}  // namespace ombre::design

@@ -1,0 +1,46 @@
+// A design: materials, parts, perhaps a box to sample; what every front end makes and every job takes.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/hash.h"
+#include "base/pitch.h"
+#include "design/registry.h"
+
+namespace ombre::design {
+
+struct Part {
+  std::string name;
+  NodePtr solid;
+};
+
+// What `root` gives: the box to sample and the voxel size, mm.
+struct Sampling {
+  Box box;
+  std::array<Pitch, 3> pitch;
+};
+
+struct Design {
+  MaterialTable materials;
+  std::vector<Part> parts;  // at least one; they may overlap
+  std::optional<Sampling> sampling;
+
+  std::vector<NodePtr> roots() const;
+};
+
+// The design file: format, version, materials, sampling, nodes (each once), parts.
+Data to_data(const Design& design);
+// Nothing, and diagnostics with places, when it is wrong: unknown types, wrong values, missing or circular references.
+std::optional<Design> read_design(const Data& data, const Registry& registry, SourceLoader* loader, Diagnostics& diagnostics);
+
+// Over the design file's form with defaults filled in; names of variables, node ids and places left
+// out, files named by their content.
+Hash hash(const Design& design);
+
+// An indented tree for people, with each solid's kind of distance; shared nodes are printed once.
+std::string to_tree(const Design& design);
+
+}  // namespace ombre::design

@@ -1,0 +1,61 @@
+// What nodes lower to.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "base/run.h"
+#include "program/field.h"
+
+namespace ombre::design {
+
+using program::Field;
+using program::Point;
+
+// Volume fractions at a point. They sum to one; a material that is not listed has none.
+struct Composition {
+  std::vector<std::pair<MaterialId, Field>> fractions;  // ascending ids
+  // Fields that are 1 where something is wrong with the composition; numbers of Lowering's checks.
+  std::vector<std::pair<uint32_t, Field>> checks;
+
+  static Composition pure(MaterialId material, Field one) { return {{{material, one}}, {}}; }
+};
+
+// Where a value will be used. Outside of a solid its composition matters only if something above
+// (a blend, a complement) makes points inside that were outside.
+enum class Demand : uint8_t { inside, everywhere };
+
+// What is known of a solid's g: an exact distance; a bound of it that changes at most `lipschitz` times
+// as fast as the point moves; or a value of which only the sign is meant.
+struct Metric {
+  enum class Kind : uint8_t { exact, bounded, implicit };
+  Kind kind = Kind::exact;
+  double lipschitz = 1;
+
+  static Metric exact() { return {}; }
+  static Metric bounded(double lipschitz = 1) { return {Kind::bounded, lipschitz}; }
+  static Metric implicit() { return {Kind::implicit, 0}; }
+  bool is_implicit() const { return kind == Kind::implicit; }
+  bool operator==(const Metric&) const = default;
+};
+
+inline Metric weaker(Metric a, Metric b) {
+  if (a.is_implicit() || b.is_implicit()) return Metric::implicit();
+  return {std::max(a.kind, b.kind), std::max(a.lipschitz, b.lipschitz)};
+}
+
+inline std::string_view name(Metric::Kind kind) {
+  return kind == Metric::Kind::exact ? "exact" : kind == Metric::Kind::bounded ? "bounded" : "implicit";
+}
+
+// How an attribute's values combine where solids overlap.
+enum class Overlap : uint8_t { first, mean, sum, max };
+
+struct AttributeDeclaration {
+  std::string name, unit;
+  double default_value = 0;  // where no solid gives one
+  Overlap overlap = Overlap::first;
+  bool operator==(const AttributeDeclaration&) const = default;
+};
+
+}  // namespace ombre::design

@@ -1,0 +1,191 @@
+#include "design/lowering.h"
+
+#include "base/assert.h"
+#include "design/registry.h"
+
+namespace ombre::design {
+
+// A sub-program under construction. Its outputs are added as callers ask for them.
+struct LoweringContext::Body {
+  program::Builder builder;
+  Lowering lowering;
+  std::shared_ptr<program::Program> program = std::make_shared<program::Program>();
+  std::vector<std::pair<std::string, Field>> outputs;
+  std::unordered_map<program::ValueId, uint32_t> numbers;
+
+  Body(LoweringContext& context, const Node& node) : lowering(context, builder) { lowering.own_ = &node; }
+
+  Point frame() { return Point::origin_frame(builder); }
+
+  uint32_t number(const std::string& name, Field field) {
+    const auto [it, is_new] = numbers.try_emplace(field.id, static_cast<uint32_t>(outputs.size()));
+    if (is_new) {
+      outputs.emplace_back(name, field);
+      program->output_names.push_back(name);
+    }
+    return it->second;
+  }
+
+  // The field of an output where the body is called with p.
+  Field call(const std::string& name, Field field, const Point& p) {
+    if (const auto constant = builder.constant_value(field)) return p.constant(*constant);
+    return p.builder().call(program, number(name, field), p.x, p.y, p.z);
+  }
+};
+
+LoweringContext::LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots) : materials_(materials) {
+  std::unordered_map<const Node*, int> uses;
+  for (const Node* node : topological(roots)) {
+    for (const NodePtr& input : node->inputs())
+      if (++uses[input.get()] == 2) shared_.insert(input.get());
+    if (const auto declared = node->value().declares()) {
+      bool known = false;
+      for (const auto& attribute : attributes_) known = known || attribute.name == declared->name;
+      if (!known) attributes_.push_back(*declared);
+    }
+  }
+}
+
+LoweringContext::~LoweringContext() = default;
+
+LoweringContext::Body& LoweringContext::body_of(const Node& node) {
+  auto& slot = bodies_[&node];
+  if (!slot) {
+    slot = std::make_unique<Body>(*this, node);
+    body_order_.push_back(slot.get());
+  }
+  return *slot;
+}
+
+void LoweringContext::finish_bodies() {
+  for (Body* body : body_order_) *body->program = body->builder.finish(body->outputs);
+}
+
+size_t Lowering::KeyHash::operator()(const Key& key) const {
+  size_t h = std::hash<const void*>()(key.node);
+  for (const size_t part : {size_t{key.x}, size_t{key.y}, size_t{key.z}, static_cast<size_t>(key.query)})
+    h = (h ^ part) * 0x9E3779B97F4A7C15ull + (h >> 29);
+  return h;
+}
+
+Lowering::Key Lowering::key_of(const Node& node, const Point& p, Query query) {
+  return {&node, p.x.id, p.y.id, p.z.id, query};
+}
+
+LoweringContext::Body* Lowering::body_for(const Node& node) {
+  return &node != own_ && context_.is_shared(node) ? &context_.body_of(node) : nullptr;
+}
+
+Field Lowering::once(const Node& node, const Point& p, Query query, Field (Lowering::*make)(const Node&, const Point&)) {
+  const Key key = key_of(node, p, query);
+  if (const auto known = fields_.find(key); known != fields_.end()) return known->second;
+  const Field field = (this->*make)(node, p);
+  fields_.emplace(key, field);
+  return field;
+}
+
+Field Lowering::distance(const Node& node, const Point& p) {
+  if (auto* body = body_for(node)) return body->call("distance", body->lowering.distance(node, body->frame()), p);
+  return once(node, p, Query::distance, &Lowering::make_distance);
+}
+
+Field Lowering::inside(const Node& node, const Point& p) {
+  if (auto* body = body_for(node)) return body->call("inside", body->lowering.inside(node, body->frame()), p);
+  return once(node, p, Query::inside, &Lowering::make_inside);
+}
+
+Field Lowering::interior(const Node& node, const Point& p) {
+  if (auto* body = body_for(node)) return body->call("interior", body->lowering.interior(node, body->frame()), p);
+  return once(node, p, Query::interior, &Lowering::make_interior);
+}
+
+Field Lowering::value(const Node& node, const Point& p) {
+  if (auto* body = body_for(node)) return body->call("value", body->lowering.value(node, body->frame()), p);
+  return once(node, p, Query::value, &Lowering::make_value);
+}
+
+Field Lowering::make_distance(const Node& node, const Point& p) {
+  return node.value().distance(Inputs(node, this), p);
+}
+
+Field Lowering::make_inside(const Node& node, const Point& p) {
+  if (const auto own = node.value().inside(Inputs(node, this), p)) return *own;
+  if (const auto inner = node.value().inner(p)) return inside(*node.inputs()[0], *inner);
+  return distance(node, p) <= 0;
+}
+
+Field Lowering::make_interior(const Node& node, const Point& p) {
+  if (const auto own = node.value().interior(Inputs(node, this), p)) return *own;
+  if (const auto inner = node.value().inner(p)) return interior(*node.inputs()[0], *inner);
+  return distance(node, p) < 0;
+}
+
+Field Lowering::make_value(const Node& node, const Point& p) { return node.value().value(Inputs(node, this), p); }
+
+Composition Lowering::composition(const Node& node, const Point& p, Demand demand) {
+  if (auto* body = body_for(node)) {
+    Composition own = body->lowering.composition(node, body->frame(), demand);
+    for (auto& [id, fraction] : own.fractions) fraction = body->call(context_.materials().all()[id].name, fraction, p);
+    for (auto& [number, mark] : own.checks) mark = body->call("check " + std::to_string(number), mark, p);
+    return own;
+  }
+  const Key key = key_of(node, p, demand == Demand::inside ? Query::composition_inside : Query::composition_everywhere);
+  if (const auto known = compositions_.find(key); known != compositions_.end()) return known->second;
+  Composition made = make_composition(node, p, demand);
+  compositions_.emplace(key, made);
+  return made;
+}
+
+Composition Lowering::make_composition(const Node& node, const Point& p, Demand demand) {
+  if (auto own = node.value().composition(Inputs(node, this), p, demand)) return std::move(*own);
+  if (const auto inner = node.value().inner(p)) return composition(*node.inputs()[0], *inner, demand);
+  if (!node.inputs().empty()) return composition(*node.inputs()[0], p, demand);
+  return Composition::pure(context_.materials().first().id, p.constant(1));
+}
+
+Field Lowering::attribute(const Node& node, std::string_view name, const Point& p, Demand demand) {
+  if (auto* body = body_for(node))
+    return body->call(std::string(name), body->lowering.attribute(node, name, body->frame(), demand), p);
+  return make_attribute(node, name, p, demand);
+}
+
+Field Lowering::make_attribute(const Node& node, std::string_view name, const Point& p, Demand demand) {
+  if (!has_attribute(node, name)) {
+    const AttributeDeclaration* declared = declaration(name);
+    return p.constant(declared ? declared->default_value : 0);
+  }
+  if (const auto own = node.value().attribute(Inputs(node, this), name, p, demand)) return *own;
+  if (const auto inner = node.value().inner(p)) return attribute(*node.inputs()[0], name, *inner, demand);
+  return attribute(*node.inputs()[0], name, p, demand);
+}
+
+bool Lowering::has_attribute(const Node& node, std::string_view name) {
+  const auto key = std::make_pair(&node, std::string(name));
+  if (const auto known = context_.carries_.find(key); known != context_.carries_.end()) return known->second;
+  const auto declared = node.value().declares();
+  bool carries = declared && declared->name == name;
+  for (const NodePtr& input : node.inputs()) carries = carries || has_attribute(*input, name);
+  context_.carries_.emplace(key, carries);
+  return carries;
+}
+
+const AttributeDeclaration* Lowering::declaration(std::string_view name) const {
+  for (const auto& attribute : context_.attributes_)
+    if (attribute.name == name) return &attribute;
+  return nullptr;
+}
+
+MaterialId Lowering::material(const MaterialName& name) const {
+  const Material* material = context_.materials().find(name.name);
+  ASSERT(material && "parameters hold names of the table");
+  return material->id;
+}
+
+uint32_t Lowering::add_check(const Node& node, const std::string& message) {
+  const auto [it, is_new] =
+      context_.check_numbers_.try_emplace({&node, message}, static_cast<uint32_t>(context_.checks_.size()));
+  if (is_new) context_.checks_.push_back({node.where(), message});
+  return it->second;
+}
+
+}  // namespace ombre::design

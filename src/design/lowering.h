@@ -1,0 +1,99 @@
+// Lowering: asks nodes for fields at points and remembers the answers.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "design/node.h"
+
+namespace ombre::design {
+
+// What a job tells of when a check's mark is 1 at a voxel.
+struct Check {
+  SourceRange where;
+  std::string message;
+};
+
+// State that all lowerings of one design share: checks and bodies.
+class LoweringContext {
+ public:
+  LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots);
+  ~LoweringContext();
+
+  const MaterialTable& materials() const { return materials_; }
+  const std::vector<Check>& checks() const { return checks_; }
+  const std::vector<AttributeDeclaration>& attributes() const { return attributes_; }
+  // Writes the code of the bodies into their programs; call it when nothing more will be lowered.
+  void finish_bodies();
+
+ private:
+  friend class Lowering;
+  struct Body;
+  Body& body_of(const Node& node);
+  bool is_shared(const Node& node) const { return shared_.contains(&node); }
+
+  const MaterialTable& materials_;
+  std::vector<Check> checks_;
+  std::map<std::pair<const Node*, std::string>, uint32_t> check_numbers_;
+  std::vector<AttributeDeclaration> attributes_;
+  std::unordered_set<const Node*> shared_;                            // used more than once
+  std::map<std::pair<const Node*, std::string>, bool> carries_;       // does a node have an attribute?
+  std::unordered_map<const Node*, std::unique_ptr<Body>> bodies_;
+  std::vector<Body*> body_order_;
+};
+
+// Lowers nodes into one builder. A node that is used more than once becomes a body, a sub-program
+// that is called at each point where it is asked for.
+class Lowering {
+ public:
+  Lowering(LoweringContext& context, program::Builder& builder) : context_(context), builder_(builder) {}
+
+  Field distance(const Node& node, const Point& p);
+  Field inside(const Node& node, const Point& p);
+  Field interior(const Node& node, const Point& p);
+  Composition composition(const Node& node, const Point& p, Demand demand);
+  Field attribute(const Node& node, std::string_view name, const Point& p, Demand demand);
+  Field value(const Node& node, const Point& p);
+
+  bool has_attribute(const Node& node, std::string_view name);
+  const AttributeDeclaration* declaration(std::string_view name) const;
+  MaterialId material(const MaterialName& name) const;
+  uint32_t add_check(const Node& node, const std::string& message);
+  program::Builder& builder() { return builder_; }
+
+ private:
+  enum class Query : uint8_t { distance, inside, interior, composition_inside, composition_everywhere, value };
+  struct Key {
+    const Node* node;
+    program::ValueId x, y, z;
+    Query query;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    size_t operator()(const Key& key) const;
+  };
+
+  static Key key_of(const Node& node, const Point& p, Query query);
+  Field once(const Node& node, const Point& p, Query query, Field (Lowering::*make)(const Node&, const Point&));
+  Field make_distance(const Node& node, const Point& p);
+  Field make_inside(const Node& node, const Point& p);
+  Field make_interior(const Node& node, const Point& p);
+  Field make_value(const Node& node, const Point& p);
+  Composition make_composition(const Node& node, const Point& p, Demand demand);
+  Field make_attribute(const Node& node, std::string_view name, const Point& p, Demand demand);
+  LoweringContext::Body* body_for(const Node& node);
+
+  LoweringContext& context_;
+  program::Builder& builder_;
+  const Node* own_ = nullptr;  // the node whose body this is: it is lowered here, not called
+  std::unordered_map<Key, Field, KeyHash> fields_;
+  std::unordered_map<Key, Composition, KeyHash> compositions_;
+
+  friend class LoweringContext;
+};
+
+}  // namespace ombre::design

@@ -1,0 +1,43 @@
+// The materials that a design may name: ids, colours, and whatever else a file says of them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/data.h"
+#include "base/diagnostic.h"
+#include "base/run.h"
+
+namespace ombre::design {
+
+using Rgba = std::array<uint8_t, 4>;
+
+struct Material {
+  std::string name;
+  MaterialId id = 0;
+  Rgba colour{};
+  DataMembers properties;  // modulus, density, ...: kept as written
+};
+
+// `void` is id 0; the others count from 1 in the order of their file.
+class MaterialTable {
+ public:
+  MaterialTable();
+  // From {"materials": [{"name", "r", "g", "b", "a", ...}]}. Nothing, and diagnostics, when wrong.
+  static std::optional<MaterialTable> read(const Data& data, Diagnostics& diagnostics);
+  // The list in the form that `read` takes.
+  Data to_data() const;
+
+  const std::vector<Material>& all() const { return all_; }  // by id, void first
+  const Material* find(std::string_view name) const;         // names match without regard to case
+  const Material* find(MaterialId id) const { return id < all_.size() ? &all_[id] : nullptr; }
+  const Material& first() const { return all_[all_.size() > 1 ? 1 : 0]; }  // what is meant when none is given
+  std::vector<std::string> names() const;
+
+ private:
+  std::vector<Material> all_;
+};
+
+}  // namespace ombre::design

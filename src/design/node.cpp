@@ -1,0 +1,109 @@
+#include "design/node.h"
+
+#include <unordered_set>
+
+#include "base/assert.h"
+#include "design/lowering.h"
+
+namespace ombre::design {
+
+std::string_view name(ValueType type) { return type == ValueType::solid ? "solid" : "field"; }
+
+Node::Node(const NodeType& type, std::unique_ptr<const NodeValue> value, std::vector<NodePtr> inputs, SourceRange where)
+    : type_(type), value_(std::move(value)), inputs_(std::move(inputs)), where_(std::move(where)) {
+  for (const NodePtr& input : inputs_) depth_ = std::max(depth_, input->depth() + 1);
+  metric_ = value_->metric(Inputs(*this, nullptr));
+}
+
+Box BoundsMemory::of(const Node& node, const Box& where, double margin) {
+  const auto known = last_.find(&node);
+  if (known != last_.end() && known->second.where == where && known->second.margin == margin) return known->second.box;
+  const Box box = node.value().reach(Inputs(node, nullptr, this), where, margin);
+  last_[&node] = {where, margin, box};
+  return box;
+}
+
+Box Node::bounds(const Box& where) const {
+  BoundsMemory memory;
+  return memory.of(*this, where, 0);
+}
+
+Node::~Node() {
+  std::vector<NodePtr> open = std::move(inputs_);
+  while (!open.empty()) {
+    const NodePtr node = std::move(open.back());
+    open.pop_back();
+    if (node.use_count() != 1) continue;
+    for (NodePtr& input : const_cast<Node&>(*node).inputs_) open.push_back(std::move(input));
+  }
+}
+
+std::vector<const Node*> topological(const std::vector<NodePtr>& roots) {
+  std::vector<const Node*> order;
+  std::unordered_set<const Node*> seen;
+  struct Visit {
+    const Node* node;
+    size_t next;
+  };
+  std::vector<Visit> stack;
+  for (const NodePtr& root : roots) {
+    if (seen.insert(root.get()).second) stack.push_back({root.get(), 0});
+    while (!stack.empty()) {
+      Visit& visit = stack.back();
+      if (visit.next == visit.node->inputs().size()) {
+        order.push_back(visit.node);
+        stack.pop_back();
+        continue;
+      }
+      const Node* input = visit.node->inputs()[visit.next++].get();
+      if (seen.insert(input).second) stack.push_back({input, 0});
+    }
+  }
+  return order;
+}
+
+size_t Inputs::count() const { return node_.inputs().size(); }
+const Node& Inputs::input(size_t i) const { return *node_.inputs()[i]; }
+Box Inputs::reach(size_t i, const Box& where, double margin) const { return memory_->of(input(i), where, margin); }
+Metric Inputs::metric(size_t i) const { return input(i).metric(); }
+Field Inputs::distance(size_t i, const Point& p) const { return lowering_->distance(input(i), p); }
+Field Inputs::inside(size_t i, const Point& p) const { return lowering_->inside(input(i), p); }
+Field Inputs::interior(size_t i, const Point& p) const { return lowering_->interior(input(i), p); }
+Composition Inputs::composition(size_t i, const Point& p, Demand demand) const {
+  return lowering_->composition(input(i), p, demand);
+}
+Field Inputs::attribute(size_t i, std::string_view attribute_name, const Point& p, Demand demand) const {
+  return lowering_->attribute(input(i), attribute_name, p, demand);
+}
+bool Inputs::has_attribute(size_t i, std::string_view attribute_name) const {
+  return lowering_->has_attribute(input(i), attribute_name);
+}
+AttributeDeclaration Inputs::declaration(std::string_view attribute_name) const {
+  const AttributeDeclaration* found = lowering_->declaration(attribute_name);
+  return found ? *found : AttributeDeclaration{std::string(attribute_name), "", 0, Overlap::first};
+}
+Field Inputs::value(size_t i, const Point& p) const { return lowering_->value(input(i), p); }
+
+std::vector<Field> Inputs::distances(const Point& p) const {
+  std::vector<Field> fields;
+  for (size_t i = 0; i < count(); ++i) fields.push_back(distance(i, p));
+  return fields;
+}
+std::vector<Field> Inputs::insides(const Point& p) const {
+  std::vector<Field> fields;
+  for (size_t i = 0; i < count(); ++i) fields.push_back(inside(i, p));
+  return fields;
+}
+std::vector<Field> Inputs::interiors(const Point& p) const {
+  std::vector<Field> fields;
+  for (size_t i = 0; i < count(); ++i) fields.push_back(interior(i, p));
+  return fields;
+}
+
+MaterialId Inputs::material(const MaterialName& material_name) const { return lowering_->material(material_name); }
+
+std::pair<uint32_t, Field> Inputs::check(Field bad, const std::string& message) const {
+  return {lowering_->add_check(node_, message), bad};
+}
+
+}  // namespace ombre::design

@@ -1,0 +1,124 @@
+// Nodes: a type, its parameters, its inputs. Immutable once made; shared where used twice.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "design/lowered.h"
+#include "design/values.h"
+
+namespace ombre::design {
+
+class Node;
+class Lowering;
+class NodeType;
+using NodePtr = std::shared_ptr<const Node>;
+
+// What nodes take and give.
+enum class ValueType : uint8_t { solid, field };
+std::string_view name(ValueType type);
+
+// Bounds already asked for: a sub-design may be reached in very many ways.
+class BoundsMemory {
+ public:
+  Box of(const Node& node, const Box& where, double margin);
+
+ private:
+  struct Answer {
+    Box where;
+    double margin;
+    Box box;
+  };
+  std::map<const Node*, Answer> last_;
+};
+
+// A node's inputs as its methods see them: by number, at a point of the node's choice.
+class Inputs {
+ public:
+  Inputs(const Node& node, Lowering* lowering, BoundsMemory* memory = nullptr)
+      : node_(node), lowering_(lowering), memory_(memory) {}
+
+  size_t count() const;
+  const Node& node() const { return node_; }
+  const Node& input(size_t i) const;
+
+  Box bounds(size_t i, const Box& where) const { return reach(i, where, 0); }
+  // Encloses the points of `where` at which the input's g is `margin` or less; margin >= 0.
+  Box reach(size_t i, const Box& where, double margin) const;
+  Metric metric(size_t i) const;
+
+  Field distance(size_t i, const Point& p) const;
+  Field inside(size_t i, const Point& p) const;    // truth value of distance <= 0
+  Field interior(size_t i, const Point& p) const;  // truth value of distance < 0
+  Composition composition(size_t i, const Point& p, Demand demand) const;
+  Field attribute(size_t i, std::string_view attribute_name, const Point& p, Demand demand) const;
+  bool has_attribute(size_t i, std::string_view attribute_name) const;
+  Field value(size_t i, const Point& p) const;  // of an input that is a field
+  AttributeDeclaration declaration(std::string_view attribute_name) const;
+
+  // All inputs at one point.
+  std::vector<Field> distances(const Point& p) const;
+  std::vector<Field> insides(const Point& p) const;
+  std::vector<Field> interiors(const Point& p) const;
+
+  MaterialId material(const MaterialName& name) const;
+  // A mark that is 1 where something is wrong; `message` is told once, with the count of voxels.
+  std::pair<uint32_t, Field> check(Field bad, const std::string& message) const;
+
+ private:
+  const Node& node_;
+  Lowering* lowering_;    // null where only bounds or the metric are asked for
+  BoundsMemory* memory_;  // set where bounds are asked for
+};
+
+// A node's parameters and behaviour behind one interface; made from plain structs by spec.h.
+class NodeValue {
+ public:
+  virtual ~NodeValue() = default;
+  // Encloses the points of `where` at which g is `margin` (mm, not negative) or less.
+  virtual Box reach(const Inputs& in, const Box& where, double margin) const = 0;
+  virtual Metric metric(const Inputs& in) const = 0;
+  // Solids give `distance`; the other three have defaults that follow from it or from the inputs.
+  virtual Field distance(const Inputs& in, const Point& p) const = 0;
+  virtual std::optional<Field> inside(const Inputs& in, const Point& p) const = 0;
+  virtual std::optional<Field> interior(const Inputs& in, const Point& p) const = 0;
+  virtual std::optional<Composition> composition(const Inputs& in, const Point& p, Demand demand) const = 0;
+  virtual std::optional<Field> attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const = 0;
+  virtual std::optional<AttributeDeclaration> declares() const = 0;  // the attribute that it sets
+  // Where a node that only moves the question asks its input.
+  virtual std::optional<Point> inner(const Point& p) const = 0;
+  // Field nodes give this.
+  virtual Field value(const Inputs& in, const Point& p) const = 0;
+};
+
+class Node {
+ public:
+  Node(const NodeType& type, std::unique_ptr<const NodeValue> value, std::vector<NodePtr> inputs, SourceRange where);
+  ~Node();  // without recursion: chains may be long
+
+  const NodeType& type() const { return type_; }
+  const NodeValue& value() const { return *value_; }
+  const std::vector<NodePtr>& inputs() const { return inputs_; }
+  const SourceRange& where() const { return where_; }
+
+  // The smallest known box around what is inside within `where`.
+  Box bounds(const Box& where) const;
+  const Metric& metric() const { return metric_; }
+  int depth() const { return depth_; }  // 1 for a leaf
+
+ private:
+  const NodeType& type_;
+  std::unique_ptr<const NodeValue> value_;
+  std::vector<NodePtr> inputs_;
+  SourceRange where_;
+  Metric metric_;
+  int depth_ = 1;
+};
+
+// All nodes below and including the roots, each once, inputs before the nodes that use them.
+std::vector<const Node*> topological(const std::vector<NodePtr>& roots);
+
+}  // namespace ombre::design

@@ -1,0 +1,90 @@
+#include "design/registry.h"
+
+#include "base/assert.h"
+#include "base/text.h"
+
+namespace ombre::design {
+
+int NodeType::parameter(std::string_view parameter_name) const {
+  const std::string folded = fold_name(parameter_name);
+  for (size_t i = 0; i < parameters.size(); ++i)
+    if (fold_name(parameters[i].name) == folded) return static_cast<int>(i);
+  return -1;
+}
+
+std::vector<std::string> NodeType::parameter_names() const {
+  std::vector<std::string> names;
+  for (const ParameterInfo& parameter : parameters) names.push_back(parameter.name);
+  return names;
+}
+
+void Registry::add_type(std::unique_ptr<NodeType> type) {
+  const bool is_new = by_name_.emplace(fold_name(type->name), type.get()).second;
+  ASSERT(is_new && "two nodes have one name");
+  types_.push_back(std::move(type));
+}
+
+const NodeType* Registry::find(std::string_view name) const {
+  const auto it = by_name_.find(fold_name(name));
+  return it == by_name_.end() ? nullptr : it->second;
+}
+
+std::vector<std::string> Registry::names() const {
+  std::vector<std::string> names;
+  for (const auto& type : types_) names.push_back(type->name);
+  return names;
+}
+
+namespace {
+
+bool check_inputs(const NodeType& type, const std::vector<NodePtr>& inputs, const Reader& reader) {
+  const InputInfo& wanted = type.inputs;
+  const auto fail = [&](const std::string& message, const std::string& hint) {
+    reader.diagnostics.error(reader.where, message, hint);
+    return false;
+  };
+  if (wanted.most == 0 && !inputs.empty()) return fail(type.name + " takes no children", "end it with \";\"");
+  if (inputs.size() < wanted.least)
+    return fail(type.name + " has nothing inside its braces", "write " + type.name + "(...) { sphere(5); }");
+  if (inputs.size() > wanted.most)
+    return fail(type.name + " takes " + std::to_string(wanted.most) + (wanted.most == 1 ? " input, " : " inputs, ") +
+                    std::to_string(inputs.size()) + " were given", "join them with union");
+  for (const NodePtr& input : inputs)
+    if (input->type().output != wanted.type)
+      return fail(type.name + " takes a " + std::string(name(wanted.type)) + ", " + input->type().name + " gives a " +
+                      std::string(name(input->type().output)), "");
+  return true;
+}
+
+}  // namespace
+
+NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, std::vector<NodePtr> inputs,
+                  const Reader& reader) {
+  auto value = type.create();
+  bool good = true;
+  std::vector<bool> given(type.parameters.size(), false);
+  for (const auto& [parameter, data] : values) {
+    const auto index = static_cast<size_t>(parameter - type.parameters.data());
+    given[index] = true;
+    const Reader one{reader.materials, reader.diagnostics, reader.loader, reader.where, type.name, parameter->name};
+    good = type.set(*value, index, data, one) && good;
+  }
+  for (size_t i = 0; i < given.size(); ++i) {
+    if (given[i] || !type.parameters[i].domain.required) continue;
+    reader.diagnostics.error(reader.where, type.name + " needs \"" + type.parameters[i].name + "\": " + type.parameters[i].doc,
+                             type.example.empty() ? "" : "for example " + type.example);
+    good = false;
+  }
+  good = check_inputs(type, inputs, reader) && good;
+  if (!good) return nullptr;
+  const Reader whole{reader.materials, reader.diagnostics, reader.loader, reader.where, type.name, ""};
+  if (!type.complete(*value, whole, inputs)) return nullptr;
+  for (const NodePtr& input : inputs) {
+    if (input->depth() < deepest_design) continue;
+    reader.diagnostics.error(reader.where, "the design nests deeper than " + std::to_string(deepest_design) + " nodes");
+    return nullptr;
+  }
+  return std::make_shared<const Node>(type, std::move(value), std::move(inputs), reader.where);
+}
+
+}  // namespace ombre::design

@@ -1,0 +1,192 @@
+// From a plain struct to a node type: reads the struct's spec() and the methods that it has.
+//
+// A node is a struct with parameters as members and
+//   static Spec<T> spec()                     name, category, sentence, parameters, inputs, example
+//   Box bounds(where) const                   of leaves: encloses what is inside, within `where`; or
+//   Box reach(Inputs, where, margin) const    the same for the points with g <= margin
+//   Field distance([Inputs,] Point) const     negative inside; or, for nodes that only move the question,
+//   Point inner(Point) const                  where the input is asked, with `scale()` for its distance
+// and where the defaults do not fit
+//   Metric metric([Inputs]) const             default: exact for leaves with constant numbers
+//   inside, interior, composition, attribute, declares, value, complete
+#pragma once
+
+#include "design/registry.h"
+
+namespace ombre::design {
+
+template <class T>
+struct Parameter {
+  template <class M>
+  Parameter(std::string_view name_, M T::*member, std::string_view doc_, Domain domain_ = {})
+      : name(name_), doc(doc_), kind(kind_name<M>()), domain(std::move(domain_)) {
+    set = [member, limits = domain](T& value, const Data& data, const Reader& reader) {
+      return read(data, limits, value.*member, reader);
+    };
+    get = [member](const T& value, bool for_hash) { return write(value.*member, for_hash); };
+    if constexpr (std::is_same_v<M, Number>)
+      is_constant = [member](const T& value) { return (value.*member).constant() != nullptr; };
+    if constexpr (std::is_same_v<M, Numbers3>)
+      is_constant = [member](const T& value) {
+        const Numbers3& n = value.*member;
+        return n.x.constant() && n.y.constant() && n.z.constant();
+      };
+    if constexpr (std::is_same_v<M, MaterialName>)
+      fill = [member](T& value, const Reader& reader) {
+        if ((value.*member).name.empty()) (value.*member).name = reader.materials.first().name;
+      };
+  }
+
+  std::string_view name, doc, kind;
+  Domain domain;
+  std::function<bool(T&, const Data&, const Reader&)> set;
+  std::function<Data(const T&, bool)> get;
+  std::function<bool(const T&)> is_constant;        // for numbers that may be fields
+  std::function<void(T&, const Reader&)> fill;      // what is meant where nothing is given
+};
+
+template <class T>
+struct Spec {
+  std::string_view name, category, sentence;
+  std::vector<Parameter<T>> parameters;
+  InputInfo inputs = no_inputs;
+  std::string_view example;
+  ValueType output = ValueType::solid;
+};
+
+template <class T>
+class NodeTypeOf;
+
+// A node's struct behind NodeValue.
+template <class T>
+class NodeValueOf final : public NodeValue {
+ public:
+  T data;
+
+  explicit NodeValueOf(const NodeTypeOf<T>& type) : type_(type) {}
+
+  Box reach(const Inputs& in, const Box& where, double margin) const override {
+    if constexpr (requires { data.reach(in, where, margin); }) return intersect(data.reach(in, where, margin), where);
+    // A leaf's g is at least the distance to its shape.
+    else if constexpr (requires { data.bounds(where); }) return intersect(data.bounds(where).expanded(margin), where);
+    else return in.count() > 0 ? in.reach(0, where, margin) : where;
+  }
+
+  Metric metric(const Inputs& in) const override {
+    if (!type_.has_constant_numbers(data)) return Metric::implicit();
+    if constexpr (requires { data.metric(in); }) return data.metric(in);
+    else if constexpr (requires { data.metric(); }) return data.metric();
+    else return in.count() > 0 ? in.metric(0) : Metric::exact();
+  }
+
+  Field distance(const Inputs& in, const Point& p) const override {
+    if constexpr (requires { data.distance(in, p); }) return data.distance(in, p);
+    else if constexpr (requires { data.distance(p); }) return data.distance(p);
+    else if constexpr (requires { data.scale(); }) {
+      const Field inner_distance = in.distance(0, data.inner(p));
+      return data.scale() == 1 ? inner_distance : inner_distance * data.scale();
+    }
+    else if constexpr (requires { data.value(in, p); }) return data.value(in, p);
+    else return in.distance(0, p);
+  }
+
+  std::optional<Field> inside(const Inputs& in, const Point& p) const override {
+    if constexpr (requires { data.inside(in, p); }) return data.inside(in, p);
+    else if constexpr (passes_on) return in.inside(0, p);
+    else return std::nullopt;
+  }
+
+  std::optional<Field> interior(const Inputs& in, const Point& p) const override {
+    if constexpr (requires { data.interior(in, p); }) return data.interior(in, p);
+    else if constexpr (passes_on) return in.interior(0, p);
+    else return std::nullopt;
+  }
+
+  std::optional<Composition> composition(const Inputs& in, const Point& p, Demand demand) const override {
+    if constexpr (requires { data.composition(in, p, demand); }) return data.composition(in, p, demand);
+    else if constexpr (requires { data.material; }) return Composition::pure(in.material(data.material), p.constant(1));
+    else return std::nullopt;
+  }
+
+  std::optional<Field> attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const override {
+    if constexpr (requires { data.attribute(in, name, p, demand); }) return data.attribute(in, name, p, demand);
+    else return std::nullopt;
+  }
+
+  std::optional<AttributeDeclaration> declares() const override {
+    if constexpr (requires { data.declares(); }) return data.declares();
+    else return std::nullopt;
+  }
+
+  std::optional<Point> inner(const Point& p) const override {
+    if constexpr (requires { data.inner(p); }) return data.inner(p);
+    else return std::nullopt;
+  }
+
+  Field value(const Inputs& in, const Point& p) const override {
+    if constexpr (requires { data.value(in, p); }) return data.value(in, p);
+    else return p.constant(0);
+  }
+
+ private:
+  // Has neither a shape of its own nor another point: it carries something to its input's shape.
+  static constexpr bool passes_on = !requires(const T& t, const Inputs& in, const Point& p) { t.distance(in, p); } &&
+                                    !requires(const T& t, const Point& p) { t.distance(p); } &&
+                                    !requires(const T& t, const Point& p) { t.inner(p); };
+
+  const NodeTypeOf<T>& type_;
+};
+
+template <class T>
+class NodeTypeOf final : public NodeType {
+ public:
+  NodeTypeOf() : spec_(T::spec()) {
+    name = spec_.name;
+    category = spec_.category;
+    sentence = spec_.sentence;
+    example = spec_.example;
+    inputs = spec_.inputs;
+    output = spec_.output;
+    const T defaults{};
+    for (const Parameter<T>& parameter : spec_.parameters)
+      parameters.push_back({std::string(parameter.name), std::string(parameter.doc), parameter.kind, parameter.domain,
+                            parameter.domain.required ? Data() : parameter.get(defaults, false)});
+  }
+
+  std::unique_ptr<NodeValue> create() const override { return std::make_unique<NodeValueOf<T>>(*this); }
+
+  bool set(NodeValue& value, size_t parameter, const Data& data, const Reader& reader) const override {
+    return spec_.parameters[parameter].set(struct_of(value), data, reader);
+  }
+
+  Data get(const NodeValue& value, size_t parameter, bool for_hash) const override {
+    return spec_.parameters[parameter].get(static_cast<const NodeValueOf<T>&>(value).data, for_hash);
+  }
+
+  bool complete(NodeValue& value, const Reader& reader, const std::vector<NodePtr>& children) const override {
+    T& data = struct_of(value);
+    for (const Parameter<T>& parameter : spec_.parameters)
+      if (parameter.fill) parameter.fill(data, reader);
+    if constexpr (requires { data.complete(reader, children); }) return data.complete(reader, children);
+    else if constexpr (requires { data.complete(reader); }) return data.complete(reader);
+    else return true;
+  }
+
+  bool has_constant_numbers(const T& data) const {
+    for (const Parameter<T>& parameter : spec_.parameters)
+      if (parameter.is_constant && !parameter.is_constant(data)) return false;
+    return true;
+  }
+
+ private:
+  static T& struct_of(NodeValue& value) { return static_cast<NodeValueOf<T>&>(value).data; }
+
+  Spec<T> spec_;
+};
+
+template <class... Nodes>
+void Registry::add() {
+  (add_type(std::make_unique<NodeTypeOf<Nodes>>()), ...);
+}
+
+}  // namespace ombre::design

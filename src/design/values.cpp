@@ -1,0 +1,242 @@
+#include "design/values.h"
+
+#include "base/text.h"
+
+namespace ombre::design {
+
+program::Field Number::at(const program::Point& p, const expr::Variables& extra) const {
+  if (const double* value = constant()) return p.constant(*value);
+  return expression()->lower(p, extra);
+}
+
+Interval Number::range(const Box& where) const {
+  if (const double* value = constant()) return *value;
+  program::Builder builder;
+  const program::Field field = expression()->lower(program::Point::origin_frame(builder), nullptr);
+  const program::Program program = builder.finish({{"value", field}});
+  std::vector<Interval> values;
+  program::evaluate_intervals(program, where, values);
+  return values[program.outputs[0]];
+}
+
+bool Reader::fail(const Data& data, const std::string& expected, const std::string& hint) const {
+  std::string message = std::string(name) + " of " + std::string(node) + ": expected " + expected;
+  if (!data.is_null()) message += ", found " + describe(data);
+  diagnostics.error(data.where.source ? data.where : where, message, hint);
+  return false;
+}
+
+namespace {
+
+std::string with_unit(const Domain& domain) { return domain.unit.empty() ? "" : " (" + std::string(domain.unit) + ")"; }
+
+std::string range_text(const Domain& domain) {
+  std::string text;
+  if (std::isfinite(domain.least))
+    text = (domain.above_least ? "greater than " : "of at least ") + format_number(domain.least);
+  if (std::isfinite(domain.greatest)) text += (text.empty() ? "of at most " : " and at most ") + format_number(domain.greatest);
+  return text;
+}
+
+bool in_range(double v, const Domain& domain) {
+  return std::isfinite(v) && v <= domain.greatest && (domain.above_least ? v > domain.least : v >= domain.least);
+}
+
+bool read_list(const Data& data, size_t size, const std::string& expected, const Reader& reader) {
+  if (data.list() && data.list()->size() == size) return true;
+  return reader.fail(data, expected);
+}
+
+}  // namespace
+
+bool read(const Data& data, const Domain& domain, double& value, const Reader& reader) {
+  const double* number = data.number();
+  if (!number) return reader.fail(data, "a number" + with_unit(domain));
+  const std::string range = range_text(domain);
+  if (!in_range(*number, domain)) return reader.fail(data, range.empty() ? "a finite number" : "a number " + range + with_unit(domain));
+  value = *number;
+  return true;
+}
+
+bool read(const Data& data, const Domain& domain, Number& value, const Reader& reader) {
+  if (const std::string* text = data.string()) {
+    auto expression = expr::Expression::parse(*text, data.where, reader.diagnostics);
+    if (!expression) return false;
+    std::vector<std::string> known = expr::coordinate_names();
+    known.insert(known.end(), domain.variables.begin(), domain.variables.end());
+    if (!expression->check_variables(known, reader.diagnostics)) return false;
+    const auto constant = expression->constant_value();
+    if (!constant) {
+      value = std::move(*expression);
+      return true;
+    }
+    if (!std::isfinite(*constant) && !std::isfinite(domain.least)) {  // left to the job, which counts where it matters
+      value = std::move(*expression);
+      return true;
+    }
+    double number = 0;
+    if (!read(Data(*constant, data.where), domain, number, reader)) return false;
+    value = number;
+    return true;
+  }
+  double number = 0;
+  if (!data.number()) return reader.fail(data, "a number" + with_unit(domain) + " or an expression in quotes");
+  if (!read(data, domain, number, reader)) return false;
+  value = number;
+  return true;
+}
+
+bool read(const Data& data, const Domain& domain, Numbers3& value, const Reader& reader) {
+  if (!read_list(data, 3, "three numbers (x, y, z)" + with_unit(domain), reader)) return false;
+  const DataList& list = *data.list();
+  return static_cast<bool>(read(list[0], domain, value.x, reader) & read(list[1], domain, value.y, reader) &
+                           read(list[2], domain, value.z, reader));
+}
+
+bool read(const Data& data, const Domain&, bool& value, const Reader& reader) {
+  if (!data.boolean()) return reader.fail(data, "true or false");
+  value = *data.boolean();
+  return true;
+}
+
+bool read(const Data& data, const Domain& domain, std::string& value, const Reader& reader) {
+  if (!data.string()) return reader.fail(data, "a text in quotes");
+  if (!domain.choices.empty()) {
+    const std::string folded = fold_name(*data.string());
+    for (const std::string& choice : domain.choices)
+      if (fold_name(choice) == folded) {
+        value = choice;
+        return true;
+      }
+    return reader.fail(data, "one of \"" + join(domain.choices, "\", \"") + "\"", did_you_mean(*data.string(), domain.choices));
+  }
+  value = *data.string();
+  return true;
+}
+
+bool read(const Data& data, const Domain& domain, Vec3& value, const Reader& reader) {
+  if (!read_list(data, 3, "three numbers (x, y, z)" + with_unit(domain), reader)) return false;
+  const DataList& list = *data.list();
+  return static_cast<bool>(read(list[0], domain, value.x, reader) & read(list[1], domain, value.y, reader) &
+                           read(list[2], domain, value.z, reader));
+}
+
+bool read(const Data& data, const Domain& domain, std::optional<Vec3>& value, const Reader& reader) {
+  value.reset();
+  if (data.is_null()) return true;
+  value.emplace();
+  return read(data, domain, *value, reader);
+}
+
+bool read(const Data& data, const Domain& domain, Affine& value, const Reader& reader) {
+  const std::string expected = "a matrix of 3 or 4 rows with 4 numbers each";
+  const DataList* rows = data.list();
+  if (!rows || rows->size() < 3 || rows->size() > 4) return reader.fail(data, expected);
+  for (size_t r = 0; r < rows->size(); ++r) {
+    if (!read_list((*rows)[r], 4, expected, reader)) return false;
+    for (size_t c = 0; c < 4; ++c) {
+      double number = 0;
+      if (!read((*(*rows)[r].list())[c], domain, number, reader)) return false;
+      if (r == 3) {
+        if (number != (c == 3 ? 1 : 0)) return reader.fail((*rows)[3], "0, 0, 0, 1 as the last row");
+      } else if (c == 3) {
+        value.offset[static_cast<int>(r)] = number;
+      } else {
+        value.rows[r][static_cast<int>(c)] = number;
+      }
+    }
+  }
+  return true;
+}
+
+bool read(const Data& data, const Domain&, MaterialName& value, const Reader& reader) {
+  if (const double* id = data.number()) {
+    const bool is_id = *id >= 0 && *id <= 255 && *id == std::floor(*id);
+    const Material* material = is_id ? reader.materials.find(static_cast<MaterialId>(*id)) : nullptr;
+    if (!material)
+      return reader.fail(data, "a material's name, or its number from 0 to " + std::to_string(reader.materials.all().size() - 1));
+    value.name = material->name;
+    return true;
+  }
+  if (!data.string()) return reader.fail(data, "a material's name");
+  if (data.string()->empty()) {
+    value.name = reader.materials.first().name;
+    return true;
+  }
+  if (const Material* material = reader.materials.find(*data.string())) {
+    value.name = material->name;
+    return true;
+  }
+  const auto names = reader.materials.names();
+  std::string hint = did_you_mean(*data.string(), names);
+  if (hint.empty()) hint = "there are " + join(names, ", ");
+  reader.diagnostics.error(data.where.source ? data.where : reader.where, "there is no material \"" + *data.string() + "\"", hint);
+  return false;
+}
+
+bool read(const Data& data, const Domain&, FilePath& value, const Reader& reader) {
+  if (!data.string() || data.string()->empty()) return reader.fail(data, "the path of a file");
+  value.path = *data.string();
+  return true;
+}
+
+bool read(const Data& data, const Domain& domain, std::vector<Number>& value, const Reader& reader) {
+  value.clear();
+  if (!data.list()) {  // one for a list of one
+    value.emplace_back();
+    return read(data, domain, value.back(), reader);
+  }
+  bool good = true;
+  for (const Data& element : *data.list()) {
+    value.emplace_back();
+    good = read(element, domain, value.back(), reader) && good;
+  }
+  return good;
+}
+
+bool read(const Data& data, const Domain& domain, std::vector<MaterialName>& value, const Reader& reader) {
+  value.clear();
+  if (!data.list()) {
+    value.emplace_back();
+    return read(data, domain, value.back(), reader);
+  }
+  bool good = true;
+  for (const Data& element : *data.list()) {
+    value.emplace_back();
+    good = read(element, domain, value.back(), reader) && good;
+  }
+  return good;
+}
+
+Data write(double value, bool) { return Data(value); }
+Data write(const Number& value, bool) {
+  if (const double* number = value.constant()) return Data(*number);
+  return Data(value.expression()->text());
+}
+Data write(const Numbers3& v, bool h) { return Data(DataList{write(v.x, h), write(v.y, h), write(v.z, h)}); }
+Data write(bool value, bool) { return Data(value); }
+Data write(const std::string& value, bool) { return Data(value); }
+Data write(const Vec3& v, bool) { return Data(DataList{Data(v.x), Data(v.y), Data(v.z)}); }
+Data write(const std::optional<Vec3>& value, bool h) { return value ? write(*value, h) : Data(); }
+Data write(const Affine& value, bool) {
+  DataList rows;
+  for (int r = 0; r < 3; ++r) {
+    const Vec3& row = value.rows[static_cast<size_t>(r)];
+    rows.emplace_back(DataList{Data(row.x), Data(row.y), Data(row.z), Data(value.offset[r])});
+  }
+  return Data(std::move(rows));
+}
+Data write(const MaterialName& value, bool) { return Data(value.name); }
+Data write(const FilePath& value, bool for_hash) { return Data(for_hash ? value.content.hex() : value.path); }
+Data write(const std::vector<Number>& value, bool h) {
+  DataList list;
+  for (const Number& element : value) list.push_back(write(element, h));
+  return Data(std::move(list));
+}
+Data write(const std::vector<MaterialName>& value, bool h) {
+  DataList list;
+  for (const MaterialName& element : value) list.push_back(write(element, h));
+  return Data(std::move(list));
+}
+
+}  // namespace ombre::design

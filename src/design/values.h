@@ -1,0 +1,158 @@
+// The types that node parameters may have, and how plain data becomes them.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/box.h"
+#include "base/hash.h"
+#include "design/materials.h"
+#include "expr/expression.h"
+
+namespace ombre::design {
+
+// All of a design lies within this distance of the origin on each axis; mm.
+inline constexpr double design_limit_mm = 1e6;
+inline Box design_space() { return Box::centered({design_limit_mm, design_limit_mm, design_limit_mm}); }
+
+// A constant, or a field over space given by an expression.
+class Number {
+ public:
+  Number(double value = 0) : value_(value) {}              // NOLINT: a double is a Number
+  Number(expr::Expression e) : value_(std::move(e)) {}     // NOLINT
+  program::Field operator()(const program::Point& p) const { return at(p, nullptr); }
+  // With variables besides the coordinates.
+  program::Field at(const program::Point& p, const expr::Variables& extra) const;
+  Interval range(const Box& where) const;  // encloses its values there
+  const double* constant() const { return std::get_if<double>(&value_); }
+  const expr::Expression* expression() const { return std::get_if<expr::Expression>(&value_); }
+  bool operator==(const Number&) const = default;
+
+ private:
+  std::variant<double, expr::Expression> value_;
+};
+
+struct Numbers3 {
+  Number x, y, z;
+  Vec3 upper(const Box& where) const { return {x.range(where).hi, y.range(where).hi, z.range(where).hi}; }
+  bool operator==(const Numbers3&) const = default;
+};
+
+struct MaterialName {
+  std::string name;  // once read, a name of the table
+  bool operator==(const MaterialName&) const = default;
+};
+
+struct FilePath {
+  std::string path;
+  Hash content;  // of the file, known once it was loaded
+  bool operator==(const FilePath&) const = default;
+};
+
+// What a parameter may be, for checks, help and forms.
+struct Domain {
+  std::string_view unit;  // "mm", "deg", or none
+  double least = -std::numeric_limits<double>::infinity(), greatest = std::numeric_limits<double>::infinity();
+  bool above_least = false;               // greater than `least`, not equal
+  bool required = false;                  // has no default
+  std::vector<std::string> choices;       // for texts
+  std::vector<std::string> variables;     // known in expressions besides the coordinates
+};
+
+inline Domain any(std::string_view unit = "") {
+  Domain domain;
+  domain.unit = unit;
+  return domain;
+}
+inline Domain positive(std::string_view unit) {
+  Domain domain = any(unit);
+  domain.least = 0;
+  domain.above_least = true;
+  return domain;
+}
+inline Domain not_negative(std::string_view unit) {
+  Domain domain = any(unit);
+  domain.least = 0;
+  return domain;
+}
+inline Domain one_of(std::vector<std::string> choices) {
+  Domain domain;
+  domain.choices = std::move(choices);
+  return domain;
+}
+inline Domain required(Domain domain = {}) {
+  domain.required = true;
+  return domain;
+}
+inline Domain with_variables(std::vector<std::string> variables) {
+  Domain domain;
+  domain.variables = std::move(variables);
+  return domain;
+}
+
+namespace unit {
+inline const Domain mm = any("mm"), degrees = any("deg"), none = any();
+inline const Domain positive_mm = positive("mm"), not_negative_mm = not_negative("mm");
+}  // namespace unit
+
+class SourceLoader;
+
+// What reading a parameter needs besides the data.
+struct Reader {
+  const MaterialTable& materials;
+  Diagnostics& diagnostics;
+  SourceLoader* loader = nullptr;
+  SourceRange where;            // of the call, for messages about nothing that was written
+  std::string_view node, name;  // whose parameter is read
+
+  bool fail(const Data& data, const std::string& expected, const std::string& hint = "") const;
+};
+
+// True when `data` was right; else a diagnostic was added.
+bool read(const Data& data, const Domain& domain, double& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, Number& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, Numbers3& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, bool& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, std::string& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, Vec3& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, std::optional<Vec3>& value, const Reader& reader);  // null: none
+bool read(const Data& data, const Domain& domain, Affine& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, MaterialName& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, FilePath& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, std::vector<Number>& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, std::vector<MaterialName>& value, const Reader& reader);
+
+// The reverse. For hashes, files are named by their content.
+Data write(double value, bool for_hash);
+Data write(const Number& value, bool for_hash);
+Data write(const Numbers3& value, bool for_hash);
+Data write(bool value, bool for_hash);
+Data write(const std::string& value, bool for_hash);
+Data write(const Vec3& value, bool for_hash);
+Data write(const std::optional<Vec3>& value, bool for_hash);
+Data write(const Affine& value, bool for_hash);
+Data write(const MaterialName& value, bool for_hash);
+Data write(const FilePath& value, bool for_hash);
+Data write(const std::vector<Number>& value, bool for_hash);
+Data write(const std::vector<MaterialName>& value, bool for_hash);
+
+// "number or field", "material", ...: for help.
+template <class M>
+constexpr std::string_view kind_name() {
+  if constexpr (std::is_same_v<M, double>) return "number";
+  if constexpr (std::is_same_v<M, Number>) return "number or field";
+  if constexpr (std::is_same_v<M, Numbers3>) return "3 numbers or fields";
+  if constexpr (std::is_same_v<M, bool>) return "true or false";
+  if constexpr (std::is_same_v<M, std::string>) return "text";
+  if constexpr (std::is_same_v<M, Vec3> || std::is_same_v<M, std::optional<Vec3>>) return "3 numbers";
+  if constexpr (std::is_same_v<M, Affine>) return "matrix";
+  if constexpr (std::is_same_v<M, MaterialName>) return "material";
+  if constexpr (std::is_same_v<M, FilePath>) return "file";
+  if constexpr (std::is_same_v<M, std::vector<Number>>) return "list of numbers or fields";
+  if constexpr (std::is_same_v<M, std::vector<MaterialName>>) return "list of materials";
+}
+
+}  // namespace ombre::design

@@ -1,0 +1,198 @@
+#include "expr/expression.h"
+
+#include <numbers>
+
+#include "base/text.h"
+#include "expr/functions.h"
+#include "expr/parser.h"
+
+namespace ombre::expr {
+namespace {
+
+using program::Builder;
+using program::Field;
+using program::Op;
+using program::Point;
+
+// Angles about the z axis and from it, and distances from it and from the origin.
+std::optional<Field> coordinate(std::string_view name, const Point& p) {
+  Builder& builder = p.builder();
+  if (name == "x") return p.x;
+  if (name == "y") return p.y;
+  if (name == "z") return p.z;
+  if (name == "rho") return length(p.x, p.y);
+  if (name == "r") return length(p.x, p.y, p.z);
+  if (name == "phic" || name == "theta") return builder.apply(Op::atan2, p.y, p.x);
+  if (name == "phis") {
+    const Field r = length(p.x, p.y, p.z);
+    const Field cosine = min(max(p.z / r, p.constant(-1)), p.constant(1));
+    return select(r <= 0, p.constant(0), builder.apply(Op::acos, cosine));
+  }
+  return std::nullopt;
+}
+
+class Lowerer {
+ public:
+  Lowerer(const Point& p, const Variables& extra) : p_(p), extra_(extra) {}
+
+  Field lower(const Node& node) {
+    switch (node.kind) {
+      case Kind::number: return p_.constant(node.number);
+      case Kind::variable: return variable(node.name);
+      case Kind::negate: return -lower(*node.operands[0]);
+      case Kind::logical_not: return logical_not(lower(*node.operands[0]));
+      case Kind::conditional: {
+        const Field condition = lower(*node.operands[0]);
+        const Field yes = lower(*node.operands[1]);
+        return select(condition, yes, lower(*node.operands[2]));
+      }
+      case Kind::call: {
+        std::vector<Field> arguments;
+        for (const auto& operand : node.operands) arguments.push_back(lower(*operand));
+        return find_function(node.name)->lower(arguments);
+      }
+      case Kind::binary: break;
+    }
+    return chain(node);
+  }
+
+ private:
+  Field variable(const std::string& name) {
+    if (extra_)
+      if (const auto field = extra_(name)) return *field;
+    const auto field = coordinate(name, p_);
+    // Checked before lowering; a value is needed all the same.
+    return field ? *field : p_.constant(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  // a + b + c + ... without recursion to the left: sums may be long.
+  Field chain(const Node& node) {
+    std::vector<const Node*> links{&node};
+    while (links.back()->operands[0]->kind == Kind::binary) links.push_back(links.back()->operands[0].get());
+    Field value = lower(*links.back()->operands[0]);
+    for (size_t i = links.size(); i-- > 0;) value = combine(links[i]->binary, value, lower(*links[i]->operands[1]));
+    return value;
+  }
+
+  static Field combine(Binary binary, Field a, Field b) {
+    switch (binary) {
+      case Binary::add: return a + b;
+      case Binary::subtract: return a - b;
+      case Binary::multiply: return a * b;
+      case Binary::divide: return a / b;
+      case Binary::mod: return a.builder->apply(Op::mod, a, b);
+      case Binary::power: return power(a, b);
+      case Binary::less: return less(a, b);
+      case Binary::less_equal: return less_equal(a, b);
+      case Binary::greater: return less(b, a);
+      case Binary::greater_equal: return less_equal(b, a);
+      case Binary::equal: return a.builder->apply(Op::equal, a, b);
+      case Binary::not_equal: return logical_not(a.builder->apply(Op::equal, a, b));
+      case Binary::logical_and: return logical_and(a, b);
+      case Binary::logical_or: return logical_or(a, b);
+      case Binary::logical_xor: return logical_not(a.builder->apply(Op::equal, truth(a), truth(b)));
+      case Binary::logical_nand: return logical_not(logical_and(a, b));
+      case Binary::logical_nor: return logical_not(logical_or(a, b));
+    }
+    return a;
+  }
+
+  const Point& p_;
+  const Variables& extra_;
+};
+
+template <class F>
+void each_variable(const Node& root, F f) {
+  std::vector<const Node*> open{&root};
+  while (!open.empty()) {
+    const Node* node = open.back();
+    open.pop_back();
+    if (node->kind == Kind::variable) f(*node);
+    for (const auto& operand : node->operands) open.push_back(operand.get());
+  }
+}
+
+// The range of the text's own characters: in its file if it stands there literally, else in a
+// source made of the text alone.
+SourceRange text_range(const std::string& text, const SourceRange& where) {
+  if (where.source && where.end - where.begin == text.size() && where.source->text().substr(where.begin, text.size()) == text)
+    return where;
+  std::string name = "expression";
+  if (where.source) {
+    const Place place = where.source->place(where.begin);
+    name = where.source->name() + ":" + std::to_string(place.line) + ": in the expression made here";
+  }
+  return {make_source(name, text), 0, static_cast<uint32_t>(text.size())};
+}
+
+}  // namespace
+
+Node::~Node() {
+  std::vector<std::shared_ptr<const Node>> open = std::move(operands);
+  while (!open.empty()) {
+    const std::shared_ptr<const Node> node = std::move(open.back());
+    open.pop_back();
+    if (node.use_count() != 1) continue;
+    for (auto& operand : const_cast<Node&>(*node).operands) open.push_back(std::move(operand));
+  }
+}
+
+const std::vector<std::string>& coordinate_names() {
+  static const std::vector<std::string> names{"x", "y", "z", "rho", "phic", "r", "theta", "phis"};
+  return names;
+}
+
+std::vector<FunctionInfo> function_table() {
+  std::vector<FunctionInfo> table;
+  for (const Function& function : functions()) table.push_back({function.name, function.arguments, function.meaning});
+  return table;
+}
+
+std::optional<Expression> Expression::parse(const std::string& text, const SourceRange& where, Diagnostics& diagnostics) {
+  Expression expression;
+  expression.where_ = text_range(text, where);
+  expression.root_ = parse_tree(text, expression.where_, diagnostics);
+  if (!expression.root_) return std::nullopt;
+  expression.canonical_ = print_tree(*expression.root_);
+  return expression;
+}
+
+Expression Expression::constant(double value) {
+  Expression expression;
+  auto node = std::make_shared<Node>();
+  node->number = value;
+  expression.root_ = node;
+  expression.canonical_ = format_number(value);
+  return expression;
+}
+
+bool Expression::check_variables(const std::vector<std::string>& known, Diagnostics& diagnostics) const {
+  bool all_known = true;
+  each_variable(*root_, [&](const Node& node) {
+    for (const std::string& name : known)
+      if (name == node.name) return;
+    all_known = false;
+    std::string hint = did_you_mean(node.name, known);
+    if (hint.empty()) hint = "known here are " + join(known, ", ");
+    diagnostics.error(where_.part(node.begin, node.end), "there is no variable \"" + node.name + "\" in this expression", hint);
+  });
+  return all_known;
+}
+
+bool Expression::uses(std::string_view variable) const {
+  bool found = false;
+  each_variable(*root_, [&](const Node& node) { found = found || node.name == variable; });
+  return found;
+}
+
+std::optional<double> Expression::constant_value() const {
+  bool has_variables = false;
+  each_variable(*root_, [&](const Node&) { has_variables = true; });
+  if (has_variables) return std::nullopt;
+  Builder builder;
+  return builder.constant_value(lower(Point::origin_frame(builder), nullptr));
+}
+
+Field Expression::lower(const Point& p, const Variables& extra) const { return Lowerer(p, extra).lower(*root_); }
+
+}  // namespace ombre::expr

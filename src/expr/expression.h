@@ -1,0 +1,77 @@
+// Mathematical expressions in strings: parsed, checked, printed, lowered to fields.
+//
+// The dialect is the one that designs know from ExprTk: see docs/expressions.md.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "program/field.h"
+
+namespace ombre::expr {
+
+enum class Kind : uint8_t { number, variable, negate, logical_not, binary, call, conditional };
+enum class Binary : uint8_t {
+  add, subtract, multiply, divide, mod, power,
+  less, less_equal, greater, greater_equal, equal, not_equal,
+  logical_and, logical_or, logical_xor, logical_nand, logical_nor,
+};
+
+struct Node {
+  Kind kind = Kind::number;
+  Binary binary = Binary::add;
+  double number = 0;
+  std::string name;  // of a variable or function, lower case
+  std::vector<std::shared_ptr<const Node>> operands;
+  uint32_t begin = 0, end = 0;  // bytes of the expression's text
+
+  Node() = default;
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+  ~Node();  // without recursion: sums may be long
+};
+
+// Gives the field of a variable, or nothing if it has no such variable.
+using Variables = std::function<std::optional<program::Field>(std::string_view name)>;
+
+class Expression {
+ public:
+  // Nothing, and diagnostics that point into the string, when it is wrong. `where` is the range of
+  // the string's characters in its file, if they stand there literally. Unknown functions and wrong
+  // argument counts are found here, unknown variables by `check_variables`.
+  static std::optional<Expression> parse(const std::string& text, const SourceRange& where, Diagnostics& diagnostics);
+  static Expression constant(double value);
+
+  // Every variable must be among `known`.
+  bool check_variables(const std::vector<std::string>& known, Diagnostics& diagnostics) const;
+  bool uses(std::string_view variable) const;
+  // The number, if the expression has no variables.
+  std::optional<double> constant_value() const;
+
+  // Spelt in one way: what is the same but for spaces, case and brackets prints the same.
+  const std::string& text() const { return canonical_; }
+  const SourceRange& where() const { return where_; }
+
+  program::Field lower(const program::Point& p, const Variables& extra) const;
+
+  bool operator==(const Expression& other) const { return canonical_ == other.canonical_; }
+
+ private:
+  std::shared_ptr<const Node> root_;
+  std::string canonical_;
+  SourceRange where_;   // in the file, or in a source of its own that holds just the expression
+};
+
+// x y z rho phic r theta phis: what every expression knows.
+const std::vector<std::string>& coordinate_names();
+// A table of the functions, for the documentation: name, arguments, meaning.
+struct FunctionInfo {
+  std::string_view name, arguments, meaning;
+};
+std::vector<FunctionInfo> function_table();
+
+}  // namespace ombre::expr

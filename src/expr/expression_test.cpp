@@ -1,0 +1,154 @@
+#include "expr/expression.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace ombre::expr {
+namespace {
+
+using std::numbers::e;
+using std::numbers::pi;
+
+std::optional<Expression> parse(const std::string& text, Diagnostics& diagnostics) {
+  const SourcePtr source = make_source("part.vcad", "f(\"" + text + "\")");
+  return Expression::parse(text, {source, 3, static_cast<uint32_t>(3 + text.size())}, diagnostics);
+}
+
+double value(const std::string& text, Vec3 p = {0, 0, 0}) {
+  Diagnostics diagnostics;
+  const auto expression = parse(text, diagnostics);
+  EXPECT_TRUE(expression) << to_text(diagnostics);
+  if (!expression) return std::nan("");
+  program::Builder builder;
+  const auto field = expression->lower(program::Point::origin_frame(builder), nullptr);
+  std::vector<double> values;
+  const auto program = builder.finish({{"v", field}});
+  program::evaluate_point(program, p, values);
+  return values[program.outputs[0]];
+}
+
+std::string message(const std::string& text) {
+  Diagnostics diagnostics;
+  const auto expression = parse(text, diagnostics);
+  if (expression) expression->check_variables(coordinate_names(), diagnostics);
+  return to_text(diagnostics);
+}
+
+}  // namespace
+
+TEST(Expression, Precedence) {
+  EXPECT_EQ(value("1 + 2 * 3"), 7);
+  EXPECT_EQ(value("-x^2", {3, 0, 0}), -9);
+  EXPECT_EQ(value("2^-1"), 0.5);
+  EXPECT_EQ(value("2^3^2"), 512);
+  EXPECT_EQ(value("(2^3)^2"), 64);
+  EXPECT_EQ(value("8 / 4 / 2"), 1);
+  EXPECT_EQ(value("8 - 4 - 2"), 2);
+  EXPECT_EQ(value("7 % 4"), 3);
+  EXPECT_EQ(value("-7 % 4"), -3);
+  EXPECT_EQ(value("1 < 2 and 2 < 1 or 1"), 1);
+  EXPECT_EQ(value("1 ? 2 : 0 ? 3 : 4"), 2);
+  EXPECT_EQ(value("0 ? 2 : 0 ? 3 : 4"), 4);
+  EXPECT_EQ(value("not 1 + 1"), 1);
+}
+
+TEST(Expression, ImplicitMultiplication) {
+  EXPECT_EQ(value("2x", {3, 0, 0}), 6);
+  EXPECT_EQ(value("-4.5(rho - 4)", {3, 4, 7}), -4.5);
+  EXPECT_EQ(value("(x)(y)", {3, 4, 0}), 12);
+  EXPECT_EQ(value("x(y + 1)", {3, 4, 0}), 15);
+  EXPECT_EQ(value("2x^2", {3, 0, 0}), 18);
+  EXPECT_EQ(value("2 pi"), 2 * pi);
+}
+
+TEST(Expression, FunctionsAgreeWithMathematics) {
+  EXPECT_DOUBLE_EQ(value("sin(pi/6)"), 0.5);
+  EXPECT_DOUBLE_EQ(value("atan2(1, -1)"), 3 * pi / 4);
+  EXPECT_DOUBLE_EQ(value("log(e)"), 1);
+  EXPECT_DOUBLE_EQ(value("log10(1000)"), 3);
+  EXPECT_DOUBLE_EQ(value("log2(8)"), 3);
+  EXPECT_DOUBLE_EQ(value("pow(2, 0.5)"), std::numbers::sqrt2);
+  EXPECT_EQ(value("hypot(3, 4)"), 5);
+  EXPECT_EQ(value("clamp(0, 5, 3)"), 3);
+  EXPECT_EQ(value("clamp(0, -5, 3)"), 0);
+  EXPECT_EQ(value("min(3, 1, 2)"), 1);
+  EXPECT_EQ(value("max(3, 1, 2)"), 3);
+  EXPECT_EQ(value("avg(1, 2, 6)"), 3);
+  EXPECT_EQ(value("sum(1, 2, 6)"), 9);
+  EXPECT_EQ(value("sgn(-3) + sgn(0) + 10 sgn(2)"), 9);
+  EXPECT_EQ(value("frac(-2.25)"), -0.25);
+  EXPECT_EQ(value("round(2.5) + round(-2.5)"), 0);
+  EXPECT_EQ(value("trunc(-2.7)"), -2);
+  EXPECT_DOUBLE_EQ(value("deg2rad(180)"), pi);
+  EXPECT_DOUBLE_EQ(value("rad2deg(pi)"), 180);
+  EXPECT_DOUBLE_EQ(value("normal_dist(1)"), std::exp(-0.5) / std::sqrt(2 * pi));
+  EXPECT_DOUBLE_EQ(value("normal_dist(3, 1, 2)"), std::exp(-0.5) / (2 * std::sqrt(2 * pi)));
+  EXPECT_EQ(value("if(x > 1, 5, 6)", {2, 0, 0}), 5);
+  EXPECT_DOUBLE_EQ(value("exp(1)"), e);
+}
+
+TEST(Expression, Logic) {
+  EXPECT_EQ(value("1 <> 2"), 1);
+  EXPECT_EQ(value("1 != 1"), 0);
+  EXPECT_EQ(value("1 = 1"), 1);
+  EXPECT_EQ(value("true xor true"), 0);
+  EXPECT_EQ(value("2 nand 3"), 0);
+  EXPECT_EQ(value("0 nor 0"), 1);
+  EXPECT_EQ(value("x >= 2", {2, 0, 0}), 1);
+}
+
+TEST(Expression, Coordinates) {
+  EXPECT_EQ(value("rho", {3, 4, 12}), 5);
+  EXPECT_EQ(value("r", {3, 4, 12}), 13);
+  EXPECT_EQ(value("phic", {-1, 0, 0}), pi);
+  EXPECT_EQ(value("theta", {0, 2, 0}), pi / 2);
+  EXPECT_EQ(value("phis", {0, 0, 0}), 0);
+  EXPECT_EQ(value("phis", {0, 0, -2}), pi);
+  EXPECT_EQ(value("PHIS + Rho + X", {0, 0, -2}), pi);
+}
+
+TEST(Expression, PrintsInOneWay) {
+  Diagnostics d;
+  EXPECT_EQ(parse("2X*( y+ 1)", d)->text(), "2*x*(y + 1)");
+  EXPECT_EQ(parse("-(x^2)", d)->text(), "-x^2");
+  EXPECT_EQ(parse("(-x)^2", d)->text(), "(-x)^2");
+  EXPECT_EQ(parse("a ? b : c", d)->text(), "a ? b : c");
+  EXPECT_EQ(parse("(x^y)^z", d)->text(), "(x^y)^z");
+  EXPECT_EQ(parse("x-(y-z)", d)->text(), "x - (y - z)");
+  for (const char* text : {"x - (y - z) - 1", "(x + 1)*(y/2)/3", "-x^-y", "(a ? b : c) + 1", "not(x)*2", "((x and y) or z) and 1",
+                           "2^(x + 1)", "(x < y) < z", "x < (y < z)", "if(x, 1e-30, y)", "-(-x)", "(x ? 1 : 2) ? 3 : 4"}) {
+    const auto once = parse(text, d);
+    ASSERT_TRUE(once) << to_text(d);
+    EXPECT_EQ(parse(once->text(), d)->text(), once->text());
+    // The same meaning, not only the same text.
+    EXPECT_EQ(parse(once->text(), d)->constant_value(), once->constant_value());
+  }
+}
+
+TEST(Expression, MessagesPointIntoTheString) {
+  EXPECT_EQ(message("x + sine(y)"),
+            "part.vcad:1:8: error: there is no function \"sine\" in expressions; did you mean \"sin\"?\n"
+            "  1 | f(\"x + sine(y)\")\n"
+            "    |        ^~~~\n");
+  EXPECT_EQ(message("x + rhoo"),
+            "part.vcad:1:8: error: there is no variable \"rhoo\" in this expression; did you mean \"rho\"?\n"
+            "  1 | f(\"x + rhoo\")\n"
+            "    |        ^~~~\n");
+  EXPECT_NE(message("x + ").find("the expression ends where a number, a name or \"(\" was expected"), std::string::npos);
+  EXPECT_NE(message("").find("the expression is empty"), std::string::npos);
+  EXPECT_NE(message("(x").find("where \")\" was expected"), std::string::npos);
+  EXPECT_NE(message("x := 3").find("assignments"), std::string::npos);
+  EXPECT_NE(message("atan2(1)").find("atan2 takes (y, x), 1 argument was given"), std::string::npos);
+  EXPECT_NE(message("sin").find("needs its arguments"), std::string::npos);
+  EXPECT_NE(message("1e999").find("too large"), std::string::npos);
+  EXPECT_NE(message(std::string(1000, '(')).find("nests deeper"), std::string::npos);
+}
+
+TEST(Expression, LongSumsNeitherOverflowNorHang) {
+  std::string sum = "x";
+  for (int i = 0; i < 100000; ++i) sum += "+x";
+  EXPECT_EQ(value(sum, {1, 0, 0}), 100001);
+}
+
+}  // namespace ombre::expr

@@ -1,0 +1,23 @@
+#include "nodes/all_nodes.h"
+
+namespace ombre::nodes {
+
+const design::Registry& registry() {
+  static const design::Registry all = [] {
+    design::Registry r;
+    add_box_solids(r);
+    add_round_solids(r);
+    add_implicit_solids(r);
+    add_imported(r);
+    add_transforms(r);
+    add_booleans(r);
+    add_sums(r);
+    add_material_gradients(r);
+    add_attributes(r);
+    add_parts(r);
+    return r;
+  }();
+  return all;
+}
+
+}  // namespace ombre::nodes

@@ -1,0 +1,22 @@
+// Every node family, in palette order.
+#pragma once
+
+#include "design/registry.h"
+
+namespace ombre::nodes {
+
+void add_box_solids(design::Registry& registry);
+void add_round_solids(design::Registry& registry);
+void add_implicit_solids(design::Registry& registry);
+void add_imported(design::Registry& registry);
+void add_transforms(design::Registry& registry);
+void add_booleans(design::Registry& registry);
+void add_sums(design::Registry& registry);
+void add_material_gradients(design::Registry& registry);
+void add_attributes(design::Registry& registry);
+void add_parts(design::Registry& registry);
+
+// All of the above.
+const design::Registry& registry();
+
+}  // namespace ombre::nodes

@@ -1,0 +1,57 @@
+// Solids from files.
+#include "base/assert.h"
+#include "design/source_loader.h"
+#include "design/spec.h"
+#include "nodes/all_nodes.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+struct Mesh {
+  FilePath path;
+  MaterialName material;
+  std::string inside_rule = "nonzero";
+  program::SourceField source;  // read when the node is made
+
+  static Spec<Mesh> spec() {
+    return {"mesh", "imported", "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF, in mm.",
+            {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
+             {"material", &Mesh::material, "Its material"},
+             {"inside", &Mesh::inside_rule,
+              "What is inside: nonzero (winding number; overlapping shells stay solid), parity, or generalized (for open meshes)",
+              one_of({"nonzero", "parity", "generalized"})}},
+            no_inputs, "mesh(\"models/gear.stl\", \"red\");"};
+  }
+
+  bool complete(const Reader& reader) {
+    if (!reader.loader) {
+      reader.diagnostics.error(reader.where, "meshes cannot be read here");
+      return false;
+    }
+    source = reader.loader->mesh(path.path, inside_rule, reader.where, reader.diagnostics);
+    if (!source) return false;
+    path.content = source->content();
+    return true;
+  }
+
+  Box bounds(const Box&) const { return source->bounds(); }
+
+  Field read(const char* channel, const Point& p) const {
+    const int number = source->channel(channel);
+    ASSERT(number >= 0);
+    return p.builder().source(source, number, p.x, p.y, p.z);
+  }
+
+  Field distance(const Point& p) const { return read("distance", p); }
+  // Along voxel rows this needs no distances.
+  Field inside(const Inputs&, const Point& p) const { return truth(read("inside", p)); }
+  Field interior(const Inputs&, const Point& p) const { return truth(read("inside", p)); }
+};
+
+}  // namespace
+
+void add_imported(Registry& registry) { registry.add<Mesh>(); }
+
+}  // namespace ombre::nodes

@@ -1,0 +1,191 @@
+// Composition by formulas.
+#include <map>
+
+#include "design/spec.h"
+#include "nodes/all_nodes.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+Field add(Field a, Field b) { return a + b; }
+
+// The variable d, the signed distance of the input.
+expr::Variables distance_variable(const Inputs& in, const Point& p) {
+  return [&in, &p](std::string_view name) -> std::optional<Field> {
+    if (name != "d") return std::nullopt;
+    return in.distance(0, p);
+  };
+}
+
+bool uses_distance(const std::vector<Number>& numbers) {
+  for (const Number& number : numbers)
+    if (number.expression() && number.expression()->uses("d")) return true;
+  return false;
+}
+
+void warn_of_implicit_distance(const Reader& reader, const Node& input) {
+  if (!input.metric().is_implicit()) return;
+  reader.diagnostics.warning(reader.where, "\"d\" is used over a shape of which only the sign is known",
+                             "its value is taken as it is, which need not be a distance in mm");
+}
+
+bool same_length(const Reader& reader, size_t functions, size_t materials, std::string_view noun) {
+  if (functions == materials) return true;
+  reader.diagnostics.error(reader.where, std::string(reader.node) + " has " + std::to_string(functions) + " " + std::string(noun) +
+                                             " for " + std::to_string(materials) + " materials",
+                           "give one for each");
+  return false;
+}
+
+// Fractions from raw values, each for its material. Where they are unusable the input's own composition
+// stands and the check tells.
+struct Mixture {
+  std::vector<MaterialId> materials;
+  std::vector<Field> raw;
+  bool threshold = false;
+
+  Composition over(const Inputs& in, const Point& p, Demand demand, const std::string& message) const {
+    const Field zero = p.constant(0);
+    std::vector<Field> values, finite, nonzero;
+    for (const Field v : raw) {
+      values.push_back(threshold ? v : max(v, 0.0));
+      finite.push_back(is_finite(v));
+      nonzero.push_back(truth(values.back()));
+    }
+    const Field usable = logical_and(program::fold(finite, program::logical_and), program::fold(nonzero, program::logical_or));
+    std::map<MaterialId, std::vector<Field>> terms;
+    const std::vector<Field> shares = threshold ? winners(values) : normalised(values);
+    for (size_t i = 0; i < shares.size(); ++i) terms[materials[i]].push_back(shares[i]);
+
+    if (p.builder().constant_value(usable) == 1.0) return fractions(terms, {}, usable, zero);
+    const Composition own = in.composition(0, p, demand);
+    for (const auto& [id, fraction] : own.fractions) terms.try_emplace(id);
+    Composition result = fractions(terms, own, usable, zero);
+    const Field bad = logical_not(usable);
+    for (const auto& [number, mark] : own.checks) result.checks.emplace_back(number, logical_and(bad, mark));
+    result.checks.push_back(in.check(bad, message));
+    return result;
+  }
+
+ private:
+  static Composition fractions(const std::map<MaterialId, std::vector<Field>>& terms, const Composition& own, Field usable, Field zero) {
+    Composition result;
+    for (const auto& [id, list] : terms) {
+      const Field share = list.empty() ? zero : program::fold(list, add);
+      Field otherwise = zero;
+      for (const auto& [own_id, fraction] : own.fractions)
+        if (own_id == id) otherwise = fraction;
+      result.fractions.emplace_back(id, own.fractions.empty() ? share : select(usable, share, otherwise));
+    }
+    return result;
+  }
+
+  static std::vector<Field> normalised(const std::vector<Field>& values) {
+    const Field total = program::fold(values, add);
+    std::vector<Field> shares;
+    for (const Field v : values) shares.push_back(v / total);
+    return shares;
+  }
+
+  // 1 for the greatest, the first on ties.
+  static std::vector<Field> winners(const std::vector<Field>& values) {
+    const Field best = program::fold(values, static_cast<Field (*)(Field, Field)>(program::max));
+    std::vector<Field> shares;
+    Field taken = best.builder->constant(0);
+    for (const Field v : values) {
+      const Field is_best = less_equal(best, v);
+      shares.push_back(logical_and(is_best, logical_not(taken)));
+      taken = logical_or(taken, is_best);
+    }
+    return shares;
+  }
+};
+
+Mixture mixture(const Inputs& in, const Point& p, const std::vector<Number>& functions, const std::vector<MaterialName>& materials) {
+  Mixture result;
+  const expr::Variables variables = distance_variable(in, p);
+  for (const Number& function : functions) result.raw.push_back(function.at(p, variables));
+  for (const MaterialName& name : materials) result.materials.push_back(in.material(name));
+  return result;
+}
+
+std::string list_text(const std::vector<Number>& functions) {
+  std::string text;
+  for (const Number& f : functions)
+    text += (text.empty() ? "\"" : ", \"") + (f.constant() ? expr::Expression::constant(*f.constant()).text() : f.expression()->text()) + "\"";
+  return text;
+}
+
+struct FGrade {
+  std::vector<Number> functions;
+  std::vector<MaterialName> materials;
+  std::string mode = "prob";
+
+  static Spec<FGrade> spec() {
+    return {"fgrade", "material gradients", "Sets the composition of its child by formulas, one for each material.",
+            {{"functions", &FGrade::functions, "Expressions; d is the signed distance of the child", required(with_variables({"d"}))},
+             {"materials", &FGrade::materials, "A material for each expression", required()},
+             {"mode", &FGrade::mode, "prob: the values are shares of a mixture. thresh: the greatest value takes all",
+              one_of({"prob", "thresh"})}},
+            one_solid, "fgrade([\"0.5 + x/20\", \"0.5 - x/20\"], [\"red\", \"blue\"], \"prob\") { cube(10); }"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
+    if (!same_length(reader, functions.size(), materials.size(), "functions")) return false;
+    if (functions.empty()) {
+      reader.diagnostics.error(reader.where, "fgrade needs at least one function and its material");
+      return false;
+    }
+    if (uses_distance(functions)) warn_of_implicit_distance(reader, *inputs[0]);
+    return true;
+  }
+
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    Mixture result = mixture(in, p, functions, materials);
+    result.threshold = mode == "thresh";
+    return result.over(in, p, demand, "the fractions of fgrade are all zero or not finite (" + list_text(functions) + ")");
+  }
+};
+
+struct Material {
+  std::vector<MaterialName> materials;
+  std::vector<Number> fractions;
+
+  static Spec<Material> spec() {
+    return {"material", "material gradients", "Sets the composition of its child: one material, or a mixture.",
+            {{"materials", &Material::materials, "One or more materials", required()},
+             {"fractions", &Material::fractions, "A share for each, numbers or fields; without it all the same", with_variables({"d"})}},
+            one_solid, "material([\"red\", \"clear\"], [0.3, 0.7]) { sphere(5); }"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
+    if (fractions.empty()) fractions.assign(materials.size(), Number(1));
+    if (!same_length(reader, fractions.size(), materials.size(), "fractions")) return false;
+    double total = 0;
+    for (const Number& fraction : fractions) {
+      total += fraction.constant() ? *fraction.constant() : 1;
+      if (!fraction.constant() || *fraction.constant() >= 0) continue;
+      reader.diagnostics.error(reader.where, "a fraction of a material is negative");
+      return false;
+    }
+    if (total <= 0) {
+      reader.diagnostics.error(reader.where, "the fractions of the materials are all zero");
+      return false;
+    }
+    if (uses_distance(fractions)) warn_of_implicit_distance(reader, *inputs[0]);
+    return true;
+  }
+
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return mixture(in, p, fractions, materials)
+        .over(in, p, demand, "the fractions of material are all zero or not finite (" + list_text(fractions) + ")");
+  }
+};
+
+}  // namespace
+
+void add_material_gradients(Registry& registry) { registry.add<FGrade, Material>(); }
+
+}  // namespace ombre::nodes

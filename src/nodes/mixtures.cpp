@@ -1,0 +1,101 @@
+#include "nodes/mixtures.h"
+
+#include <map>
+
+namespace ombre::nodes {
+
+using design::Composition;
+using design::Demand;
+using design::Inputs;
+using program::Field;
+using program::Point;
+
+namespace {
+
+Field add(Field a, Field b) { return a + b; }
+
+// All inputs are of one and the same single material everywhere, and nothing can be wrong with it.
+bool is_one_material(const std::vector<Composition>& parts) {
+  for (const Composition& part : parts)
+    if (part.fractions.size() != 1 || !part.checks.empty() || part.fractions[0].first != parts[0].fractions[0].first) return false;
+  return true;
+}
+
+}  // namespace
+
+Composition weighted(const Inputs& in, const Point& p, Demand demand, const std::vector<Field>& weights) {
+  std::vector<Composition> parts;
+  for (size_t i = 0; i < in.count(); ++i) parts.push_back(in.composition(i, p, demand));
+  if (is_one_material(parts)) return parts[0];
+
+  const Field zero = p.constant(0);
+  std::map<MaterialId, std::vector<Field>> terms;
+  std::map<uint32_t, std::vector<Field>> marks;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    // select, not a product: what a hidden input says may not be a number.
+    for (const auto& [id, fraction] : parts[i].fractions)
+      terms[id].push_back(select(truth(weights[i]), fraction * weights[i], zero));
+    for (const auto& [number, mark] : parts[i].checks) marks[number].push_back(logical_and(truth(weights[i]), mark));
+  }
+  const Field total = program::fold(weights, add);
+  Composition result;
+  for (auto& [id, list] : terms) result.fractions.emplace_back(id, program::fold(std::move(list), add) / total);
+  for (auto& [number, list] : marks) result.checks.emplace_back(number, program::fold(std::move(list), program::logical_or));
+  return result;
+}
+
+std::vector<Field> first_true(const std::vector<Field>& marks) {
+  std::vector<Field> result;
+  Field before = marks[0].builder->constant(0);
+  for (const Field mark : marks) {
+    result.push_back(logical_and(mark, logical_not(before)));
+    before = logical_or(before, mark);
+  }
+  return result;
+}
+
+std::vector<Field> last_true(const std::vector<Field>& marks) {
+  std::vector<Field> result = first_true({marks.rbegin(), marks.rend()});
+  return {result.rbegin(), result.rend()};
+}
+
+std::vector<Field> nearest(const std::vector<Field>& distances) {
+  const Field least = program::fold(distances, program::min);
+  std::vector<Field> marks;
+  for (const Field distance : distances) marks.push_back(less_equal(distance, least));
+  return first_true(marks);
+}
+
+Field overlapping_attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand,
+                            const std::vector<Field>& insides, const design::AttributeDeclaration& declaration) {
+  std::vector<Field> marks, values;
+  for (size_t i = 0; i < in.count(); ++i) {
+    if (!in.has_attribute(i, name)) continue;
+    marks.push_back(insides[i]);
+    values.push_back(in.attribute(i, name, p, demand));
+  }
+  const Field otherwise = p.constant(declaration.default_value);
+  if (values.empty()) return otherwise;
+  const Field any = program::fold(marks, program::logical_or), zero = p.constant(0);
+  const auto total = [&](const std::vector<Field>& weights) {
+    std::vector<Field> terms;
+    for (size_t i = 0; i < values.size(); ++i) terms.push_back(select(weights[i], values[i], zero));
+    return program::fold(terms, add);
+  };
+  Field value = zero;
+  switch (declaration.overlap) {
+    case design::Overlap::first: value = total(first_true(marks)); break;
+    case design::Overlap::sum: value = total(marks); break;
+    case design::Overlap::mean: value = total(marks) / program::fold(marks, add); break;
+    case design::Overlap::max: {
+      const Field least = p.constant(-std::numeric_limits<double>::infinity());
+      std::vector<Field> present;
+      for (size_t i = 0; i < values.size(); ++i) present.push_back(select(marks[i], values[i], least));
+      value = program::fold(present, static_cast<Field (*)(Field, Field)>(program::max));
+      break;
+    }
+  }
+  return select(any, value, otherwise);
+}
+
+}  // namespace ombre::nodes

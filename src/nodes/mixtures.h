@@ -1,0 +1,25 @@
+// Compositions and attributes where several solids meet.
+#pragma once
+
+#include "design/node.h"
+
+namespace ombre::nodes {
+
+// The inputs' compositions, each counted with its weight (not negative, not all zero where it matters);
+// a weight of zero hides whatever the input's composition is there.
+design::Composition weighted(const design::Inputs& in, const program::Point& p, design::Demand demand,
+                             const std::vector<program::Field>& weights);
+
+// Truth values: is this input's distance the least, the first on ties?
+std::vector<program::Field> nearest(const std::vector<program::Field>& distances);
+// Keeps of several truth values only the first that is true (or the last).
+std::vector<program::Field> first_true(const std::vector<program::Field>& marks);
+std::vector<program::Field> last_true(const std::vector<program::Field>& marks);
+
+// What the inputs that contain the point say of the attribute, by its overlap rule; its default where
+// none that has it contains the point.
+program::Field overlapping_attribute(const design::Inputs& in, std::string_view name, const program::Point& p,
+                                     design::Demand demand, const std::vector<program::Field>& insides,
+                                     const design::AttributeDeclaration& declaration);
+
+}  // namespace ombre::nodes

@@ -1,0 +1,20 @@
+// Distances that several solids share.
+#pragma once
+
+#include "program/field.h"
+
+namespace ombre::nodes {
+
+using program::Field;
+using program::Point;
+
+// To the corner region of a shape whose distance to each of two perpendicular faces is known.
+inline Field corner(Field a, Field b) {
+  return length(max(a, 0.0), max(b, 0.0)) + min(max(a, b), a.builder->constant(0));
+}
+
+inline Field corner(Field a, Field b, Field c) {
+  return length(max(a, 0.0), max(b, 0.0), max(c, 0.0)) + min(max(max(a, b), c), a.builder->constant(0));
+}
+
+}  // namespace ombre::nodes

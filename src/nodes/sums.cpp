@@ -1,0 +1,102 @@
+// Solids whose distances are added: organic joints and level sets.
+#include "design/spec.h"
+#include "nodes/all_nodes.h"
+#include "nodes/mixtures.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+Field add(Field a, Field b) { return a + b; }
+
+// The 2023 paper's summing operation (Figs 17 and 18). Each child gives a falloff of its distance, 1 at
+// -blend, 1/2 at 0 and 0 from blend on, a smooth step between; solid where they add up to 1/2.
+struct Sum {
+  Number blend = 0;
+  Number iso = 0;
+
+  static Spec<Sum> spec() {
+    return {"sum", "booleans", "Joins its children organically, or takes a level set of their summed distances.",
+            {{"blend", &Sum::blend, "How far from its surface a child still swells its neighbours; 0: take the level set", unit::not_negative_mm},
+             {"iso", &Sum::iso, "Without blend: solid where the distances add up to this or less", unit::mm}},
+            many_solids, "sum(blend=2) { strut((0, 0, 0), (10, 0, 0), 1, \"red\"); strut((0, 0, 0), (0, 10, 0), 1, \"blue\"); }"};
+  }
+
+  bool is_level_set() const { return blend.constant() && *blend.constant() == 0; }
+  Metric metric() const { return Metric::implicit(); }
+
+  // Where no child's g is below blend, the falloffs are zero and g is blend.
+  Box reach(const Inputs& in, const Box& where, double margin) const {
+    const Interval blends = blend.range(where);
+    if (is_level_set()) return in.count() == 1 ? in.reach(0, where, std::max(0.0, margin + iso.range(where).hi)) : where;
+    if (margin >= blends.lo && margin > 0) return where;
+    Box box;
+    for (size_t i = 0; i < in.count(); ++i) box = hull(box, in.reach(i, where, in.count() == 1 ? margin : blends.hi));
+    return box;
+  }
+
+  std::vector<Field> falloffs(const Inputs& in, const Point& p) const {
+    const Field reach = blend(p), one = p.constant(1);
+    std::vector<Field> values;
+    for (const Field d : in.distances(p)) {
+      const Field t = min(max((reach - d) / (reach * 2.0), 0.0), one);
+      values.push_back(t * t * (3 - t * 2.0));
+    }
+    return values;
+  }
+
+  Field total(const Inputs& in, const Point& p) const { return program::fold(falloffs(in, p), add); }
+
+  // The distance at which one child alone would give this total: a single child stays as it is.
+  Field distance(const Inputs& in, const Point& p) const {
+    if (is_level_set()) return program::fold(in.distances(p), add) - iso(p);
+    const Field t = min(total(in, p), p.constant(1));
+    program::Builder& builder = p.builder();
+    // Inverse of the smooth step: 1/2 - sin(asin(1 - 2t) / 3).
+    const Field angle = builder.apply(program::Op::asin, min(max(1 - t * 2.0, -1.0), p.constant(1))) / 3;
+    return blend(p) * (builder.apply(program::Op::sin, angle) * 2.0);
+  }
+
+  Field inside(const Inputs& in, const Point& p) const {
+    if (is_level_set()) return distance(in, p) <= 0;
+    return less_equal(p.constant(0.5), total(in, p));
+  }
+
+  Field interior(const Inputs& in, const Point& p) const {
+    if (is_level_set()) return distance(in, p) < 0;
+    return less(p.constant(0.5), total(in, p));
+  }
+
+  // Children that contain the point count alike; else those within reach count by their falloff; else the nearest does.
+  std::vector<Field> weights(const Inputs& in, const Point& p) const {
+    const std::vector<Field> marks = in.insides(p);
+    const Field any = program::fold(marks, program::logical_or);
+    const std::vector<Field> close = nearest(in.distances(p));
+    std::vector<Field> otherwise = close;
+    if (!is_level_set()) {
+      const std::vector<Field> values = falloffs(in, p);
+      const Field reached = less(p.constant(0), program::fold(values, add));
+      for (size_t i = 0; i < values.size(); ++i) otherwise[i] = select(reached, values[i], close[i]);
+    }
+    std::vector<Field> result;
+    for (size_t i = 0; i < marks.size(); ++i) result.push_back(select(any, marks[i], otherwise[i]));
+    return result;
+  }
+
+  Composition composition(const Inputs& in, const Point& p, Demand) const {
+    return weighted(in, p, Demand::everywhere, weights(in, p));
+  }
+
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand) const {
+    std::vector<Field> marks;
+    for (const Field weight : weights(in, p)) marks.push_back(truth(weight));
+    return overlapping_attribute(in, name, p, Demand::everywhere, marks, in.declaration(name));
+  }
+};
+
+}  // namespace
+
+void add_sums(Registry& registry) { registry.add<Sum>(); }
+
+}  // namespace ombre::nodes

@@ -1,0 +1,123 @@
+// Fields: expressions over space under construction. Equal expressions become one.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "program/program.h"
+
+namespace ombre::program {
+
+class Builder;
+
+// A handle to a value in a builder; cheap to copy, valid as long as its builder.
+struct Field {
+  Builder* builder = nullptr;
+  ValueId id = 0;
+
+  explicit operator bool() const { return builder != nullptr; }
+  bool operator==(const Field&) const = default;
+};
+
+// Builds programs. Shares equal subexpressions and folds constants as they are made.
+class Builder {
+ public:
+  Builder();
+  Builder(const Builder&) = delete;
+  Builder& operator=(const Builder&) = delete;
+
+  Field input(int axis) { return {this, static_cast<ValueId>(axis)}; }
+  Field constant(double value);
+  Field apply(Op op, Field a, Field b = {}, Field c = {});
+  Field affine(const AffineRow& row, Field a, Field b, Field c);
+  Field source(const SourceField& source, int channel, Field a, Field b, Field c);
+  // `body` may still grow; its outputs are numbered in the order in which they were added.
+  Field call(const std::shared_ptr<Program>& body, uint32_t output, Field a, Field b, Field c);
+
+  std::optional<double> constant_value(Field field) const;
+  bool is_truth(Field field) const;  // is its value always 0 or 1?
+  size_t size() const { return code_.size(); }
+
+  // What the outputs need, in the order of construction; nothing else.
+  Program finish(const std::vector<std::pair<std::string, Field>>& outputs) const;
+
+ private:
+  struct Key {
+    Op op;
+    ValueId a, b, c;
+    uint64_t bits;
+    const void* pointer;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    size_t operator()(const Key& key) const;
+  };
+  Field intern(const Key& key, Instruction instruction);
+
+  std::vector<Instruction> code_;
+  std::vector<AffineRow> maps_;
+  std::vector<Read> reads_;
+  std::vector<Call> calls_;
+  std::unordered_map<Key, ValueId, KeyHash> known_;
+};
+
+// Arithmetic on fields; a number stands for a constant.
+Field operator+(Field a, Field b);
+Field operator-(Field a, Field b);
+Field operator*(Field a, Field b);
+Field operator/(Field a, Field b);
+Field operator-(Field a);
+Field operator+(Field a, double b);
+Field operator-(Field a, double b);
+Field operator*(Field a, double b);
+Field operator/(Field a, double b);
+Field operator-(double a, Field b);
+Field operator*(double a, Field b);
+Field min(Field a, Field b);
+Field max(Field a, Field b);
+Field max(Field a, double b);
+Field abs(Field a);
+Field sqrt(Field a);
+Field square(Field a);
+Field length(Field a, Field b);
+Field length(Field a, Field b, Field c);
+// Integer powers become products.
+Field power(Field base, Field exponent);
+// Truth values, 0 or 1.
+Field operator<(Field a, double b);
+Field operator<=(Field a, double b);
+Field less(Field a, Field b);
+Field less_equal(Field a, Field b);
+Field truth(Field a);
+Field logical_not(Field a);
+Field logical_and(Field a, Field b);
+Field logical_or(Field a, Field b);
+Field select(Field condition, Field a, Field b);
+Field is_finite(Field a);
+// Folds a list pairwise, as a balanced tree, so that a part of it can be settled alone.
+Field fold(std::vector<Field> fields, Field (*combine)(Field, Field));
+
+// A point at which nodes are asked: an affine image of a base point whose coordinates are fields.
+class Point {
+ public:
+  Field x, y, z;
+
+  // The point of a whole program or body.
+  static Point origin_frame(Builder& builder);
+  // The point that `map` takes this one to.
+  Point mapped(const Affine& map) const;
+  Field constant(double value) const { return x.builder->constant(value); }
+  Builder& builder() const { return *x.builder; }
+  bool operator==(const Point&) const = default;
+
+ private:
+  Point(Field bx, Field by, Field bz, const Affine& map);
+
+  Field base_x_, base_y_, base_z_;
+  Affine here_from_base_;
+};
+
+}  // namespace ombre::program

@@ -1,0 +1,20 @@
+// Passes: program in, equal program out.
+#pragma once
+
+#include <optional>
+
+#include "program/program.h"
+
+namespace ombre::program {
+
+// Replaces every call by the code of its body.
+Program inline_bodies(const Program& program);
+
+// The program for a region in which the instructions have the given values: what is settled there
+// becomes a constant, what cannot win a min, max or select falls away.
+Program shorten(const Program& program, const std::vector<Interval>& values);
+
+// The affine map that takes (x, y, z) to operands a, b, c of the given instruction, if there is one.
+std::optional<Affine> affine_operands(const Program& program, const Instruction& instruction);
+
+}  // namespace ombre::program

@@ -1,0 +1,125 @@
+// Drops what a region has settled.
+#include "program/passes/passes.h"
+
+namespace ombre::program {
+namespace {
+
+// The operand that an instruction is sure to equal, or the instruction itself.
+ValueId settled(const Program& program, ValueId i, const std::vector<Interval>& values) {
+  const Instruction& in = program.code[i];
+  const auto never_nan = [&](ValueId v) { return !values[v].is_everything(); };
+  switch (in.op) {
+    case Op::min:
+      if (never_nan(in.a) && never_nan(in.b)) {
+        if (values[in.a].hi < values[in.b].lo) return in.a;
+        if (values[in.b].hi < values[in.a].lo) return in.b;
+      }
+      return i;
+    case Op::max:
+      if (never_nan(in.a) && never_nan(in.b)) {
+        if (values[in.a].lo > values[in.b].hi) return in.a;
+        if (values[in.b].lo > values[in.a].hi) return in.b;
+      }
+      return i;
+    case Op::select:
+      if (values[in.a].lo > 0 || values[in.a].hi < 0) return in.b;
+      if (values[in.a] == Interval(0)) return in.c;
+      return i;
+    default: return i;
+  }
+}
+
+class Shortener {
+ public:
+  Shortener(const Program& program, const std::vector<Interval>& values) : from_(program), values_(values) {}
+
+  Program run() {
+    find_needed();
+    copy_needed();
+    for (const ValueId output : from_.outputs) to_.outputs.push_back(renamed_[target_[output]]);
+    to_.output_names = from_.output_names;
+    return std::move(to_);
+  }
+
+ private:
+  bool is_known(ValueId i) const { return values_[i].is_point() && std::isfinite(values_[i].lo); }
+
+  // An `or` with a side that is surely false is its other side, and the like.
+  ValueId logical_target(ValueId i) const {
+    const Instruction& in = from_.code[i];
+    if (in.op != Op::logical_or && in.op != Op::logical_and) return i;
+    const double neutral = in.op == Op::logical_and ? 1 : 0;
+    const auto is_neutral = [&](ValueId v) { return values_[v] == Interval(neutral); };
+    const auto is_truth = [&](ValueId v) { return values_[v].lo >= 0 && values_[v].hi <= 1 && is_logical(v); };
+    if (is_neutral(in.a) && is_truth(in.b)) return in.b;
+    if (is_neutral(in.b) && is_truth(in.a)) return in.a;
+    return i;
+  }
+
+  bool is_logical(ValueId v) const {
+    const Op op = from_.code[v].op;
+    return op == Op::less || op == Op::less_equal || op == Op::equal || op == Op::truth || op == Op::logical_not ||
+           op == Op::logical_and || op == Op::logical_or;
+  }
+
+  void find_needed() {
+    const size_t n = from_.code.size();
+    target_.resize(n);
+    needed_.assign(n, false);
+    for (ValueId i = 0; i < n; ++i) {
+      const ValueId next = is_known(i) ? i : logical_target(settled(from_, i, values_));
+      target_[i] = next == i ? i : target_[next];
+    }
+    for (const ValueId output : from_.outputs) needed_[target_[output]] = true;
+    for (size_t i = n; i-- > 0;) {
+      if (!needed_[i] || is_known(static_cast<ValueId>(i))) continue;
+      const Instruction& in = from_.code[i];
+      const int arity = info(in.op).arity;
+      if (arity > 0) needed_[target_[in.a]] = true;
+      if (arity > 1) needed_[target_[in.b]] = true;
+      if (arity > 2) needed_[target_[in.c]] = true;
+    }
+  }
+
+  void copy_needed() {
+    renamed_.assign(from_.code.size(), 0);
+    for (ValueId i = 0; i < from_.code.size(); ++i) {
+      if (!needed_[i]) continue;
+      Instruction in = from_.code[i];
+      if (is_known(i)) {
+        in = Instruction{};
+        in.value = values_[i].lo;
+      } else {
+        in.a = renamed_[target_[in.a]];
+        in.b = renamed_[target_[in.b]];
+        in.c = renamed_[target_[in.c]];
+        copy_tables(in);
+      }
+      renamed_[i] = static_cast<ValueId>(to_.code.size());
+      to_.code.push_back(in);
+    }
+  }
+
+  void copy_tables(Instruction& in) {
+    if (in.op == Op::affine) {
+      to_.maps.push_back(from_.maps[in.aux]);
+      in.aux = static_cast<uint32_t>(to_.maps.size() - 1);
+    }
+    if (in.op == Op::source) {
+      to_.reads.push_back(from_.reads[in.aux]);
+      in.aux = static_cast<uint32_t>(to_.reads.size() - 1);
+    }
+  }
+
+  const Program& from_;
+  const std::vector<Interval>& values_;
+  Program to_;
+  std::vector<ValueId> target_, renamed_;
+  std::vector<bool> needed_;
+};
+
+}  // namespace
+
+Program shorten(const Program& program, const std::vector<Interval>& values) { return Shortener(program, values).run(); }
+
+}  // namespace ombre::program

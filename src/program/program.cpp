@@ -1,0 +1,116 @@
+// Prints and evaluates programs, one instruction at a time.
+#include "program/program.h"
+
+#include <map>
+
+#include "base/assert.h"
+#include "base/text.h"
+
+namespace ombre::program {
+namespace {
+
+std::string operands(const Instruction& in, int arity) {
+  std::string text;
+  const ValueId ids[] = {in.a, in.b, in.c};
+  for (int i = 0; i < arity; ++i) text += " v" + std::to_string(ids[i]);
+  return text;
+}
+
+std::string describe(const Program& program, const Instruction& in, std::map<const Program*, size_t>& bodies) {
+  const OpInfo op = info(in.op);
+  std::string text(op.name);
+  switch (in.op) {
+    case Op::input: return text + " " + std::string(1, static_cast<char>('x' + static_cast<int>(in.value)));
+    case Op::constant: return text + " " + format_number(in.value);
+    case Op::affine: {
+      text += " [";
+      for (const double m : program.maps[in.aux]) text += format_number(m) + " ";
+      text.back() = ']';
+      break;
+    }
+    case Op::source: {
+      const Read& read = program.reads[in.aux];
+      text += " \"" + read.source->name() + "\" channel " + std::to_string(read.channel);
+      break;
+    }
+    case Op::call: {
+      const Call& call = program.calls[in.aux];
+      const size_t number = bodies.try_emplace(call.body.get(), bodies.size()).first->second;
+      text += " body" + std::to_string(number) + "." + call.body->output_names[call.output];
+      break;
+    }
+    default: break;
+  }
+  return text + operands(in, op.arity);
+}
+
+void print(const Program& program, std::string& text, std::map<const Program*, size_t>& bodies) {
+  for (size_t i = 0; i < program.code.size(); ++i)
+    text += "  v" + std::to_string(i) + " = " + describe(program, program.code[i], bodies) + "\n";
+  for (size_t i = 0; i < program.outputs.size(); ++i)
+    text += "  " + program.output_names[i] + " = v" + std::to_string(program.outputs[i]) + "\n";
+}
+
+}  // namespace
+
+std::string to_text(const Program& program) {
+  std::string text = "program\n";
+  std::map<const Program*, size_t> bodies;
+  print(program, text, bodies);
+  // Printing a body may find further bodies.
+  for (size_t done = 0; done < bodies.size(); ++done) {
+    const Program* body = nullptr;
+    for (const auto& [candidate, number] : bodies)
+      if (number == done) body = candidate;
+    text += "body" + std::to_string(done) + "\n";
+    print(*body, text, bodies);
+  }
+  return text;
+}
+
+void evaluate_intervals(const Program& program, const Box& box, std::vector<Interval>& values) {
+  values.resize(program.code.size());
+  for (size_t i = 0; i < program.code.size(); ++i) {
+    const Instruction& in = program.code[i];
+    const Interval &a = values[in.a], &b = values[in.b], &c = values[in.c];
+    switch (in.op) {
+      case Op::input: values[i] = box.axis(static_cast<int>(in.value)); break;
+      case Op::constant: values[i] = std::isnan(in.value) ? Interval::everything() : Interval(in.value); break;
+      case Op::affine: values[i] = apply_affine(program.maps[in.aux], a, b, c); break;
+      case Op::source: {
+        const Read& read = program.reads[in.aux];
+        values[i] = read.source->range(read.channel, {{a.lo, b.lo, c.lo}, {a.hi, b.hi, c.hi}});
+        break;
+      }
+      case Op::call: ASSERT(false && "calls are inlined before evaluation"); break;
+      default: {
+        const int arity = info(in.op).arity;
+        const bool known = a.is_point() && (arity < 2 || b.is_point()) && (arity < 3 || c.is_point());
+        if (!known) {
+          values[i] = apply(in.op, a, b, c);
+          break;
+        }
+        const double value = apply(in.op, a.lo, b.lo, c.lo);
+        values[i] = std::isnan(value) ? Interval::everything() : Interval(value);
+      }
+    }
+  }
+}
+
+void evaluate_point(const Program& program, Vec3 p, std::vector<double>& values) {
+  values.resize(program.code.size());
+  for (size_t i = 0; i < program.code.size(); ++i) {
+    const Instruction& in = program.code[i];
+    const double a = values[in.a], b = values[in.b], c = values[in.c];
+    switch (in.op) {
+      case Op::input: values[i] = p[static_cast<int>(in.value)]; break;
+      case Op::constant: values[i] = in.value; break;
+      case Op::affine: values[i] = apply_affine(program.maps[in.aux], a, b, c); break;
+      case Op::source: values[i] = program.reads[in.aux].source->sample(program.reads[in.aux].channel, {a, b, c}); break;
+      case Op::call: ASSERT(false && "calls are inlined before evaluation"); break;
+      default: values[i] = apply(in.op, a, b, c);
+    }
+  }
+}
+
+}  // namespace ombre::program

@@ -1,0 +1,56 @@
+// Programs: the linear form of fields. Each instruction's operands come before it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "program/field_source.h"
+#include "program/ops.h"
+
+namespace ombre::program {
+
+using ValueId = uint32_t;
+
+struct Instruction {
+  Op op = Op::constant;
+  ValueId a = 0, b = 0, c = 0;
+  uint32_t aux = 0;   // index into maps, reads or calls
+  double value = 0;   // of constants; the number of an input
+};
+
+struct Read {
+  SourceField source;
+  int channel = 0;
+};
+
+struct Program;
+
+struct Call {
+  std::shared_ptr<const Program> body;
+  uint32_t output = 0;
+};
+
+// A pure function from (x, y, z) to its outputs.
+struct Program {
+  std::vector<Instruction> code;
+  std::vector<AffineRow> maps;
+  std::vector<Read> reads;
+  std::vector<Call> calls;
+  std::vector<ValueId> outputs;
+  std::vector<std::string> output_names;  // as many as outputs; for printing
+
+  bool has_calls() const { return !calls.empty(); }
+};
+
+// One line an instruction, then the outputs; bodies after the program that calls them.
+std::string to_text(const Program& program);
+
+// The value of each instruction over a box of inputs; encloses every point's rounded value.
+// `code` may not hold calls.
+void evaluate_intervals(const Program& program, const Box& box, std::vector<Interval>& values);
+
+// Value of each instruction at a point, in double precision: the reference.
+void evaluate_point(const Program& program, Vec3 p, std::vector<double>& values);
+
+}  // namespace ombre::program

@@ -1,0 +1,19 @@
+#include "voxel/lattice.h"
+
+#include <cmath>
+
+namespace ombre::voxel {
+
+Box Lattice::box() const {
+  Vec3 hi = origin;
+  for (int axis = 0; axis < 3; ++axis) hi[axis] += pitch[axis].times(static_cast<double>(count[axis]));
+  return {origin, hi};
+}
+
+int64_t voxels_along(double size_mm, Pitch pitch) {
+  constexpr double slack = 1e-6;  // a size that is a whole number of voxels but for rounding
+  const double exact = size_mm * static_cast<double>(pitch.denominator) / static_cast<double>(pitch.numerator);
+  return std::max<int64_t>(1, static_cast<int64_t>(std::ceil(exact - slack)));
+}
+
+}  // namespace ombre::voxel
