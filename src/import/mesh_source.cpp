@@ -1,1 +1,133 @@
 // Triangle meshes as field sources.
+#include "import/mesh_source.h"
+
+#include <cmath>
+#include <mutex>
+#include <optional>
+
+#include "import/closest_point.h"
+#include "import/point_winding.h"
+#include "import/solid_angle.h"
+
+namespace ombre::importing {
+namespace {
+
+enum Channel : int { inside_channel = 0, distance_channel = 1 };
+
+// Of a distance, relative to the numbers that it was computed from.
+constexpr double distance_rounding = 1e-12;
+
+// A value that the first to ask for it builds, while others wait.
+template <class T>
+class Lazy {
+ public:
+  template <class Build>
+  const T& get(const Build& build) const {
+    std::call_once(once_, [&] { build(value_); });
+    return *value_;
+  }
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::optional<T> value_;
+};
+
+class MeshSource final : public program::FieldSource {
+ public:
+  MeshSource(std::string name, formats::Mesh mesh, Hash content, MeshOptions options)
+      : name_(std::move(name)),
+        content_(hash_bytes(content.hex() + std::to_string(static_cast<int>(options.rule)))),
+        rule_(options.rule) {
+    auto surface = std::make_shared<Surface>();
+    surface->vertices = std::move(mesh.vertices);
+    surface->triangles = std::move(mesh.triangles);
+    surface_ = std::move(surface);
+    bounds_ = importing::bounds(*surface_);
+  }
+
+  std::string name() const override { return name_; }
+  Hash content() const override { return content_; }
+  Box bounds() const override { return bounds_; }
+
+  int channel(std::string_view channel_name) const override {
+    if (channel_name == "inside") return inside_channel;
+    if (channel_name == "distance" && has_mesh_distance()) return distance_channel;
+    return -1;
+  }
+
+  double sample(int channel, Vec3 p) const override {
+    if (channel == inside_channel) return contains(p) ? 1 : 0;
+    const double distance = closest().distance(p);
+    return contains(p) ? -distance : distance;
+  }
+
+  Interval range(int channel, const Box& box) const override {
+    if (channel == distance_channel) return distance_range(box);
+    return intersect(box, bounds_).is_empty() ? Interval(0) : Interval(0, 1);
+  }
+
+  std::unique_ptr<program::RowSampler> rows(int channel, const Affine& source_from_index) const override {
+    if (channel != inside_channel || rule_ == InsideRule::generalized) return nullptr;
+    const double volume = determinant(source_from_index);
+    if (volume == 0 || !std::isfinite(volume)) return nullptr;
+    return std::make_unique<RowWinding>(surface_, source_from_index, rule_);
+  }
+
+ private:
+  bool contains(Vec3 p) const {
+    if (!bounds_.contains(p)) return false;
+    if (rule_ != InsideRule::generalized) return is_inside(windings().at(p), rule_);
+    return std::abs(angles().winding(p)) > 0.5;
+  }
+
+  // A distance changes by no more than the way to the box's corners.
+  Interval distance_range(const Box& box) const {
+    if (!box.is_bounded() || bounds_.is_empty()) return Interval::everything();
+    const Vec3 center = box.center();
+    const double value = sample(distance_channel, center);
+    const double reach = 0.5 * length(box.size());
+    const double room = reach + distance_rounding * (reach + std::abs(value) + length(center));
+    if (has_reliable_sign()) return outward(value - room, value + room);
+    const double farthest = std::abs(value) + room;
+    return outward(-farthest, farthest);
+  }
+
+  // Through the gaps of an open mesh, the sign changes without the distance passing zero.
+  bool has_reliable_sign() const {
+    if (rule_ == InsideRule::generalized) return false;
+    return is_closed_.get([&](std::optional<bool>& value) {
+      formats::Mesh mesh;
+      mesh.vertices = surface_->vertices;
+      mesh.triangles = surface_->triangles;
+      value = inspect(mesh).is_closed();
+    });
+  }
+
+  const PointWinding& windings() const {
+    return windings_.get([&](std::optional<PointWinding>& value) { value.emplace(surface_); });
+  }
+  const SolidAngle& angles() const {
+    return angles_.get([&](std::optional<SolidAngle>& value) { value.emplace(surface_); });
+  }
+  const ClosestPoint& closest() const {
+    return closest_.get([&](std::optional<ClosestPoint>& value) { value.emplace(surface_); });
+  }
+
+  std::string name_;
+  Hash content_;
+  InsideRule rule_;
+  SurfacePtr surface_;
+  Box bounds_;
+  Lazy<PointWinding> windings_;
+  Lazy<SolidAngle> angles_;
+  Lazy<ClosestPoint> closest_;
+  Lazy<bool> is_closed_;
+};
+
+}  // namespace
+
+program::SourceField make_mesh_source(std::string name, formats::Mesh mesh, Hash content, MeshOptions options) {
+  return std::make_shared<MeshSource>(std::move(name), std::move(mesh), content, options);
+}
+
+}  // namespace ombre::importing

@@ -143,8 +143,8 @@ struct Strut {
             {{"start", &Strut::start, "Centre of one end", unit::mm},
              {"end", &Strut::end, "Centre of the other end", unit::mm},
              {"radius", &Strut::radius, "Its radius", unit::positive_mm},
-             {"caps", &Strut::caps, "Ends: flat, or round (half balls beyond the end points)", one_of({"flat", "round"})},
-             {"material", &Strut::material, "Its material"}},
+             {"material", &Strut::material, "Its material"},
+             {"caps", &Strut::caps, "Ends: flat, or round (half balls beyond the end points)", one_of({"flat", "round"})}},
             no_inputs, "strut((0, 0, 0), (10, 5, 3), 1, \"red\");"};
   }
 

@@ -68,7 +68,8 @@ std::string to_text(const Program& program) {
   return text;
 }
 
-void evaluate_intervals(const Program& program, const Box& box, std::vector<Interval>& values) {
+void evaluate_intervals(const Program& program, const Box& box, std::vector<Interval>& values,
+                        const SourceRanges& source_ranges) {
   values.resize(program.code.size());
   for (size_t i = 0; i < program.code.size(); ++i) {
     const Instruction& in = program.code[i];
@@ -79,7 +80,8 @@ void evaluate_intervals(const Program& program, const Box& box, std::vector<Inte
       case Op::affine: values[i] = apply_affine(program.maps[in.aux], a, b, c); break;
       case Op::source: {
         const Read& read = program.reads[in.aux];
-        values[i] = read.source->range(read.channel, {{a.lo, b.lo, c.lo}, {a.hi, b.hi, c.hi}});
+        const Box where{{a.lo, b.lo, c.lo}, {a.hi, b.hi, c.hi}};
+        values[i] = source_ranges ? source_ranges(read, where) : read.source->range(read.channel, where);
         break;
       }
       case Op::call: ASSERT(false && "calls are inlined before evaluation"); break;

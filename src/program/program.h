@@ -1,6 +1,7 @@
 // Programs: the linear form of fields. Each instruction's operands come before it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct Instruction {
 struct Read {
   SourceField source;
   int channel = 0;
+  uint32_t tag = 0;  // for evaluators; passes keep it
 };
 
 struct Program;
@@ -46,9 +48,13 @@ struct Program {
 // One line an instruction, then the outputs; bodies after the program that calls them.
 std::string to_text(const Program& program);
 
+// Says what a source can be over operands' ranges; by default what the source itself says.
+using SourceRanges = std::function<Interval(const Read&, const Box&)>;
+
 // The value of each instruction over a box of inputs; encloses every point's rounded value.
 // `code` may not hold calls.
-void evaluate_intervals(const Program& program, const Box& box, std::vector<Interval>& values);
+void evaluate_intervals(const Program& program, const Box& box, std::vector<Interval>& values,
+                        const SourceRanges& source_ranges = nullptr);
 
 // Value of each instruction at a point, in double precision: the reference.
 void evaluate_point(const Program& program, Vec3 p, std::vector<double>& values);

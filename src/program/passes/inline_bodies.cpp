@@ -50,7 +50,26 @@ class Inliner {
   std::map<std::pair<const Program*, Arguments>, std::vector<Field>> done_;
 };
 
+// Every call is counted with its body, equal ones too: an upper bound.
+double expanded_size(const Program& program, std::map<const Program*, double>& sizes) {
+  if (const auto known = sizes.find(&program); known != sizes.end()) return known->second;
+  double size = 0;
+  std::map<std::pair<const Program*, Arguments>, bool> called;
+  for (const Instruction& in : program.code) {
+    size += 1;
+    if (in.op != Op::call) continue;
+    const Program* body = program.calls[in.aux].body.get();
+    if (called.try_emplace({body, {in.a, in.b, in.c}}, true).second) size += expanded_size(*body, sizes);
+  }
+  return sizes[&program] = size;
+}
+
 }  // namespace
+
+double inlined_size(const Program& program) {
+  std::map<const Program*, double> sizes;
+  return expanded_size(program, sizes);
+}
 
 Program inline_bodies(const Program& program) {
   if (!program.has_calls()) return program;

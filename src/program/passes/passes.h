@@ -14,6 +14,12 @@ Program inline_bodies(const Program& program);
 // becomes a constant, what cannot win a min, max or select falls away.
 Program shorten(const Program& program, const std::vector<Interval>& values);
 
+// Moves what output 0 needs to the front and returns how many instructions that is.
+size_t order_for_first(Program& program);
+
+// How many instructions inline_bodies would give, at most; may be far beyond what memory holds.
+double inlined_size(const Program& program);
+
 // The affine map that takes (x, y, z) to operands a, b, c of the given instruction, if there is one.
 std::optional<Affine> affine_operands(const Program& program, const Instruction& instruction);
 

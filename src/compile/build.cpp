@@ -1,0 +1,75 @@
+#include "compile/build.h"
+
+#include "base/text.h"
+#include "nodes/all_nodes.h"
+#include "program/passes/passes.h"
+
+namespace ombre::compile {
+namespace {
+
+constexpr double most_instructions = 1e8;  // some gigabytes
+
+}  // namespace
+
+design::NodePtr whole_solid(const design::Design& design) {
+  if (design.parts.size() == 1) return design.parts[0].solid;
+  Diagnostics none;
+  return design::make_node(*nodes::registry().find("union"), {}, design.roots(), {design.materials, none, nullptr, {}, "", ""});
+}
+
+Built build_program(const design::Design& design) {
+  const design::NodePtr solid = whole_solid(design);
+  design::LoweringContext context(design.materials, {solid});
+  program::Builder builder;
+  design::Lowering lowering(context, builder);
+  const program::Point p = program::Point::origin_frame(builder);
+
+  // Where is material, and which?
+  std::vector<std::pair<std::string, program::Field>> outputs{{"inside", lowering.inside(*solid, p)}};
+  const design::Composition composition = lowering.composition(*solid, p, design::Demand::inside);
+  Built built;
+  for (const auto& [id, fraction] : composition.fractions) {
+    outputs.emplace_back(design.materials.all()[id].name, fraction);
+    built.materials.materials.push_back(id);
+  }
+  for (const auto& [number, mark] : composition.checks) {
+    outputs.emplace_back("check " + std::to_string(number), mark);
+    built.checks.push_back(context.checks()[number]);
+  }
+  built.materials.check_count = built.checks.size();
+
+  context.finish_bodies();
+  built.materials.program = builder.finish(outputs);
+  return built;
+}
+
+std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics) {
+  Built built = build_program(design);
+  const double size = program::inlined_size(built.materials.program);
+  if (size > most_instructions) {
+    diagnostics.error(design.parts[0].solid->where(), "the design repeats its parts too often: about " + format_rounded(size, 2) + " operations a voxel");
+    return std::nullopt;
+  }
+  built.materials.program = program::inline_bodies(built.materials.program);
+  return built;
+}
+
+std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnostics) {
+  if (design.sampling) return design.sampling->box;
+  Box box;
+  for (const design::Part& part : design.parts) {
+    const Box bounds = part.solid->bounds(design::design_space());
+    for (int axis = 0; axis < 3 && !bounds.is_empty(); ++axis) {
+      if (bounds.lo[axis] > -design::design_limit_mm && bounds.hi[axis] < design::design_limit_mm) continue;
+      diagnostics.error(part.solid->where(), "this has no end along " + std::string(1, static_cast<char>('x' + axis)),
+                        "give the function bounds, intersect it with a bounded solid, or put everything into root(min, max, voxel)");
+      return std::nullopt;
+    }
+    box = hull(box, bounds);
+  }
+  if (!box.is_empty()) return box;
+  diagnostics.error(design.parts[0].solid->where(), "nothing of the design is left: its solids do not meet, or their formulas are never 0 or less");
+  return std::nullopt;
+}
+
+}  // namespace ombre::compile

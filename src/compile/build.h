@@ -1,0 +1,29 @@
+// From designs to programs, step by step.
+#pragma once
+
+#include <optional>
+
+#include "design/design.h"
+#include "design/lowering.h"
+#include "voxel/layers.h"
+
+namespace ombre::compile {
+
+// All parts as one solid: overlaps are mixed, as in a union.
+design::NodePtr whole_solid(const design::Design& design);
+
+// The program that says what is inside and of which composition, with its bodies still called.
+struct Built {
+  voxel::MaterialProgram materials;
+  std::vector<design::Check> checks;  // of the program's check outputs
+};
+Built build_program(const design::Design& design);
+
+// The same, ready to be evaluated. Nothing, and a diagnostic, when it would not fit into memory.
+std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics);
+
+// Where the design lies: the box that is sampled, or the bounds of its solids. Nothing, and diagnostics,
+// when it is empty or has no bounds.
+std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnostics);
+
+}  // namespace ombre::compile

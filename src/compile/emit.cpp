@@ -1,0 +1,52 @@
+// Intermediate forms as text.
+#include "base/json.h"
+#include "base/text.h"
+#include "compile/build.h"
+#include "compile/load.h"
+#include "lang/ast_print.h"
+#include "lang/parser.h"
+#include "program/passes/passes.h"
+
+namespace ombre::compile {
+namespace {
+
+std::string box_text(const Box& box) {
+  const auto corner = [](Vec3 v) { return "(" + format_rounded(v.x, 6) + ", " + format_rounded(v.y, 6) + ", " + format_rounded(v.z, 6) + ")"; };
+  return corner(box.lo) + " to " + corner(box.hi) + " mm";
+}
+
+std::string stats(const design::Design& design) {
+  size_t nodes = 0;
+  for ([[maybe_unused]] const design::Node* node : topological(design.roots())) ++nodes;
+  const Built built = build_program(design);
+  Diagnostics ignored;
+  const auto flat = build_flat_program(design, ignored);
+  const auto box = design_box(design, ignored);
+  std::string text = "hash          " + design::hash(design).hex() + "\n";
+  text += "parts         " + std::to_string(design.parts.size()) + "\n";
+  text += "nodes         " + format_count(nodes) + "\n";
+  text += "bounds        " + (box ? box_text(*box) : "none") + "\n";
+  text += "materials     " + std::to_string(built.materials.materials.size()) + "\n";
+  text += "operations    " + format_count(built.materials.program.code.size()) + ", " +
+          (flat ? format_count(flat->materials.program.code.size()) : "too many") + " with bodies written out\n";
+  return text;
+}
+
+}  // namespace
+
+const std::vector<std::string>& emit_forms() {
+  static const std::vector<std::string> forms{"ast", "tree", "program", "stats", "json"};
+  return forms;
+}
+
+std::string emit(const Loaded& loaded, const std::string& form) {
+  if (form == "tree") return design::to_tree(loaded.design);
+  if (form == "json") return print_json(design::to_data(loaded.design));
+  if (form == "program") return program::to_text(build_program(loaded.design).materials.program);
+  if (form == "stats") return stats(loaded.design);
+  if (loaded.path.ends_with(".json")) return std::string(loaded.source->text());
+  Diagnostics ignored;  // the design was read already
+  return lang::print(lang::parse(loaded.source, ignored));
+}
+
+}  // namespace ombre::compile

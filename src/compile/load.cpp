@@ -1,0 +1,78 @@
+#include "compile/load.h"
+
+#include <algorithm>
+
+#include "base/json.h"
+#include "base/text.h"
+#include "compile/data_folder.h"
+#include "compile/mesh_loader.h"
+#include "formats/file.h"
+#include "lang/interpret.h"
+#include "lang/vocabulary/vcad.h"
+#include "nodes/all_nodes.h"
+
+namespace ombre::compile {
+namespace {
+
+SourcePtr read_source(const std::string& path) { return make_source(path, formats::read_file(path)); }
+
+bool ends_with(const std::string& path, std::string_view ending) { return to_lower(path).ends_with(ending); }
+
+// "name=value": numbers, true, false and JSON lists as such, everything else as a text.
+std::optional<lang::Definition> parse_definition(const std::string& text, Diagnostics& diagnostics) {
+  const size_t equals = text.find('=');
+  const SourcePtr source = make_source("-D", text);
+  const SourceRange whole{source, 0, static_cast<uint32_t>(text.size())};
+  if (equals == std::string::npos || trim(std::string_view(text).substr(0, equals)).empty()) {
+    diagnostics.error(whole, "expected a definition", "write -D name=value");
+    return std::nullopt;
+  }
+  const std::string name(trim(std::string_view(text).substr(0, equals)));
+  const std::string value = text.substr(equals + 1);
+  Diagnostics ignored;
+  if (auto data = parse_json(make_source("-D " + name, value), ignored)) return lang::Definition{name, std::move(*data)};
+  return lang::Definition{name, Data(value, {make_source("-D " + name, value), 0, static_cast<uint32_t>(value.size())})};
+}
+
+std::optional<design::Design> run_script(const SourcePtr& source, const LoadOptions& options, Diagnostics& diagnostics) {
+  const auto materials = load_materials(options.materials, diagnostics);
+  lang::Options run;
+  run.echo = options.echo;
+  run.stop = options.stop;
+  for (const std::string& text : options.definitions)
+    if (auto definition = parse_definition(text, diagnostics)) run.definitions.push_back(std::move(*definition));
+  if (!materials || diagnostics.has_errors()) return std::nullopt;
+  MeshLoader loader;
+  lang::VcadVocabulary vocabulary(nodes::registry(), *materials, &loader);
+  const auto top_level = lang::run(source, vocabulary, run, diagnostics);
+  return vocabulary.finish(top_level, {source, 0, 0}, diagnostics);
+}
+
+std::optional<design::Design> read_json_design(const SourcePtr& source, const LoadOptions& options, Diagnostics& diagnostics) {
+  if (!options.materials.empty() || !options.definitions.empty()) {
+    diagnostics.error({source, 0, 0}, "a .json design has its own materials and no variables", "leave out --materials and -D");
+    return std::nullopt;
+  }
+  const auto data = parse_json(source, diagnostics);
+  if (!data) return std::nullopt;
+  MeshLoader loader;
+  return design::read_design(*data, nodes::registry(), &loader, diagnostics);
+}
+
+}  // namespace
+
+std::optional<design::MaterialTable> load_materials(const std::string& path, Diagnostics& diagnostics) {
+  const SourcePtr source = read_source(path.empty() ? data_folder() + "/materials/default.json" : path);
+  const auto data = parse_json(source, diagnostics);
+  if (!data) return std::nullopt;
+  return design::MaterialTable::read(*data, diagnostics);
+}
+
+LoadedPtr load_design(const std::string& path, const LoadOptions& options, Diagnostics& diagnostics) {
+  const SourcePtr source = read_source(path);
+  auto design = ends_with(path, ".json") ? read_json_design(source, options, diagnostics) : run_script(source, options, diagnostics);
+  if (!design || diagnostics.has_errors()) return nullptr;
+  return std::make_shared<const Loaded>(Loaded{path, source, std::move(*design)});
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,65 @@
+// From a design file and the wishes of a command line to a slice request and its layers.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "base/error.h"
+#include "base/pitch.h"
+#include "compile/slice.h"
+#include "design/design.h"
+#include "voxel/printer.h"
+
+namespace ombre::compile {
+
+struct LoadOptions {
+  std::string materials;                 // path of a materials file; empty: the default set
+  std::vector<std::string> definitions;  // "name=value", set before the script runs
+  std::function<void(const std::string&)> echo = nullptr;  // where the script's echo goes; may be empty
+  const StopFlag* stop = nullptr;
+};
+
+// A design that was read and checked.
+struct Loaded {
+  std::string path;
+  SourcePtr source;
+  design::Design design;
+};
+using LoadedPtr = std::shared_ptr<const Loaded>;
+
+// Null, and diagnostics, when the design is wrong. Throws Error for files that cannot be read.
+LoadedPtr load_design(const std::string& path, const LoadOptions& options, Diagnostics& diagnostics);
+
+// The materials file at `path`, or the default set when it is empty.
+std::optional<design::MaterialTable> load_materials(const std::string& path, Diagnostics& diagnostics);
+
+// One intermediate form as text: "ast", "tree", "program", "stats" or "json".
+const std::vector<std::string>& emit_forms();
+std::string emit(const Loaded& loaded, const std::string& form);
+
+struct PlanOptions {
+  std::string program;                          // "ombre 0.1.0", for job.json
+  voxel::Printer printer;                       // whose conventions hold
+  bool printer_given = false;                   // then its pitch goes before the design's own
+  std::array<std::optional<Pitch>, 3> pitch;    // goes before both, axis by axis
+  voxel::Dither dither = voxel::Dither::stochastic;
+  uint64_t seed = 0;
+  std::optional<voxel::ImageFormat> image;      // else the printer's
+  std::optional<voxel::Placement> place;        // else the printer's
+  bool whole_tray = false;                      // the lattice is the whole build box
+};
+
+struct Plan {
+  SliceRequest request;
+  LayerProducer producer;
+};
+
+// Nothing, and diagnostics, when the design cannot be sliced so (does not fit, too many materials).
+std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& options, Diagnostics& diagnostics);
+
+}  // namespace ombre::compile

@@ -1,0 +1,156 @@
+// Decides the lattice of a job and everything else that its bytes depend on.
+#include <cmath>
+
+#include "base/text.h"
+#include "compile/build.h"
+#include "compile/load.h"
+
+namespace ombre::compile {
+namespace {
+
+constexpr int64_t most_along_axis = 2'000'000, most_in_layer = int64_t{1} << 34;
+
+std::string size_text(Vec3 v) { return format_rounded(v.x) + " x " + format_rounded(v.y) + " x " + format_rounded(v.z) + " mm"; }
+
+std::array<Pitch, 3> job_pitch(const design::Design& design, const PlanOptions& options) {
+  std::array<Pitch, 3> pitch = options.printer.pitch;
+  if (design.sampling && !options.printer_given) pitch = design.sampling->pitch;
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (options.pitch[axis]) pitch[axis] = *options.pitch[axis];
+  return pitch;
+}
+
+class LatticePlanner {
+ public:
+  LatticePlanner(const Loaded& loaded, const PlanOptions& options, const Box& part, Diagnostics& diagnostics)
+      : printer_(options.printer), part_(part), diagnostics_(diagnostics), where_{loaded.source, 0, 0} {
+    lattice_.pitch = job_pitch(loaded.design, options);
+    place_ = options.place.value_or(printer_.origin);
+    whole_tray_ = options.whole_tray;
+  }
+
+  std::optional<voxel::Lattice> run() {
+    lattice_.origin = part_.lo;
+    const Vec3 size = part_.size();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double voxels = size[axis] / pitch(axis).mm();
+      if (!(voxels <= static_cast<double>(most_along_axis)))
+        return fail("the part is " + format_count(static_cast<unsigned long long>(std::min(voxels, 1e18))) + " voxels long along " + letter(axis) +
+                        ", at most " + format_count(most_along_axis) + " are possible", "choose larger voxels with --voxel or --dpi");
+      count(axis) = voxel::voxels_along(size[axis], pitch(axis));
+    }
+    if (printer_.build_mm && !fits(size)) return std::nullopt;
+    if (whole_tray_ && !cover_tray()) return std::nullopt;
+    if (count(0) > most_in_layer / count(1))
+      return fail("one layer would have " + format_count(static_cast<unsigned long long>(count(0) * count(1))) + " voxels",
+                  "choose larger voxels with --voxel or --dpi");
+    return lattice_;
+  }
+
+ private:
+  std::nullopt_t fail(const std::string& message, const std::string& hint) {
+    diagnostics_.error(where_, message, hint);
+    return std::nullopt;
+  }
+
+  static std::string letter(int axis) { return {static_cast<char>('x' + axis)}; }
+  Pitch pitch(int axis) const { return lattice_.pitch[static_cast<size_t>(axis)]; }
+  int64_t& count(int axis) { return lattice_.count[static_cast<size_t>(axis)]; }
+
+  bool fits(Vec3 size) {
+    const Vec3 build = *printer_.build_mm;
+    constexpr double slack = 1e-6;
+    if (size.x <= build.x + slack && size.y <= build.y + slack && size.z <= build.z + slack) return true;
+    fail("the part is " + size_text(size) + ", larger than what " + printer_.title + " builds, " + size_text(build),
+         "scale or split it, or choose another printer");
+    return false;
+  }
+
+  // The lattice becomes the tray. Parts move on it by whole voxels, so they keep theirs.
+  bool cover_tray() {
+    if (!printer_.build_mm) {
+      fail("the profile \"" + printer_.name + "\" has no tray size", "choose a printer with --printer, or leave out --tray");
+      return false;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const int64_t tray = voxel::voxels_along((*printer_.build_mm)[axis], pitch(axis));
+      const int64_t part = count(axis);
+      int64_t before = 0;  // voxels between the tray's corner and the part's
+      if (place_ == voxel::Placement::center) before = axis == 2 ? 0 : (tray - part) / 2;
+      else before = static_cast<int64_t>(std::llround(part_.lo[axis] / pitch(axis).mm()));
+      if (before < 0 || before + part > tray) {
+        fail("the part lies from " + format_rounded(part_.lo[axis]) + " to " + format_rounded(part_.hi[axis]) + " mm along " + letter(axis) +
+                 ", the tray from 0 to " + format_rounded((*printer_.build_mm)[axis]) + " mm", "move it with translate, or write --place center");
+        return false;
+      }
+      lattice_.origin[axis] = part_.lo[axis] - pitch(axis).times(static_cast<double>(before));
+      // Above the part there is nothing to write.
+      count(axis) = axis == 2 ? before + part : tray;
+    }
+    return true;
+  }
+
+  const voxel::Printer& printer_;
+  Box part_;
+  Diagnostics& diagnostics_;
+  SourceRange where_;
+  voxel::Lattice lattice_;
+  voxel::Placement place_ = voxel::Placement::design;
+  bool whole_tray_ = false;
+};
+
+std::string located(const design::Check& check) {
+  if (!check.where.source) return check.message;
+  const Place place = check.where.source->place(check.where.begin);
+  return check.where.source->name() + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": " + check.message;
+}
+
+void warn_of_features(const voxel::Printer& printer, const Vec3 size, const SourceRange& where, Diagnostics& diagnostics) {
+  if (!printer.smallest_feature) return;
+  const double least = std::min({size.x, size.y, size.z});
+  if (least < printer.smallest_feature->fails_mm)
+    diagnostics.warning(where, "the part is only " + format_rounded(least) + " mm thick; " + printer.title + " fails below " +
+                                   format_rounded(printer.smallest_feature->fails_mm) + " mm");
+  else if (least < printer.smallest_feature->distorts_mm)
+    diagnostics.warning(where, "the part is only " + format_rounded(least) + " mm thick; " + printer.title + " distorts details below " +
+                                   format_rounded(printer.smallest_feature->distorts_mm) + " mm");
+}
+
+}  // namespace
+
+std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& options, Diagnostics& diagnostics) {
+  const design::Design& design = loaded->design;
+  const auto box = design_box(design, diagnostics);
+  if (!box) return std::nullopt;
+  const auto lattice = LatticePlanner(*loaded, options, *box, diagnostics).run();
+  if (!lattice) return std::nullopt;
+  auto built = build_flat_program(design, diagnostics);
+  if (!built) return std::nullopt;
+  warn_of_features(options.printer, box->size(), {loaded->source, 0, 0}, diagnostics);
+
+  Plan plan;
+  SliceRequest& request = plan.request;
+  use_printer(request, options.printer, options.image);
+  request.program = options.program;
+  request.design_hash = design::hash(design).hex();
+  request.lattice = *lattice;
+  request.dither = options.dither;
+  request.seed = options.seed;
+  for (const MaterialId id : built->materials.materials) {
+    if (id == 0) continue;
+    const design::Material& material = design.materials.all()[id];
+    request.materials.push_back({material.name, id, material.colour});
+  }
+  for (const design::Check& check : built->checks) request.check_texts.push_back(located(check));
+  if (static_cast<int>(request.materials.size()) > options.printer.max_materials) {
+    diagnostics.error({loaded->source, 0, 0}, "the design uses " + std::to_string(request.materials.size()) + " materials, " + options.printer.title +
+                                                  " prints at most " + std::to_string(options.printer.max_materials),
+                      "use fewer, or choose another printer");
+    return std::nullopt;
+  }
+  auto evaluator = std::make_shared<const voxel::LayerEvaluator>(std::move(built->materials), *lattice, options.dither, options.seed);
+  plan.producer = [loaded, evaluator](int64_t begin, int64_t end) { return evaluator->layers(begin, end); };
+  return plan;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,64 @@
+#include "eval/rows.h"
+
+#include <algorithm>
+
+#include "base/assert.h"
+
+namespace ombre::eval {
+
+using program::Instruction;
+using program::Op;
+using program::Program;
+
+void RowEvaluator::set_row(std::span<const double> xs, double y, double z) {
+  ASSERT(xs.size() <= width_);
+  xs_ = xs;
+  y_ = y;
+  z_ = z;
+}
+
+void RowEvaluator::run(const Program& program, size_t begin, size_t end, const SourceRow& source_row) {
+  if (values_.size() < program.code.size() * width_) values_.resize(program.code.size() * width_);
+  const size_t n = xs_.size();
+  for (size_t i = begin; i < end; ++i) {
+    const Instruction& in = program.code[i];
+    double* out = row(static_cast<program::ValueId>(i));
+    const double *a = row(in.a), *b = row(in.b), *c = row(in.c);
+    switch (in.op) {
+      case Op::input:
+        if (in.value == 0) std::copy_n(xs_.data(), n, out);
+        else std::fill_n(out, n, in.value == 1 ? y_ : z_);
+        break;
+      case Op::constant: std::fill_n(out, n, in.value); break;
+      case Op::affine: {
+        const program::AffineRow& m = program.maps[in.aux];
+        for (size_t p = 0; p < n; ++p) out[p] = program::apply_affine(m, a[p], b[p], c[p]);
+        break;
+      }
+      case Op::source: run_source(program, in, {out, n}, source_row); break;
+      case Op::call: ASSERT(false && "calls are inlined before evaluation"); break;
+#define OMBRE_LANE_1(name) math::name(a[p])
+#define OMBRE_LANE_2(name) math::name(a[p], b[p])
+#define OMBRE_LANE_3(name) math::name(a[p], b[p], c[p])
+#define OMBRE_ROW(name, arity)                                          \
+  case Op::name:                                                        \
+    for (size_t p = 0; p < n; ++p) out[p] = OMBRE_LANE_##arity(name); \
+    break;
+        OMBRE_OPS(OMBRE_ROW)
+#undef OMBRE_ROW
+#undef OMBRE_LANE_1
+#undef OMBRE_LANE_2
+#undef OMBRE_LANE_3
+    }
+  }
+}
+
+void RowEvaluator::run_source(const Program& program, const Instruction& in, std::span<double> out,
+                              const SourceRow& source_row) {
+  const program::Read& read = program.reads[in.aux];
+  if (source_row && source_row(read, out)) return;
+  const double *a = row(in.a), *b = row(in.b), *c = row(in.c);
+  for (size_t p = 0; p < out.size(); ++p) out[p] = read.source->sample(read.channel, {a[p], b[p], c[p]});
+}
+
+}  // namespace ombre::eval

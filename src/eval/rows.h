@@ -1,0 +1,39 @@
+// Evaluates programs over rows of points in double precision: the reference, one op at a time.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "program/program.h"
+
+namespace ombre::eval {
+
+// Fills values with a source's answers along the row; false if it has none, and the source is asked point by point.
+using SourceRow = std::function<bool(const program::Read&, std::span<double> values)>;
+
+// Holds the values of a program's instructions at up to `width` points. Every value has the bits that
+// evaluate_point gives.
+class RowEvaluator {
+ public:
+  explicit RowEvaluator(size_t width) : width_(width) {}
+
+  size_t width() const { return width_; }
+  // Points (xs[n], y, z). Call before run.
+  void set_row(std::span<const double> xs, double y, double z);
+  // Instructions [begin, end); those before `begin` were run on this row already.
+  void run(const program::Program& program, size_t begin, size_t end, const SourceRow& source_row);
+  std::span<const double> values(program::ValueId id) const { return {values_.data() + id * width_, xs_.size()}; }
+
+ private:
+  void run_source(const program::Program& program, const program::Instruction& in, std::span<double> out,
+                  const SourceRow& source_row);
+  double* row(program::ValueId id) { return values_.data() + id * width_; }
+
+  size_t width_;
+  std::span<const double> xs_;
+  double y_ = 0, z_ = 0;
+  std::vector<double> values_;
+};
+
+}  // namespace ombre::eval

@@ -1,0 +1,55 @@
+// Triangle meshes as files give them: a plain struct and one reader per format.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "base/vec.h"
+
+namespace ombre::formats {
+
+// A run of triangles: an STL solid, or what an OBJ file calls an object or a group. A name may come
+// back when a file returns to it.
+struct MeshGroup {
+  std::string name;
+  uint32_t first_triangle = 0, triangle_count = 0;
+  std::string material = {};  // OBJ usemtl; it is also the name where the file gives no other
+};
+
+struct Mesh {
+  std::vector<Vec3> vertices;                      // as in the file; finite, at most greatest_coordinate away from 0
+  std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside; never empty
+  std::vector<MeshGroup> groups;                   // in order, none empty, together all triangles
+  std::vector<std::array<double, 2>> texture_coordinates;  // may be empty
+  std::vector<std::array<uint32_t, 3>> texture_triangles;  // empty, or one per triangle, into texture_coordinates
+};
+
+// Farther away, a double cannot tell micrometres apart.
+inline constexpr double greatest_coordinate = 1e15;
+
+// Chooses the reader by the file's content, else by its extension. Throws Error if the file cannot be
+// read. Nothing is returned, and the reason is in the diagnostics, if it holds no mesh.
+std::optional<Mesh> read_mesh(const std::string& path, Diagnostics& diagnostics);
+// The same for bytes in memory; `name` is for messages and for its extension.
+std::optional<Mesh> read_mesh(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+
+// STL, binary and text; vertices at the same place become one.
+std::optional<Mesh> read_stl(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+// Wavefront OBJ; free-form surfaces, lines and normals are passed over.
+std::optional<Mesh> read_obj(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+// PLY 1.0: ascii, binary little-endian and big-endian.
+std::optional<Mesh> read_ply(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+// Geomview OFF as text, in three dimensions; normals, colours and texture coordinates may be there.
+std::optional<Mesh> read_off(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+
+// What the bytes show for certain, whatever the file is called.
+bool is_stl(std::string_view bytes);
+bool is_ply(std::string_view bytes);
+bool is_off(std::string_view bytes);
+
+}  // namespace ombre::formats

@@ -1,0 +1,326 @@
+// PNG images through libpng.
+#include "formats/png.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csetjmp>
+#include <cstring>
+
+#include "base/assert.h"
+#include "base/error.h"
+#include "formats/png_rows.h"
+
+// libpng leaves by longjmp, which runs no destructors. So everything that owns memory lives in a
+// Writer or a Reader, outside the functions that call libpng, and those hold plain values only.
+
+namespace ombre::formats {
+namespace {
+
+constexpr uint64_t most_pixels = 1'000'000'000;
+constexpr png_uint_32 largest_side = 1'000'000;
+
+// Measured on dithered and on smooth layers: higher levels cost several times the time for a few
+// percent of the bytes.
+constexpr int compression_level = 4;
+constexpr size_t chunk_bytes = size_t{256} << 10;
+
+struct Failure {
+  std::string message;
+};
+
+void on_error(png_structp png, png_const_charp message) {
+  auto* failure = static_cast<Failure*>(png_get_error_ptr(png));
+  try {
+    failure->message = message;
+  } catch (...) {  // without memory the message stays empty
+  }
+  png_longjmp(png, 1);
+}
+
+void on_warning(png_structp, png_const_charp) {}
+
+// --- writing ---
+
+struct Writer {
+  Failure failure;
+  std::string bytes;
+  bool out_of_memory = false;
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+
+  Writer() {
+    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, on_error, on_warning);
+    if (png) info = png_create_info_struct(png);
+  }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+  ~Writer() { png_destroy_write_struct(&png, &info); }
+};
+
+void append(png_structp png, png_bytep data, size_t size) {
+  auto* writer = static_cast<Writer*>(png_get_io_ptr(png));
+  try {
+    writer->bytes.append(reinterpret_cast<const char*>(data), size);
+    return;
+  } catch (...) {
+    writer->out_of_memory = true;
+  }
+  png_error(png, "out of memory");
+}
+
+void flush(png_structp) {}
+
+struct Header {
+  png_uint_32 width = 0, height = 0;
+  int bit_depth = 8, colour_type = PNG_COLOR_TYPE_RGBA;
+  std::array<png_color, 256> colours{};
+  std::array<png_byte, 256> alphas{};
+  int colour_count = 0, alpha_count = 0;
+  png_uint_32 dots_per_metre_x = 0, dots_per_metre_y = 0;
+  bool compare_rows = false;
+};
+
+bool write_header(Writer& writer, const Header& header) {
+  if (setjmp(png_jmpbuf(writer.png))) return false;
+  png_set_write_fn(writer.png, &writer, append, flush);
+  png_set_user_limits(writer.png, largest_side, largest_side);
+  png_set_IHDR(writer.png, writer.info, header.width, header.height, header.bit_depth, header.colour_type, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (header.colour_count > 0) png_set_PLTE(writer.png, writer.info, header.colours.data(), header.colour_count);
+  if (header.alpha_count > 0)
+    png_set_tRNS(writer.png, writer.info, header.alphas.data(), header.alpha_count, nullptr);
+  if (header.dots_per_metre_x > 0 && header.dots_per_metre_y > 0)
+    png_set_pHYs(writer.png, writer.info, header.dots_per_metre_x, header.dots_per_metre_y, PNG_RESOLUTION_METER);
+
+  // Everything that decides the bytes is stated, whatever the library's defaults.
+  png_set_compression_level(writer.png, compression_level);
+  png_set_compression_strategy(writer.png, 0);
+  png_set_compression_mem_level(writer.png, 9);
+  png_set_compression_window_bits(writer.png, 15);
+  png_set_compression_buffer_size(writer.png, chunk_bytes);
+  // Naming a filter that looks at the row above makes libpng keep that row.
+  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, header.compare_rows ? PNG_FILTER_NONE | PNG_FILTER_UP : PNG_FILTER_NONE);
+  png_write_info(writer.png, writer.info);
+  return true;
+}
+
+bool write_row(Writer& writer, const uint8_t* bytes, int filter) {
+  if (setjmp(png_jmpbuf(writer.png))) return false;
+  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, filter);
+  png_write_row(writer.png, bytes);
+  return true;
+}
+
+bool write_end(Writer& writer) {
+  if (setjmp(png_jmpbuf(writer.png))) return false;
+  png_write_end(writer.png, nullptr);
+  return true;
+}
+
+void require(bool written, const Writer& writer) {
+  if (written) return;
+  if (writer.out_of_memory) throw Error("not enough memory to encode an image; try fewer threads");
+  throw Error("cannot encode an image: " + writer.failure.message);
+}
+
+void start(Writer& writer, const Header& header) {
+  if (!writer.png || !writer.info) throw Error("not enough memory to encode an image; try fewer threads");
+  require(write_header(writer, header), writer);
+}
+
+void set_palette(Header& header, const Palette& palette) {
+  header.bit_depth = palette.bit_depth();
+  header.colour_type = PNG_COLOR_TYPE_PALETTE;
+  for (const Rgba& colour : palette.colours()) {
+    header.colours[header.colour_count] = {colour[0], colour[1], colour[2]};
+    header.alphas[header.colour_count] = colour[3];
+    ++header.colour_count;
+    if (colour[3] != 255) header.alpha_count = header.colour_count;
+  }
+}
+
+png_uint_32 whole_dots(double dots_per_metre) {
+  return static_cast<png_uint_32>(std::clamp(std::round(dots_per_metre), 0.0, 2147483647.0));
+}
+
+}  // namespace
+
+Palette::Palette(Rgba background) : colours_{background} { known_[0] = true; }
+
+void Palette::add(MaterialId id, Rgba colour) {
+  ASSERT(!known_[id]);
+  known_[id] = true;
+  entries_[id] = static_cast<uint8_t>(colours_.size());
+  colours_.push_back(colour);
+}
+
+uint8_t Palette::entry(MaterialId id) const {
+  ASSERT(known_[id]);
+  return entries_[id];
+}
+
+int Palette::bit_depth() const {
+  int bits = 1;
+  while ((size_t{1} << bits) < colours_.size()) bits *= 2;
+  return bits;
+}
+
+std::string encode_png(const RunLayer& layer, const Palette& palette, const PngLayout& layout) {
+  Header header;
+  header.width = layer.width;
+  header.height = static_cast<png_uint_32>(layer.rows.size());
+  if (layout.format == PngFormat::indexed) set_palette(header, palette);
+  header.dots_per_metre_x = whole_dots(layout.dots_per_metre_x);
+  header.dots_per_metre_y = whole_dots(layout.dots_per_metre_y);
+  header.compare_rows = layout.format == PngFormat::rgba;
+
+  Writer writer;
+  start(writer, header);
+  RowPacker packer(layer.width, palette, layout);
+  const std::vector<Run>* above = nullptr;
+  const uint8_t* bytes = nullptr;
+  for (size_t i = 0; i < layer.rows.size(); ++i) {
+    const std::vector<Run>& row = layer.rows[layout.flip_y ? i : layer.rows.size() - 1 - i];
+    if (!above || row != *above) bytes = packer.pack(row).data();
+    above = &row;
+    // RGBA rows are longer than deflate's window, so smooth ones repay the difference to the row above.
+    const bool smooth = header.compare_rows && i > 0 && row.size() <= layer.width / 16;
+    require(write_row(writer, bytes, smooth ? PNG_FILTER_UP : PNG_FILTER_NONE), writer);
+  }
+  require(write_end(writer), writer);
+  return std::move(writer.bytes);
+}
+
+std::string encode_png(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgba) {
+  ASSERT(rgba.size() == size_t{4} * width * height);
+  Header header;
+  header.width = width;
+  header.height = height;
+  Writer writer;
+  start(writer, header);
+  for (size_t row = 0; row < height; ++row)
+    require(write_row(writer, rgba.data() + row * width * 4, PNG_FILTER_NONE), writer);
+  require(write_end(writer), writer);
+  return std::move(writer.bytes);
+}
+
+// --- reading ---
+
+namespace {
+
+struct Reader {
+  Failure failure;
+  std::string_view bytes;
+  size_t position = 0;
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  int stored_bit_depth = 0;
+  std::vector<png_bytep> rows;
+
+  explicit Reader(std::string_view from) : bytes(from) {
+    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, on_error, on_warning);
+    if (png) info = png_create_info_struct(png);
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+void take(png_structp png, png_bytep data, size_t size) {
+  auto* reader = static_cast<Reader*>(png_get_io_ptr(png));
+  if (size > reader->bytes.size() - reader->position) png_error(png, "the file ends too early");
+  std::memcpy(data, reader->bytes.data() + reader->position, size);
+  reader->position += size;
+}
+
+bool read_header(Reader& reader) {
+  if (setjmp(png_jmpbuf(reader.png))) return false;
+  png_set_read_fn(reader.png, &reader, take);
+  png_set_user_limits(reader.png, largest_side, largest_side);
+  png_read_info(reader.png, reader.info);
+  reader.stored_bit_depth = png_get_bit_depth(reader.png, reader.info);
+  if (png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE) {
+    png_set_packing(reader.png);
+  } else {
+    png_set_expand(reader.png);
+    png_set_strip_16(reader.png);
+    png_set_gray_to_rgb(reader.png);
+    png_set_add_alpha(reader.png, 255, PNG_FILLER_AFTER);
+  }
+  png_set_interlace_handling(reader.png);
+  png_read_update_info(reader.png, reader.info);
+  return true;
+}
+
+bool read_pixels(Reader& reader) {
+  if (setjmp(png_jmpbuf(reader.png))) return false;
+  png_read_image(reader.png, reader.rows.data());
+  png_read_end(reader.png, nullptr);
+  return true;
+}
+
+std::vector<Rgba> read_palette(Reader& reader) {
+  png_colorp colours = nullptr;
+  png_bytep alphas = nullptr;
+  int colour_count = 0, alpha_count = 0;
+  png_get_PLTE(reader.png, reader.info, &colours, &colour_count);
+  png_get_tRNS(reader.png, reader.info, &alphas, &alpha_count, nullptr);
+  std::vector<Rgba> palette;
+  for (int i = 0; i < colour_count; ++i) {
+    const uint8_t alpha = alphas && i < alpha_count ? alphas[i] : uint8_t{255};
+    palette.push_back({colours[i].red, colours[i].green, colours[i].blue, alpha});
+  }
+  return palette;
+}
+
+void read_dots(Reader& reader, PngImage& image) {
+  png_uint_32 x = 0, y = 0;
+  int unit = PNG_RESOLUTION_UNKNOWN;
+  png_get_pHYs(reader.png, reader.info, &x, &y, &unit);
+  if (unit != PNG_RESOLUTION_METER) return;
+  image.dots_per_metre_x = x;
+  image.dots_per_metre_y = y;
+}
+
+}  // namespace
+
+PngImage decode_png(std::string_view bytes, const std::string& name) {
+  const auto require_read = [&](bool read, const Reader& reader) {
+    if (!read) throw Error("cannot read " + name + ": not a whole PNG image (" + reader.failure.message + ")");
+  };
+  Reader reader(bytes);
+  if (!reader.png || !reader.info) throw Error("cannot read " + name + ": not enough memory");
+  require_read(read_header(reader), reader);
+
+  PngImage image;
+  image.width = png_get_image_width(reader.png, reader.info);
+  image.height = png_get_image_height(reader.png, reader.info);
+  if (uint64_t{image.width} * image.height > most_pixels)
+    throw Error("cannot read " + name + ": it has more than 1,000,000,000 pixels");
+  const bool indexed = png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE;
+  image.format = indexed ? PngFormat::indexed : PngFormat::rgba;
+  image.bit_depth = reader.stored_bit_depth;
+  if (indexed) image.palette = read_palette(reader);
+  read_dots(reader, image);
+
+  const size_t row_bytes = size_t{image.width} * (indexed ? 1 : 4);
+  ASSERT(row_bytes == png_get_rowbytes(reader.png, reader.info));
+  image.pixels.resize(row_bytes * image.height);
+  for (size_t row = 0; row < image.height; ++row) reader.rows.push_back(image.pixels.data() + row * row_bytes);
+  require_read(read_pixels(reader), reader);
+  return image;
+}
+
+Rgba PngImage::colour(uint32_t column, uint32_t row) const {
+  const size_t pixel = size_t{row} * width + column;
+  if (format == PngFormat::indexed) {
+    const uint8_t index = pixels[pixel];
+    return index < palette.size() ? palette[index] : Rgba{0, 0, 0, 255};  // as browsers show it
+  }
+  const uint8_t* at = pixels.data() + 4 * pixel;
+  return {at[0], at[1], at[2], at[3]};
+}
+
+}  // namespace ombre::formats

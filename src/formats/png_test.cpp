@@ -1,0 +1,167 @@
+#include "formats/png.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "base/error.h"
+
+namespace ombre::formats {
+namespace {
+
+// Runs of random length and material, 0 included.
+RunLayer random_layer(uint32_t width, uint32_t height, int materials, uint32_t longest, uint32_t seed) {
+  std::mt19937 random(seed);
+  RunLayer layer;
+  layer.width = width;
+  for (uint32_t row = 0; row < height; ++row) {
+    std::vector<Run> runs;
+    for (uint32_t filled = 0; filled < width;) {
+      const uint32_t length = std::min<uint32_t>(width - filled, 1 + static_cast<uint32_t>(random() % longest));
+      append_run(runs, static_cast<MaterialId>(random() % static_cast<uint32_t>(materials + 1)), length);
+      filled += length;
+    }
+    layer.rows.push_back(runs);
+  }
+  return layer;
+}
+
+MaterialId material_at(const RunLayer& layer, uint32_t column, size_t row) {
+  uint32_t end = 0;
+  for (const Run& run : layer.rows[row]) {
+    end += run.length;
+    if (column < end) return run.material;
+  }
+  ADD_FAILURE() << "the row is too short";
+  return 0;
+}
+
+Rgba colour_of(MaterialId id) {
+  return {static_cast<uint8_t>(id * 37), static_cast<uint8_t>(255 - id), static_cast<uint8_t>(id / 2), 255};
+}
+
+Palette palette_of(int materials) {
+  Palette palette;
+  for (int id = 1; id <= materials; ++id) palette.add(static_cast<MaterialId>(id), colour_of(static_cast<MaterialId>(id)));
+  return palette;
+}
+
+void expect_same_voxels(const RunLayer& layer, const Palette& palette, const PngLayout& layout) {
+  const PngImage image = decode_png(encode_png(layer, palette, layout), "test");
+  ASSERT_EQ(image.width, layer.width);
+  ASSERT_EQ(image.height, layer.rows.size());
+  EXPECT_EQ(image.format, layout.format);
+  for (uint32_t row = 0; row < image.height; ++row) {
+    for (uint32_t column = 0; column < image.width; ++column) {
+      const uint32_t i = layout.flip_x ? image.width - 1 - column : column;
+      const uint32_t j = layout.flip_y ? row : image.height - 1 - row;
+      const uint8_t entry = palette.entry(material_at(layer, i, j));
+      ASSERT_EQ(image.colour(column, row), palette.colours()[entry]) << column << ' ' << row;
+      if (layout.format == PngFormat::indexed) {
+        ASSERT_EQ(image.pixels[size_t{row} * image.width + column], entry);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+TEST(Png, KeepsEveryVoxelAtEveryDepthAndWidth) {
+  const std::pair<int, int> depths[] = {{1, 1}, {2, 2}, {3, 2}, {4, 4}, {15, 4}, {16, 8}, {255, 8}};
+  for (const auto& [materials, bits] : depths) {
+    const Palette palette = palette_of(materials);
+    EXPECT_EQ(palette.bit_depth(), bits);
+    for (const uint32_t width : {1U, 2U, 3U, 5U, 7U, 8U, 9U, 31U, 64U, 100U}) {
+      for (const uint32_t longest : {1U, 3U, 40U}) {
+        const RunLayer layer = random_layer(width, 9, materials, longest, width + longest);
+        for (const PngFormat format : {PngFormat::indexed, PngFormat::rgba}) {
+          PngLayout layout;
+          layout.format = format;
+          expect_same_voxels(layer, palette, layout);
+          layout.flip_x = true;
+          expect_same_voxels(layer, palette, layout);
+          layout.flip_y = true;
+          expect_same_voxels(layer, palette, layout);
+        }
+      }
+    }
+  }
+}
+
+TEST(Png, SmoothRgbaLayersKeepEveryVoxel) {
+  RunLayer layer;
+  layer.width = 200;
+  for (uint32_t row = 0; row < 50; ++row) {
+    const uint32_t half = 10 + row / 3;
+    layer.rows.push_back({{0, 100 - half}, {1, 2 * half}, {0, 100 - half}});
+  }
+  PngLayout layout;
+  layout.format = PngFormat::rgba;
+  expect_same_voxels(layer, palette_of(1), layout);
+}
+
+TEST(Png, StoresTheDepthOfTheWholeJob) {
+  const RunLayer layer = random_layer(10, 4, 1, 4, 1);  // one material here, twenty in the job
+  const PngImage image = decode_png(encode_png(layer, palette_of(20), {}), "test");
+  EXPECT_EQ(image.bit_depth, 8);
+  EXPECT_EQ(image.palette.size(), 21U);
+}
+
+TEST(Png, IdsNeedNotBeDense) {
+  Palette palette;
+  palette.add(7, {1, 2, 3, 255});
+  palette.add(200, {4, 5, 6, 255});
+  EXPECT_EQ(palette.bit_depth(), 2);
+  RunLayer layer;
+  layer.width = 3;
+  layer.rows = {{{0, 1}, {7, 1}, {200, 1}}};
+  expect_same_voxels(layer, palette, {});
+}
+
+TEST(Png, VoidIsTransparentUnlessABackgroundIsAskedFor) {
+  const RunLayer layer = random_layer(8, 8, 0, 8, 1);
+  for (const PngFormat format : {PngFormat::indexed, PngFormat::rgba}) {
+    PngLayout layout;
+    layout.format = format;
+    EXPECT_EQ(decode_png(encode_png(layer, Palette(), layout), "test").colour(3, 3), (Rgba{0, 0, 0, 0}));
+    EXPECT_EQ(decode_png(encode_png(layer, Palette({9, 8, 7, 255}), layout), "test").colour(3, 3), (Rgba{9, 8, 7, 255}));
+  }
+}
+
+TEST(Png, SaysTheResolutionOfEachAxis) {
+  PngLayout layout;
+  layout.dots_per_metre_x = 600 / 0.0254;
+  layout.dots_per_metre_y = 300 / 0.0254;
+  const PngImage image = decode_png(encode_png(random_layer(4, 4, 1, 2, 1), palette_of(1), layout), "test");
+  EXPECT_EQ(image.dots_per_metre_x, 23622U);
+  EXPECT_EQ(image.dots_per_metre_y, 11811U);
+}
+
+TEST(Png, SameLayerSameBytes) {
+  const RunLayer layer = random_layer(333, 77, 5, 9, 3);
+  EXPECT_EQ(encode_png(layer, palette_of(5), {}), encode_png(layer, palette_of(5), {}));
+}
+
+TEST(Png, PicturesKeepTheirPixels) {
+  std::vector<uint8_t> rgba(4 * 5 * 3);
+  for (size_t i = 0; i < rgba.size(); ++i) rgba[i] = static_cast<uint8_t>(i * 11);
+  const PngImage image = decode_png(encode_png(5, 3, rgba), "test");
+  EXPECT_EQ(image.pixels, rgba);
+}
+
+TEST(Png, DamagedFilesAreErrorsThatNameTheFile) {
+  const std::string whole = encode_png(random_layer(50, 50, 3, 5, 1), palette_of(3), {});
+  for (const size_t kept : {size_t{0}, size_t{4}, size_t{20}, whole.size() / 2, whole.size() - 13}) {
+    try {
+      decode_png(std::string_view(whole).substr(0, kept), "layer.png");
+      ADD_FAILURE() << "read " << kept << " bytes of " << whole.size();
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("layer.png"), std::string::npos);
+    }
+  }
+  std::string flipped = whole;
+  flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 0x40);
+  EXPECT_THROW(decode_png(flipped, "layer.png"), Error);
+}
+
+}  // namespace ombre::formats

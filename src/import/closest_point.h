@@ -1,0 +1,31 @@
+// The distance from a point to a mesh.
+#pragma once
+
+#include <memory>
+
+#include "import/surface.h"
+
+namespace ombre::importing {
+
+// Whether this build has them (OMBRE_MESH_DISTANCE).
+bool has_mesh_distance();
+
+// Embree finds the triangles that may be closest, in single precision and with room for its
+// rounding; their distances are double. Thread-safe once built.
+class ClosestPoint {
+ public:
+  // Throws Error if Embree cannot start. Only where has_mesh_distance() is true.
+  explicit ClosestPoint(SurfacePtr surface);
+  ~ClosestPoint();
+  ClosestPoint(const ClosestPoint&) = delete;
+  ClosestPoint& operator=(const ClosestPoint&) = delete;
+
+  // In mm, without a sign; infinite for points that are not finite.
+  double distance(Vec3 p) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace ombre::importing

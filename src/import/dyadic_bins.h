@@ -1,0 +1,57 @@
+// Finds the rectangles that may hold a point, in memory that does not depend on their sizes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace ombre::importing {
+
+// Levels of grids, each with cells twice as wide as those of the one below. A rectangle lies in the
+// finest level whose cells are not smaller than it, so in four cells or so; a point asks for one
+// cell of each level.
+class DyadicBins {
+ public:
+  // Closed and finite.
+  struct Rectangle {
+    std::array<double, 2> lo, hi;
+    uint32_t id = 0;
+  };
+
+  // `finest`: how many cells the finest level has on each axis, at least 1.
+  DyadicBins(std::span<const Rectangle> rectangles, std::array<uint32_t, 2> finest);
+
+  // Calls visit(id) for all rectangles that contain (u, v), and for some others.
+  template <class Visit>
+  void at(double u, double v, const Visit& visit) const {
+    if (!(lo_[0] <= u && u <= hi_[0] && lo_[1] <= v && v <= hi_[1])) return;
+    for (const Level& level : levels_) {
+      const size_t cell = size_t{column(level, 1, v)} * level.cells[0] + column(level, 0, u);
+      for (uint64_t i = level.begins[cell]; i < level.begins[cell + 1]; ++i) visit(level.ids[i]);
+    }
+  }
+
+ private:
+  struct Level {
+    std::array<double, 2> width;  // of a cell
+    std::array<uint32_t, 2> cells;
+    std::vector<uint64_t> begins;  // cell -> its first id; one more than cells
+    std::vector<uint32_t> ids;
+  };
+
+  uint32_t column(const Level& level, size_t axis, double value) const {
+    const double at = (value - lo_[axis]) / level.width[axis];
+    const uint32_t last = level.cells[axis] - 1;
+    return at < last ? static_cast<uint32_t>(at) : last;
+  }
+  template <class Visit>
+  void for_cells(const Level& level, const Rectangle& rectangle, const Visit& visit) const;
+  void add_levels(std::array<uint32_t, 2> finest);
+  size_t level_of(const Rectangle& rectangle) const;
+
+  std::array<double, 2> lo_{1, 1}, hi_{0, 0};  // empty: no point is within
+  std::vector<Level> levels_;
+};
+
+}  // namespace ombre::importing

@@ -1,0 +1,43 @@
+// How often a mesh winds around a point.
+#include "import/point_winding.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "import/crossings.h"
+
+namespace ombre::importing {
+namespace {
+
+constexpr double most_cells_per_axis = 1024;
+
+DyadicBins bin_by_yz(const Surface& surface) {
+  std::vector<DyadicBins::Rectangle> rectangles;
+  rectangles.reserve(surface.triangles.size());
+  for (uint32_t i = 0; i < surface.triangles.size(); ++i) {
+    const auto [a, b, c] = surface.corners(i);
+    rectangles.push_back({{std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+                          {std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})},
+                          i});
+  }
+  const double cells = std::sqrt(static_cast<double>(surface.triangles.size())) + 1;
+  const auto per_axis = static_cast<uint32_t>(std::min(cells, most_cells_per_axis));
+  return {rectangles, {per_axis, per_axis}};
+}
+
+}  // namespace
+
+PointWinding::PointWinding(SurfacePtr surface) : surface_(std::move(surface)), by_yz_(bin_by_yz(*surface_)) {}
+
+int64_t PointWinding::at(Vec3 p) const {
+  int64_t sum = 0;
+  by_yz_.at(p.y, p.z, [&](uint32_t id) {
+    const auto segment = slice(surface_->corners(id), p.z);
+    if (!segment) return;
+    const int here = winding(*segment, p.y);
+    if (here != 0 && cross_row(*segment, p.y) <= p.x) sum += here;
+  });
+  return sum;
+}
+
+}  // namespace ombre::importing

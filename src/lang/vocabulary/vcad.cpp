@@ -1,0 +1,211 @@
+#include "lang/vocabulary/vcad.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "base/json.h"
+#include "base/text.h"
+#include "lang/vocabulary/legacy_forms.h"
+
+namespace ombre::lang {
+
+using design::NamedValue;
+using design::NodePtr;
+using design::NodeType;
+using design::Reader;
+
+namespace {
+
+constexpr std::string_view axes[] = {"x", "y", "z"};
+
+// A name for every argument: given, or by position. False, and diagnostics, when one has no parameter.
+bool bind(const NodeType& type, const std::vector<Argument>& arguments, std::vector<NamedValue>& values, Diagnostics& diagnostics,
+          const SourceRange& whole) {
+  std::vector<bool> taken(type.parameters.size(), false);
+  bool good = true;
+  size_t position = 0, positional = 0;
+  for (const Argument& argument : arguments) {
+    const SourceRange where = argument.name_where.source ? argument.name_where : argument.value.where.source ? argument.value.where : whole;
+    int index = -1;
+    if (argument.name.empty()) {
+      ++positional;
+      while (position < taken.size() && taken[position]) ++position;
+      if (position == taken.size()) {
+        diagnostics.error(where, type.name + " takes at most " + std::to_string(type.parameters.size()) + " arguments: (" +
+                                     join(type.parameter_names(), ", ") + ")");
+        return false;
+      }
+      index = static_cast<int>(position);
+    } else {
+      index = type.parameter(argument.name);
+    }
+    if (index < 0) {
+      std::string hint = did_you_mean(argument.name, type.parameter_names());
+      if (hint.empty()) hint = type.parameters.empty() ? "it takes none" : "it has " + join(type.parameter_names(), ", ");
+      diagnostics.error(where, type.name + " has no parameter \"" + argument.name + "\"", hint);
+      good = false;
+      continue;
+    }
+    const auto at = static_cast<size_t>(index);
+    if (taken[at]) {
+      diagnostics.error(where, "\"" + type.parameters[at].name + "\" of " + type.name + " is given twice");
+      good = false;
+      continue;
+    }
+    taken[at] = true;
+    if (!argument.value.is_null()) values.push_back({&type.parameters[at], argument.value});
+  }
+  return good;
+}
+
+}  // namespace
+
+VcadVocabulary::VcadVocabulary(const design::Registry& registry, const design::MaterialTable& materials, design::SourceLoader* loader)
+    : registry_(registry), materials_(materials), loader_(loader) {}
+
+bool VcadVocabulary::knows(std::string_view name) const {
+  return fold_name(name) == "root" || registry_.find(node_name(name)) != nullptr;
+}
+
+std::vector<std::string> VcadVocabulary::names() const {
+  std::vector<std::string> names = registry_.names();
+  names.emplace_back("root");
+  return names;
+}
+
+std::optional<Data> VcadVocabulary::constant(std::string_view name) const {
+  for (size_t i = 0; i < 3; ++i) {
+    if (name != axes[i]) continue;
+    DataList direction(3, Data(0.0));
+    direction[i] = Data(1.0);
+    return Data(std::move(direction));
+  }
+  if (const design::Material* material = materials_.find(name)) return Data(material->name);
+  return std::nullopt;
+}
+
+std::vector<std::string> VcadVocabulary::constants() const {
+  std::vector<std::string> names = materials_.names();
+  names.insert(names.end(), std::begin(axes), std::end(axes));
+  return names;
+}
+
+NodePtr VcadVocabulary::make(const Invocation& call, Diagnostics& diagnostics) {
+  const size_t errors_before = diagnostics.error_count();
+  const NodeType* type = registry_.find(node_name(call.name));
+  NodePtr node = fold_name(call.name) == "root" ? make_root(call, diagnostics) : type ? make_of_type(*type, call, diagnostics) : nullptr;
+  if (diagnostics.error_count() > errors_before)
+    for (const SourceRange& from : call.called_from) diagnostics.note(from, "called from here");
+  return node;
+}
+
+NodePtr VcadVocabulary::make_of_type(const NodeType& type, const Invocation& call, Diagnostics& diagnostics) {
+  std::vector<NamedValue> values;
+  const auto arguments = modern_arguments(type, call.arguments);
+  if (!bind(type, arguments, values, diagnostics, call.whole)) return nullptr;
+  const Reader reader{materials_, diagnostics, loader_, call.whole, type.name, ""};
+  std::vector<NodePtr> children = call.children;
+  if (type.inputs.most == 1 && children.size() > 1) {
+    children = {joined(std::move(children), reader)};
+    if (!children[0]) return nullptr;
+  }
+  return shared(design::make_node(type, values, std::move(children), reader));
+}
+
+NodePtr VcadVocabulary::joined(std::vector<NodePtr> nodes, const Reader& reader) const {
+  return nodes.size() == 1 ? nodes[0] : design::make_node(*registry_.find("union"), {}, std::move(nodes), reader);
+}
+
+// Equal type, parameters and inputs: the node that is there already.
+NodePtr VcadVocabulary::shared(NodePtr node) {
+  if (!node) return node;
+  std::string key = node->type().name;
+  for (size_t i = 0; i < node->type().parameters.size(); ++i) key += '|' + print_json_line(node->type().get(node->value(), i, false));
+  for (const NodePtr& input : node->inputs()) key += '@' + std::to_string(reinterpret_cast<uintptr_t>(input.get()));
+  const Hash hash = hash_bytes(key);
+  std::string digest(reinterpret_cast<const char*>(&hash), sizeof hash);
+  return known_.try_emplace(std::move(digest), node).first->second;
+}
+
+NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnostics) {
+  const auto fail = [&](const SourceRange& where, const std::string& message, const std::string& hint = "") {
+    diagnostics.error(where, message, hint);
+    return nullptr;
+  };
+  if (!call.is_top_level) return fail(call.where, "root stands at the top level of the main file only");
+  if (root_where_) return fail(call.where, "there is a root already", "a design has one; put everything inside it");
+  root_where_ = call.where;
+  static const std::vector<std::string> names{"min", "max", "voxel"};
+  const std::string form = "root((minx, miny, minz), (maxx, maxy, maxz), (vx, vy, vz)) { ... }";
+  std::array<const Data*, 3> corners{};
+  size_t position = 0;
+  for (const Argument& argument : call.arguments) {
+    const auto at = argument.name.empty() ? names.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(position++, 3))
+                                          : std::find(names.begin(), names.end(), argument.name);
+    if (at == names.end()) return fail(argument.value.where.source ? argument.value.where : call.whole, "root takes three arguments", "write " + form);
+    corners[static_cast<size_t>(at - names.begin())] = &argument.value;
+  }
+  if (!corners[0] || !corners[1] || !corners[2]) return fail(call.whole, "root needs the corners of its box and a voxel size", "write " + form);
+
+  design::Sampling sampling;
+  Vec3 voxel;
+  const auto read_corner = [&](size_t i, const design::Domain& domain, Vec3& value) {
+    return design::read(*corners[i], domain, value, {materials_, diagnostics, loader_, call.whole, "root", names[i]});
+  };
+  const bool good = static_cast<bool>(read_corner(0, design::unit::mm, sampling.box.lo) & read_corner(1, design::unit::mm, sampling.box.hi) &
+                                      read_corner(2, design::unit::positive_mm, voxel));
+  if (!good) return nullptr;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(sampling.box.lo[axis] < sampling.box.hi[axis]))
+      return fail(corners[1]->where.source ? corners[1]->where : call.whole,
+                  "the box of root is empty: max must be greater than min on each axis");
+    const auto pitch = Pitch::from_mm(voxel[axis]);
+    if (!pitch) return fail(corners[2]->where, "the voxel size " + format_number(voxel[axis]) + " mm has too many digits");
+    sampling.pitch[static_cast<size_t>(axis)] = *pitch;
+  }
+  if (call.children.empty()) return nullptr;  // told of as an empty design
+  sampling_ = sampling;
+  root_children_ = call.children;
+  return joined(call.children, {materials_, diagnostics, loader_, call.whole, "root", ""});
+}
+
+std::optional<design::Design> VcadVocabulary::finish(const std::vector<NodePtr>& top_level, const SourceRange& whole,
+                                                     Diagnostics& diagnostics) const {
+  if (diagnostics.has_errors()) return std::nullopt;
+  if (root_where_ && top_level.size() > 1) {
+    diagnostics.error(*root_where_, "with root, everything stands inside its braces, but there is something beside it");
+    return std::nullopt;
+  }
+  const std::vector<NodePtr>& solids = root_where_ ? root_children_ : top_level;
+  if (solids.empty()) {
+    diagnostics.error(whole, "the design is empty: nothing in it makes a solid", "write for example sphere(5, \"red\");");
+    return std::nullopt;
+  }
+  design::Design design{materials_, {}, sampling_};
+  const Reader reader{materials_, diagnostics, loader_, whole, "", ""};
+  std::vector<NodePtr> unnamed;
+  std::unordered_set<const design::Node*> parts;
+  for (const NodePtr& solid : solids) {
+    if (solid->type().name != "part") {
+      unnamed.push_back(solid);
+      continue;
+    }
+    parts.insert(solid.get());
+    const std::string name = *solid->type().get(solid->value(), 0, false).string();
+    for (const design::Part& other : design.parts)
+      if (other.name == name) diagnostics.error(solid->where(), "there are two parts with the name \"" + name + "\"");
+    design.parts.push_back({name, solid->inputs()[0]});
+  }
+  if (!unnamed.empty()) {
+    const NodePtr rest = joined(unnamed, reader);
+    if (!rest) return std::nullopt;
+    design.parts.insert(design.parts.begin(), {"part", rest});
+  }
+  for (const design::Node* node : topological(design.roots()))
+    if (node->type().name == "part" && !parts.contains(node))
+      diagnostics.warning(node->where(), "a part inside of something else does not count as one", "move it to the top level");
+  if (diagnostics.has_errors()) return std::nullopt;
+  return design;
+}
+
+}  // namespace ombre::lang

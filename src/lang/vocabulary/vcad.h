@@ -1,0 +1,42 @@
+// The .vcad vocabulary: calls of a script -> nodes of a design, the forms of older files included.
+#pragma once
+
+#include <optional>
+#include <unordered_map>
+
+#include "design/design.h"
+#include "lang/vocabulary.h"
+
+namespace ombre::lang {
+
+class VcadVocabulary : public Vocabulary {
+ public:
+  // All three must outlive the vocabulary; without a loader, meshes are errors.
+  VcadVocabulary(const design::Registry& registry, const design::MaterialTable& materials, design::SourceLoader* loader);
+
+  bool knows(std::string_view name) const override;
+  std::vector<std::string> names() const override;
+  std::optional<Data> constant(std::string_view name) const override;
+  std::vector<std::string> constants() const override;
+  design::NodePtr make(const Invocation& call, Diagnostics& diagnostics) override;
+
+  // The design that the top-level nodes make; nothing, and a diagnostic, when there is none.
+  std::optional<design::Design> finish(const std::vector<design::NodePtr>& top_level, const SourceRange& whole,
+                                       Diagnostics& diagnostics) const;
+
+ private:
+  design::NodePtr make_root(const Invocation& call, Diagnostics& diagnostics);
+  design::NodePtr make_of_type(const design::NodeType& type, const Invocation& call, Diagnostics& diagnostics);
+  design::NodePtr joined(std::vector<design::NodePtr> nodes, const design::Reader& reader) const;
+  design::NodePtr shared(design::NodePtr node);
+
+  const design::Registry& registry_;
+  const design::MaterialTable& materials_;
+  design::SourceLoader* loader_;
+  std::unordered_map<std::string, design::NodePtr> known_;  // equal nodes become one
+  std::optional<design::Sampling> sampling_;
+  std::optional<SourceRange> root_where_;
+  std::vector<design::NodePtr> root_children_;
+};
+
+}  // namespace ombre::lang

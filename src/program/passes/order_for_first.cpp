@@ -1,0 +1,56 @@
+// Puts what the first output needs in front.
+#include "program/passes/passes.h"
+
+namespace ombre::program {
+namespace {
+
+void copy_tables(const Program& from, Program& to, Instruction& in) {
+  if (in.op == Op::affine) {
+    to.maps.push_back(from.maps[in.aux]);
+    in.aux = static_cast<uint32_t>(to.maps.size() - 1);
+  } else if (in.op == Op::source) {
+    to.reads.push_back(from.reads[in.aux]);
+    in.aux = static_cast<uint32_t>(to.reads.size() - 1);
+  } else if (in.op == Op::call) {
+    to.calls.push_back(from.calls[in.aux]);
+    in.aux = static_cast<uint32_t>(to.calls.size() - 1);
+  }
+}
+
+}  // namespace
+
+size_t order_for_first(Program& program) {
+  const size_t n = program.code.size();
+  std::vector<bool> early(n, false);
+  early[program.outputs[0]] = true;
+  for (size_t i = n; i-- > 0;) {
+    if (!early[i]) continue;
+    const Instruction& in = program.code[i];
+    const int arity = info(in.op).arity;
+    if (arity > 0) early[in.a] = true;
+    if (arity > 1) early[in.b] = true;
+    if (arity > 2) early[in.c] = true;
+  }
+  Program result;
+  std::vector<ValueId> renamed(n, 0);
+  size_t early_count = 0;
+  for (const bool now : {true, false}) {
+    for (size_t i = 0; i < n; ++i) {
+      if (early[i] != now) continue;
+      Instruction in = program.code[i];
+      in.a = renamed[in.a];
+      in.b = renamed[in.b];
+      in.c = renamed[in.c];
+      copy_tables(program, result, in);
+      renamed[i] = static_cast<ValueId>(result.code.size());
+      result.code.push_back(in);
+    }
+    if (now) early_count = result.code.size();
+  }
+  for (const ValueId output : program.outputs) result.outputs.push_back(renamed[output]);
+  result.output_names = program.output_names;
+  program = std::move(result);
+  return early_count;
+}
+
+}  // namespace ombre::program
