@@ -1,1 +1,4 @@
-int main() { return 0; }
+// The program `ombre`.
+#include "ombre/command_line.h"
+
+int main(int argc, char** argv) { return ombre::cli::run(argc, argv); }

@@ -1,5 +1,7 @@
 // Interval versions of the elementary functions.
 //
+// Sums, products, quotients and roots are correctly rounded, and rounding never changes an order: their
+// values at the ends enclose all others as they are.
 // A function with an error of one unit in the last place, evaluated at the ends of an interval on
 // which it is monotonic, is enclosed by those values widened by two units.
 #include <numbers>
@@ -15,6 +17,11 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 Interval widen(double lo, double hi) {
   const Interval once = outward(lo, hi);
   return outward(once.lo, once.hi);
+}
+
+// Infinite ends can meet in a NaN.
+Interval ordered(double lo, double hi) {
+  return std::isnan(lo) || std::isnan(hi) ? Interval::everything() : Interval(lo, hi);
 }
 
 Interval clip(Interval v, double lo, double hi) { return {std::max(v.lo, lo), std::min(v.hi, hi)}; }
@@ -38,8 +45,8 @@ bool lacks_zero(Interval v) { return v.lo > 0 || v.hi < 0; }
 
 }  // namespace
 
-Interval add(Interval a, Interval b) { return outward(a.lo + b.lo, a.hi + b.hi); }
-Interval subtract(Interval a, Interval b) { return outward(a.lo - b.hi, a.hi - b.lo); }
+Interval add(Interval a, Interval b) { return ordered(a.lo + b.lo, a.hi + b.hi); }
+Interval subtract(Interval a, Interval b) { return ordered(a.lo - b.hi, a.hi - b.lo); }
 Interval negate(Interval v) { return {-v.hi, -v.lo}; }
 
 Interval multiply(Interval a, Interval b) {
@@ -48,13 +55,13 @@ Interval multiply(Interval a, Interval b) {
   // An unbounded factor can meet a zero inside the other one.
   if (!a.is_bounded() && !lacks_zero(b)) return Interval::everything();
   if (!b.is_bounded() && !lacks_zero(a)) return Interval::everything();
-  return outward(std::min({p, q, r, s}), std::max({p, q, r, s}));
+  return {std::min({p, q, r, s}), std::max({p, q, r, s})};
 }
 
 Interval divide(Interval a, Interval b) {
   if (!lacks_zero(b) || !a.is_bounded() || !b.is_bounded()) return Interval::everything();
   const double p = a.lo / b.lo, q = a.lo / b.hi, r = a.hi / b.lo, s = a.hi / b.hi;
-  return outward(std::min({p, q, r, s}), std::max({p, q, r, s}));
+  return {std::min({p, q, r, s}), std::max({p, q, r, s})};
 }
 
 Interval sin(Interval v) {
@@ -168,8 +175,7 @@ Interval mod(Interval a, Interval b) {
 Interval square(Interval v) {
   if (v.is_everything()) return v;
   const Interval a = abs(v);
-  const Interval r = outward(a.lo * a.lo, a.hi * a.hi);
-  return {std::max(0.0, r.lo), r.hi};
+  return {a.lo * a.lo, a.hi * a.hi};
 }
 
 Interval min(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)}; }

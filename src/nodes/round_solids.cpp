@@ -159,8 +159,11 @@ struct Strut {
     const Box axis = hull(Box{start, start}, Box{end, end});
     if (caps == "round") return axis.expanded(r);
     const Vec3 u = direction();
-    const auto reach = [r](double cosine) { return r * std::sqrt(std::max(0.0, 1 - cosine * cosine)) * (1 + 1e-12); };
-    const Vec3 margin{reach(u.x), reach(u.y), reach(u.z)};
+    const auto side = [r](double cosine) {
+      const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+      return sine == 0 ? 0 : r * sine * (1 + 1e-12);
+    };
+    const Vec3 margin{side(u.x), side(u.y), side(u.z)};
     return {axis.lo - margin, axis.hi + margin};
   }
 
