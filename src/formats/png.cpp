@@ -91,23 +91,24 @@ bool write_header(Writer& writer, const Header& header) {
   if (setjmp(png_jmpbuf(writer.png))) return false;
   png_set_write_fn(writer.png, &writer, append, flush);
   png_set_user_limits(writer.png, largest_side, largest_side);
-  png_set_IHDR(writer.png, writer.info, header.width, header.height, header.bit_depth, header.colour_type, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(writer.png, writer.info, header.width, header.height, header.bit_depth, header.colour_type,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   if (header.colour_count > 0) png_set_PLTE(writer.png, writer.info, header.colours.data(), header.colour_count);
-  if (header.alpha_count > 0)
-    png_set_tRNS(writer.png, writer.info, header.alphas.data(), header.alpha_count, nullptr);
+  if (header.alpha_count > 0) png_set_tRNS(writer.png, writer.info, header.alphas.data(), header.alpha_count, nullptr);
   if (header.dots_per_metre_x > 0 && header.dots_per_metre_y > 0)
     png_set_pHYs(writer.png, writer.info, header.dots_per_metre_x, header.dots_per_metre_y, PNG_RESOLUTION_METER);
 
   // Everything that decides the bytes is stated, whatever the library's defaults.
-  const Compression& compression = header.colour_type == PNG_COLOR_TYPE_PALETTE ? indexed_compression : rgba_compression;
+  const Compression& compression =
+      header.colour_type == PNG_COLOR_TYPE_PALETTE ? indexed_compression : rgba_compression;
   png_set_compression_level(writer.png, compression.level);
   png_set_compression_strategy(writer.png, compression.strategy);
   png_set_compression_mem_level(writer.png, 9);
   png_set_compression_window_bits(writer.png, 15);
   png_set_compression_buffer_size(writer.png, chunk_bytes);
   // Naming a filter that looks at the row above makes libpng keep that row.
-  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, header.compare_rows ? PNG_FILTER_NONE | PNG_FILTER_UP : PNG_FILTER_NONE);
+  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE,
+                 header.compare_rows ? PNG_FILTER_NONE | PNG_FILTER_UP : PNG_FILTER_NONE);
   png_write_info(writer.png, writer.info);
   return true;
 }
@@ -213,8 +214,7 @@ std::string encode_png(uint32_t width, uint32_t height, const std::vector<uint8_
   header.height = height;
   Writer writer;
   start(writer, header);
-  for (size_t row = 0; row < height; ++row)
-    require(write_row(writer, rgba.data() + row * width * 4), writer);
+  for (size_t row = 0; row < height; ++row) require(write_row(writer, rgba.data() + row * width * 4), writer);
   require(write_end(writer), writer);
   return std::move(writer.bytes);
 }

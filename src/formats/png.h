@@ -53,9 +53,9 @@ std::string encode_png(uint32_t width, uint32_t height, const std::vector<uint8_
 struct PngImage {
   uint32_t width = 0, height = 0;
   PngFormat format = PngFormat::rgba;
-  int bit_depth = 8;             // as stored; pixels take whole bytes whatever it is
-  std::vector<Rgba> palette;     // of indexed images
-  std::vector<uint8_t> pixels;   // rows from the top: an index, or 4 bytes of RGBA, a pixel
+  int bit_depth = 8;                                    // as stored; pixels take whole bytes whatever it is
+  std::vector<Rgba> palette;                            // of indexed images
+  std::vector<uint8_t> pixels;                          // rows from the top: an index, or 4 bytes of RGBA, a pixel
   uint32_t dots_per_metre_x = 0, dots_per_metre_y = 0;  // 0 when the file does not say
 
   Rgba colour(uint32_t column, uint32_t row) const;

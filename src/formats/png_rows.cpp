@@ -20,7 +20,9 @@ uint8_t repeated(uint8_t entry, int bit_depth) {
   return static_cast<uint8_t>(byte);
 }
 
-void merge(uint8_t& byte, unsigned value, unsigned mask) { byte = static_cast<uint8_t>((byte & ~mask) | (value & mask)); }
+void merge(uint8_t& byte, unsigned value, unsigned mask) {
+  byte = static_cast<uint8_t>((byte & ~mask) | (value & mask));
+}
 
 }  // namespace
 
@@ -65,7 +67,8 @@ void RowPacker::put_indexed(uint64_t begin, const Run& run) {
     return;
   }
   merge(bytes_[first], value, from_first);
-  std::fill(bytes_.begin() + static_cast<std::ptrdiff_t>(first) + 1, bytes_.begin() + static_cast<std::ptrdiff_t>(last), value);
+  std::fill(bytes_.begin() + static_cast<std::ptrdiff_t>(first) + 1, bytes_.begin() + static_cast<std::ptrdiff_t>(last),
+            value);
   if (before_last) merge(bytes_[last], value, before_last);
 }
 

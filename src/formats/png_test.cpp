@@ -42,7 +42,8 @@ Rgba colour_of(MaterialId id) {
 
 Palette palette_of(int materials) {
   Palette palette;
-  for (int id = 1; id <= materials; ++id) palette.add(static_cast<MaterialId>(id), colour_of(static_cast<MaterialId>(id)));
+  for (int id = 1; id <= materials; ++id)
+    palette.add(static_cast<MaterialId>(id), colour_of(static_cast<MaterialId>(id)));
   return palette;
 }
 
@@ -124,7 +125,8 @@ TEST(Png, VoidIsTransparentUnlessABackgroundIsAskedFor) {
     PngLayout layout;
     layout.format = format;
     EXPECT_EQ(decode_png(encode_png(layer, Palette(), layout), "test").colour(3, 3), (Rgba{0, 0, 0, 0}));
-    EXPECT_EQ(decode_png(encode_png(layer, Palette({9, 8, 7, 255}), layout), "test").colour(3, 3), (Rgba{9, 8, 7, 255}));
+    EXPECT_EQ(decode_png(encode_png(layer, Palette({9, 8, 7, 255}), layout), "test").colour(3, 3),
+              (Rgba{9, 8, 7, 255}));
   }
 }
 

@@ -1,0 +1,97 @@
+// The command line: commands, and what happens when one of them fails.
+#include "ombre/command_line.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <new>
+#include <vector>
+
+#include "base/error.h"
+#include "ombre/commands.h"
+#include "ombre/suggest.h"
+
+namespace ombre::cli {
+namespace {
+
+constexpr const char* description = "Ombre compiles solids whose material varies through their volume.";
+constexpr const char* footer =
+    "ombre COMMAND --help tells more. Lengths are millimetres, angles degrees; z is up, layer 0 the lowest.\n"
+    "Exit codes: 0 done, 1 the design or the arguments are wrong, 2 a file or the machine failed,\n"
+    "3 a check failed, 130 interrupted.\n";
+
+class CommandLine {
+ public:
+  CommandLine() : program_(description, "ombre") {
+    program_.footer(footer);
+    program_.set_version_flag("--version", "ombre " OMBRE_VERSION);
+    program_.require_subcommand(0, 1);
+    commands_ = {add_slice(program_, output_), add_sheet(program_, output_),    add_probe(program_, output_),
+                 add_nodes(program_, output_), add_printers(program_, output_), add_materials(program_, output_)};
+  }
+
+  int run(int argc, const char* const* argv) {
+    if (argc > 1)
+      if (const std::string problem = unknown_command(program_, argv[1]); !problem.empty()) return wrong(problem);
+    try {
+      program_.parse(argc, argv);
+    } catch (const CLI::Success& asked) {  // --help, --version
+      return program_.exit(asked);
+    } catch (const CLI::ParseError& error) {
+      return wrong(explain(program_, error));
+    }
+    console_.set_voice(output_.json ? Voice::programs : output_.quiet ? Voice::quiet : Voice::people);
+    for (const Command& command : commands_)
+      if (program_.got_subcommand(command.app)) return run(command);
+    console_.print(program_.help());
+    return wrong_input;
+  }
+
+ private:
+  int run(const Command& command) {
+    Session session{console_};
+    try {
+      return command.run(session);
+    } catch (const WrongArgument& error) {
+      return wrong(error.what());
+    } catch (const Cancelled&) {
+      console_.say("interrupted");
+      return interrupted;
+    } catch (const Error& error) {
+      console_.error(error.what());
+      return failed;
+    } catch (const std::bad_alloc&) {
+      console_.error("not enough memory; try fewer --threads, or a smaller --memory");
+      return failed;
+    }
+  }
+
+  int wrong(const std::string& problem) {
+    console_.error(problem);
+    return wrong_input;
+  }
+
+  CLI::App program_;
+  Console console_;
+  OutputOptions output_;
+  std::vector<Command> commands_;
+};
+
+}  // namespace
+
+void add_output_options(CLI::App& app, OutputOptions& options) {
+  CLI::Option* quiet = app.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
+  app.add_flag("--json", options.json, "For programs: one JSON event a line on stdout")->excludes(quiet);
+}
+
+int run(int argc, const char* const* argv) {
+  try {
+    return CommandLine().run(argc, argv);
+  } catch (const std::exception& error) {
+    Console().error(error.what());
+    return failed;
+  }
+}
+
+}  // namespace ombre::cli

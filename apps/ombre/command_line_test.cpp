@@ -1,0 +1,97 @@
+#include "ombre/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include "ombre/arguments.h"
+#include "ombre/commands.h"
+#include "ombre/progress_line.h"
+#include "ombre/slice_report.h"
+
+namespace ombre::cli {
+namespace {
+
+struct Outcome {
+  int code = 0;
+  std::string out, err;
+};
+
+Outcome run_with(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "ombre");
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  Outcome outcome;
+  outcome.code = run(static_cast<int>(arguments.size()), arguments.data());
+  outcome.out = testing::internal::GetCapturedStdout();
+  outcome.err = testing::internal::GetCapturedStderr();
+  return outcome;
+}
+
+void expect_wrong(const std::vector<const char*>& arguments, const std::string& part) {
+  const Outcome outcome = run_with(arguments);
+  EXPECT_EQ(outcome.code, wrong_input);
+  EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+}
+
+}  // namespace
+
+TEST(CommandLine, HelpAndVersionAreData) {
+  EXPECT_EQ(run_with({"--version"}).out.substr(0, 6), "ombre ");
+  const Outcome help = run_with({"slice", "--help"});
+  EXPECT_EQ(help.code, done);
+  EXPECT_NE(help.out.find("--layer-height"), std::string::npos);
+  EXPECT_EQ(help.err, "");
+}
+
+TEST(CommandLine, SlipsGetSuggestions) {
+  expect_wrong({"slise", "part.vcad"}, "did you mean \"slice\"?");
+  expect_wrong({"part.vcad"}, "did you mean \"ombre slice part.vcad\"?");
+  expect_wrong({"slice", "part.vcad", "--dryrun"}, "did you mean \"--dry-run\"?");
+  expect_wrong({"slice", "part.vcad", "other.vcad"}, "one argument too many: \"other.vcad\"");
+  expect_wrong({"slice", "part.vcad", "--printer", "j570"}, "did you mean \"j750\"?");
+  expect_wrong({"slice", "part.vcad", "--voxel", "thin"}, "write for example --voxel 0.1");
+  expect_wrong({"slice", "part.vcad", "--force", "--resume"}, "excludes");
+  expect_wrong({"nodes", "spere"}, "did you mean \"sphere\"?");
+}
+
+TEST(CommandLine, MissingFilesAreFailuresOfTheMachine) {
+  const Outcome outcome = run_with({"sheet", "/nowhere/at/all"});
+  EXPECT_EQ(outcome.code, failed);
+  EXPECT_NE(outcome.err.find("/nowhere/at/all"), std::string::npos);
+}
+
+TEST(CommandLine, ListsPrintersForPeopleAndPrograms) {
+  EXPECT_NE(run_with({"printers"}).out.find("j750-fine  "), std::string::npos);
+  EXPECT_NE(run_with({"printers", "J750"}).out.find("127/3000 mm (600 dpi)"), std::string::npos);
+  const std::string events = run_with({"printers", "--json"}).out;
+  EXPECT_EQ(events.substr(0, 19), R"({"event":"printer",)");
+}
+
+TEST(Arguments, LengthsAreExact) {
+  EXPECT_EQ(parse_voxel("0.1")[2], (Pitch{1, 10}));
+  EXPECT_EQ(parse_voxel("25.4/600,25.4/300,0.027")[0], (Pitch{127, 3000}));
+  EXPECT_EQ(parse_dpi("600,300")[1], (Pitch{127, 1500}));
+  EXPECT_FALSE(parse_dpi("600")[2]);
+  EXPECT_EQ(parse_layer_height("0.014"), (Pitch{7, 500}));
+  for (const char* wrong : {"", "0", "-1", "1,2", "1,2,3,4", "1,,2", "1 mm"})
+    EXPECT_THROW(parse_voxel(wrong), WrongArgument) << wrong;
+  EXPECT_THROW(parse_dpi("1,2,3,4"), WrongArgument);
+}
+
+TEST(Arguments, MemoryHasUnits) {
+  EXPECT_EQ(parse_memory("2G"), size_t{2} << 30);
+  EXPECT_EQ(parse_memory("512 MiB"), size_t{512} << 20);
+  EXPECT_EQ(parse_memory("1.5gb"), size_t{3} << 29);
+  for (const char* wrong : {"", "G", "2X", "1k", "-1G"}) EXPECT_THROW(parse_memory(wrong), WrongArgument) << wrong;
+}
+
+TEST(ProgressLine, SaysShareRateAndTimeLeft) {
+  EXPECT_EQ(progress_text({0.456, 123.4e6, 34}), " 45%  123 M voxels/s  0:34 left");
+  EXPECT_EQ(progress_text({1, 0, -1}), "100%");
+  EXPECT_EQ(progress_bar({0.5, 0, -1}), "[===============>              ]  50%");
+  EXPECT_EQ(duration_text(3723.4), "1:02:03");
+  EXPECT_EQ(rate_text(2.5e9), "2.5 G voxels/s");
+  EXPECT_EQ(bytes_text(1536), "1.5 KiB");
+}
+
+}  // namespace ombre::cli

@@ -1,0 +1,44 @@
+// The commands there are. Each adds its arguments to the program and says what runs when it is named.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+#include <string>
+
+#include "ombre/console.h"
+
+namespace ombre::cli {
+
+// What a command gets once its arguments are read.
+struct Session {
+  Console& console;
+};
+
+// Returns an exit code.
+using Action = std::function<int(Session&)>;
+
+struct Command {
+  CLI::App* app = nullptr;
+  Action run;
+};
+
+// Arguments wrong in a way that only the command can see; the message says what to write instead.
+class WrongArgument : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// How much a command says; options that many commands have.
+struct OutputOptions {
+  bool quiet = false, json = false;
+};
+void add_output_options(CLI::App& app, OutputOptions& options);
+
+Command add_slice(CLI::App& program, OutputOptions& output);
+Command add_probe(CLI::App& program, OutputOptions& output);
+Command add_sheet(CLI::App& program, OutputOptions& output);
+Command add_nodes(CLI::App& program, OutputOptions& output);
+Command add_printers(CLI::App& program, OutputOptions& output);
+Command add_materials(CLI::App& program, OutputOptions& output);
+
+}  // namespace ombre::cli

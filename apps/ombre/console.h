@@ -1,0 +1,47 @@
+// What the user sees: data on stdout, everything for people on stderr, or events for programs.
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "base/data.h"
+#include "base/diagnostic.h"
+#include "base/progress.h"
+
+namespace ombre::cli {
+
+enum class Voice {
+  people,    // words and a progress bar on stderr
+  quiet,     // errors alone
+  programs,  // one JSON object a line on stdout
+};
+
+class Console {
+ public:
+  void set_voice(Voice voice) { voice_ = voice; }
+  Voice voice() const { return voice_; }
+
+  // Result of a command, on stdout whatever the voice.
+  void print(const std::string& text) const;
+  // {"event": name, ...members} for programs, nothing for others.
+  void event(const std::string& name, DataMembers members) const;
+  // A remark for people, without line end.
+  void say(const std::string& text) const;
+  // Programs get them as events.
+  void warn(const std::string& message) const;
+  void error(const std::string& message) const;
+  void diagnose(const Diagnostics& diagnostics) const;
+
+  // Whether stderr is a terminal that a line can be redrawn on.
+  bool is_terminal() const;
+  bool has_colour() const;
+
+ private:
+  void report(const char* severity, const char* colour, const std::string& message) const;
+
+  Voice voice_ = Voice::people;
+};
+
+}  // namespace ombre::cli

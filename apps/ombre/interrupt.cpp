@@ -1,0 +1,44 @@
+// Ctrl-C: the first asks a job to stop where it can be resumed, the second ends the program.
+#include "ombre/interrupt.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <string_view>
+
+#include "base/assert.h"
+#include "ombre/command_line.h"
+
+namespace ombre::cli {
+namespace {
+
+std::atomic<StopFlag*> current_flag{nullptr};
+static_assert(std::atomic<StopFlag*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+// Only what a signal handler may do.
+void on_signal(int) {
+  StopFlag* flag = current_flag.load();
+  if (!flag || flag->requested()) ::_exit(interrupted);
+  flag->request();
+  constexpr std::string_view text =
+      "\nstopping, once what is under way is finished; press Ctrl-C again to quit at once\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
+}  // namespace
+
+InterruptGuard::InterruptGuard() {
+  ASSERT(current_flag.load() == nullptr);
+  current_flag = &flag_;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
+InterruptGuard::~InterruptGuard() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+  current_flag = nullptr;
+}
+
+}  // namespace ombre::cli

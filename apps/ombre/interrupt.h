@@ -1,0 +1,22 @@
+// Ctrl-C: the first asks a job to stop where it can be resumed, the second ends the program.
+#pragma once
+
+#include "base/progress.h"
+
+namespace ombre::cli {
+
+// While one exists, SIGINT and SIGTERM set its flag. At most one at a time.
+class InterruptGuard {
+ public:
+  InterruptGuard();
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+  const StopFlag& flag() const { return flag_; }
+
+ private:
+  StopFlag flag_;
+};
+
+}  // namespace ombre::cli

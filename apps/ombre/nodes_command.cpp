@@ -1,0 +1,152 @@
+// ombre nodes: what a design can be made of.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/json.h"
+#include "base/text.h"
+#include "compile/node_registry.h"
+#include "ombre/command_line.h"
+#include "ombre/commands.h"
+
+namespace ombre::cli {
+namespace {
+
+using design::NodeType;
+using design::ParameterInfo;
+
+// "mm, above 0"; "degrees, 0 to 90".
+std::string domain_text(const design::Domain& domain) {
+  std::vector<std::string> parts;
+  if (!domain.unit.empty()) parts.emplace_back(domain.unit);
+  const bool from = std::isfinite(domain.least), to = std::isfinite(domain.greatest);
+  const std::string least = format_rounded(domain.least, 6), greatest = format_rounded(domain.greatest, 6);
+  if (from && to) parts.push_back((domain.above_least ? "above " : "") + least + " to " + greatest);
+  if (from && !to) parts.push_back(domain.above_least ? "above " + least : least + " or more");
+  if (!from && to) parts.push_back("up to " + greatest);
+  if (!domain.choices.empty()) parts.push_back(join(domain.choices, " | "));
+  return join(parts, ", ");
+}
+
+std::string inputs_text(const design::InputInfo& inputs) {
+  if (inputs.most == 0) return "none";
+  const std::string least = std::to_string(inputs.least), type(name(inputs.type));
+  if (inputs.least == inputs.most) return least + ' ' + type;
+  if (inputs.most == std::numeric_limits<size_t>::max()) return least + " or more, " + type;
+  return least + " to " + std::to_string(inputs.most) + ", " + type;
+}
+
+std::string parameter_text(const ParameterInfo& parameter) {
+  std::string text = "  " + parameter.name + ": " + parameter.doc + '\n';
+  std::string detail(parameter.kind);
+  if (const std::string domain = domain_text(parameter.domain); !domain.empty()) detail += "; " + domain;
+  if (parameter.domain.required) detail += "; required";
+  if (!parameter.default_value.is_null()) detail += "; default " + print_json_line(parameter.default_value);
+  return text + "      " + detail + '\n';
+}
+
+std::string describe(const NodeType& type) {
+  std::string text = type.name + ": " + type.sentence + '\n';
+  text += "category: " + type.category + "; inputs: " + inputs_text(type.inputs) + "; gives a " +
+          std::string(name(type.output)) + '\n';
+  if (!type.parameters.empty()) text += "parameters\n";
+  for (const ParameterInfo& parameter : type.parameters) text += parameter_text(parameter);
+  if (!type.example.empty()) text += "example\n  " + type.example + '\n';
+  return text;
+}
+
+DataMembers event_of(const NodeType& type) {
+  DataList parameters;
+  for (const ParameterInfo& parameter : type.parameters)
+    parameters.emplace_back(DataMembers{{"name", parameter.name},
+                                        {"doc", parameter.doc},
+                                        {"kind", std::string(parameter.kind)},
+                                        {"unit", std::string(parameter.domain.unit)},
+                                        {"required", parameter.domain.required},
+                                        {"default", parameter.default_value}});
+  return {{"name", type.name},
+          {"category", type.category},
+          {"sentence", type.sentence},
+          {"parameters", parameters},
+          {"example", type.example}};
+}
+
+void list(Session& session) {
+  const auto& types = compile::node_registry().types();
+  size_t width = 0;
+  for (const auto& type : types) width = std::max(width, type->name.size());
+  std::string category;
+  for (const auto& type : types) {
+    if (session.console.voice() == Voice::programs) {
+      session.console.event("node", event_of(*type));
+      continue;
+    }
+    if (type->category != category) session.console.print((category.empty() ? "" : "\n") + type->category + '\n');
+    category = type->category;
+    session.console.print("  " + type->name + std::string(width + 2 - type->name.size(), ' ') + type->sentence + '\n');
+  }
+}
+
+int show(const std::string& wanted, Session& session) {
+  const design::Registry& registry = compile::node_registry();
+  const NodeType* type = registry.find(wanted);
+  if (!type) {
+    const std::string hint = did_you_mean(wanted, registry.names());
+    throw WrongArgument("there is no node \"" + wanted + "\"; " + (hint.empty() ? "ombre nodes lists them" : hint));
+  }
+  if (session.console.voice() == Voice::programs)
+    session.console.event("node", event_of(*type));
+  else
+    session.console.print(describe(*type));
+  return done;
+}
+
+// The node reference: one section a category, one table a node.
+std::string reference() {
+  std::string text =
+      "# Nodes\n\nMade by `ombre nodes --markdown`; `ombre nodes NAME` shows one. Lengths are mm, angles degrees.\n"
+      "\"Number or field\" means that an expression in quotes may stand for the number.\n";
+  std::string category;
+  for (const auto& type : compile::node_registry().types()) {
+    if (type->category != category) text += "\n## " + type->category + "\n";
+    category = type->category;
+    text += "\n### " + type->name + "\n\n" + type->sentence;
+    if (type->inputs.most > 0)
+      text += type->inputs.most == 1 ? " Several children are joined first." : " Any number of children.";
+    text += "\n\n```\n" + type->example + "\n```\n";
+    if (!type->parameters.empty()) text += "\n| parameter | is | default | |\n| --- | --- | --- | --- |\n";
+    for (const ParameterInfo& parameter : type->parameters) {
+      const std::string domain = domain_text(parameter.domain);
+      text += "| `" + parameter.name + "` | " + std::string(parameter.kind) + (domain.empty() ? "" : ", " + domain) +
+              " | " +
+              (parameter.domain.required           ? "required"
+               : parameter.default_value.is_null() ? "none"
+                                                   : "`" + print_json_line(parameter.default_value) + "`") +
+              " | " + parameter.doc + " |\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+Command add_nodes(CLI::App& program, OutputOptions& output) {
+  CLI::App* app = program.add_subcommand("nodes", "List what a design can be made of, or explain one node");
+  auto wanted = std::make_shared<std::string>();
+  app->add_option("node", *wanted, "A node's name, as in a design")->type_name("NAME");
+  auto markdown = std::make_shared<bool>(false);
+  app->add_flag("--markdown", *markdown, "Print the whole reference");
+  add_output_options(*app, output);
+  app->footer("Examples:\n  ombre nodes\n  ombre nodes sphere\n");
+  return {app, [wanted, markdown](Session& session) {
+            if (*markdown) {
+              session.console.print(reference());
+              return done;
+            }
+            if (!wanted->empty()) return show(*wanted, session);
+            list(session);
+            return done;
+          }};
+}
+
+}  // namespace ombre::cli

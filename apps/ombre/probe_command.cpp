@@ -1,0 +1,95 @@
+// ombre probe: what a design says at single points.
+#include <memory>
+
+#include "base/text.h"
+#include "compile/probe.h"
+#include "ombre/command_line.h"
+#include "ombre/commands.h"
+
+namespace ombre::cli {
+namespace {
+
+struct ProbeArguments {
+  std::string design, materials;
+  std::vector<std::string> definitions, points;
+};
+
+Vec3 parse_point(const std::string& text) {
+  const auto parts = split(text, ',');
+  Vec3 point;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto number = parts.size() == 3 ? parse_number(trim(parts[static_cast<size_t>(axis)])) : std::nullopt;
+    if (!number)
+      throw WrongArgument("\"" + text + "\" is not a point; write --at x,y,z in mm, for example --at 0,0,2.5");
+    point[axis] = *number;
+  }
+  return point;
+}
+
+DataMembers to_members(const std::vector<std::pair<std::string, double>>& values) {
+  DataMembers members;
+  for (const auto& [name, value] : values) members.emplace_back(name, Data(value));
+  return members;
+}
+
+std::string for_people(const compile::ProbeResult& result) {
+  std::string text = "(" + format_rounded(result.point.x, 6) + ", " + format_rounded(result.point.y, 6) + ", " +
+                     format_rounded(result.point.z, 6) + "): " + (result.inside ? "inside" : "outside") +
+                     ", g = " + format_rounded(result.distance, 6) + " mm";
+  for (const auto& [name, fraction] : result.composition) text += ", " + name + " " + format_rounded(fraction, 6);
+  for (const auto& [name, value] : result.attributes) text += ", " + name + " = " + format_rounded(value, 6);
+  if (!result.parts.empty()) text += "; in " + join(result.parts, ", ");
+  return text + "\n";
+}
+
+int probe(const ProbeArguments& a, Session& session) {
+  std::vector<Vec3> points;
+  for (const std::string& text : a.points) points.push_back(parse_point(text));
+  Diagnostics diagnostics;
+  compile::LoadOptions options;
+  options.materials = a.materials;
+  options.definitions = a.definitions;
+  options.echo = [&](const std::string& line) { session.console.say(line); };
+  const auto loaded = compile::load_design(a.design, options, diagnostics);
+  const auto results = loaded ? compile::probe(*loaded, points, diagnostics) : std::nullopt;
+  session.console.diagnose(diagnostics);
+  if (!results) return wrong_input;
+  for (const compile::ProbeResult& result : *results) {
+    if (session.console.voice() != Voice::programs) {
+      session.console.print(for_people(result));
+      continue;
+    }
+    DataList parts;
+    for (const std::string& part : result.parts) parts.emplace_back(part);
+    session.console.event("point",
+                          {{"at", Data(DataList{Data(result.point.x), Data(result.point.y), Data(result.point.z)})},
+                           {"inside", Data(result.inside)},
+                           {"distance_mm", Data(result.distance)},
+                           {"composition", Data(to_members(result.composition))},
+                           {"attributes", Data(to_members(result.attributes))},
+                           {"parts", Data(std::move(parts))}});
+  }
+  return done;
+}
+
+}  // namespace
+
+Command add_probe(CLI::App& program, OutputOptions& output) {
+  CLI::App* app =
+      program.add_subcommand("probe", "Say what a design is at single points: distance, materials, attributes");
+  auto a = std::make_shared<ProbeArguments>();
+  app->add_option("design", a->design, "The design, a .vcad or .json file")->required()->type_name("FILE");
+  app->add_option("--at", a->points, "A point, in mm; may be repeated")
+      ->required()
+      ->type_name("X,Y,Z")
+      ->allow_extra_args(false);
+  app->add_option("--materials", a->materials, "Materials file")->type_name("FILE");
+  app->add_option("-D,--define", a->definitions, "Set a variable of the design; may be repeated")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  add_output_options(*app, output);
+  app->footer("Example:\n  ombre probe part.vcad --at 0,0,2.5 --at 1,0,2.5\n");
+  return {app, [a](Session& session) { return probe(*a, session); }};
+}
+
+}  // namespace ombre::cli

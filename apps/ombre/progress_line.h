@@ -1,0 +1,49 @@
+// Progress of a long job: a bar on a terminal, a line now and then elsewhere, or events.
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <string>
+
+#include "base/progress.h"
+#include "ombre/console.h"
+
+namespace ombre::cli {
+
+// How far a job is, and how fast.
+struct Pace {
+  double share = 0;              // of the work, 0 ... 1
+  double voxels_per_second = 0;  // 0 while unknown
+  double seconds_left = -1;      // below 0 while unknown
+};
+
+// "[=====>    ]  45%  123 M voxels/s  0:34 left"
+std::string progress_bar(const Pace& pace);
+std::string progress_text(const Pace& pace);  // the same without the bar
+std::string duration_text(double seconds);    // "0:34", "1:02:03"
+std::string rate_text(double voxels_per_second);
+
+class ProgressLine : public Progress {
+ public:
+  explicit ProgressLine(const Console& console) : console_(console) {}
+  ~ProgressLine() override { finish(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void update(uint64_t done, uint64_t total) override;
+  // Clears the bar, so that other text can follow.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void show(const Pace& pace);
+
+  const Console& console_;
+  std::mutex mutex_;
+  bool started_ = false, bar_shown_ = false;
+  uint64_t done_at_start_ = 0;
+  Clock::time_point start_, shown_;
+};
+
+}  // namespace ombre::cli

@@ -1,0 +1,32 @@
+// ombre sheet: a contact sheet of a finished job's layers.
+#include <memory>
+
+#include "compile/job_sheet.h"
+#include "ombre/command_line.h"
+#include "ombre/commands.h"
+
+namespace ombre::cli {
+
+Command add_sheet(CLI::App& program, OutputOptions& output) {
+  struct Arguments {
+    std::string folder, image = "sheet.png";
+    int layers = 12;
+  };
+  CLI::App* app = program.add_subcommand("sheet", "Draw layers of a job side by side, in true proportions, as one PNG");
+  auto arguments = std::make_shared<Arguments>();
+  app->add_option("folder", arguments->folder, "Folder of a slice job")->required()->type_name("DIR");
+  app->add_option("-o,--output", arguments->image, "The picture to write (default sheet.png)")->type_name("FILE");
+  app->add_option("--count", arguments->layers, "How many layers, evenly spaced (default 12)")
+      ->check(CLI::Range(1, 200))
+      ->type_name("N");
+  add_output_options(*app, output);
+  app->footer("Example:\n  ombre sheet part_slices -o part.png\n");
+  return {app, [arguments](Session& session) {
+            compile::write_contact_sheet(arguments->folder, arguments->image, arguments->layers);
+            session.console.say("wrote " + arguments->image);
+            session.console.event("done", {{"file", arguments->image}});
+            return done;
+          }};
+}
+
+}  // namespace ombre::cli

@@ -1,0 +1,190 @@
+// ombre slice: a printable slice stack from a design.
+#include <filesystem>
+#include <memory>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "compile/find_printer.h"
+#include "compile/load.h"
+#include "compile/slice.h"
+#include "ombre/arguments.h"
+#include "ombre/command_line.h"
+#include "ombre/commands.h"
+#include "ombre/interrupt.h"
+#include "ombre/progress_line.h"
+#include "ombre/slice_report.h"
+
+namespace ombre::cli {
+namespace {
+
+struct SliceArguments {
+  std::string design, folder, printer, voxel, dpi, layer_height, dither = "stochastic", image, place, materials, layers,
+                                                                 memory = "2G", emit;
+  std::vector<std::string> definitions;
+  uint64_t seed = 0;
+  int threads = 0;
+  bool tray = false, force = false, resume = false, dry_run = false, strict = false;
+};
+
+constexpr const char* footer =
+    "Lengths are millimetres and may be exact: 25.4/600 is 600 dpi.\n\n"
+    "Examples:\n"
+    "  ombre slice part.vcad                                0.1 mm voxels, or those of the design's root()\n"
+    "  ombre slice part.vcad --printer j750 -o part/        for a printer (see: ombre printers)\n"
+    "  ombre slice part.vcad --dpi 600,300 --layer-height 0.027\n"
+    "  ombre slice part.vcad -D wall=1.5 -D lid=false       set variables of the design\n"
+    "  ombre slice part.vcad --layers 100:110               a few layers, named as in the whole job\n"
+    "  ombre slice part.vcad --dry-run                      size, memory and time; writes nothing\n"
+    "  ombre slice part.vcad -o part/ --resume              go on after an interruption\n";
+
+void add_arguments(CLI::App& app, SliceArguments& a) {
+  app.add_option("design", a.design, "The design, a .vcad file")->required()->type_name("FILE");
+  app.add_option("-o,--output", a.folder, "Folder for the layers (default: the design's name and _slices)")
+      ->type_name("DIR");
+  app.add_option("--printer", a.printer, "Printer profile: a name, or the path of a .json file")->type_name("NAME");
+  CLI::Option* voxel = app.add_option("--voxel", a.voxel, "Voxel size: one length, or x,y,z; mm")->type_name("X,Y,Z");
+  app.add_option("--dpi", a.dpi, "Resolution in dots per inch: x and y alike, x,y or x,y,z")
+      ->type_name("X,Y")
+      ->excludes(voxel);
+  app.add_option("--layer-height", a.layer_height, "Voxel size along z; mm")->type_name("MM");
+  app.add_option("--dither", a.dither, "How a mixture becomes one material a voxel: stochastic (default) or threshold")
+      ->check(CLI::IsMember({"stochastic", "threshold"}))
+      ->type_name("MODE");
+  app.add_option("--seed", a.seed, "Seed of the dithering (default 0); equal seeds give equal files")->type_name("N");
+  app.add_option("--format", a.image, "Image format: rgba or indexed (default: the printer's)")
+      ->check(CLI::IsMember({"rgba", "indexed"}))
+      ->type_name("FORMAT");
+  CLI::Option* place =
+      app.add_option("--place", a.place,
+                     "Images cover the design's own box, or the build plate with the part in its middle")
+          ->check(CLI::IsMember({"design", "center"}))
+          ->type_name("design|center");
+  app.add_flag("--tray", a.tray, "Images cover the printer's whole build box, the design where it stands")
+      ->excludes(place);
+  app.add_option("--materials", a.materials, "Materials file (see: ombre materials)")->type_name("FILE");
+  app.add_option("-D,--define", a.definitions, "Set a variable of the design; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE");
+  app.add_option("--layers", a.layers, "Only these layers, a:b as in Python (b excluded), a:, :b or a")
+      ->type_name("A:B");
+  app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  app.add_option("--memory", a.memory, "Most memory for layers in flight (default 2G)")->type_name("SIZE");
+  CLI::Option* force =
+      app.add_flag("--force", a.force, "Replace the job in the folder, or write beside other files; those stay");
+  app.add_flag("--resume", a.resume, "Continue the job in the folder")->excludes(force);
+  app.add_flag("--dry-run", a.dry_run, "Say what the job would take, from a few layers; write nothing");
+  app.add_flag("--strict", a.strict, "End with exit code 3 as soon as a check fails");
+  app.add_option("--emit", a.emit, "Print an intermediate form to stdout, and slice nothing")
+      ->check(CLI::IsMember(compile::emit_forms()))
+      ->type_name("FORM");
+}
+
+std::string output_folder(const SliceArguments& a) {
+  if (!a.folder.empty()) return a.folder;
+  return std::filesystem::path(a.design).stem().string() + "_slices";
+}
+
+compile::PlanOptions plan_options(const SliceArguments& a, voxel::Printer printer) {
+  compile::PlanOptions options;
+  options.program = "ombre " OMBRE_VERSION;
+  options.printer = std::move(printer);
+  options.printer_given = !a.printer.empty();
+  if (!a.voxel.empty()) options.pitch = parse_voxel(a.voxel);
+  if (!a.dpi.empty()) options.pitch = parse_dpi(a.dpi);
+  if (!a.layer_height.empty()) options.pitch[2] = parse_layer_height(a.layer_height);
+  options.dither = a.dither == "threshold" ? voxel::Dither::threshold : voxel::Dither::stochastic;
+  options.seed = a.seed;
+  if (!a.image.empty()) options.image = a.image == "rgba" ? voxel::ImageFormat::rgba : voxel::ImageFormat::indexed;
+  if (!a.place.empty()) options.place = a.place == "center" ? voxel::Placement::center : voxel::Placement::design;
+  options.whole_tray = a.tray;
+  return options;
+}
+
+compile::SliceOptions slice_options(const SliceArguments& a, const compile::SliceRequest& request) {
+  compile::SliceOptions options;
+  options.folder = output_folder(a);
+  if (a.force) options.use = compile::FolderUse::replace;
+  if (a.resume) options.use = compile::FolderUse::resume;
+  options.threads = a.threads;
+  options.memory_bytes = parse_memory(a.memory);
+  options.strict = a.strict;
+  if (a.layers.empty()) return options;
+  const int64_t count = request.lattice.count[2];
+  options.layers = compile::parse_layer_range(a.layers, count);
+  if (!options.layers)
+    throw WrongArgument("--layers " + a.layers + " selects none of the " +
+                        format_count(static_cast<unsigned long long>(count)) +
+                        " layers, which are 0:" + std::to_string(count) + "; write for example --layers 0:10");
+  return options;
+}
+
+int dry_run(const compile::Plan& plan, const compile::SliceOptions& options, Session& session,
+            const std::string& design) {
+  const compile::SliceEstimate estimate = compile::estimate_slice(plan.request, plan.producer, options);
+  tell_estimate(session.console, plan.request, estimate);
+  tell_checks(session.console, estimate.checks, design);
+  return options.strict && !estimate.checks.empty() ? check_failed : done;
+}
+
+int write_slices(const compile::Plan& plan, const compile::SliceOptions& options, Session& session,
+                 const std::string& design, const StopFlag& stop) {
+  ProgressLine progress(session.console);
+  try {
+    const compile::SliceReport report = compile::slice(plan.request, plan.producer, options, &progress, &stop);
+    progress.finish();
+    tell_report(session.console, plan.request, options, report);
+    tell_checks(session.console, report.checks, design);
+    return report.stopped_by_check ? check_failed : done;
+  } catch (const Cancelled&) {
+    progress.finish();
+    session.console.say("interrupted; the finished layers are in " + options.folder +
+                        ", the same command with --resume goes on");
+    session.console.event("interrupted", {{"folder", options.folder}});
+    return interrupted;
+  }
+}
+
+int slice(const SliceArguments& a, Session& session) {
+  Diagnostics diagnostics;
+  const auto diagnosed = [&] {
+    session.console.diagnose(diagnostics);
+    return diagnostics.has_errors() ? wrong_input : done;
+  };
+  const auto printer = compile::find_printer(a.printer.empty() ? "generic" : a.printer, diagnostics);
+  if (!printer) return diagnosed();
+  const compile::PlanOptions wishes = plan_options(a, *printer);
+  parse_memory(a.memory);  // a slip is better told before a long load
+
+  const InterruptGuard interrupt;
+  compile::LoadOptions load{a.materials, a.definitions};
+  load.echo = [&](const std::string& text) { session.console.say(text); };
+  load.stop = &interrupt.flag();
+  const compile::LoadedPtr loaded = compile::load_design(a.design, load, diagnostics);
+  if (!loaded) return diagnosed();
+  if (!a.emit.empty()) {
+    session.console.print(compile::emit(*loaded, a.emit));
+    return diagnosed();
+  }
+  const std::optional<compile::Plan> plan = compile::plan_slice(loaded, wishes, diagnostics);
+  if (const int code = diagnosed(); !plan || code != done) return wrong_input;
+
+  const compile::SliceOptions options = slice_options(a, plan->request);
+  tell_plan(session.console, plan->request, options);
+  return a.dry_run ? dry_run(*plan, options, session, a.design)
+                   : write_slices(*plan, options, session, a.design, interrupt.flag());
+}
+
+}  // namespace
+
+Command add_slice(CLI::App& program, OutputOptions& output) {
+  CLI::App* app = program.add_subcommand("slice", "Write a printable slice stack: one PNG for each layer");
+  auto arguments = std::make_shared<SliceArguments>();
+  add_arguments(*app, *arguments);
+  add_output_options(*app, output);
+  app->footer(footer);
+  return {app, [arguments](Session& session) { return slice(*arguments, session); }};
+}
+
+}  // namespace ombre::cli

@@ -1,0 +1,116 @@
+// What `ombre slice` tells before, instead of and after its work.
+#include "ombre/slice_report.h"
+
+#include <utility>
+
+#include "base/text.h"
+#include "ombre/progress_line.h"
+
+namespace ombre::cli {
+namespace {
+
+std::string counted(int64_t count, const std::string& noun) {
+  return format_count(static_cast<unsigned long long>(count)) + ' ' + noun + (count == 1 ? "" : "s");
+}
+
+template <class T>
+Data number(T value) {
+  return static_cast<double>(value);
+}
+
+std::string mm_text(Vec3 p) {
+  return '(' + format_rounded(p.x, 6) + ", " + format_rounded(p.y, 6) + ", " + format_rounded(p.z, 6) + ')';
+}
+
+double voxel_mm3(const compile::SliceRequest& request) {
+  const auto& pitch = request.lattice.pitch;
+  return pitch[0].mm() * pitch[1].mm() * pitch[2].mm();
+}
+
+}  // namespace
+
+std::string bytes_text(double bytes) {
+  for (const auto& [unit, name] : {std::pair{1099511627776.0, " TiB"}, std::pair{1073741824.0, " GiB"},
+                                   std::pair{1048576.0, " MiB"}, std::pair{1024.0, " KiB"}})
+    if (bytes >= unit) return format_rounded(bytes / unit, 3) + name;
+  return format_rounded(bytes, 4) + " bytes";
+}
+
+void tell_plan(const Console& console, const compile::SliceRequest& request, const compile::SliceOptions& options) {
+  const auto& [nx, ny, nz] = request.lattice.count;
+  const auto& pitch = request.lattice.pitch;
+  const Vec3 size = request.lattice.box().size();
+  std::vector<std::string> names;
+  DataList material_names;
+  for (const compile::SliceMaterial& material : request.materials) {
+    names.push_back(material.name);
+    material_names.emplace_back(material.name);
+  }
+  console.say("box " + format_rounded(size.x, 6) + " x " + format_rounded(size.y, 6) + " x " +
+              format_rounded(size.z, 6) + " mm, voxels " + format_rounded(pitch[0].mm()) + " x " +
+              format_rounded(pitch[1].mm()) + " x " + format_rounded(pitch[2].mm()) + " mm");
+  console.say(counted(nz, "layer") + " of " + std::to_string(nx) + " x " + std::to_string(ny) + ", " +
+              format_count(request.lattice.voxels()) + " voxels; materials: " + join(names, ", "));
+  if (options.layers)
+    console.say("layers " + std::to_string(options.layers->begin) + ':' + std::to_string(options.layers->end) +
+                " of these");
+  console.event("plan", {{"folder", options.folder},
+                         {"printer", request.printer},
+                         {"voxels", DataList{number(nx), number(ny), number(nz)}},
+                         {"pitch_mm", DataList{pitch[0].mm(), pitch[1].mm(), pitch[2].mm()}},
+                         {"size_mm", DataList{size.x, size.y, size.z}},
+                         {"materials", material_names}});
+}
+
+void tell_estimate(const Console& console, const compile::SliceRequest& request,
+                   const compile::SliceEstimate& estimate) {
+  console.say("about " + duration_text(estimate.seconds) + ", " + bytes_text(static_cast<double>(estimate.bytes)) +
+              " of " + (request.format == formats::PngFormat::rgba ? "RGBA" : "indexed") + " images, at most " +
+              bytes_text(static_cast<double>(estimate.memory_bytes)) +
+              " of memory for layers in flight; nothing was written");
+  console.event("estimate", {{"seconds", estimate.seconds},
+                             {"bytes", number(estimate.bytes)},
+                             {"memory_bytes", number(estimate.memory_bytes)}});
+}
+
+void tell_report(const Console& console, const compile::SliceRequest& request, const compile::SliceOptions& options,
+                 const compile::SliceReport& report) {
+  std::string text = counted(report.layers_written, "layer") + " written to " + options.folder;
+  if (report.layers_kept > 0) text += ", " + counted(report.layers_kept, "layer") + " finished before";
+  if (report.layers_dropped > 0) text += ", " + counted(report.layers_dropped, "empty layer") + " left out";
+  const double voxels = static_cast<double>(report.layers_written + report.layers_dropped) *
+                        static_cast<double>(request.lattice.count[0]) * static_cast<double>(request.lattice.count[1]);
+  text +=
+      "; " + bytes_text(static_cast<double>(report.bytes_written)) + " in " + format_rounded(report.seconds, 3) + " s";
+  if (report.seconds > 0 && voxels > 0) text += ", " + rate_text(voxels / report.seconds);
+  console.say(text);
+
+  DataList materials;
+  for (size_t i = 0; i < request.materials.size(); ++i) {
+    const uint64_t count = report.material_voxels[i];
+    const double volume = static_cast<double>(count) * voxel_mm3(request);
+    console.say("  " + request.materials[i].name + ": " + format_count(count) + " voxels, " + format_rounded(volume) +
+                " mm3");
+    materials.emplace_back(
+        DataMembers{{"name", request.materials[i].name}, {"voxels", number(count)}, {"volume_mm3", volume}});
+  }
+  if (!report.whole_job_finished && !report.stopped_by_check)
+    console.say("other layers of the job are missing; --resume writes them");
+  console.event("done", {{"folder", options.folder},
+                         {"complete", report.whole_job_finished},
+                         {"layers_written", number(report.layers_written)},
+                         {"layers_kept", number(report.layers_kept)},
+                         {"layers_dropped", number(report.layers_dropped)},
+                         {"voxels_inside", number(report.voxels_inside)},
+                         {"materials", materials},
+                         {"bytes_written", number(report.bytes_written)},
+                         {"seconds", report.seconds}});
+}
+
+void tell_checks(const Console& console, const std::vector<compile::CheckReport>& checks, const std::string& design) {
+  for (const compile::CheckReport& check : checks)
+    console.warn(design + ": " + check.text + " (" + counted(static_cast<int64_t>(check.voxels), "voxel") +
+                 ", the lowest at " + mm_text(check.first_mm) + " mm)");
+}
+
+}  // namespace ombre::cli

@@ -1,0 +1,22 @@
+// What `ombre slice` tells before, instead of and after its work.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compile/slice.h"
+#include "ombre/console.h"
+
+namespace ombre::cli {
+
+void tell_plan(const Console& console, const compile::SliceRequest& request, const compile::SliceOptions& options);
+void tell_estimate(const Console& console, const compile::SliceRequest& request,
+                   const compile::SliceEstimate& estimate);
+void tell_report(const Console& console, const compile::SliceRequest& request, const compile::SliceOptions& options,
+                 const compile::SliceReport& report);
+void tell_checks(const Console& console, const std::vector<compile::CheckReport>& checks, const std::string& design);
+
+// "1.5 GiB"
+std::string bytes_text(double bytes);
+
+}  // namespace ombre::cli

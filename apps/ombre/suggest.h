@@ -1,0 +1,15 @@
+// What to say when the arguments do not fit.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+namespace ombre::cli {
+
+// One or two lines for a mistake that CLI11 found: what is wrong and what was probably meant.
+std::string explain(const CLI::App& program, const CLI::ParseError& error);
+
+// For a first argument that names no command; empty when it names one or is an option.
+std::string unknown_command(const CLI::App& program, const std::string& argument);
+
+}  // namespace ombre::cli

@@ -1,0 +1,13 @@
+// Where the printer profiles and materials that come with Ombre lie.
+#pragma once
+
+#include <string>
+
+namespace ombre::compile {
+
+// The folder that holds printers/ and materials/: $OMBRE_DATA where it is set, else ../share/ombre
+// beside the program, else the source tree that the program was built in. Throws Error when there
+// is none.
+std::string data_folder();
+
+}  // namespace ombre::compile

@@ -1,0 +1,276 @@
+// The folder of a slice job: job.json, journal.jsonl and one file for each layer.
+#include "compile/job_folder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/json.h"
+#include "base/tasks.h"
+#include "compile/job_description.h"
+#include "compile/job_lock.h"
+#include "formats/file.h"
+
+namespace ombre::compile {
+namespace {
+
+namespace fs = std::filesystem;
+using exporting::part_suffix;
+
+// Names that a job gives to its layers.
+struct LayerNames {
+  voxel::NamePattern files;
+  int64_t first_index = 0, layer_count = 0;
+
+  bool contains(std::string_view name) const {
+    const std::optional<int64_t> index = files.index(name);
+    return index && *index >= first_index && *index - first_index < layer_count;
+  }
+};
+
+LayerNames layer_names(const SliceRequest& request) {
+  return {request.files, request.first_index, request.lattice.count[2]};
+}
+
+// The name of a file that `name` is the part of, else `name`.
+std::string_view without_part(std::string_view name) {
+  if (name.ends_with(part_suffix)) name.remove_suffix(part_suffix.size());
+  return name;
+}
+
+bool is_bookkeeping(std::string_view name) { return name == job_file || name == journal_file; }
+
+std::optional<Data> read_job(const std::string& path) {
+  Diagnostics ignored;
+  return parse_json(make_source(path, formats::read_file(path)), ignored);
+}
+
+bool is_slice_job(const Data& job) {
+  const Data* format = job.find("format");
+  return format && format->string() && format->string()->starts_with(job_format);
+}
+
+// The names that the job in a folder gives to its layers, as its job.json has it.
+std::optional<LayerNames> layer_names(const std::optional<Data>& job) {
+  const Data* images = job ? job->find("images") : nullptr;
+  const Data* sampling = job ? job->find("sampling") : nullptr;
+  const Data* files = images ? images->find("files") : nullptr;
+  const Data* first = images ? images->find("first_index") : nullptr;
+  const Data* voxels = sampling ? sampling->find("voxels") : nullptr;
+  if (!files || !files->string() || !first || !first->number()) return std::nullopt;
+  if (!voxels || !voxels->list() || voxels->list()->size() != 3 || !voxels->list()->back().number())
+    return std::nullopt;
+  const auto pattern = voxel::NamePattern::parse(*files->string());
+  const double first_index = *first->number(), count = *voxels->list()->back().number();
+  if (!pattern || std::abs(first_index) > 1e9 || !(count >= 0 && count < 1e9)) return std::nullopt;
+  return LayerNames{*pattern, static_cast<int64_t>(first_index), static_cast<int64_t>(count)};
+}
+
+void make_folder(const std::string& path) {
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::is_directory(path, error))
+    throw Error(path + " is a file, and the layers need a folder; choose another name");
+  error.clear();
+  fs::create_directories(path, error);
+  if (error) throw Error(exporting::write_failure(path, error.value()));
+}
+
+void remove_file(const std::string& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) throw Error("cannot remove " + path + ": " + error.message());
+}
+
+}  // namespace
+
+JobFolder::JobFolder(std::string path, const SliceRequest& request, FolderUse use, int threads)
+    : path_(std::move(path)), request_(request), threads_(threads) {
+  make_folder(path_);
+  lock_ = std::make_unique<FolderLock>(path_);
+  switch (use) {
+    case FolderUse::fresh:
+      refuse_job();
+      [[fallthrough]];
+    case FolderUse::resume:
+      if (holds(job_file)) {
+        resume();
+      } else {
+        refuse_foreign_files();
+        start_fresh();
+      }
+      break;
+    case FolderUse::replace:
+      remove_old_job();
+      start_fresh();
+  }
+  journal_ = std::make_unique<exporting::AppendFile>(in_folder(journal_file));
+}
+
+JobFolder::~JobFolder() = default;
+
+void JobFolder::refuse_job() const {
+  if (!holds(job_file)) return;
+  throw Error(
+      path_ +
+      " already holds a slice job; continue it with --resume, replace it with --force, or choose another folder");
+}
+
+void JobFolder::start_fresh() {
+  refuse_collisions();
+  exporting::write_file(in_folder(job_file), job_text(false), exporting::Durability::flushed);
+  exporting::write_file(in_folder(journal_file), "");
+}
+
+void JobFolder::resume() {
+  const std::optional<Data> job = read_job(in_folder(job_file));
+  if (!job || !job->members())
+    throw Error(in_folder(job_file) +
+                " is damaged, so the job cannot be resumed; replace it with --force, or choose another folder");
+  DataMembers there = *job->members();
+  std::erase_if(there, [](const auto& member) { return member.first == "status" || member.first == "totals"; });
+  if (const std::string difference = first_difference(there, describe_job(request_)); !difference.empty())
+    throw Error(path_ + " holds another job: " + difference + "; replace it with --force, or choose another folder");
+
+  remove_parts();
+  if (holds(journal_file)) {
+    const std::string text = formats::read_file(in_folder(journal_file));
+    keep_proven(parse_journal(text, request_.materials.size(), request_.check_texts.size()));
+  }
+  // Before the first new line, so that none follows a torn one.
+  update(job_file, job_text(is_complete()));
+  update(journal_file, journal_text());
+}
+
+// Ombre's own files, and those that its job.json and its journal name.
+void JobFolder::remove_old_job() {
+  if (!holds(job_file)) return;
+  const std::optional<Data> job = read_job(in_folder(job_file));
+  // What cannot be read is taken for ours if the journal is there too.
+  if (job ? !is_slice_job(*job) : !holds(journal_file))
+    throw Error(in_folder(job_file) + " was not written by Ombre; move it away, or choose another folder");
+
+  const std::optional<LayerNames> layers = layer_names(job);
+  std::set<std::string, std::less<>> in_journal;
+  if (holds(journal_file))
+    for (std::string& name : journal_files(formats::read_file(in_folder(journal_file))))
+      if (name.ends_with(".png")) in_journal.insert(std::move(name));
+  for (const std::string& name : names()) {
+    const std::string_view whole = without_part(name);
+    if (in_journal.count(whole) > 0 || (layers && layers->contains(whole))) remove_file(in_folder(name));
+  }
+  // job.json goes last: until then the folder is known for what it is.
+  for (const std::string name : {journal_file, job_file}) {
+    remove_file(in_folder(name + std::string(part_suffix)));
+    remove_file(in_folder(name));
+  }
+}
+
+void JobFolder::refuse_foreign_files() const {
+  for (const std::string& name : names())
+    if (name != job_file + std::string(part_suffix))  // of a run that ended before it began
+      throw Error(path_ + " is not empty, it holds for example " + name +
+                  "; choose another folder, or write beside what is there with --force");
+}
+
+// Whatever the user allowed, a file that Ombre did not write is not replaced by a layer.
+void JobFolder::refuse_collisions() const {
+  const LayerNames layers = layer_names(request_);
+  for (const std::string& name : names())
+    if (name == journal_file || layers.contains(without_part(name)))
+      throw Error(
+          in_folder(name) +
+          " is not part of a slice job, but a job would write that name; move it away, or choose another folder");
+}
+
+void JobFolder::remove_parts() const {
+  const LayerNames layers = layer_names(request_);
+  for (const std::string& name : names()) {
+    const std::string_view whole = without_part(name);
+    if (whole.size() < name.size() && (is_bookkeeping(whole) || layers.contains(whole))) remove_file(in_folder(name));
+  }
+}
+
+void JobFolder::keep_proven(std::vector<JournalEntry> entries) {
+  std::vector<char> good(entries.size());  // not vector<bool>: written from several threads
+  run_parallel(entries.size(), threads_, [&](size_t i) { good[i] = proven(entries[i]); });
+  for (size_t i = 0; i < entries.size(); ++i)
+    if (good[i]) finished_.emplace(entries[i].layer, std::move(entries[i]));
+}
+
+bool JobFolder::proven(const JournalEntry& entry) const {
+  if (entry.layer >= request_.lattice.count[2]) return false;
+  if (entry.file.empty()) return request_.drop_empty_layers && entry.is_empty();
+  if (entry.file != expected_file(entry.layer)) return false;
+  const std::string path = in_folder(entry.file);
+  std::error_code error;
+  if (fs::file_size(path, error) != entry.bytes || error) return false;
+  return hash_bytes(formats::read_file(path)).hex() == entry.hash;
+}
+
+void JobFolder::add(JournalEntry entry, std::string_view bytes) {
+  if (!bytes.empty()) {
+    entry.file = expected_file(entry.layer);
+    entry.bytes = bytes.size();
+    entry.hash = hash_bytes(bytes).hex();
+    exporting::write_file(in_folder(entry.file), bytes);
+  }
+  journal_->append(to_line(entry));
+  finished_.insert_or_assign(entry.layer, std::move(entry));
+}
+
+bool JobFolder::close() {
+  journal_.reset();
+  update(journal_file, journal_text());
+  if (is_complete()) update(job_file, job_text(true));
+  return is_complete();
+}
+
+bool JobFolder::is_complete() const { return static_cast<int64_t>(finished_.size()) == request_.lattice.count[2]; }
+
+bool JobFolder::holds(const char* name) const {
+  std::error_code ignored;
+  return fs::exists(in_folder(name), ignored);
+}
+
+std::string JobFolder::in_folder(std::string_view name) const { return (fs::path(path_) / name).string(); }
+
+std::string JobFolder::expected_file(int64_t layer) const { return request_.files.name(request_.first_index + layer); }
+
+std::vector<std::string> JobFolder::names() const {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error))
+    names.push_back(entry->path().filename().string());
+  if (error) throw Error("cannot read the folder " + path_ + ": " + error.message());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string JobFolder::job_text(bool complete) const {
+  DataMembers job = describe_job(request_);
+  job.emplace_back("status", complete ? "complete" : "unfinished");
+  if (complete) {
+    std::vector<JournalEntry> layers;
+    for (const auto& [layer, entry] : finished_) layers.push_back(entry);
+    job.emplace_back("totals", describe_totals(request_, layers));
+  }
+  return print_json(job);
+}
+
+std::string JobFolder::journal_text() const {
+  std::string text;
+  for (const auto& [layer, entry] : finished_) text += to_line(entry);
+  return text;
+}
+
+void JobFolder::update(const char* name, const std::string& text) const {
+  const std::string path = in_folder(name);
+  if (holds(name) && formats::read_file(path) == text) return;
+  exporting::write_file(path, text, exporting::Durability::flushed);
+}
+
+}  // namespace ombre::compile

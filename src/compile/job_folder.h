@@ -1,0 +1,72 @@
+// The folder of a slice job: job.json, journal.jsonl and one file for each layer.
+//
+// Order of events, so that a run can end at any moment and be resumed: job.json is there before the
+// first layer; a layer's file is written aside and renamed; then its line joins the journal; once all
+// layers are there, the journal is sorted and job.json gets the totals. A resumed run trusts a line
+// only if the file that it names has the size and the hash that it states.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compile/job_journal.h"
+#include "compile/slice.h"
+#include "export/output_file.h"
+
+namespace ombre::compile {
+
+inline constexpr const char* job_file = "job.json";
+inline constexpr const char* journal_file = "journal.jsonl";
+
+class FolderLock;
+
+class JobFolder {
+ public:
+  // Makes the folder ready for the job's layers, as `use` says. Throws Error when it cannot be written,
+  // holds what is not the job's, or is in use by another run. `threads` read what is there already.
+  JobFolder(std::string path, const SliceRequest& request, FolderUse use, int threads);
+  ~JobFolder();
+  JobFolder(const JobFolder&) = delete;
+  JobFolder& operator=(const JobFolder&) = delete;
+
+  // By layer: what is finished, from earlier runs and this one.
+  const std::map<int64_t, JournalEntry>& finished() const { return finished_; }
+
+  // Writes the file, then the journal. `entry` has its layer, voxels and checks; without bytes the
+  // layer has no file.
+  void add(JournalEntry entry, std::string_view bytes);
+
+  // Sorts the journal and, if no layer is missing, writes the totals. Returns whether none is.
+  bool close();
+
+ private:
+  void refuse_job() const;
+  void start_fresh();
+  void resume();
+  void remove_old_job();
+  void refuse_foreign_files() const;
+  void refuse_collisions() const;
+  void remove_parts() const;
+  void keep_proven(std::vector<JournalEntry> entries);
+  bool proven(const JournalEntry& entry) const;
+  bool is_complete() const;
+  bool holds(const char* name) const;
+  std::string in_folder(std::string_view name) const;
+  std::vector<std::string> names() const;
+  std::string job_text(bool complete) const;
+  std::string journal_text() const;
+  void update(const char* name, const std::string& text) const;
+  std::string expected_file(int64_t layer) const;
+
+  std::string path_;
+  const SliceRequest& request_;
+  int threads_;
+  std::unique_ptr<FolderLock> lock_;
+  std::map<int64_t, JournalEntry> finished_;
+  std::unique_ptr<exporting::AppendFile> journal_;
+};
+
+}  // namespace ombre::compile

@@ -1,0 +1,37 @@
+// The journal of a job: one line of JSON for each finished layer.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "voxel/layers.h"
+
+namespace ombre::compile {
+
+struct JournalEntry {
+  int64_t layer = 0;                     // counted from the lowest layer of the job
+  std::string file;                      // empty where an empty layer was dropped
+  uint64_t bytes = 0;                    // of the file
+  std::string hash;                      // of the file's bytes; empty without a file
+  std::vector<uint64_t> voxels;          // of each of the job's materials
+  std::vector<voxel::CheckHits> checks;  // of each of the job's checks
+
+  bool is_empty() const;
+};
+
+// With its line end.
+std::string to_line(const JournalEntry& entry);
+
+// Nothing for a line that is torn or not of this job.
+std::optional<JournalEntry> parse_entry(std::string_view line, size_t material_count, size_t check_count);
+
+// The entries of a journal that can be read, sorted by layer; of two for one layer the later one.
+std::vector<JournalEntry> parse_journal(std::string_view text, size_t material_count, size_t check_count);
+
+// The files that a journal names, whatever job it belongs to.
+std::vector<std::string> journal_files(std::string_view text);
+
+}  // namespace ombre::compile

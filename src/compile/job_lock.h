@@ -1,0 +1,21 @@
+// Keeps two runs from writing into one folder.
+#pragma once
+
+#include <string>
+
+namespace ombre::compile {
+
+// Held until destroyed, or until the program ends however it ends.
+class FolderLock {
+ public:
+  // Throws Error when another run holds it or the folder cannot be opened.
+  explicit FolderLock(const std::string& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+}  // namespace ombre::compile

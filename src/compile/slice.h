@@ -1,0 +1,113 @@
+// Slicing: evaluates layers slab by slab and writes them to a job folder as PNG files.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/progress.h"
+#include "export/png_stack.h"
+#include "formats/png.h"
+#include "voxel/lattice.h"
+#include "voxel/layers.h"
+#include "voxel/printer.h"
+
+namespace ombre::compile {
+
+struct SliceMaterial {
+  std::string name;
+  MaterialId id = 1;
+  formats::Rgba rgba{};
+};
+
+// Everything that decides the bytes of a job, already resolved.
+struct SliceRequest {
+  std::string program;      // "ombre 0.1.0"
+  std::string design_hash;  // hex
+  std::string printer;      // the profile's name
+  voxel::Lattice lattice;
+  voxel::Dither dither = voxel::Dither::stochastic;
+  uint64_t seed = 0;
+  std::vector<SliceMaterial> materials;  // those used, by ascending id, without void
+  formats::PngFormat format = formats::PngFormat::indexed;
+  formats::Rgba background{};
+  bool flip_x = false, flip_y = false;
+  voxel::NamePattern files;
+  int64_t first_index = 0;
+  bool drop_empty_layers = false;
+  std::vector<std::string> check_texts;  // one for each check of the program: what failed, for people
+};
+
+// The conventions of a profile; `image` overrides its image format.
+void use_printer(SliceRequest& request, const voxel::Printer& printer, std::optional<voxel::ImageFormat> image);
+
+// Layers [begin, end) of the whole job.
+struct LayerRange {
+  int64_t begin = 0, end = 0;
+  bool operator==(const LayerRange&) const = default;
+};
+
+// "a:b", "a:", ":b" or "a", as Python's slices have them; negative numbers count from the top.
+// Nothing when the text is none of these or selects no layer.
+std::optional<LayerRange> parse_layer_range(std::string_view text, int64_t layer_count);
+
+// Layers [begin, end), lowest first. Called from several threads.
+using LayerProducer = std::function<std::vector<voxel::LayerResult>(int64_t begin, int64_t end)>;
+
+enum class FolderUse {
+  fresh,    // the folder must be empty or missing
+  resume,   // continue the job there, if there is one
+  replace,  // remove the files of the job there; files of others stay
+};
+
+// What does not decide any bytes.
+struct SliceOptions {
+  std::string folder;
+  FolderUse use = FolderUse::fresh;
+  std::optional<LayerRange> layers;       // a part of the job, with the names and bytes it has in the whole
+  int threads = 0;                        // 0: all cores
+  size_t memory_bytes = size_t{2} << 30;  // for layers in flight; one layer is always allowed
+  bool strict = false;                    // stop at the first slab in which a check fails
+};
+
+struct CheckReport {
+  std::string text;
+  uint64_t voxels = 0;
+  Vec3 first_mm;  // centre of the lowest voxel concerned, in the design's space
+};
+
+struct SliceReport {
+  LayerRange layers;
+  int64_t layers_written = 0;             // files of this run
+  int64_t layers_kept = 0;                // finished by an earlier run
+  int64_t layers_dropped = 0;             // empty, and the printer wants no empty layers
+  uint64_t voxels_inside = 0;             // in `layers`, as are the counts below
+  std::vector<uint64_t> material_voxels;  // in the order of the request's materials
+  std::vector<CheckReport> checks;        // those that failed somewhere
+  uint64_t bytes_written = 0;
+  double seconds = 0;
+  bool whole_job_finished = false;
+  bool stopped_by_check = false;
+};
+
+// Progress counts voxels of the lattice. The same request gives the same bytes in the folder, however
+// many threads, interruptions and parts it takes. Throws Error when a file or the folder fails, when the
+// folder holds something else, or another job to resume; Cancelled when asked to stop, once the slabs
+// in flight are written. In both cases the folder can be resumed.
+SliceReport slice(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options,
+                  Progress* progress = nullptr, const StopFlag* stop = nullptr);
+
+struct SliceEstimate {
+  double seconds = 0;
+  uint64_t bytes = 0;               // of image files
+  size_t memory_bytes = 0;          // most that layers in flight can take
+  std::vector<CheckReport> checks;  // that failed in the layers looked at
+};
+
+// Evaluates and encodes a few layers, for two seconds or so, and extrapolates. Writes nothing.
+SliceEstimate estimate_slice(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options);
+
+}  // namespace ombre::compile

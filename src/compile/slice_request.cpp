@@ -1,0 +1,59 @@
+// Small conversions into a slice request.
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "compile/slice.h"
+
+namespace ombre::compile {
+namespace {
+
+std::optional<int64_t> whole_number(std::string_view text) {
+  const std::optional<double> number = parse_number(text);
+  if (!number || *number != std::floor(*number) || std::abs(*number) > 1e15) return std::nullopt;
+  return static_cast<int64_t>(*number);
+}
+
+// Python's rule: negative numbers count from the end, and what lies outside is cut off.
+int64_t position(int64_t number, int64_t count) {
+  return std::clamp<int64_t>(number < 0 ? number + count : number, 0, count);
+}
+
+}  // namespace
+
+void use_printer(SliceRequest& request, const voxel::Printer& printer, std::optional<voxel::ImageFormat> image) {
+  const bool rgba = image.value_or(printer.image) == voxel::ImageFormat::rgba;
+  request.printer = printer.name;
+  request.format = rgba ? formats::PngFormat::rgba : formats::PngFormat::indexed;
+  request.background = printer.background;
+  request.flip_x = printer.flip_x;
+  request.flip_y = printer.flip_y;
+  request.files = printer.files;
+  request.first_index = printer.first_index;
+  request.drop_empty_layers = printer.drop_empty_layers;
+}
+
+std::optional<LayerRange> parse_layer_range(std::string_view text, int64_t layer_count) {
+  const size_t colon = text.find(':');
+  const std::string_view first = trim(text.substr(0, colon));
+  LayerRange range{0, layer_count};
+  if (!first.empty() || colon == std::string_view::npos) {
+    const std::optional<int64_t> begin = whole_number(first);
+    if (!begin) return std::nullopt;
+    if (colon == std::string_view::npos) {  // one layer, which must be there
+      const int64_t layer = *begin < 0 ? *begin + layer_count : *begin;
+      if (layer < 0 || layer >= layer_count) return std::nullopt;
+      return LayerRange{layer, layer + 1};
+    }
+    range.begin = position(*begin, layer_count);
+  }
+  if (const std::string_view last = trim(text.substr(colon + 1)); !last.empty()) {
+    const std::optional<int64_t> end = whole_number(last);
+    if (!end) return std::nullopt;
+    range.end = position(*end, layer_count);
+  }
+  if (range.begin >= range.end) return std::nullopt;
+  return range;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,116 @@
+// How a slice job is cut into slabs, and one layer's way from runs to a file's bytes.
+#include "compile/slice_work.h"
+
+#include <algorithm>
+
+#include "base/assert.h"
+#include "base/tasks.h"
+
+namespace ombre::compile {
+namespace {
+
+constexpr int64_t most_slab_layers = 8;  // what stays in the second-level cache at common sizes
+
+double layer_bytes(const SliceRequest& request) {
+  const auto& count = request.lattice.count;
+  const double voxels = static_cast<double>(count[0]) * static_cast<double>(count[1]);
+  const double run_bytes = 1.5 * sizeof(Run);  // vectors of runs grow ahead of their use
+  const double image_bytes = request.format == formats::PngFormat::rgba ? 4 : 1;
+  return voxels * (run_bytes + image_bytes) + static_cast<double>(count[1]) * sizeof(std::vector<Run>);
+}
+
+}  // namespace
+
+WorkSize size_work(const SliceRequest& request, const SliceOptions& options) {
+  const size_t threads = static_cast<size_t>(options.threads > 0 ? options.threads : core_count());
+  const double one_layer = layer_bytes(request), allowed = static_cast<double>(options.memory_bytes);
+  const auto needed = [&](size_t slabs, int64_t layers) {
+    return static_cast<double>(slabs) * static_cast<double>(layers) * one_layer;
+  };
+
+  // Twice the threads, so that none waits for the order of the files; then smaller slabs; then fewer threads.
+  size_t window = 2 * threads;
+  int64_t layers = most_slab_layers;
+  while (window > threads && needed(window, layers) > allowed) --window;
+  while (layers > 1 && needed(window, layers) > allowed) --layers;
+  while (window > 1 && needed(window, layers) > allowed) --window;
+
+  WorkSize size;
+  size.slab_layers = layers;
+  size.window = window;
+  size.threads = static_cast<int>(std::min(threads, window));
+  size.memory_bytes = static_cast<size_t>(needed(window, layers));
+  return size;
+}
+
+std::vector<LayerRange> missing_slabs(LayerRange range, const std::map<int64_t, JournalEntry>& finished,
+                                      int64_t slab_layers) {
+  std::vector<LayerRange> slabs;
+  for (int64_t layer = range.begin; layer < range.end; ++layer) {
+    if (finished.count(layer) > 0) continue;
+    const bool continues = !slabs.empty() && slabs.back().end == layer && layer % slab_layers != 0;
+    if (continues)
+      ++slabs.back().end;
+    else
+      slabs.push_back({layer, layer + 1});
+  }
+  return slabs;
+}
+
+exporting::PngStack png_stack(const SliceRequest& request) {
+  exporting::PngStack stack;
+  stack.palette = formats::Palette(request.background);
+  for (const SliceMaterial& material : request.materials) stack.palette.add(material.id, material.rgba);
+  stack.format = request.format;
+  stack.pitch_x = request.lattice.pitch[0];
+  stack.pitch_y = request.lattice.pitch[1];
+  stack.flip_x = request.flip_x;
+  stack.flip_y = request.flip_y;
+  return stack;
+}
+
+std::vector<EncodedLayer> make_slab(const SliceRequest& request, const LayerProducer& producer,
+                                    const exporting::PngStack& stack, LayerRange slab) {
+  std::vector<voxel::LayerResult> layers = producer(slab.begin, slab.end);
+  ASSERT(static_cast<int64_t>(layers.size()) == slab.end - slab.begin);
+  std::vector<EncodedLayer> encoded;
+  for (size_t i = 0; i < layers.size(); ++i) {
+    // Its runs go when the layer is encoded.
+    const voxel::LayerResult layer = std::move(layers[i]);
+    EncodedLayer result;
+    result.entry.layer = slab.begin + static_cast<int64_t>(i);
+    for (const SliceMaterial& material : request.materials)
+      result.entry.voxels.push_back(layer.material_counts[material.id]);
+    result.entry.checks = layer.checks;
+    result.entry.checks.resize(request.check_texts.size());
+    if (!request.drop_empty_layers || !result.entry.is_empty()) result.bytes = stack.encode(layer.runs);
+    encoded.push_back(std::move(result));
+  }
+  return encoded;
+}
+
+CheckSums::CheckSums(const SliceRequest& request) : request_(request), sums_(request.check_texts.size()) {}
+
+void CheckSums::add(const std::vector<voxel::CheckHits>& hits) {
+  for (size_t i = 0; i < sums_.size() && i < hits.size(); ++i) {
+    if (hits[i].count == 0) continue;
+    if (sums_[i].count == 0) sums_[i].first = hits[i].first;
+    sums_[i].count += hits[i].count;
+  }
+}
+
+bool CheckSums::any() const {
+  return std::any_of(sums_.begin(), sums_.end(), [](const voxel::CheckHits& sum) { return sum.count > 0; });
+}
+
+std::vector<CheckReport> CheckSums::reports() const {
+  std::vector<CheckReport> reports;
+  for (size_t i = 0; i < sums_.size(); ++i) {
+    if (sums_[i].count == 0) continue;
+    const auto& [x, y, z] = sums_[i].first;
+    reports.push_back({request_.check_texts[i], sums_[i].count, request_.lattice.center(x, y, z)});
+  }
+  return reports;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,54 @@
+// How a slice job is cut into slabs, and one layer's way from runs to a file's bytes.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "compile/job_journal.h"
+#include "compile/slice.h"
+
+namespace ombre::compile {
+
+// How much is in flight at once.
+struct WorkSize {
+  int64_t slab_layers = 8;
+  size_t window = 1;  // slabs
+  int threads = 1;
+  size_t memory_bytes = 0;  // the most that these slabs can take
+};
+
+// Fits the worst case, where each voxel is a run of its own, into the memory allowed; at the least,
+// one layer at a time.
+WorkSize size_work(const SliceRequest& request, const SliceOptions& options);
+
+// The stretches of `range` that are not finished, cut at multiples of slab_layers.
+std::vector<LayerRange> missing_slabs(LayerRange range, const std::map<int64_t, JournalEntry>& finished,
+                                      int64_t slab_layers);
+
+struct EncodedLayer {
+  JournalEntry entry;  // without the file's name, size and hash
+  std::string bytes;   // none where an empty layer is dropped
+};
+
+exporting::PngStack png_stack(const SliceRequest& request);
+
+// Evaluates and encodes the layers of one slab. Called from several threads.
+std::vector<EncodedLayer> make_slab(const SliceRequest& request, const LayerProducer& producer,
+                                    const exporting::PngStack& stack, LayerRange slab);
+
+// Adds up, for each of the request's checks, the voxels that layers give; those that failed, with
+// the lowest voxel. Layers must come in order.
+class CheckSums {
+ public:
+  explicit CheckSums(const SliceRequest& request);
+  void add(const std::vector<voxel::CheckHits>& hits);
+  bool any() const;
+  std::vector<CheckReport> reports() const;
+
+ private:
+  const SliceRequest& request_;
+  std::vector<voxel::CheckHits> sums_;
+};
+
+}  // namespace ombre::compile

@@ -1,0 +1,141 @@
+// A grid of layers as one picture, in true proportions.
+#include "export/contact_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/assert.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "export/digits.h"
+#include "formats/file.h"
+
+namespace ombre::exporting {
+namespace {
+
+constexpr uint32_t sheet_width = 1600, tallest_tile = 800, margin = 16, label_gap = 6, label_scale = 2;
+constexpr formats::Rgba paper{244, 244, 240, 255}, tile_colour{255, 255, 255, 255}, ink{90, 90, 90, 255};
+
+// Pixels [left, right) x [top, bottom).
+struct Crop {
+  uint32_t left = UINT32_MAX, top = UINT32_MAX, right = 0, bottom = 0;
+
+  void include(uint32_t column, uint32_t row) {
+    left = std::min(left, column);
+    right = std::max(right, column + 1);
+    top = std::min(top, row);
+    bottom = std::max(bottom, row + 1);
+  }
+  bool is_empty() const { return left >= right; }
+  uint32_t width() const { return right - left; }
+  uint32_t height() const { return bottom - top; }
+};
+
+// How the tiles stand on the sheet.
+struct Grid {
+  uint32_t columns = 1, rows = 1, tile_width = 1, tile_height = 1;
+
+  uint32_t cell_height() const { return tile_height + label_gap + text_height(label_scale) + margin; }
+  uint32_t sheet_height() const { return margin + rows * cell_height(); }
+  uint32_t left(uint32_t tile) const { return margin + tile % columns * (tile_width + margin); }
+  uint32_t top(uint32_t tile) const { return margin + tile / columns * cell_height(); }
+};
+
+formats::PngImage read(const std::string& path) { return formats::decode_png(formats::read_file(path), path); }
+
+Crop occupied(const std::vector<SheetLayer>& layers, const SheetStyle& style) {
+  Crop crop;
+  uint32_t width = 0, height = 0;
+  for (const SheetLayer& layer : layers) {
+    const formats::PngImage image = read(layer.file);
+    if (width == 0) {
+      width = image.width;
+      height = image.height;
+    }
+    if (image.width != width || image.height != height)
+      throw Error(layer.file + " has another size than the layers before it");
+    for (uint32_t row = 0; row < height; ++row)
+      for (uint32_t column = 0; column < width; ++column)
+        if (image.colour(column, row) != style.background) crop.include(column, row);
+  }
+  return crop.is_empty() ? Crop{0, 0, width, height} : crop;
+}
+
+Grid arrange(uint32_t count, double width_mm, double height_mm) {
+  Grid grid;
+  grid.columns = std::min<uint32_t>(count, static_cast<uint32_t>(std::ceil(std::sqrt(count * 1.5))));
+  // Tall parts stand in one row as long as their tiles stay wide enough to be seen.
+  if (height_mm > 2 * width_mm) grid.columns = std::min<uint32_t>(count, 2 * grid.columns);
+  grid.rows = (count + grid.columns - 1) / grid.columns;
+  const double widest = (sheet_width - margin) / grid.columns - margin;
+  const double scale = std::min(widest / width_mm, tallest_tile / height_mm);
+  grid.tile_width = std::max<uint32_t>(1, static_cast<uint32_t>(std::lround(width_mm * scale)));
+  grid.tile_height = std::max<uint32_t>(1, static_cast<uint32_t>(std::lround(height_mm * scale)));
+  return grid;
+}
+
+// The range of source pixels under pixel i of n, at least one.
+std::pair<uint32_t, uint32_t> sources(uint32_t i, uint32_t n, uint32_t begin, uint32_t count) {
+  const auto first = static_cast<uint32_t>(uint64_t{i} * count / n);
+  const auto last = static_cast<uint32_t>((uint64_t{i} + 1) * count / n);
+  return {begin + first, begin + std::max(last, first + 1)};
+}
+
+// The mean over a box of pixels, each laid over the tile's white.
+formats::Rgba mean(const formats::PngImage& image, std::pair<uint32_t, uint32_t> columns,
+                   std::pair<uint32_t, uint32_t> rows) {
+  std::array<uint64_t, 3> sums{};
+  for (uint32_t row = rows.first; row < rows.second; ++row) {
+    for (uint32_t column = columns.first; column < columns.second; ++column) {
+      const formats::Rgba colour = image.colour(column, row);
+      for (size_t i = 0; i < 3; ++i)
+        sums[i] += colour[i] * uint64_t{colour[3]} + tile_colour[i] * uint64_t{255U - colour[3]};
+    }
+  }
+  const uint64_t weight = uint64_t{255} * (columns.second - columns.first) * (rows.second - rows.first);
+  const auto channel = [&](size_t i) { return static_cast<uint8_t>((sums[i] + weight / 2) / weight); };
+  return {channel(0), channel(1), channel(2), 255};
+}
+
+void draw_tile(Picture& sheet, const Grid& grid, uint32_t tile, const SheetLayer& layer, const Crop& crop) {
+  const formats::PngImage image = read(layer.file);
+  for (uint32_t y = 0; y < grid.tile_height; ++y) {
+    const auto rows = sources(y, grid.tile_height, crop.top, crop.height());
+    for (uint32_t x = 0; x < grid.tile_width; ++x) {
+      const auto columns = sources(x, grid.tile_width, crop.left, crop.width());
+      sheet.set(grid.left(tile) + x, grid.top(tile) + y, mean(image, columns, rows));
+    }
+  }
+  const std::string number = std::to_string(layer.layer), height = format_rounded(layer.z_mm) + " mm";
+  const uint32_t baseline = grid.top(tile) + grid.tile_height + label_gap;
+  draw_text(sheet, grid.left(tile), baseline, number, label_scale, ink);
+  // The height joins where there is room for it.
+  const uint32_t needed = text_width(height, label_scale);
+  if (text_width(number, label_scale) + label_gap + needed <= grid.tile_width)
+    draw_text(sheet, grid.left(tile) + grid.tile_width - needed, baseline, height, label_scale, ink);
+}
+
+}  // namespace
+
+Picture::Picture(uint32_t picture_width, uint32_t picture_height, formats::Rgba colour)
+    : width(picture_width), height(picture_height), rgba(size_t{4} * picture_width * picture_height) {
+  for (size_t i = 0; i < rgba.size(); ++i) rgba[i] = colour[i % 4];
+}
+
+void Picture::set(uint32_t column, uint32_t row, formats::Rgba colour) {
+  if (column >= width || row >= height) return;
+  std::copy(colour.begin(), colour.end(),
+            rgba.begin() + static_cast<std::ptrdiff_t>((size_t{row} * width + column) * 4));
+}
+
+Picture draw_contact_sheet(const std::vector<SheetLayer>& layers, const SheetStyle& style) {
+  ASSERT(!layers.empty());
+  const Crop crop = occupied(layers, style);
+  const Grid grid = arrange(static_cast<uint32_t>(layers.size()), crop.width() * style.pixel_width_mm,
+                            crop.height() * style.pixel_height_mm);
+  Picture sheet(margin + grid.columns * (grid.tile_width + margin), grid.sheet_height(), paper);
+  for (uint32_t tile = 0; tile < layers.size(); ++tile) draw_tile(sheet, grid, tile, layers[tile], crop);
+  return sheet;
+}
+
+}  // namespace ombre::exporting

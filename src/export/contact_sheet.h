@@ -1,0 +1,37 @@
+// A grid of layers as one picture, in true proportions.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "formats/png.h"
+
+namespace ombre::exporting {
+
+// Square pixels of a picture, 4 bytes of RGBA each, rows from the top.
+struct Picture {
+  uint32_t width = 0, height = 0;
+  std::vector<uint8_t> rgba;
+
+  Picture(uint32_t picture_width, uint32_t picture_height, formats::Rgba colour);
+  void set(uint32_t column, uint32_t row, formats::Rgba colour);
+};
+
+struct SheetLayer {
+  std::string file;   // path of its PNG
+  int64_t layer = 0;  // its number and height, for the label
+  double z_mm = 0;
+};
+
+struct SheetStyle {
+  double pixel_width_mm = 0.1, pixel_height_mm = 0.1;  // of the layers' pixels, which need not be square
+  formats::Rgba background{};                          // the colour of void in the layers
+};
+
+// At most 1600 pixels wide. Layers are cropped, all alike, to where any of them has material. They
+// are read one at a time. Throws Error for a file that is no image or has another size than the first.
+Picture draw_contact_sheet(const std::vector<SheetLayer>& layers, const SheetStyle& style);
+
+}  // namespace ombre::exporting

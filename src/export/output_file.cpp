@@ -1,0 +1,83 @@
+// Files that appear whole or not at all.
+#include "export/output_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace ombre::exporting {
+namespace {
+
+std::string advice(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+      return "; free some space there and resume, or choose another folder";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "; choose a folder that you may write to";
+    case ENOTDIR:
+      return "; part of the path is a file, choose another folder";
+    case ENOENT:
+      return "; the folder is missing";
+    case ENAMETOOLONG:
+      return "; choose a shorter name";
+    default:
+      return "";
+  }
+}
+
+// Returns 0 or an errno.
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes.remove_prefix(static_cast<size_t>(written));
+  }
+  return 0;
+}
+
+int write_and_close(int descriptor, std::string_view bytes, Durability durability) {
+  int error = write_all(descriptor, bytes);
+  if (error == 0 && durability == Durability::flushed && ::fsync(descriptor) != 0) error = errno;
+  // Network disks report a full disk only here.
+  if (::close(descriptor) != 0 && error == 0) error = errno;
+  return error;
+}
+
+}  // namespace
+
+std::string write_failure(const std::string& path, int error) {
+  return "cannot write " + path + ": " + std::generic_category().message(error) + advice(error);
+}
+
+void write_file(const std::string& path, std::string_view bytes, Durability durability) {
+  const std::string part = path + std::string(part_suffix);
+  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) throw Error(write_failure(path, errno));
+  int error = write_and_close(descriptor, bytes, durability);
+  if (error == 0 && std::rename(part.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0) return;
+  ::unlink(part.c_str());
+  throw Error(write_failure(path, error));
+}
+
+AppendFile::AppendFile(std::string path) : path_(std::move(path)) {
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) throw Error(write_failure(path_, errno));
+}
+
+AppendFile::~AppendFile() { ::close(descriptor_); }
+
+void AppendFile::append(std::string_view bytes) {
+  if (const int error = write_all(descriptor_, bytes); error != 0) throw Error(write_failure(path_, error));
+}
+
+}  // namespace ombre::exporting

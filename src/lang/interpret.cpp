@@ -1,0 +1,60 @@
+#include "lang/interpret.h"
+
+#include "lang/interpreter.h"
+
+namespace ombre::lang {
+
+Interpreter::Interpreter(const Program& program, Vocabulary& vocabulary, const Options& options,
+                         Diagnostics& diagnostics)
+    : program_(program),
+      vocabulary_(vocabulary),
+      options_(options),
+      diagnostics_(diagnostics),
+      meter_(options.limits, options.stop),
+      captured_(options.limits),
+      children_name_(program.names->intern("children")),
+      children_count_name_(program.names->intern("$children")) {
+  for (const auto table : {math_builtins(), list_builtins(), text_builtins()})
+    for (const Builtin& builtin : table) builtins_[program.names->intern(builtin.name)] = &builtin;
+  constants_[program.names->intern("PI")] = 3.14159265358979323846;
+  // What OpenSCAD's own special variables are before anyone sets them.
+  const auto special = [&](const char* name, Value value) {
+    specials_.emplace_back(program.names->intern(name), std::move(value));
+  };
+  special("$fn", 0.0);
+  special("$fa", 12.0);
+  special("$fs", 2.0);
+  special("$t", 0.0);
+  special("$preview", false);
+}
+
+Interpreter::Nodes Interpreter::run() {
+  Nodes nodes;
+  try {
+    for (const Definition& definition : options_.definitions)
+      overrides_[program_.names->intern(definition.name)] = from_data(definition.value, meter_);
+    const Unit& main = program_.units.front();
+    const ScopePtr& scope = unit_scope(main);
+    try {
+      run_actions(main.plan, scope, nodes);
+    } catch (const Failure&) {  // of an assertion
+    }
+  } catch (const LimitReached& limit) {
+    if (at_)
+      report({Severity::error, at_->range(), limit.message, limit.hint});
+    else
+      report({Severity::error, {}, limit.message, limit.hint});
+  }
+  return has_roots_ ? std::move(roots_) : std::move(nodes);
+}
+
+std::vector<design::NodePtr> run(const SourcePtr& source, Vocabulary& vocabulary, const Options& options,
+                                 Diagnostics& diagnostics) {
+  const size_t errors_before = diagnostics.error_count();
+  const Program program = load(source, options, diagnostics);
+  // What could not be read would be missed everywhere else.
+  if (diagnostics.error_count() > errors_before) return {};
+  return Interpreter(program, vocabulary, options, diagnostics).run();
+}
+
+}  // namespace ombre::lang

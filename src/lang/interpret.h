@@ -1,0 +1,35 @@
+// Runs a script: text in, nodes of a vocabulary out.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "lang/limits.h"
+#include "lang/vocabulary.h"
+
+namespace ombre::lang {
+
+// From the command line: takes the place of the top-level variable of that name.
+struct Definition {
+  std::string name;
+  Data value;
+};
+
+struct Options {
+  std::vector<Definition> definitions;
+  Limits limits;
+  const StopFlag* stop = nullptr;                // checked now and then; Cancelled is thrown
+  std::function<void(const std::string&)> echo;  // one line without its end; may be empty
+  // What `include` and `use` read: nothing where there is no such file. Empty for the real files.
+  std::function<std::optional<std::string>(const std::string& path)> read_file;
+};
+
+// Parses and evaluates; the top-level nodes in order. Mistakes become diagnostics, and what was
+// not affected by them is still evaluated, so that one run finds several.
+std::vector<design::NodePtr> run(const SourcePtr& source, Vocabulary& vocabulary, const Options& options,
+                                 Diagnostics& diagnostics);
+
+}  // namespace ombre::lang

@@ -1,0 +1,139 @@
+#include "lang/loader.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "lang/parser.h"
+
+namespace ombre::lang {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t largest_file = 256u << 20;
+
+std::optional<std::string> read_real_file(const std::string& path) {
+  std::error_code status;
+  if (!fs::is_regular_file(path, status) || fs::file_size(path, status) > largest_file) return std::nullopt;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return std::nullopt;
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+class Loader {
+ public:
+  Loader(const Options& options, Diagnostics& diagnostics)
+      : limits_(options.limits),
+        read_(options.read_file ? options.read_file : read_real_file),
+        diagnostics_(diagnostics) {}
+
+  Program run(const SourcePtr& source) {
+    unit(source);
+    return std::move(program_);
+  }
+
+ private:
+  Unit& unit(const SourcePtr& source) {
+    Unit& result = program_.units.emplace_back();
+    result.path = source->name();
+    splice(source, result);
+    warn_of_replaced(result.plan, diagnostics_);
+    return result;
+  }
+
+  // Adds a file's statements to the unit, and those of the files that it includes in their places.
+  void splice(const SourcePtr& source, Unit& into) {
+    open_.push_back(normal(source->name()));
+    program_.files.push_back(parse(source, program_.names, diagnostics_));
+    const ast::File& file = program_.files.back();
+    for (const ast::StatementPtr& statement : file.statements) {
+      if (statement->kind == ast::Statement::Kind::include)
+        bring(static_cast<const ast::Include&>(*statement), into);
+      else
+        into.plan.add(*statement);
+    }
+    open_.pop_back();
+  }
+
+  void bring(const ast::Include& include, Unit& into) {
+    SourcePtr source = find(include);
+    if (!source) return;
+    const std::string path = normal(source->name());
+    if (include.is_use) {
+      if (const auto known = used_.find(path); known != used_.end()) {
+        into.uses.push_back(known->second);
+        return;
+      }
+    }
+    if (!may_open(include, path)) return;
+    if (!include.is_use) return splice(source, into);
+    const Unit& used = unit(source);
+    used_[path] = &used;
+    into.uses.push_back(&used);
+  }
+
+  bool may_open(const ast::Include& include, const std::string& path) {
+    std::string message, hint;
+    if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
+      message = '"' + path + "\" includes itself" + way_round(path);
+      hint = "move what both need into a third file";
+    } else if (open_.size() > static_cast<size_t>(limits_.include_depth)) {
+      message = "files include each other deeper than " + std::to_string(limits_.include_depth) + " levels";
+    } else if (program_.files.size() >= static_cast<size_t>(limits_.files)) {
+      if (was_told_) return false;
+      was_told_ = true;
+      message = "this design includes more than " + std::to_string(limits_.files) + " files";
+    } else {
+      return true;
+    }
+    diagnostics_.error(include.path_span.range(), message, hint);
+    return false;
+  }
+
+  // ", through a.vcad and b.vcad" of the files between.
+  std::string way_round(const std::string& path) const {
+    std::string names;
+    for (auto at = std::find(open_.begin(), open_.end(), path) + 1; at != open_.end(); ++at)
+      names += (names.empty() ? ", through " : " and ") + *at;
+    return names;
+  }
+
+  // Beside the file that asks first, then from the working directory.
+  SourcePtr find(const ast::Include& include) {
+    if (include.path.empty()) {
+      diagnostics_.error(include.span.range(), "there is no path between < and >");
+      return nullptr;
+    }
+    const fs::path folder = fs::path((*include.span.source)->name()).parent_path();
+    const std::string beside = (folder / fs::path(include.path)).generic_string();
+    for (const std::string& path : {beside, include.path})
+      if (auto text = read_(path)) return make_source(path, std::move(*text));
+    std::string hint = "looked for " + beside;
+    if (beside != include.path) hint += " and " + include.path + " in the working directory";
+    diagnostics_.error(include.path_span.range(), "there is no file \"" + include.path + '"', hint);
+    return nullptr;
+  }
+
+  static std::string normal(const std::string& path) { return fs::path(path).lexically_normal().generic_string(); }
+
+  const Limits& limits_;
+  std::function<std::optional<std::string>(const std::string&)> read_;
+  Diagnostics& diagnostics_;
+  Program program_;
+  std::vector<std::string> open_;  // the files being read, outermost first
+  std::map<std::string, const Unit*> used_;
+  bool was_told_ = false;
+};
+
+}  // namespace
+
+Program load(const SourcePtr& source, const Options& options, Diagnostics& diagnostics) {
+  return Loader(options, diagnostics).run(source);
+}
+
+}  // namespace ombre::lang

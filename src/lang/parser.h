@@ -1,0 +1,19 @@
+// Parses a script into its tree.
+#pragma once
+
+#include "base/diagnostic.h"
+#include "lang/ast.h"
+
+namespace ombre::lang {
+
+// Parentheses, brackets, braces and operators inside each other; deeper is a diagnostic.
+constexpr int deepest_nesting = 200;
+
+// Always gives a tree, of what could be read. Files that are evaluated together share a table of names.
+ast::File parse(const SourcePtr& source, Diagnostics& diagnostics);
+ast::File parse(const SourcePtr& source, std::shared_ptr<Names> names, Diagnostics& diagnostics);
+
+// About variables that one file gives several values in one scope.
+void warn_of_replaced(const ast::Plan& plan, Diagnostics& diagnostics);
+
+}  // namespace ombre::lang

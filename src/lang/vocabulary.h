@@ -1,0 +1,48 @@
+// What names mean: a language engine asks a vocabulary for nodes and constants.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/data.h"
+#include "base/diagnostic.h"
+
+namespace ombre::design {
+class Node;
+using NodePtr = std::shared_ptr<const Node>;
+}  // namespace ombre::design
+
+namespace ombre::lang {
+
+struct Argument {
+  std::string name;        // empty when positional
+  SourceRange name_where;  // of the name, if there is one
+  Data value;              // value.where is the range of the argument's expression, or of a plain string's characters
+};
+
+// One call of a node, all values known.
+struct Invocation {
+  std::string name;   // as written
+  SourceRange where;  // of the name
+  SourceRange whole;  // from the name to the closing parenthesis
+  std::vector<Argument> arguments;
+  std::vector<design::NodePtr> children;  // null results are left out
+  bool is_top_level = false;              // a statement of the main file, outside of any call
+  std::vector<SourceRange> called_from;   // user module calls around it, innermost first, at most 8
+};
+
+class Vocabulary {
+ public:
+  virtual ~Vocabulary() = default;
+  virtual bool knows(std::string_view name) const = 0;
+  virtual std::vector<std::string> names() const = 0;                     // for suggestions
+  virtual std::optional<Data> constant(std::string_view name) const = 0;  // materials, axes
+  virtual std::vector<std::string> constants() const = 0;                 // for suggestions
+  // Null when the call is wrong (and then diagnostics were added) or gives nothing.
+  virtual design::NodePtr make(const Invocation& call, Diagnostics& diagnostics) = 0;
+};
+
+}  // namespace ombre::lang

@@ -1,0 +1,340 @@
+// Walks the registry: what must hold for every node, with random parameters.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "base/json.h"
+#include "base/text.h"
+#include "design/design.h"
+#include "design/lowering.h"
+#include "design/source_loader.h"
+#include "nodes/all_nodes.h"
+#include "program/passes/passes.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+MaterialTable test_materials() {
+  Diagnostics diagnostics;
+  const auto data = parse_json(make_source("materials", R"({"materials": [
+      {"name": "red", "r": 255, "g": 0, "b": 0}, {"name": "blue", "r": 0, "g": 0, "b": 255}, {"name": "clear", "r": 0, "g": 9, "b": 255}]})"),
+                               diagnostics);
+  return *MaterialTable::read(*data, diagnostics);
+}
+
+// A ball that knows its distance exactly, in place of a file.
+class BallSource : public program::FieldSource {
+ public:
+  std::string name() const override { return "ball"; }
+  Hash content() const override { return {1, 2}; }
+  Box bounds() const override { return Box::centered({4, 4, 4}); }
+  int channel(std::string_view channel_name) const override { return channel_name == "inside" ? 0 : channel_name == "distance" ? 1 : -1; }
+  double sample(int channel, Vec3 p) const override {
+    const double distance = length(p) - 4;
+    return channel == 1 ? distance : distance <= 0 ? 1 : 0;
+  }
+};
+
+class BallLoader : public SourceLoader {
+ public:
+  program::SourceField mesh(std::string&, const std::string&, const SourceRange&, Diagnostics&) override {
+    return std::make_shared<BallSource>();
+  }
+};
+
+class RandomDesign {
+ public:
+  explicit RandomDesign(unsigned seed) : random_(seed) {}
+
+  NodePtr node(const NodeType& type, int depth) {
+    std::vector<NodePtr> inputs;
+    if (type.inputs.most > 0) {
+      const size_t count = type.inputs.most == 1 ? 1 : 1 + index(3);
+      for (size_t i = 0; i < count; ++i) inputs.push_back(any_node(depth - 1));
+    }
+    // Random values may be wrong together (two equal end points); then others are tried.
+    for (int attempt = 0; attempt < 20; ++attempt) {
+      Diagnostics diagnostics;
+      const auto made = make_node(type, values(type), inputs, {materials, diagnostics, &loader_, {}, "", ""});
+      if (made) return made;
+      last_message = to_text(diagnostics);
+    }
+    return nullptr;
+  }
+
+  NodePtr any_node(int depth) {
+    const auto& types = registry().types();
+    for (;;) {
+      const NodeType& type = *types[index(types.size())];
+      if (depth <= 0 && type.inputs.most > 0) continue;
+      if (NodePtr made = node(type, depth)) return made;
+    }
+  }
+
+  double number(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random_); }
+  size_t index(size_t count) { return std::uniform_int_distribution<size_t>(0, count - 1)(random_); }
+
+  MaterialTable materials = test_materials();
+  std::string last_message;
+
+ private:
+  std::vector<NamedValue> values(const NodeType& type) {
+    std::vector<NamedValue> list;
+    lists_ = 1 + index(3);
+    for (const ParameterInfo& parameter : type.parameters)
+      if (parameter.domain.required || index(2)) list.push_back({&parameter, value(type, parameter)});
+    return list;
+  }
+
+  Data one_number(const Domain& domain, bool may_be_field) {
+    const double lo = std::isfinite(domain.least) ? domain.least + 0.5 : -6, value = number(lo, lo + 6);
+    if (!may_be_field || index(3)) return Data(value);
+    const char* waves[] = {" + 0.3*sin(x + y)", " + 0.2*cos(3*theta)", " + 0.1*rho/(1 + rho)", " + 0.3*min(x, y, 1)/(1 + r)"};
+    return Data(format_rounded(value + 1) + waves[index(4)]);
+  }
+
+  Data vector(const Domain& domain, bool fields) {
+    return Data(DataList{one_number(domain, fields), one_number(domain, fields), one_number(domain, fields)});
+  }
+
+  Data value(const NodeType& type, const ParameterInfo& parameter) {
+    const Domain& domain = parameter.domain;
+    const std::string_view kind = parameter.kind;
+    if (!domain.choices.empty()) return Data(domain.choices[index(domain.choices.size())]);
+    if (kind == "number") return one_number(domain, false);
+    if (kind == "number or field" && type.name == "function") return Data("x^2 + 2*y^2 + z^2 - " + format_rounded(number(4, 30)));
+    if (kind == "number or field") return one_number(domain, true);
+    if (kind == "3 numbers or fields") return vector(domain, true);
+    if (kind == "3 numbers" && type.name == "function")
+      return Data(DataList(3, Data(parameter.name == "min" ? number(-6, -1) : number(1, 6))));
+    if (kind == "3 numbers") return vector(domain, false);
+    if (kind == "material") return Data("blue");
+    if (kind == "file") return Data("ball.stl");
+    if (kind == "text") return Data("density");
+    if (kind == "true or false") return Data(index(2) == 0);
+    if (kind == "matrix") {
+      DataList rows;
+      for (int r = 0; r < 3; ++r)
+        rows.emplace_back(DataList{Data(number(-1, 1) + (r == 0 ? 2 : 0)), Data(number(-1, 1) + (r == 1 ? 2 : 0)),
+                                   Data(number(-1, 1) + (r == 2 ? 2 : 0)), Data(number(-3, 3))});
+      return Data(std::move(rows));
+    }
+    DataList list;
+    for (size_t i = 0; i < lists_; ++i)
+      list.push_back(kind == "list of materials" ? Data(i % 2 ? "red" : "clear") : i % 2 ? Data("0.1 + abs(d)/9") : Data(number(0.1, 1)));
+    return Data(std::move(list));
+  }
+
+  std::mt19937 random_;
+  BallLoader loader_;
+  size_t lists_ = 1;
+};
+
+struct Lowered {
+  program::Program program;  // outputs: inside, interior, distance, then fractions
+  size_t fraction_count = 0;
+  size_t check_count = 0;
+};
+
+Lowered lower(const NodePtr& node, const MaterialTable& materials, Demand demand) {
+  LoweringContext context(materials, {node});
+  program::Builder builder;
+  Lowering lowering(context, builder);
+  const Point p = Point::origin_frame(builder);
+  std::vector<std::pair<std::string, Field>> outputs{
+      {"inside", lowering.inside(*node, p)}, {"interior", lowering.interior(*node, p)}, {"distance", lowering.distance(*node, p)}};
+  const Composition composition = lowering.composition(*node, p, demand);
+  for (const auto& [id, fraction] : composition.fractions) outputs.emplace_back("fraction", fraction);
+  for (const auto& [number, mark] : composition.checks) outputs.emplace_back("check", mark);
+  context.finish_bodies();
+  Lowered lowered{program::inline_bodies(builder.finish(outputs)), composition.fractions.size(), composition.checks.size()};
+  return lowered;
+}
+
+std::vector<double> at(const program::Program& program, Vec3 p) {
+  std::vector<double> values, outputs;
+  evaluate_point(program, p, values);
+  for (const auto id : program.outputs) outputs.push_back(values[id]);
+  return outputs;
+}
+
+Data round_trip(const NodePtr& node, const MaterialTable& materials) { return to_data({materials, {{"part", node}}, std::nullopt}); }
+
+class EveryNode : public testing::TestWithParam<std::string> {
+ protected:
+  const NodeType& type() const { return *registry().find(GetParam()); }
+  static constexpr unsigned rounds = 30;
+};
+
+}  // namespace
+
+TEST_P(EveryNode, IsDocumented) {
+  EXPECT_FALSE(type().category.empty());
+  EXPECT_EQ(type().sentence.back(), '.');
+  EXPECT_FALSE(type().example.empty());
+  for (const ParameterInfo& parameter : type().parameters) EXPECT_FALSE(parameter.doc.empty()) << parameter.name;
+}
+
+TEST_P(EveryNode, BoundsHoldWhatIsInside) {
+  for (unsigned seed = 0; seed < rounds; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.node(type(), 2);
+    ASSERT_TRUE(node) << random.last_message;
+    const Box where = Box::centered({40, 40, 40});
+    const Box bounds = node->bounds(where).expanded(1e-9);
+    const auto lowered = lower(node, random.materials, Demand::inside);
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 p{random.number(-40, 40), random.number(-40, 40), random.number(-40, 40)};
+      if (at(lowered.program, p)[0] == 0) continue;
+      EXPECT_TRUE(bounds.contains(p)) << print_json(round_trip(node, random.materials)) << p.x << " " << p.y << " " << p.z;
+    }
+  }
+}
+
+TEST_P(EveryNode, IntervalsHoldPoints) {
+  for (unsigned seed = 0; seed < rounds; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.node(type(), 2);
+    ASSERT_TRUE(node) << random.last_message;
+    const auto lowered = lower(node, random.materials, Demand::everywhere);
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 lo{random.number(-10, 10), random.number(-10, 10), random.number(-10, 10)};
+      const double size = random.number(0, 4);
+      const Box box{lo, lo + Vec3{size, size, size}};
+      std::vector<Interval> ranges;
+      evaluate_intervals(lowered.program, box, ranges);
+      const program::Program shorter = program::shorten(lowered.program, ranges);
+      for (int n = 0; n < 10; ++n) {
+        const Vec3 p = lo + Vec3{random.number(0, size), random.number(0, size), random.number(0, size)};
+        std::vector<double> values;
+        evaluate_point(lowered.program, p, values);
+        for (size_t v = 0; v < values.size(); ++v)
+          ASSERT_TRUE(ranges[v].contains(values[v])) << program::to_text(lowered.program) << "v" << v << " = " << values[v];
+        // The program for the box has the same bits.
+        const auto whole = at(lowered.program, p), part = at(shorter, p);
+        for (size_t o = 0; o < whole.size(); ++o)
+          ASSERT_TRUE(whole[o] == part[o] || (std::isnan(whole[o]) && std::isnan(part[o]))) << o;
+      }
+    }
+  }
+}
+
+TEST_P(EveryNode, InsideAgreesWithDistance) {
+  for (unsigned seed = 0; seed < rounds; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.node(type(), 2);
+    ASSERT_TRUE(node) << random.last_message;
+    const auto lowered = lower(node, random.materials, Demand::inside);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 p{random.number(-12, 12), random.number(-12, 12), random.number(-12, 12)};
+      const auto values = at(lowered.program, p);
+      if (std::abs(values[2]) < 1e-9) continue;  // the sign is lost to rounding
+      EXPECT_EQ(values[0], values[2] <= 0 ? 1 : 0) << values[2] << print_json(round_trip(node, random.materials));
+      EXPECT_EQ(values[1], values[2] < 0 ? 1 : 0);
+    }
+  }
+}
+
+TEST_P(EveryNode, FractionsSumToOne) {
+  for (unsigned seed = 0; seed < rounds; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.node(type(), 2);
+    ASSERT_TRUE(node) << random.last_message;
+    for (const Demand demand : {Demand::inside, Demand::everywhere}) {
+      const auto lowered = lower(node, random.materials, demand);
+      for (int i = 0; i < 200; ++i) {
+        const Vec3 p{random.number(-9, 9), random.number(-9, 9), random.number(-9, 9)};
+        const auto values = at(lowered.program, p);
+        if (demand == Demand::inside && values[0] == 0) continue;
+        double sum = 0;
+        for (size_t f = 0; f < lowered.fraction_count; ++f) {
+          EXPECT_GE(values[3 + f], 0);
+          sum += values[3 + f];
+        }
+        ASSERT_NEAR(sum, 1, 1e-12) << print_json(round_trip(node, random.materials));
+      }
+    }
+  }
+}
+
+// |g(p) - g(q)| <= L |p - q| for what is exact or bounded; an exact g is also no smaller than that.
+TEST_P(EveryNode, KeepsItsLipschitzBound) {
+  for (unsigned seed = 0; seed < rounds; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.node(type(), 2);
+    ASSERT_TRUE(node) << random.last_message;
+    const Metric metric = node->metric();
+    if (metric.is_implicit()) continue;
+    const auto lowered = lower(node, random.materials, Demand::inside);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 p{random.number(-15, 15), random.number(-15, 15), random.number(-15, 15)};
+      const Vec3 step{random.number(-1, 1), random.number(-1, 1), random.number(-1, 1)};
+      const double change = std::abs(at(lowered.program, p)[2] - at(lowered.program, p + step)[2]);
+      ASSERT_LE(change, metric.lipschitz * length(step) * (1 + 1e-9) + 1e-9) << print_json(round_trip(node, random.materials));
+    }
+  }
+}
+
+// A step of length |g| along the gradient of an exact distance leads to the surface.
+TEST_P(EveryNode, ExactDistancesLeadToTheSurface) {
+  for (unsigned seed = 0; seed < rounds; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.node(type(), 1);
+    ASSERT_TRUE(node) << random.last_message;
+    if (node->metric().kind != Metric::Kind::exact) continue;
+    const auto lowered = lower(node, random.materials, Demand::inside);
+    const auto g = [&](Vec3 p) { return at(lowered.program, p)[2]; };
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 p{random.number(-15, 15), random.number(-15, 15), random.number(-15, 15)};
+      constexpr double h = 1e-5;
+      const Vec3 gradient = (0.5 / h) * Vec3{g(p + Vec3{h, 0, 0}) - g(p - Vec3{h, 0, 0}), g(p + Vec3{0, h, 0}) - g(p - Vec3{0, h, 0}),
+                                             g(p + Vec3{0, 0, h}) - g(p - Vec3{0, 0, h})};
+      if (std::abs(length(gradient) - 1) > 1e-4) continue;  // on an edge of the medial axis
+      EXPECT_NEAR(g(p - g(p) * gradient), 0, 1e-3) << print_json(round_trip(node, random.materials)) << p.x << " " << p.y << " " << p.z;
+    }
+  }
+}
+
+TEST_P(EveryNode, PrintsAndReadsBack) {
+  for (unsigned seed = 0; seed < rounds; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.node(type(), 3);
+    ASSERT_TRUE(node) << random.last_message;
+    const Design design{random.materials, {{"part", node}}, std::nullopt};
+    const std::string text = print_json(to_data(design));
+    Diagnostics diagnostics;
+    const auto data = parse_json(make_source("design.json", text), diagnostics);
+    ASSERT_TRUE(data) << to_text(diagnostics);
+    BallLoader loader;
+    const auto again = read_design(*data, registry(), &loader, diagnostics);
+    ASSERT_TRUE(again) << to_text(diagnostics) << text;
+    EXPECT_EQ(print_json(to_data(*again)), text);
+    EXPECT_EQ(hash(*again), hash(design));
+  }
+}
+
+std::vector<std::string> all_names() { return registry().names(); }
+INSTANTIATE_TEST_SUITE_P(Registry, EveryNode, testing::ValuesIn(all_names()), [](const auto& test) { return test.param; });
+
+// Whole random trees, not one node at the top.
+TEST(RandomTrees, HoldTheSameProperties) {
+  for (unsigned seed = 1000; seed < 1150; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.any_node(4);
+    const auto lowered = lower(node, random.materials, Demand::inside);
+    const Box bounds = node->bounds(Box::centered({60, 60, 60})).expanded(1e-9);
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 p{random.number(-20, 20), random.number(-20, 20), random.number(-20, 20)};
+      const auto values = at(lowered.program, p);
+      if (values[0] == 0) continue;
+      EXPECT_TRUE(bounds.contains(p)) << seed << " " << to_tree({random.materials, {{"part", node}}, std::nullopt}) << p.x << " " << p.y << " " << p.z;
+      double sum = 0;
+      for (size_t f = 0; f < lowered.fraction_count; ++f) sum += values[3 + f];
+      EXPECT_NEAR(sum, 1, 1e-12);
+    }
+  }
+}
+
+}  // namespace ombre::nodes
