@@ -104,6 +104,7 @@ std::vector<JournalEntry> parse_journal(std::string_view text, size_t material_c
     if (auto entry = parse_entry(line, material_count, check_count)) by_layer[entry->layer] = std::move(*entry);
   });
   std::vector<JournalEntry> entries;
+  entries.reserve(by_layer.size());
   for (auto& [layer, entry] : by_layer) entries.push_back(std::move(entry));
   return entries;
 }

@@ -67,7 +67,7 @@ Grid arrange(uint32_t count, double width_mm, double height_mm) {
   // Tall parts stand in one row as long as their tiles stay wide enough to be seen.
   if (height_mm > 2 * width_mm) grid.columns = std::min<uint32_t>(count, 2 * grid.columns);
   grid.rows = (count + grid.columns - 1) / grid.columns;
-  const double widest = (sheet_width - margin) / grid.columns - margin;
+  const uint32_t widest = (sheet_width - margin) / grid.columns - margin;
   const double scale = std::min(widest / width_mm, tallest_tile / height_mm);
   grid.tile_width = std::max<uint32_t>(1, static_cast<uint32_t>(std::lround(width_mm * scale)));
   grid.tile_height = std::max<uint32_t>(1, static_cast<uint32_t>(std::lround(height_mm * scale)));

@@ -1,0 +1,70 @@
+#include "voxel/quantise.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace ombre::voxel {
+namespace {
+
+double draw(uint64_t seed, int64_t i, int64_t j, int64_t k) { return uniform(row_hash(seed, j, k), i); }
+
+// Correlation of draws at voxels that differ by the given step, over a 100^3 block.
+double correlation(std::array<int64_t, 3> step, uint64_t seed, uint64_t other_seed) {
+  constexpr int64_t n = 100;
+  double sum = 0;
+  for (int64_t k = 0; k < n; ++k)
+    for (int64_t j = 0; j < n; ++j)
+      for (int64_t i = 0; i < n; ++i)
+        sum += (draw(seed, i, j, k) - 0.5) * (draw(other_seed, i + step[0], j + step[1], k + step[2]) - 0.5);
+  return sum / (n * n * n) * 12;  // the variance of a uniform draw is 1/12
+}
+
+constexpr double four_sigma = 4e-3;  // for 10^6 pairs
+
+}  // namespace
+
+TEST(Quantise, DrawsAreUniform) {
+  // Chi-squared over 256 bins of 10^6 draws: mean 255, standard deviation sqrt(2 * 255) = 22.6.
+  for (const uint64_t seed : {uint64_t{0}, uint64_t{1}, uint64_t{0xDEADBEEF12345678}}) {
+    std::array<int, 256> bins{};
+    for (int64_t k = 0; k < 100; ++k)
+      for (int64_t j = 0; j < 100; ++j)
+        for (int64_t i = 0; i < 100; ++i) ++bins[static_cast<size_t>(draw(seed, i, j, k) * 256)];
+    double chi = 0;
+    for (const int count : bins) chi += std::pow(count - 1e6 / 256, 2) / (1e6 / 256);
+    EXPECT_NEAR(chi, 255, 4 * 22.6) << seed;
+  }
+}
+
+TEST(Quantise, NeighboursAndSeedsAreUncorrelated) {
+  for (const std::array<int64_t, 3> step : {std::array<int64_t, 3>{1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {0, 1, 1}, {1, 1, 1}, {-1, 1, 0}, {0, 64, 0}, {256, 0, 0}})
+    EXPECT_LT(std::abs(correlation(step, 7, 7)), four_sigma) << step[0] << step[1] << step[2];
+  EXPECT_LT(std::abs(correlation({0, 0, 0}, 0, 1)), four_sigma);
+  EXPECT_LT(std::abs(correlation({0, 0, 0}, 5, uint64_t{5} << 32)), four_sigma);
+}
+
+TEST(Quantise, NegativeAndLargeIndicesDiffer) {
+  EXPECT_NE(draw(0, 0, 0, 0), draw(0, 0, 0, 1));
+  EXPECT_NE(draw(0, 11574, 4605, 7407), draw(0, 11575, 4605, 7407));
+}
+
+TEST(Quantise, PickFollowsTheFractions) {
+  const std::array<double, 3> fractions{0.2, 0.0, 0.8};
+  EXPECT_EQ(pick(fractions, 0.0), 0u);
+  EXPECT_EQ(pick(fractions, 0.1999), 0u);
+  EXPECT_EQ(pick(fractions, 0.2001), 2u);
+  EXPECT_EQ(pick(fractions, 1 - 0x1p-24), 2u);
+  // What is not positive is never picked, whatever rounding does.
+  const std::array<double, 4> odd{-1, std::nan(""), 1.0 / 3, 0};
+  for (const double u : {0.0, 0.5, 1 - 0x1p-24}) EXPECT_EQ(pick(odd, u), 2u);
+}
+
+TEST(Quantise, GreatestTakesTheFirstOnTies) {
+  EXPECT_EQ(greatest(std::array<double, 3>{0.25, 0.5, 0.25}), 1u);
+  EXPECT_EQ(greatest(std::array<double, 3>{0.4, 0.4, 0.2}), 0u);
+}
+
+}  // namespace ombre::voxel
