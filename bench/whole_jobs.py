@@ -8,6 +8,7 @@ on one machine in one sitting; nothing is asserted.
 """
 import argparse
 import json
+import math
 import pathlib
 import shutil
 import statistics
@@ -31,15 +32,16 @@ def run(ombre, design, arguments, threads):
     try:
         command = [ombre, "slice", str(design), "-o", folder, "--force", "--json", "--threads", str(threads), *arguments]
         events = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
-        return next(e for e in reversed([json.loads(line) for line in events]) if "seconds" in e), events
+        events = {event["event"]: event for event in map(json.loads, events)}
+        return math.prod(events["plan"]["voxels"]), events["done"]["seconds"]
     finally:
         shutil.rmtree(folder)
 
 
 def row(name, ombre, design, arguments, threads, runs):
-    results = [run(ombre, design, arguments, threads)[0] for _ in range(runs)]
-    seconds = sorted(r["seconds"] for r in results)
-    voxels = results[0].get("voxels") or 0
+    results = [run(ombre, design, arguments, threads) for _ in range(runs)]
+    seconds = sorted(seconds for _, seconds in results)
+    voxels = results[0][0]
     median = statistics.median(seconds)
     print(f"{name:28} {voxels / 1e6:10.1f} {median:9.3f} {seconds[-1] - seconds[0]:9.3f} {voxels / median / 1e6:12.1f}", flush=True)
 

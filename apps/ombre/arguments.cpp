@@ -17,7 +17,9 @@ std::vector<Pitch> parse_list(const std::string& option, const std::string& text
   std::vector<Pitch> pitches;
   for (const std::string& part : split(text, ',')) {
     const std::optional<Pitch> pitch = read(part);
-    if (!pitch) throw WrongArgument(option + " " + text + " is not understood; write for example " + example);
+    if (!pitch)
+      throw WrongArgument(
+          join(std::vector<std::string>{option, text, "is not understood; write for example", example}, " "));
     pitches.push_back(*pitch);
   }
   return pitches;

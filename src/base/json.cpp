@@ -142,6 +142,8 @@ std::string quoted(const std::string& text) {
 
 std::string number_text(double value) {
   if (!std::isfinite(value)) return "null";
+  // Whole numbers without an exponent, so that other programs read them as integers.
+  if (std::abs(value) < 0x1p53 && value == std::trunc(value)) return std::to_string(static_cast<long long>(value));
   return format_number(value == 0 ? 0.0 : value);
 }
 

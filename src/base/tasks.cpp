@@ -6,31 +6,52 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
 
 namespace ombre {
 
 int core_count() { return std::max(1, tbb::info::default_concurrency()); }
 
 void run_ordered(size_t count, int threads, size_t window, const std::function<std::shared_ptr<void>(size_t)>& produce,
-                 const std::function<void(size_t, std::shared_ptr<void>)>& consume) {
+                 const std::function<void(size_t, const std::shared_ptr<void>&)>& consume) {
   struct Item {
     size_t index;
     std::shared_ptr<void> result;
+  };
+  // An exception that passes through the pipeline would leak the items in flight.
+  std::atomic<bool> failed{false};
+  std::exception_ptr first_failure;
+  std::mutex mutex;
+  const auto guarded = [&](const auto& act) {
+    if (failed) return;
+    try {
+      act();
+    } catch (...) {
+      const std::scoped_lock lock(mutex);
+      if (!first_failure) first_failure = std::current_exception();
+      failed = true;
+    }
   };
   tbb::task_arena arena(threads > 0 ? threads : core_count());
   arena.execute([&] {
     size_t next = 0;
     const auto take = [&](tbb::flow_control& flow) -> Item {
-      if (next < count) return {next++, nullptr};
+      if (next < count && !failed) return {next++, nullptr};
       flow.stop();
       return {};
     };
-    const auto work = [&](Item item) -> Item { return {item.index, produce(item.index)}; };
-    const auto give = [&](Item item) { consume(item.index, std::move(item.result)); };
+    const auto work = [&](Item item) -> Item {
+      guarded([&] { item.result = produce(item.index); });
+      return item;
+    };
+    const auto give = [&](Item item) { guarded([&] { consume(item.index, item.result); }); };
     tbb::parallel_pipeline(std::max<size_t>(1, window), tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, take) &
                                        tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, work) &
                                        tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, give));
   });
+  if (first_failure) std::rethrow_exception(first_failure);
 }
 
 void run_parallel(size_t count, int threads, const std::function<void(size_t)>& body) {

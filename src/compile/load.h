@@ -50,8 +50,8 @@ struct PlanOptions {
   voxel::Dither dither = voxel::Dither::stochastic;
   uint64_t seed = 0;
   std::optional<voxel::ImageFormat> image;      // else the printer's
-  std::optional<voxel::Placement> place;        // else the printer's
-  bool whole_tray = false;                      // the lattice is the whole build box
+  std::optional<voxel::Placement> place;        // else the printer's; center: the build plate, the part in its middle
+  bool whole_tray = false;                      // the build plate, the part where the design has it
 };
 
 struct Plan {

@@ -8,7 +8,8 @@
 namespace ombre::compile {
 namespace {
 
-constexpr int64_t most_along_axis = 2'000'000, most_in_layer = int64_t{1} << 34;
+constexpr int64_t most_along_axis = 1'000'000,  // libpng's limit too
+                   most_in_layer = int64_t{1} << 34;
 
 std::string size_text(Vec3 v) { return format_rounded(v.x) + " x " + format_rounded(v.y) + " x " + format_rounded(v.z) + " mm"; }
 
@@ -25,7 +26,7 @@ class LatticePlanner {
   LatticePlanner(const Loaded& loaded, const PlanOptions& options, const Box& part, Diagnostics& diagnostics)
       : printer_(options.printer), part_(part), diagnostics_(diagnostics), where_{loaded.source, 0, 0} {
     lattice_.pitch = job_pitch(loaded.design, options);
-    place_ = options.place.value_or(printer_.origin);
+    place_ = options.whole_tray ? voxel::Placement::design : options.place.value_or(printer_.origin);
     whole_tray_ = options.whole_tray;
   }
 
@@ -40,7 +41,7 @@ class LatticePlanner {
       count(axis) = voxel::voxels_along(size[axis], pitch(axis));
     }
     if (printer_.build_mm && !fits(size)) return std::nullopt;
-    if (whole_tray_ && !cover_tray()) return std::nullopt;
+    if ((whole_tray_ || place_ == voxel::Placement::center) && !cover_tray()) return std::nullopt;
     if (count(0) > most_in_layer / count(1))
       return fail("one layer would have " + format_count(static_cast<unsigned long long>(count(0) * count(1))) + " voxels",
                   "choose larger voxels with --voxel or --dpi");
@@ -69,7 +70,7 @@ class LatticePlanner {
   // The lattice becomes the tray. Parts move on it by whole voxels, so they keep theirs.
   bool cover_tray() {
     if (!printer_.build_mm) {
-      fail("the profile \"" + printer_.name + "\" has no tray size", "choose a printer with --printer, or leave out --tray");
+      fail("the profile \"" + printer_.name + "\" has no tray size", "choose a printer with --printer, or leave out --tray and --place center");
       return false;
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -99,10 +100,10 @@ class LatticePlanner {
   bool whole_tray_ = false;
 };
 
-std::string located(const design::Check& check) {
-  if (!check.where.source) return check.message;
-  const Place place = check.where.source->place(check.where.begin);
-  return check.where.source->name() + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": " + check.message;
+std::string place_text(const SourceRange& where) {
+  if (!where.source) return "";
+  const Place place = where.source->place(where.begin);
+  return where.source->name() + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
 }
 
 void warn_of_features(const voxel::Printer& printer, const Vec3 size, const SourceRange& where, Diagnostics& diagnostics) {
@@ -141,7 +142,10 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
     const design::Material& material = design.materials.all()[id];
     request.materials.push_back({material.name, id, material.colour});
   }
-  for (const design::Check& check : built->checks) request.check_texts.push_back(located(check));
+  for (const design::Check& check : built->checks) {
+    request.check_texts.push_back(check.message);
+    request.check_places.push_back(place_text(check.where));
+  }
   if (static_cast<int>(request.materials.size()) > options.printer.max_materials) {
     diagnostics.error({loaded->source, 0, 0}, "the design uses " + std::to_string(request.materials.size()) + " materials, " + options.printer.title +
                                                   " prints at most " + std::to_string(options.printer.max_materials),

@@ -108,7 +108,9 @@ std::vector<CheckReport> CheckSums::reports() const {
   for (size_t i = 0; i < sums_.size(); ++i) {
     if (sums_[i].count == 0) continue;
     const auto& [x, y, z] = sums_[i].first;
-    reports.push_back({request_.check_texts[i], sums_[i].count, request_.lattice.center(x, y, z)});
+    const bool has_place = i < request_.check_places.size() && !request_.check_places[i].empty();
+    const std::string text = (has_place ? request_.check_places[i] + ": " : "") + request_.check_texts[i];
+    reports.push_back({text, sums_[i].count, request_.lattice.center(x, y, z)});
   }
   return reports;
 }
