@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#define ASSERT(condition)                                                                       \
-  do {                                                                                          \
-    if (!(condition)) {                                                                         \
+#define ASSERT(condition)                                                                  \
+  do {                                                                                     \
+    if (!(condition)) {                                                                    \
       std::fprintf(stderr, "%s:%d: internal error: " #condition "\n", __FILE__, __LINE__); \
-      std::abort();                                                                             \
-    }                                                                                           \
+      std::abort();                                                                        \
+    }                                                                                      \
   } while (false)

@@ -9,9 +9,12 @@ constexpr size_t widest_line = 160;  // longer source lines are shown from the m
 
 std::string_view label(Severity severity) {
   switch (severity) {
-    case Severity::note: return "note";
-    case Severity::warning: return "warning";
-    case Severity::error: break;
+    case Severity::note:
+      return "note";
+    case Severity::warning:
+      return "warning";
+    case Severity::error:
+      break;
   }
   return "error";
 }
@@ -72,7 +75,8 @@ std::string to_text(const Diagnostic& diagnostic) {
   Place place;
   if (diagnostic.where.source) {
     place = diagnostic.where.source->place(diagnostic.where.begin);
-    text += diagnostic.where.source->name() + ':' + std::to_string(place.line) + ':' + std::to_string(place.column) + ": ";
+    text +=
+        diagnostic.where.source->name() + ':' + std::to_string(place.line) + ':' + std::to_string(place.column) + ": ";
   }
   text += label(diagnostic.severity);
   text += ": " + diagnostic.message;

@@ -83,7 +83,8 @@ Interval cos(Interval v) {
 }
 
 Interval tan(Interval v) {
-  if (!v.is_bounded() || v.hi - v.lo >= pi || std::max(std::abs(v.lo), std::abs(v.hi)) > 1e8) return Interval::everything();
+  if (!v.is_bounded() || v.hi - v.lo >= pi || std::max(std::abs(v.lo), std::abs(v.hi)) > 1e8)
+    return Interval::everything();
   if (meets(v, pi / 2) || meets(v, -pi / 2)) return Interval::everything();
   return increasing(v, [](double t) { return tan(t); });
 }
@@ -98,7 +99,9 @@ Interval acos(Interval v) {
   return widen(acos(v.hi), acos(v.lo));
 }
 
-Interval atan(Interval v) { return increasing(v, [](double t) { return atan(t); }); }
+Interval atan(Interval v) {
+  return increasing(v, [](double t) { return atan(t); });
+}
 
 Interval atan2(Interval y, Interval x) {
   if (!y.is_bounded() || !x.is_bounded()) return Interval::everything();
@@ -109,8 +112,12 @@ Interval atan2(Interval y, Interval x) {
   return widen(std::min({a, b, c, d}), std::max({a, b, c, d}));
 }
 
-Interval sinh(Interval v) { return increasing(v, [](double t) { return sinh(t); }); }
-Interval tanh(Interval v) { return increasing(v, [](double t) { return tanh(t); }); }
+Interval sinh(Interval v) {
+  return increasing(v, [](double t) { return sinh(t); });
+}
+Interval tanh(Interval v) {
+  return increasing(v, [](double t) { return tanh(t); });
+}
 Interval exp(Interval v) {
   if (v.is_everything()) return v;
   const Interval r = widen(exp(v.lo), exp(v.hi));

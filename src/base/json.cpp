@@ -79,8 +79,9 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     size_t begin = text.find_first_not_of(" \t\r\n,:", last_end_);
     if (begin == std::string_view::npos) begin = text.size();
     size_t end = std::max(read, begin);
-    while (end > begin + 1 && end <= text.size() && std::string_view(" \t\r\n,:]}").find(text[end - 1]) != std::string_view::npos &&
-           text[begin] != '"' && text[begin] != '[' && text[begin] != '{')
+    while (end > begin + 1 && end <= text.size() &&
+           std::string_view(" \t\r\n,:]}").find(text[end - 1]) != std::string_view::npos && text[begin] != '"' &&
+           text[begin] != '[' && text[begin] != '{')
       --end;
     last_end_ = end;
     return {source_, static_cast<uint32_t>(begin), static_cast<uint32_t>(std::min(end, text.size()))};
@@ -174,7 +175,8 @@ class Printer {
   }
 
  private:
-  std::string bracket(const std::vector<std::string>& parts, char open, char close, size_t indent, bool may_be_flat) const {
+  std::string bracket(const std::vector<std::string>& parts, char open, char close, size_t indent,
+                      bool may_be_flat) const {
     if (parts.empty()) return {open, close};
     size_t width = indent;
     for (const std::string& part : parts) {

@@ -47,9 +47,10 @@ void run_ordered(size_t count, int threads, size_t window, const std::function<s
       return item;
     };
     const auto give = [&](Item item) { guarded([&] { consume(item.index, item.result); }); };
-    tbb::parallel_pipeline(std::max<size_t>(1, window), tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, take) &
-                                       tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, work) &
-                                       tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, give));
+    tbb::parallel_pipeline(std::max<size_t>(1, window),
+                           tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, take) &
+                               tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, work) &
+                               tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, give));
   });
   if (first_failure) std::rethrow_exception(first_failure);
 }

@@ -21,7 +21,8 @@ std::string format_rounded(double value, int digits) {
   if (!std::isfinite(value)) return format_number(value);
   std::array<char, 64> buffer;
   std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value);
-  if (std::string_view(buffer.data()).find('e') != std::string_view::npos && std::abs(value) < 1e15 && std::abs(value) >= 1)
+  if (std::string_view(buffer.data()).find('e') != std::string_view::npos && std::abs(value) < 1e15 &&
+      std::abs(value) >= 1)
     std::snprintf(buffer.data(), buffer.size(), "%.0f", value);
   return buffer.data();
 }

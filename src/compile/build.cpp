@@ -14,7 +14,8 @@ constexpr double most_instructions = 1e8;  // some gigabytes
 design::NodePtr whole_solid(const design::Design& design) {
   if (design.parts.size() == 1) return design.parts[0].solid;
   Diagnostics none;
-  return design::make_node(*nodes::registry().find("union"), {}, design.roots(), {design.materials, none, nullptr, {}, "", ""});
+  return design::make_node(*nodes::registry().find("union"), {}, design.roots(),
+                           {design.materials, none, nullptr, {}, "", ""});
 }
 
 Built build_program(const design::Design& design) {
@@ -47,7 +48,8 @@ std::optional<Built> build_flat_program(const design::Design& design, Diagnostic
   Built built = build_program(design);
   const double size = program::inlined_size(built.materials.program);
   if (size > most_instructions) {
-    diagnostics.error(design.parts[0].solid->where(), "the design repeats its parts too often: about " + format_rounded(size, 2) + " operations a voxel");
+    diagnostics.error(design.parts[0].solid->where(), "the design repeats its parts too often: about " +
+                                                          format_rounded(size, 2) + " operations a voxel");
     return std::nullopt;
   }
   built.materials.program = program::inline_bodies(built.materials.program);
@@ -61,14 +63,16 @@ std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnos
     const Box bounds = part.solid->bounds(design::design_space());
     for (int axis = 0; axis < 3 && !bounds.is_empty(); ++axis) {
       if (bounds.lo[axis] > -design::design_limit_mm && bounds.hi[axis] < design::design_limit_mm) continue;
-      diagnostics.error(part.solid->where(), "this has no end along " + std::string(1, static_cast<char>('x' + axis)),
-                        "give the function bounds, intersect it with a bounded solid, or put everything into root(min, max, voxel)");
+      diagnostics.error(
+          part.solid->where(), "this has no end along " + std::string(1, static_cast<char>('x' + axis)),
+          "give the function bounds, intersect it with a bounded solid, or put everything into root(min, max, voxel)");
       return std::nullopt;
     }
     box = hull(box, bounds);
   }
   if (!box.is_empty()) return box;
-  diagnostics.error(design.parts[0].solid->where(), "nothing of the design is left: its solids do not meet, or their formulas are never 0 or less");
+  diagnostics.error(design.parts[0].solid->where(),
+                    "nothing of the design is left: its solids do not meet, or their formulas are never 0 or less");
   return std::nullopt;
 }
 

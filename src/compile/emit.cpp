@@ -11,7 +11,9 @@ namespace ombre::compile {
 namespace {
 
 std::string box_text(const Box& box) {
-  const auto corner = [](Vec3 v) { return "(" + format_rounded(v.x, 6) + ", " + format_rounded(v.y, 6) + ", " + format_rounded(v.z, 6) + ")"; };
+  const auto corner = [](Vec3 v) {
+    return "(" + format_rounded(v.x, 6) + ", " + format_rounded(v.y, 6) + ", " + format_rounded(v.z, 6) + ")";
+  };
   return corner(box.lo) + " to " + corner(box.hi) + " mm";
 }
 

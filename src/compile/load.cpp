@@ -30,11 +30,14 @@ std::optional<lang::Definition> parse_definition(const std::string& text, Diagno
   const std::string name(trim(std::string_view(text).substr(0, equals)));
   const std::string value = text.substr(equals + 1);
   Diagnostics ignored;
-  if (auto data = parse_json(make_source("-D " + name, value), ignored)) return lang::Definition{name, std::move(*data)};
-  return lang::Definition{name, Data(value, {make_source("-D " + name, value), 0, static_cast<uint32_t>(value.size())})};
+  if (auto data = parse_json(make_source("-D " + name, value), ignored))
+    return lang::Definition{name, std::move(*data)};
+  return lang::Definition{name,
+                          Data(value, {make_source("-D " + name, value), 0, static_cast<uint32_t>(value.size())})};
 }
 
-std::optional<design::Design> run_script(const SourcePtr& source, const LoadOptions& options, Diagnostics& diagnostics) {
+std::optional<design::Design> run_script(const SourcePtr& source, const LoadOptions& options,
+                                         Diagnostics& diagnostics) {
   const auto materials = load_materials(options.materials, diagnostics);
   lang::Options run;
   run.echo = options.echo;
@@ -48,9 +51,11 @@ std::optional<design::Design> run_script(const SourcePtr& source, const LoadOpti
   return vocabulary.finish(top_level, {source, 0, 0}, diagnostics);
 }
 
-std::optional<design::Design> read_json_design(const SourcePtr& source, const LoadOptions& options, Diagnostics& diagnostics) {
+std::optional<design::Design> read_json_design(const SourcePtr& source, const LoadOptions& options,
+                                               Diagnostics& diagnostics) {
   if (!options.materials.empty() || !options.definitions.empty()) {
-    diagnostics.error({source, 0, 0}, "a .json design has its own materials and no variables", "leave out --materials and -D");
+    diagnostics.error({source, 0, 0}, "a .json design has its own materials and no variables",
+                      "leave out --materials and -D");
     return std::nullopt;
   }
   const auto data = parse_json(source, diagnostics);
@@ -70,7 +75,8 @@ std::optional<design::MaterialTable> load_materials(const std::string& path, Dia
 
 LoadedPtr load_design(const std::string& path, const LoadOptions& options, Diagnostics& diagnostics) {
   const SourcePtr source = read_source(path);
-  auto design = ends_with(path, ".json") ? read_json_design(source, options, diagnostics) : run_script(source, options, diagnostics);
+  auto design = ends_with(path, ".json") ? read_json_design(source, options, diagnostics)
+                                         : run_script(source, options, diagnostics);
   if (!design || diagnostics.has_errors()) return nullptr;
   return std::make_shared<const Loaded>(Loaded{path, source, std::move(*design)});
 }

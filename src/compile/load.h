@@ -18,8 +18,8 @@
 namespace ombre::compile {
 
 struct LoadOptions {
-  std::string materials;                 // path of a materials file; empty: the default set
-  std::vector<std::string> definitions;  // "name=value", set before the script runs
+  std::string materials;                                   // path of a materials file; empty: the default set
+  std::vector<std::string> definitions;                    // "name=value", set before the script runs
   std::function<void(const std::string&)> echo = nullptr;  // where the script's echo goes; may be empty
   const StopFlag* stop = nullptr;
 };
@@ -43,15 +43,15 @@ const std::vector<std::string>& emit_forms();
 std::string emit(const Loaded& loaded, const std::string& form);
 
 struct PlanOptions {
-  std::string program;                          // "ombre 0.1.0", for job.json
-  voxel::Printer printer;                       // whose conventions hold
-  bool printer_given = false;                   // then its pitch goes before the design's own
-  std::array<std::optional<Pitch>, 3> pitch;    // goes before both, axis by axis
+  std::string program;                        // "ombre 0.1.0", for job.json
+  voxel::Printer printer;                     // whose conventions hold
+  bool printer_given = false;                 // then its pitch goes before the design's own
+  std::array<std::optional<Pitch>, 3> pitch;  // goes before both, axis by axis
   voxel::Dither dither = voxel::Dither::stochastic;
   uint64_t seed = 0;
-  std::optional<voxel::ImageFormat> image;      // else the printer's
-  std::optional<voxel::Placement> place;        // else the printer's; center: the build plate, the part in its middle
-  bool whole_tray = false;                      // the build plate, the part where the design has it
+  std::optional<voxel::ImageFormat> image;  // else the printer's
+  std::optional<voxel::Placement> place;    // else the printer's; center: the build plate, the part in its middle
+  bool whole_tray = false;                  // the build plate, the part where the design has it
 };
 
 struct Plan {

@@ -21,7 +21,8 @@ std::optional<std::string> find_file(const std::string& path, const SourceRange&
   if (fs::exists(beside, ignored)) return beside.string();
   if (fs::exists(wanted, ignored)) return path;
   std::string looked = beside.string();
-  if (beside != wanted && !wanted.is_absolute()) looked += " and " + fs::absolute(wanted, ignored).lexically_normal().string();
+  if (beside != wanted && !wanted.is_absolute())
+    looked += " and " + fs::absolute(wanted, ignored).lexically_normal().string();
   diagnostics.error(where, "there is no file \"" + path + "\"", "looked for " + looked);
   return std::nullopt;
 }
@@ -36,26 +37,29 @@ std::string point_text(Vec3 p) {
 }
 
 // False, and a diagnostic, when the mesh has no inside under the rule.
-bool check_closed(const std::string& path, const importing::MeshReport& report, const std::string& rule, const SourceRange& where,
-                  Diagnostics& diagnostics) {
+bool check_closed(const std::string& path, const importing::MeshReport& report, const std::string& rule,
+                  const SourceRange& where, Diagnostics& diagnostics) {
   if (report.is_closed() || rule == "generalized") return true;
   if (rule == "parity" && report.open_edges == 0) return true;
   std::string message = "the mesh \"" + path + "\" ";
-  if (report.open_edges > 0) message += "is open along " + format_count(report.open_edges) + (report.open_edges == 1 ? " edge" : " edges");
+  if (report.open_edges > 0)
+    message += "is open along " + format_count(report.open_edges) + (report.open_edges == 1 ? " edge" : " edges");
   if (report.inconsistent_edges > 0)
     message += std::string(report.open_edges > 0 ? " and " : "") + "has triangles facing different ways along " +
                format_count(report.inconsistent_edges) + (report.inconsistent_edges == 1 ? " edge" : " edges");
   if (!report.examples.empty())
     message += ", for example from " + point_text(report.examples[0][0]) + " to " + point_text(report.examples[0][1]);
-  const std::string hint = report.open_edges > 0 ? "repair it, or write inside=\"generalized\" to close it by winding number"
-                                                 : "repair it, or write inside=\"parity\" to ignore which way triangles face";
+  const std::string hint = report.open_edges > 0
+                               ? "repair it, or write inside=\"generalized\" to close it by winding number"
+                               : "repair it, or write inside=\"parity\" to ignore which way triangles face";
   diagnostics.error(where, message, hint);
   return false;
 }
 
 }  // namespace
 
-program::SourceField MeshLoader::mesh(std::string& path, const std::string& inside, const SourceRange& where, Diagnostics& diagnostics) {
+program::SourceField MeshLoader::mesh(std::string& path, const std::string& inside, const SourceRange& where,
+                                      Diagnostics& diagnostics) {
   const auto found = find_file(path, where, diagnostics);
   if (!found) return nullptr;
   path = *found;

@@ -9,9 +9,11 @@ namespace ombre::compile {
 namespace {
 
 constexpr int64_t most_along_axis = 1'000'000,  // libpng's limit too
-                   most_in_layer = int64_t{1} << 34;
+    most_in_layer = int64_t{1} << 34;
 
-std::string size_text(Vec3 v) { return format_rounded(v.x) + " x " + format_rounded(v.y) + " x " + format_rounded(v.z) + " mm"; }
+std::string size_text(Vec3 v) {
+  return format_rounded(v.x) + " x " + format_rounded(v.y) + " x " + format_rounded(v.z) + " mm";
+}
 
 std::array<Pitch, 3> job_pitch(const design::Design& design, const PlanOptions& options) {
   std::array<Pitch, 3> pitch = options.printer.pitch;
@@ -36,15 +38,18 @@ class LatticePlanner {
     for (int axis = 0; axis < 3; ++axis) {
       const double voxels = size[axis] / pitch(axis).mm();
       if (!(voxels <= static_cast<double>(most_along_axis)))
-        return fail("the part is " + format_count(static_cast<unsigned long long>(std::min(voxels, 1e18))) + " voxels long along " + letter(axis) +
-                        ", at most " + format_count(most_along_axis) + " are possible", "choose larger voxels with --voxel or --dpi");
+        return fail("the part is " + format_count(static_cast<unsigned long long>(std::min(voxels, 1e18))) +
+                        " voxels long along " + letter(axis) + ", at most " + format_count(most_along_axis) +
+                        " are possible",
+                    "choose larger voxels with --voxel or --dpi");
       count(axis) = voxel::voxels_along(size[axis], pitch(axis));
     }
     if (printer_.build_mm && !fits(size)) return std::nullopt;
     if ((whole_tray_ || place_ == voxel::Placement::center) && !cover_tray()) return std::nullopt;
     if (count(0) > most_in_layer / count(1))
-      return fail("one layer would have " + format_count(static_cast<unsigned long long>(count(0) * count(1))) + " voxels",
-                  "choose larger voxels with --voxel or --dpi");
+      return fail(
+          "one layer would have " + format_count(static_cast<unsigned long long>(count(0) * count(1))) + " voxels",
+          "choose larger voxels with --voxel or --dpi");
     return lattice_;
   }
 
@@ -70,18 +75,23 @@ class LatticePlanner {
   // The lattice becomes the tray. Parts move on it by whole voxels, so they keep theirs.
   bool cover_tray() {
     if (!printer_.build_mm) {
-      fail("the profile \"" + printer_.name + "\" has no tray size", "choose a printer with --printer, or leave out --tray and --place center");
+      fail("the profile \"" + printer_.name + "\" has no tray size",
+           "choose a printer with --printer, or leave out --tray and --place center");
       return false;
     }
     for (int axis = 0; axis < 3; ++axis) {
       const int64_t tray = voxel::voxels_along((*printer_.build_mm)[axis], pitch(axis));
       const int64_t part = count(axis);
       int64_t before = 0;  // voxels between the tray's corner and the part's
-      if (place_ == voxel::Placement::center) before = axis == 2 ? 0 : (tray - part) / 2;
-      else before = static_cast<int64_t>(std::llround(part_.lo[axis] / pitch(axis).mm()));
+      if (place_ == voxel::Placement::center)
+        before = axis == 2 ? 0 : (tray - part) / 2;
+      else
+        before = static_cast<int64_t>(std::llround(part_.lo[axis] / pitch(axis).mm()));
       if (before < 0 || before + part > tray) {
-        fail("the part lies from " + format_rounded(part_.lo[axis]) + " to " + format_rounded(part_.hi[axis]) + " mm along " + letter(axis) +
-                 ", the tray from 0 to " + format_rounded((*printer_.build_mm)[axis]) + " mm", "move it with translate, or write --place center");
+        fail("the part lies from " + format_rounded(part_.lo[axis]) + " to " + format_rounded(part_.hi[axis]) +
+                 " mm along " + letter(axis) + ", the tray from 0 to " + format_rounded((*printer_.build_mm)[axis]) +
+                 " mm",
+             "move it with translate, or write --place center");
         return false;
       }
       lattice_.origin[axis] = part_.lo[axis] - pitch(axis).times(static_cast<double>(before));
@@ -106,15 +116,17 @@ std::string place_text(const SourceRange& where) {
   return where.source->name() + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
 }
 
-void warn_of_features(const voxel::Printer& printer, const Vec3 size, const SourceRange& where, Diagnostics& diagnostics) {
+void warn_of_features(const voxel::Printer& printer, const Vec3 size, const SourceRange& where,
+                      Diagnostics& diagnostics) {
   if (!printer.smallest_feature) return;
   const double least = std::min({size.x, size.y, size.z});
   if (least < printer.smallest_feature->fails_mm)
-    diagnostics.warning(where, "the part is only " + format_rounded(least) + " mm thick; " + printer.title + " fails below " +
-                                   format_rounded(printer.smallest_feature->fails_mm) + " mm");
+    diagnostics.warning(where, "the part is only " + format_rounded(least) + " mm thick; " + printer.title +
+                                   " fails below " + format_rounded(printer.smallest_feature->fails_mm) + " mm");
   else if (least < printer.smallest_feature->distorts_mm)
-    diagnostics.warning(where, "the part is only " + format_rounded(least) + " mm thick; " + printer.title + " distorts details below " +
-                                   format_rounded(printer.smallest_feature->distorts_mm) + " mm");
+    diagnostics.warning(where, "the part is only " + format_rounded(least) + " mm thick; " + printer.title +
+                                   " distorts details below " + format_rounded(printer.smallest_feature->distorts_mm) +
+                                   " mm");
 }
 
 }  // namespace
@@ -147,12 +159,14 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
     request.check_places.push_back(place_text(check.where));
   }
   if (static_cast<int>(request.materials.size()) > options.printer.max_materials) {
-    diagnostics.error({loaded->source, 0, 0}, "the design uses " + std::to_string(request.materials.size()) + " materials, " + options.printer.title +
-                                                  " prints at most " + std::to_string(options.printer.max_materials),
+    diagnostics.error({loaded->source, 0, 0},
+                      "the design uses " + std::to_string(request.materials.size()) + " materials, " +
+                          options.printer.title + " prints at most " + std::to_string(options.printer.max_materials),
                       "use fewer, or choose another printer");
     return std::nullopt;
   }
-  auto evaluator = std::make_shared<const voxel::LayerEvaluator>(std::move(built->materials), *lattice, options.dither, options.seed);
+  auto evaluator = std::make_shared<const voxel::LayerEvaluator>(std::move(built->materials), *lattice, options.dither,
+                                                                 options.seed);
   plan.producer = [loaded, evaluator](int64_t begin, int64_t end) { return evaluator->layers(begin, end); };
   return plan;
 }

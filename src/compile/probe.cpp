@@ -40,7 +40,8 @@ ProbeProgram build(const design::Design& design) {
 
 }  // namespace
 
-std::optional<std::vector<ProbeResult>> probe(const Loaded& loaded, const std::vector<Vec3>& points, Diagnostics& diagnostics) {
+std::optional<std::vector<ProbeResult>> probe(const Loaded& loaded, const std::vector<Vec3>& points,
+                                              Diagnostics& diagnostics) {
   const design::Design& design = loaded.design;
   if (!build_flat_program(design, diagnostics)) return std::nullopt;
   const ProbeProgram built = build(design);

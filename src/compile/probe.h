@@ -11,15 +11,16 @@
 namespace ombre::compile {
 
 struct ProbeResult {
-  Vec3 point;                                                // mm
+  Vec3 point;  // mm
   bool inside = false;
-  double distance = 0;                                       // g, mm; negative inside
-  std::vector<std::pair<std::string, double>> composition;   // materials with a fraction above 0; empty outside
-  std::vector<std::pair<std::string, double>> attributes;    // every attribute of the design
-  std::vector<std::string> parts;                            // those that contain the point
+  double distance = 0;                                      // g, mm; negative inside
+  std::vector<std::pair<std::string, double>> composition;  // materials with a fraction above 0; empty outside
+  std::vector<std::pair<std::string, double>> attributes;   // every attribute of the design
+  std::vector<std::string> parts;                           // those that contain the point
 };
 
 // In double precision. Nothing, and a diagnostic, when the design is too large.
-std::optional<std::vector<ProbeResult>> probe(const Loaded& loaded, const std::vector<Vec3>& points, Diagnostics& diagnostics);
+std::optional<std::vector<ProbeResult>> probe(const Loaded& loaded, const std::vector<Vec3>& points,
+                                              Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

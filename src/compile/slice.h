@@ -38,8 +38,8 @@ struct SliceRequest {
   voxel::NamePattern files;
   int64_t first_index = 0;
   bool drop_empty_layers = false;
-  std::vector<std::string> check_texts;  // one for each check of the program: what failed, for people
-  std::vector<std::string> check_places; // and where in the design, "part.vcad:3:1"; decides no bytes
+  std::vector<std::string> check_texts;   // one for each check of the program: what failed, for people
+  std::vector<std::string> check_places;  // and where in the design, "part.vcad:3:1"; decides no bytes
 };
 
 // The conventions of a profile; `image` overrides its image format.

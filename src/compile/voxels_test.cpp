@@ -14,7 +14,8 @@ using std::numbers::pi;
 std::string boxed(double half, double pitch, const std::string& body) {
   // Off centre, so that no symmetry of the lattice helps or harms.
   const std::string h = std::to_string(half), p = std::to_string(pitch);
-  return "root((-" + h + "-0.0137, -" + h + "-0.0311, -" + h + "-0.0223), (" + h + ", " + h + ", " + h + "), (" + p + ", " + p + ", " + p + ")) {" + body + "}";
+  return "root((-" + h + "-0.0137, -" + h + "-0.0311, -" + h + "-0.0223), (" + h + ", " + h + ", " + h + "), (" + p +
+         ", " + p + ", " + p + ")) {" + body + "}";
 }
 
 // Counting centres errs like a sum of independent errors of the surface's voxels: for an area A and
@@ -29,7 +30,9 @@ void expect_volume(const std::string& body, double half, double volume, double a
 }  // namespace
 
 TEST(Volumes, Sphere) { expect_volume("sphere(4.1);", 5, 4 * pi / 3 * std::pow(4.1, 3), 4 * pi * 4.1 * 4.1); }
-TEST(Volumes, TiltedTorus) { expect_volume("rotate(31, 17, 5) { torus(4, 1.3); }", 6, 2 * pi * pi * 4 * 1.3 * 1.3, 4 * pi * pi * 4 * 1.3); }
+TEST(Volumes, TiltedTorus) {
+  expect_volume("rotate(31, 17, 5) { torus(4, 1.3); }", 6, 2 * pi * pi * 4 * 1.3 * 1.3, 4 * pi * pi * 4 * 1.3);
+}
 TEST(Volumes, TiltedCylinder) {
   expect_volume("rotate(23, 41, 7) { cylinder(2.1, 6.3); }", 5, pi * 2.1 * 2.1 * 6.3, 2 * pi * 2.1 * (2.1 + 6.3));
 }
@@ -40,22 +43,28 @@ TEST(Volumes, TiltedCone) {
 TEST(Volumes, TiltedBox) { expect_volume("rotate(33, 12, 7) { rectprism(4, 5, 3); }", 5, 60, 2 * (20 + 12 + 15)); }
 TEST(Volumes, Ellipsoid) { expect_volume("ellipsoid((4, 3, 2));", 5, 4 * pi / 3 * 24, 111.6); }
 TEST(Volumes, RoundStrut) {
-  expect_volume("strut((-2, -1, -1), (2, 2, 1), 1.1, caps=\"round\");", 5, pi * 1.21 * std::sqrt(29) + 4 * pi / 3 * 1.331, 2 * pi * 1.1 * (std::sqrt(29) + 2.2));
+  expect_volume("strut((-2, -1, -1), (2, 2, 1), 1.1, caps=\"round\");", 5,
+                pi * 1.21 * std::sqrt(29) + 4 * pi / 3 * 1.331, 2 * pi * 1.1 * (std::sqrt(29) + 2.2));
 }
 
 // The gyroid's two sides are congruent, so the level 0 halves a cell. Area of the gyroid in a cell of
 // length 1: 3.0915 (Schnering and Nesper 1991).
 TEST(Volumes, GyroidHalvesItsCells) {
   const double side = 8;
-  const std::string body = "intersection() { cube(8); function(\"sin(pi/2*x)*cos(pi/2*y) + sin(pi/2*y)*cos(pi/2*z) + sin(pi/2*z)*cos(pi/2*x)\"); }";
+  const std::string body =
+      "intersection() { cube(8); function(\"sin(pi/2*x)*cos(pi/2*y) + sin(pi/2*y)*cos(pi/2*z) + "
+      "sin(pi/2*z)*cos(pi/2*x)\"); }";
   expect_volume(body, 5, side * side * side / 2, 3.0915 * 16 * 8 + 6 * 32);
 }
 
 // Mesh volume by the divergence theorem, computed here from the same file's triangles: an icosahedron of known volume.
 TEST(Volumes, MeshUnderAnAffineMap) {
   const double phi = std::numbers::phi;
-  const double v[12][3] = {{-1, phi, 0}, {1, phi, 0}, {-1, -phi, 0}, {1, -phi, 0}, {0, -1, phi}, {0, 1, phi}, {0, -1, -phi}, {0, 1, -phi}, {phi, 0, -1}, {phi, 0, 1}, {-phi, 0, -1}, {-phi, 0, 1}};
-  const int f[20][3] = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  const double v[12][3] = {{-1, phi, 0},  {1, phi, 0},  {-1, -phi, 0}, {1, -phi, 0}, {0, -1, phi},  {0, 1, phi},
+                           {0, -1, -phi}, {0, 1, -phi}, {phi, 0, -1},  {phi, 0, 1},  {-phi, 0, -1}, {-phi, 0, 1}};
+  const int f[20][3] = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                        {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                        {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   const std::string path = testing::TempDir() + "icosahedron.off";
   std::ofstream file(path);
   file << "OFF\n12 20 0\n";
@@ -73,7 +82,8 @@ TEST(Volumes, MeshUnderAnAffineMap) {
 TEST(Transforms, RotatedAndRotatedBackIsThePlainDesign) {
   const std::string shape = "difference() { rectprism(7, 5, 3, \"red\"); cylinder(1.3, 9); }";
   const Voxels plain = slice_text(boxed(5, 0.1, shape));
-  const Voxels turned = slice_text(boxed(5, 0.1, "rotate(axis=(1, 2, 3), deg=33.3) { rotate(axis=(1, 2, 3), deg=-33.3) {" + shape + "} }"));
+  const Voxels turned = slice_text(
+      boxed(5, 0.1, "rotate(axis=(1, 2, 3), deg=33.3) { rotate(axis=(1, 2, 3), deg=-33.3) {" + shape + "} }"));
   size_t different = 0;
   for (size_t n = 0; n < plain.ids.size(); ++n) different += plain.ids[n] != turned.ids[n];
   EXPECT_EQ(different, 0u);  // no centre lies within rounding of the surface here
@@ -82,7 +92,8 @@ TEST(Transforms, RotatedAndRotatedBackIsThePlainDesign) {
 TEST(Fractions, FollowTheGrade) {
   // 2023 paper, Eqs 2 and 3.
   const Voxels voxels = slice_text(
-      "root((-5, -5, -5), (5, 5, 5), (0.1, 0.1, 0.1)) { fgrade([\"1/(1 + e^x)\", \"-1/(1 + e^x) + 1\"], [\"red\", \"blue\"], \"prob\") { cube(10); } }");
+      "root((-5, -5, -5), (5, 5, 5), (0.1, 0.1, 0.1)) { fgrade([\"1/(1 + e^x)\", \"-1/(1 + e^x) + 1\"], [\"red\", "
+      "\"blue\"], \"prob\") { cube(10); } }");
   ASSERT_EQ(voxels.ids.size(), 1000000u);
   const auto integral = [](double x) { return x - std::log1p(std::exp(x)); };  // of 1/(1 + e^x)
   for (int64_t i = 0; i < 100; ++i) {
@@ -96,7 +107,9 @@ TEST(Fractions, FollowTheGrade) {
 }
 
 TEST(Fractions, OfSeveralMaterialsAreIndependentOfTheNeighbours) {
-  const Voxels voxels = slice_text("root((0, 0, 0), (10, 10, 10), (0.1, 0.1, 0.1)) { material([\"red\", \"blue\", \"green\"], [0.2, 0.3, 0.5]) { translate(5, 5, 5) { cube(10); } } }");
+  const Voxels voxels = slice_text(
+      "root((0, 0, 0), (10, 10, 10), (0.1, 0.1, 0.1)) { material([\"red\", \"blue\", \"green\"], [0.2, 0.3, 0.5]) { "
+      "translate(5, 5, 5) { cube(10); } } }");
   const std::map<std::string, double> shares{{"red", 0.2}, {"blue", 0.3}, {"green", 0.5}};
   const double n = 1e6;
   for (const auto& [a, share_a] : shares) {
@@ -111,7 +124,8 @@ TEST(Fractions, OfSeveralMaterialsAreIndependentOfTheNeighbours) {
           for (int64_t j = 0; j < 99; ++j)
             for (int64_t i = 0; i < 99; ++i) {
               total += 1;
-              pairs += voxels.at(i, j, k) == voxels.id(a) && voxels.at(i + (axis == 0), j + (axis == 1), k + (axis == 2)) == voxels.id(b);
+              pairs += voxels.at(i, j, k) == voxels.id(a) &&
+                       voxels.at(i + (axis == 0), j + (axis == 1), k + (axis == 2)) == voxels.id(b);
             }
         const double joint = share_a * share_b;
         EXPECT_NEAR(pairs / total, joint, 5 * std::sqrt(joint * (1 - joint) / total)) << a << b << axis;
@@ -121,13 +135,18 @@ TEST(Fractions, OfSeveralMaterialsAreIndependentOfTheNeighbours) {
 }
 
 TEST(Fractions, ThresholdIsExact) {
-  const Voxels voxels = slice_text("root((0, 0, 0), (10, 1, 1), (0.1, 0.1, 0.1)) { fgrade([\"x\", \"5\"], [\"red\", \"blue\"], \"thresh\") { function(\"-1\"); } }");
+  const Voxels voxels = slice_text(
+      "root((0, 0, 0), (10, 1, 1), (0.1, 0.1, 0.1)) { fgrade([\"x\", \"5\"], [\"red\", \"blue\"], \"thresh\") { "
+      "function(\"-1\"); } }");
   for (int64_t i = 0; i < 100; ++i)
     EXPECT_EQ(voxels.at(i, 0, 0), voxels.id(0.1 * static_cast<double>(i) + 0.05 >= 5 ? "red" : "blue")) << i;
 }
 
 TEST(Layers, DoNotDependOnHowTheyAreGrouped) {
-  const std::string design = boxed(5, 0.1, "fgrade([\"0.5 + x/10\", \"0.5 - x/10\"], [\"red\", \"blue\"], \"prob\") { union() { sphere(3); translate(2, 1, 0) { torus(2.5, 0.7); } mesh(\"" OMBRE_SOURCE_DIR "/examples/models/tetrahedron.off\"); } }");
+  const std::string design = boxed(5, 0.1,
+                                   "fgrade([\"0.5 + x/10\", \"0.5 - x/10\"], [\"red\", \"blue\"], \"prob\") { union() "
+                                   "{ sphere(3); translate(2, 1, 0) { torus(2.5, 0.7); } mesh(\"" OMBRE_SOURCE_DIR
+                                   "/examples/models/tetrahedron.off\"); } }");
   const Voxels by_8 = slice_text(design), by_1 = slice_text(design, {}, 1), by_13 = slice_text(design, {}, 13);
   EXPECT_TRUE(by_8.ids == by_1.ids);
   EXPECT_TRUE(by_8.ids == by_13.ids);
@@ -135,7 +154,10 @@ TEST(Layers, DoNotDependOnHowTheyAreGrouped) {
 
 // Tiles, row spans and shortened programs give what the reference gives at every voxel.
 TEST(Layers, AgreeWithTheReferencePointByPoint) {
-  const std::string body = "difference() { union(materials=\"first\") { cube(4, \"red\"); rotate(20, 30, 40) { translate(2, 0, 0) { cylinder(1, 5, \"blue\"); } } function(\"x^2+y^2*z-3\", \"green\"); } torus(2, 0.5); negate() { sphere(4.5); } }";
+  const std::string body =
+      "difference() { union(materials=\"first\") { cube(4, \"red\"); rotate(20, 30, 40) { translate(2, 0, 0) { "
+      "cylinder(1, 5, \"blue\"); } } function(\"x^2+y^2*z-3\", \"green\"); } torus(2, 0.5); negate() { sphere(4.5); } "
+      "}";
   Diagnostics diagnostics;
   const std::string text = boxed(5, 0.23, body);
   const Voxels voxels = slice_text(text);

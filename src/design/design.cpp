@@ -22,7 +22,8 @@ Data vector_data(Vec3 v) { return Data(DataList{Data(v.x), Data(v.y), Data(v.z)}
 Data sampling_data(const Sampling& sampling) {
   DataList voxel;
   for (const Pitch& pitch : sampling.pitch) voxel.emplace_back(pitch.text());
-  return Data(DataMembers{{"min", vector_data(sampling.box.lo)}, {"max", vector_data(sampling.box.hi)}, {"voxel", Data(std::move(voxel))}});
+  return Data(DataMembers{
+      {"min", vector_data(sampling.box.lo)}, {"max", vector_data(sampling.box.hi)}, {"voxel", Data(std::move(voxel))}});
 }
 
 // Ids count nodes in the order in which they are first needed.
@@ -45,7 +46,8 @@ Data to_data(const Design& design) {
   const auto ids = node_ids(nodes);
   DataList node_list, part_list;
   for (const Node* node : nodes) {
-    DataMembers entry{{"id", Data(ids.at(node))}, {"type", Data(node->type().name)}, {"parameters", node_parameters(*node, false)}};
+    DataMembers entry{
+        {"id", Data(ids.at(node))}, {"type", Data(node->type().name)}, {"parameters", node_parameters(*node, false)}};
     if (!node->inputs().empty()) {
       DataList inputs;
       for (const NodePtr& input : node->inputs()) inputs.emplace_back(ids.at(input.get()));
@@ -75,7 +77,8 @@ Hash hash(const Design& design) {
   DataList parts;
   for (const Part& part : design.parts)
     parts.emplace_back(DataList{Data(part.name), Data(hashes.at(part.solid.get()))});
-  DataMembers members{{"version", Data(format_version)}, {"materials", design.materials.to_data()}, {"parts", Data(std::move(parts))}};
+  DataMembers members{
+      {"version", Data(format_version)}, {"materials", design.materials.to_data()}, {"parts", Data(std::move(parts))}};
   if (design.sampling) members.emplace_back("sampling", sampling_data(*design.sampling));
   return hash_bytes(print_json_line(Data(std::move(members))));
 }

@@ -34,7 +34,8 @@ struct Design {
 // The design file: format, version, materials, sampling, nodes (each once), parts.
 Data to_data(const Design& design);
 // Nothing, and diagnostics with places, when it is wrong: unknown types, wrong values, missing or circular references.
-std::optional<Design> read_design(const Data& data, const Registry& registry, SourceLoader* loader, Diagnostics& diagnostics);
+std::optional<Design> read_design(const Data& data, const Registry& registry, SourceLoader* loader,
+                                  Diagnostics& diagnostics);
 
 // Over the design file's form with defaults filled in; names of variables, node ids and places left
 // out, files named by their content.

@@ -44,7 +44,8 @@ class DesignReader {
     }
     const Data* version = data_.find("version");
     if (!version || !version->number() || *version->number() != 1) {
-      error(version ? *version : data_, "this design file has a version that is not known here", "expected \"version\": 1");
+      error(version ? *version : data_, "this design file has a version that is not known here",
+            "expected \"version\": 1");
       return false;
     }
     static const std::vector<std::string> known{"format", "version", "materials", "sampling", "nodes", "parts"};
@@ -72,11 +73,15 @@ class DesignReader {
     if (!voxel->list() || voxel->list()->size() != 3) return error(*voxel, "expected three voxel sizes in mm");
     for (size_t axis = 0; axis < 3; ++axis) {
       const Data& size = (*voxel->list())[axis];
-      const auto pitch = size.string() ? Pitch::parse(*size.string()) : size.number() ? Pitch::from_mm(*size.number()) : std::nullopt;
-      if (!pitch) return error(size, "expected a voxel size in mm such as 0.1 or \"25.4/600\", found " + describe(size));
+      const auto pitch = size.string()   ? Pitch::parse(*size.string())
+                         : size.number() ? Pitch::from_mm(*size.number())
+                                         : std::nullopt;
+      if (!pitch)
+        return error(size, "expected a voxel size in mm such as 0.1 or \"25.4/600\", found " + describe(size));
       sampling.pitch[axis] = *pitch;
       const int i = static_cast<int>(axis);
-      if (!(sampling.box.lo[i] < sampling.box.hi[i])) return error(*hi, "the box is empty: max must be greater than min on each axis");
+      if (!(sampling.box.lo[i] < sampling.box.hi[i]))
+        return error(*hi, "the box is empty: max must be greater than min on each axis");
     }
     design_.sampling = sampling;
   }
@@ -108,7 +113,8 @@ class DesignReader {
       }
       const NodePtr solid = resolve(*node);
       if (!solid) continue;
-      if (solid->type().output != ValueType::solid) error(*node, "a part must be a solid, " + solid->type().name + " is not");
+      if (solid->type().output != ValueType::solid)
+        error(*node, "a part must be a solid, " + solid->type().name + " is not");
       design_.parts.push_back({*name->string(), solid});
     }
   }
@@ -120,7 +126,9 @@ class DesignReader {
       const Data& wanted = *stack.back();
       const auto found = wanted.string() ? entries_.find(*wanted.string()) : entries_.end();
       if (found == entries_.end()) {
-        error(wanted, wanted.string() ? "there is no node with the id \"" + *wanted.string() + "\"" : "expected the id of a node, a text",
+        error(wanted,
+              wanted.string() ? "there is no node with the id \"" + *wanted.string() + "\""
+                              : "expected the id of a node, a text",
               wanted.string() ? did_you_mean(*wanted.string(), ids_) : "");
         return nullptr;
       }
@@ -177,7 +185,8 @@ class DesignReader {
     check_keys(*entry.data, known);
     const NodeType* type = registry_.find(*type_name->string());
     if (!type) {
-      error(*type_name, "there is no node \"" + *type_name->string() + "\"", did_you_mean(*type_name->string(), registry_.names()));
+      error(*type_name, "there is no node \"" + *type_name->string() + "\"",
+            did_you_mean(*type_name->string(), registry_.names()));
       return nullptr;
     }
     std::vector<NamedValue> values;
@@ -185,7 +194,8 @@ class DesignReader {
     std::vector<NodePtr> inputs;
     if (const Data* list = entry.data->find("inputs"))
       for (const Data& input : *list->list()) inputs.push_back(entries_.at(*input.string()).node);
-    return make_node(*type, values, std::move(inputs), {design_.materials, diagnostics_, loader_, type_name->where, "", ""});
+    return make_node(*type, values, std::move(inputs),
+                     {design_.materials, diagnostics_, loader_, type_name->where, "", ""});
   }
 
   bool read_parameters(const Data& entry, const NodeType& type, std::vector<NamedValue>& values) {
@@ -217,7 +227,8 @@ class DesignReader {
 
 }  // namespace
 
-std::optional<Design> read_design(const Data& data, const Registry& registry, SourceLoader* loader, Diagnostics& diagnostics) {
+std::optional<Design> read_design(const Data& data, const Registry& registry, SourceLoader* loader,
+                                  Diagnostics& diagnostics) {
   if (!data.members()) {
     diagnostics.error(data.where, "a design file holds an object, found " + describe(data));
     return std::nullopt;

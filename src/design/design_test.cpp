@@ -21,7 +21,9 @@ struct Ramp {
 };
 
 struct Below {
-  static Spec<Below> spec() { return {"below", "test", "Where a field is 0 or less.", {}, {ValueType::field, 1, 1}, ""}; }
+  static Spec<Below> spec() {
+    return {"below", "test", "Where a field is 0 or less.", {}, {ValueType::field, 1, 1}, ""};
+  }
   Box reach(const Inputs&, const Box& where, double) const { return where; }
   Metric metric(const Inputs&) const { return Metric::implicit(); }
   Field distance(const Inputs& in, const Point& p) const { return in.value(0, p); }
@@ -31,7 +33,9 @@ struct Ball {
   Number radius = 1;
   MaterialName material;
   static Spec<Ball> spec() {
-    return {"ball", "test", "A ball.", {{"radius", &Ball::radius, "", unit::positive_mm}, {"material", &Ball::material, ""}}, no_inputs, ""};
+    return {"ball",    "test",
+            "A ball.", {{"radius", &Ball::radius, "", unit::positive_mm}, {"material", &Ball::material, ""}},
+            no_inputs, ""};
   }
   Box bounds(const Box& where) const {
     const double r = radius.range(where).hi;
@@ -65,13 +69,17 @@ class Designs : public testing::Test {
  protected:
   Designs() {
     registry_.add<Ramp, Below, Ball, Shift, Any>();
-    materials_ = *MaterialTable::read(*parse_json(make_source("m", R"({"materials": [{"name": "Red", "r": 1, "g": 2, "b": 3}]})"), diagnostics_), diagnostics_);
+    materials_ = *MaterialTable::read(
+        *parse_json(make_source("m", R"({"materials": [{"name": "Red", "r": 1, "g": 2, "b": 3}]})"), diagnostics_),
+        diagnostics_);
   }
 
-  NodePtr make(const std::string& type, const std::vector<std::pair<std::string, Data>>& values, std::vector<NodePtr> inputs = {}) {
+  NodePtr make(const std::string& type, const std::vector<std::pair<std::string, Data>>& values,
+               std::vector<NodePtr> inputs = {}) {
     const NodeType& t = *registry_.find(type);
     std::vector<NamedValue> named;
-    for (const auto& [name, data] : values) named.push_back({&t.parameters[static_cast<size_t>(t.parameter(name))], data});
+    for (const auto& [name, data] : values)
+      named.push_back({&t.parameters[static_cast<size_t>(t.parameter(name))], data});
     return make_node(t, named, std::move(inputs), {materials_, diagnostics_, nullptr, {}, "", ""});
   }
 
@@ -109,8 +117,9 @@ TEST_F(Designs, InputsOfTheWrongTypeAreErrors) {
 
 TEST_F(Designs, ASolidUnderSeveralFramesIsOneBody) {
   const NodePtr ball = make("ball", {{"radius", Data(2.0)}});
-  const NodePtr two = make("any", {}, {make("shift", {{"by", Data(DataList{Data(5.0), Data(0.0), Data(0.0)})}}, {ball}),
-                                       make("shift", {{"by", Data(DataList{Data(-5.0), Data(0.0), Data(0.0)})}}, {ball})});
+  const NodePtr two = make("any", {},
+                           {make("shift", {{"by", Data(DataList{Data(5.0), Data(0.0), Data(0.0)})}}, {ball}),
+                            make("shift", {{"by", Data(DataList{Data(-5.0), Data(0.0), Data(0.0)})}}, {ball})});
   size_t calls = 0;
   EXPECT_EQ(distance(two, {9, 0, 0}, &calls), 2);
   EXPECT_EQ(distance(two, {-4, 0, 0}), -1);
@@ -152,7 +161,8 @@ TEST_F(Designs, HashesLeaveOutWhatDoesNotMatter) {
 
 TEST_F(Designs, TooDeepIsAnError) {
   NodePtr node = make("ball", {});
-  for (int level = 0; level < 1000 && node; ++level) node = make("shift", {{"by", Data(DataList{Data(1.0), Data(0.0), Data(0.0)})}}, {node});
+  for (int level = 0; level < 1000 && node; ++level)
+    node = make("shift", {{"by", Data(DataList{Data(1.0), Data(0.0), Data(0.0)})}}, {node});
   EXPECT_FALSE(node);
   EXPECT_EQ(to_text(diagnostics_), "error: the design nests deeper than 400 nodes\n");
 }

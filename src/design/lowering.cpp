@@ -33,7 +33,8 @@ struct LoweringContext::Body {
   }
 };
 
-LoweringContext::LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots) : materials_(materials) {
+LoweringContext::LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots)
+    : materials_(materials) {
   std::unordered_map<const Node*, int> uses;
   for (const Node* node : topological(roots)) {
     for (const NodePtr& input : node->inputs())
@@ -76,7 +77,8 @@ LoweringContext::Body* Lowering::body_for(const Node& node) {
   return &node != own_ && context_.is_shared(node) ? &context_.body_of(node) : nullptr;
 }
 
-Field Lowering::once(const Node& node, const Point& p, Query query, Field (Lowering::*make)(const Node&, const Point&)) {
+Field Lowering::once(const Node& node, const Point& p, Query query,
+                     Field (Lowering::*make)(const Node&, const Point&)) {
   const Key key = key_of(node, p, query);
   if (const auto known = fields_.find(key); known != fields_.end()) return known->second;
   const Field field = (this->*make)(node, p);
@@ -104,9 +106,7 @@ Field Lowering::value(const Node& node, const Point& p) {
   return once(node, p, Query::value, &Lowering::make_value);
 }
 
-Field Lowering::make_distance(const Node& node, const Point& p) {
-  return node.value().distance(Inputs(node, this), p);
-}
+Field Lowering::make_distance(const Node& node, const Point& p) { return node.value().distance(Inputs(node, this), p); }
 
 Field Lowering::make_inside(const Node& node, const Point& p) {
   if (const auto own = node.value().inside(Inputs(node, this), p)) return *own;

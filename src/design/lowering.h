@@ -40,8 +40,8 @@ class LoweringContext {
   std::vector<Check> checks_;
   std::map<std::pair<const Node*, std::string>, uint32_t> check_numbers_;
   std::vector<AttributeDeclaration> attributes_;
-  std::unordered_set<const Node*> shared_;                            // used more than once
-  std::map<std::pair<const Node*, std::string>, bool> carries_;       // does a node have an attribute?
+  std::unordered_set<const Node*> shared_;                       // used more than once
+  std::map<std::pair<const Node*, std::string>, bool> carries_;  // does a node have an attribute?
   std::unordered_map<const Node*, std::unique_ptr<Body>> bodies_;
   std::vector<Body*> body_order_;
 };

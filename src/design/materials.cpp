@@ -7,15 +7,18 @@ namespace {
 
 constexpr size_t most_materials = 255;  // ids fit a byte, 0 is void
 
-std::optional<uint8_t> channel(const Data& entry, std::string_view key, std::optional<uint8_t> otherwise, Diagnostics& diagnostics) {
+std::optional<uint8_t> channel(const Data& entry, std::string_view key, std::optional<uint8_t> otherwise,
+                               Diagnostics& diagnostics) {
   const Data* value = entry.find(key);
   if (!value) {
     if (otherwise) return otherwise;
-    diagnostics.error(entry.where, "this material has no \"" + std::string(key) + "\"", "give r, g, b (and a) from 0 to 255");
+    diagnostics.error(entry.where, "this material has no \"" + std::string(key) + "\"",
+                      "give r, g, b (and a) from 0 to 255");
     return std::nullopt;
   }
   const double* number = value->number();
-  if (number && *number >= 0 && *number <= 255 && *number == static_cast<int>(*number)) return static_cast<uint8_t>(*number);
+  if (number && *number >= 0 && *number <= 255 && *number == static_cast<int>(*number))
+    return static_cast<uint8_t>(*number);
   diagnostics.error(value->where, "expected a whole number from 0 to 255, found " + describe(*value));
   return std::nullopt;
 }
@@ -44,7 +47,8 @@ std::optional<MaterialTable> MaterialTable::read(const Data& data, Diagnostics& 
     if (!r || !g || !b || !a) continue;
     Material material{*name->string(), 0, {*r, *g, *b, *a}, {}};
     for (const auto& [key, value] : *entry.members())
-      if (key != "name" && key != "r" && key != "g" && key != "b" && key != "a") material.properties.emplace_back(key, value);
+      if (key != "name" && key != "r" && key != "g" && key != "b" && key != "a")
+        material.properties.emplace_back(key, value);
     if (to_lower(material.name) == "void") {
       table.all_[0].properties = material.properties;  // its id and colour are fixed
       continue;

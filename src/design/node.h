@@ -86,7 +86,8 @@ class NodeValue {
   virtual std::optional<Field> inside(const Inputs& in, const Point& p) const = 0;
   virtual std::optional<Field> interior(const Inputs& in, const Point& p) const = 0;
   virtual std::optional<Composition> composition(const Inputs& in, const Point& p, Demand demand) const = 0;
-  virtual std::optional<Field> attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const = 0;
+  virtual std::optional<Field> attribute(const Inputs& in, std::string_view name, const Point& p,
+                                         Demand demand) const = 0;
   virtual std::optional<AttributeDeclaration> declares() const = 0;  // the attribute that it sets
   // Where a node that only moves the question asks its input.
   virtual std::optional<Point> inner(const Point& p) const = 0;

@@ -48,11 +48,13 @@ bool check_inputs(const NodeType& type, const std::vector<NodePtr>& inputs, cons
     return fail(type.name + " has nothing inside its braces", "write " + type.name + "(...) { sphere(5); }");
   if (inputs.size() > wanted.most)
     return fail(type.name + " takes " + std::to_string(wanted.most) + (wanted.most == 1 ? " input, " : " inputs, ") +
-                    std::to_string(inputs.size()) + " were given", "join them with union");
+                    std::to_string(inputs.size()) + " were given",
+                "join them with union");
   for (const NodePtr& input : inputs)
     if (input->type().output != wanted.type)
       return fail(type.name + " takes a " + std::string(name(wanted.type)) + ", " + input->type().name + " gives a " +
-                      std::string(name(input->type().output)), "");
+                      std::string(name(input->type().output)),
+                  "");
   return true;
 }
 
@@ -71,7 +73,8 @@ NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, s
   }
   for (size_t i = 0; i < given.size(); ++i) {
     if (given[i] || !type.parameters[i].domain.required) continue;
-    reader.diagnostics.error(reader.where, type.name + " needs \"" + type.parameters[i].name + "\": " + type.parameters[i].doc,
+    reader.diagnostics.error(reader.where,
+                             type.name + " needs \"" + type.parameters[i].name + "\": " + type.parameters[i].doc,
                              type.example.empty() ? "" : "for example " + type.example);
     good = false;
   }

@@ -15,7 +15,7 @@ struct ParameterInfo {
   std::string name, doc;
   std::string_view kind;  // "number or field", ...
   Domain domain;
-  Data default_value;     // null when it is required
+  Data default_value;  // null when it is required
 };
 
 // How many inputs a node takes, and of which type.

@@ -41,8 +41,8 @@ struct Parameter {
   Domain domain;
   std::function<bool(T&, const Data&, const Reader&)> set;
   std::function<Data(const T&, bool)> get;
-  std::function<bool(const T&)> is_constant;        // for numbers that may be fields
-  std::function<void(T&, const Reader&)> fill;      // what is meant where nothing is given
+  std::function<bool(const T&)> is_constant;    // for numbers that may be fields
+  std::function<void(T&, const Reader&)> fill;  // what is meant where nothing is given
 };
 
 template <class T>
@@ -68,71 +68,97 @@ class NodeValueOf final : public NodeValue {
   Box reach(const Inputs& in, const Box& where, double margin) const override {
     if constexpr (requires { data.reach(in, where, margin); }) return intersect(data.reach(in, where, margin), where);
     // A leaf's g is at least the distance to its shape.
-    else if constexpr (requires { data.bounds(where); }) return intersect(data.bounds(where).expanded(margin), where);
-    else return in.count() > 0 ? in.reach(0, where, margin) : where;
+    else if constexpr (requires { data.bounds(where); })
+      return intersect(data.bounds(where).expanded(margin), where);
+    else
+      return in.count() > 0 ? in.reach(0, where, margin) : where;
   }
 
   Metric metric(const Inputs& in) const override {
     if (!type_.has_constant_numbers(data)) return Metric::implicit();
-    if constexpr (requires { data.metric(in); }) return data.metric(in);
-    else if constexpr (requires { data.metric(); }) return data.metric();
-    else return in.count() > 0 ? in.metric(0) : Metric::exact();
+    if constexpr (requires { data.metric(in); })
+      return data.metric(in);
+    else if constexpr (requires { data.metric(); })
+      return data.metric();
+    else
+      return in.count() > 0 ? in.metric(0) : Metric::exact();
   }
 
   Field distance(const Inputs& in, const Point& p) const override {
-    if constexpr (requires { data.distance(in, p); }) return data.distance(in, p);
-    else if constexpr (requires { data.distance(p); }) return data.distance(p);
+    if constexpr (requires { data.distance(in, p); })
+      return data.distance(in, p);
+    else if constexpr (requires { data.distance(p); })
+      return data.distance(p);
     else if constexpr (requires { data.scale(); }) {
       const Field inner_distance = in.distance(0, data.inner(p));
       return data.scale() == 1 ? inner_distance : inner_distance * data.scale();
-    }
-    else if constexpr (requires { data.value(in, p); }) return data.value(in, p);
-    else return in.distance(0, p);
+    } else if constexpr (requires { data.value(in, p); })
+      return data.value(in, p);
+    else
+      return in.distance(0, p);
   }
 
   std::optional<Field> inside(const Inputs& in, const Point& p) const override {
-    if constexpr (requires { data.inside(in, p); }) return data.inside(in, p);
-    else if constexpr (passes_on) return in.inside(0, p);
-    else return std::nullopt;
+    if constexpr (requires { data.inside(in, p); })
+      return data.inside(in, p);
+    else if constexpr (passes_on)
+      return in.inside(0, p);
+    else
+      return std::nullopt;
   }
 
   std::optional<Field> interior(const Inputs& in, const Point& p) const override {
-    if constexpr (requires { data.interior(in, p); }) return data.interior(in, p);
-    else if constexpr (passes_on) return in.interior(0, p);
-    else return std::nullopt;
+    if constexpr (requires { data.interior(in, p); })
+      return data.interior(in, p);
+    else if constexpr (passes_on)
+      return in.interior(0, p);
+    else
+      return std::nullopt;
   }
 
   std::optional<Composition> composition(const Inputs& in, const Point& p, Demand demand) const override {
-    if constexpr (requires { data.composition(in, p, demand); }) return data.composition(in, p, demand);
-    else if constexpr (requires { data.material; }) return Composition::pure(in.material(data.material), p.constant(1));
-    else return std::nullopt;
+    if constexpr (requires { data.composition(in, p, demand); })
+      return data.composition(in, p, demand);
+    else if constexpr (requires { data.material; })
+      return Composition::pure(in.material(data.material), p.constant(1));
+    else
+      return std::nullopt;
   }
 
-  std::optional<Field> attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const override {
-    if constexpr (requires { data.attribute(in, name, p, demand); }) return data.attribute(in, name, p, demand);
-    else return std::nullopt;
+  std::optional<Field> attribute(const Inputs& in, std::string_view name, const Point& p,
+                                 Demand demand) const override {
+    if constexpr (requires { data.attribute(in, name, p, demand); })
+      return data.attribute(in, name, p, demand);
+    else
+      return std::nullopt;
   }
 
   std::optional<AttributeDeclaration> declares() const override {
-    if constexpr (requires { data.declares(); }) return data.declares();
-    else return std::nullopt;
+    if constexpr (requires { data.declares(); })
+      return data.declares();
+    else
+      return std::nullopt;
   }
 
   std::optional<Point> inner(const Point& p) const override {
-    if constexpr (requires { data.inner(p); }) return data.inner(p);
-    else return std::nullopt;
+    if constexpr (requires { data.inner(p); })
+      return data.inner(p);
+    else
+      return std::nullopt;
   }
 
   Field value(const Inputs& in, const Point& p) const override {
-    if constexpr (requires { data.value(in, p); }) return data.value(in, p);
-    else return p.constant(0);
+    if constexpr (requires { data.value(in, p); })
+      return data.value(in, p);
+    else
+      return p.constant(0);
   }
 
  private:
   // Has neither a shape of its own nor another point: it carries something to its input's shape.
-  static constexpr bool passes_on = !requires(const T& t, const Inputs& in, const Point& p) { t.distance(in, p); } &&
-                                    !requires(const T& t, const Point& p) { t.distance(p); } &&
-                                    !requires(const T& t, const Point& p) { t.inner(p); };
+  static constexpr bool passes_on = !requires(const T& t, const Inputs& in, const Point& p) { t.distance(in, p); }
+  &&!requires(const T& t, const Point& p) { t.distance(p); }
+  &&!requires(const T& t, const Point& p) { t.inner(p); };
 
   const NodeTypeOf<T>& type_;
 };
@@ -167,9 +193,12 @@ class NodeTypeOf final : public NodeType {
     T& data = struct_of(value);
     for (const Parameter<T>& parameter : spec_.parameters)
       if (parameter.fill) parameter.fill(data, reader);
-    if constexpr (requires { data.complete(reader, children); }) return data.complete(reader, children);
-    else if constexpr (requires { data.complete(reader); }) return data.complete(reader);
-    else return true;
+    if constexpr (requires { data.complete(reader, children); })
+      return data.complete(reader, children);
+    else if constexpr (requires { data.complete(reader); })
+      return data.complete(reader);
+    else
+      return true;
   }
 
   bool has_constant_numbers(const T& data) const {

@@ -34,7 +34,8 @@ std::string range_text(const Domain& domain) {
   std::string text;
   if (std::isfinite(domain.least))
     text = (domain.above_least ? "greater than " : "of at least ") + format_number(domain.least);
-  if (std::isfinite(domain.greatest)) text += (text.empty() ? "of at most " : " and at most ") + format_number(domain.greatest);
+  if (std::isfinite(domain.greatest))
+    text += (text.empty() ? "of at most " : " and at most ") + format_number(domain.greatest);
   return text;
 }
 
@@ -53,7 +54,8 @@ bool read(const Data& data, const Domain& domain, double& value, const Reader& r
   const double* number = data.number();
   if (!number) return reader.fail(data, "a number" + with_unit(domain));
   const std::string range = range_text(domain);
-  if (!in_range(*number, domain)) return reader.fail(data, range.empty() ? "a finite number" : "a number " + range + with_unit(domain));
+  if (!in_range(*number, domain))
+    return reader.fail(data, range.empty() ? "a finite number" : "a number " + range + with_unit(domain));
   value = *number;
   return true;
 }
@@ -108,7 +110,8 @@ bool read(const Data& data, const Domain& domain, std::string& value, const Read
         value = choice;
         return true;
       }
-    return reader.fail(data, "one of \"" + join(domain.choices, "\", \"") + "\"", did_you_mean(*data.string(), domain.choices));
+    return reader.fail(data, "one of \"" + join(domain.choices, "\", \"") + "\"",
+                       did_you_mean(*data.string(), domain.choices));
   }
   value = *data.string();
   return true;
@@ -154,7 +157,8 @@ bool read(const Data& data, const Domain&, MaterialName& value, const Reader& re
     const bool is_id = *id >= 0 && *id <= 255 && *id == std::floor(*id);
     const Material* material = is_id ? reader.materials.find(static_cast<MaterialId>(*id)) : nullptr;
     if (!material)
-      return reader.fail(data, "a material's name, or its number from 0 to " + std::to_string(reader.materials.all().size() - 1));
+      return reader.fail(
+          data, "a material's name, or its number from 0 to " + std::to_string(reader.materials.all().size() - 1));
     value.name = material->name;
     return true;
   }
@@ -170,7 +174,8 @@ bool read(const Data& data, const Domain&, MaterialName& value, const Reader& re
   const auto names = reader.materials.names();
   std::string hint = did_you_mean(*data.string(), names);
   if (hint.empty()) hint = "there are " + join(names, ", ");
-  reader.diagnostics.error(data.where.source ? data.where : reader.where, "there is no material \"" + *data.string() + "\"", hint);
+  reader.diagnostics.error(data.where.source ? data.where : reader.where,
+                           "there is no material \"" + *data.string() + "\"", hint);
   return false;
 }
 

@@ -21,8 +21,8 @@ inline Box design_space() { return Box::centered({design_limit_mm, design_limit_
 // A constant, or a field over space given by an expression.
 class Number {
  public:
-  Number(double value = 0) : value_(value) {}              // NOLINT: a double is a Number
-  Number(expr::Expression e) : value_(std::move(e)) {}     // NOLINT
+  Number(double value = 0) : value_(value) {}           // NOLINT: a double is a Number
+  Number(expr::Expression e) : value_(std::move(e)) {}  // NOLINT
   program::Field operator()(const program::Point& p) const { return at(p, nullptr); }
   // With variables besides the coordinates.
   program::Field at(const program::Point& p, const expr::Variables& extra) const;
@@ -56,10 +56,10 @@ struct FilePath {
 struct Domain {
   std::string_view unit;  // "mm", "deg", or none
   double least = -std::numeric_limits<double>::infinity(), greatest = std::numeric_limits<double>::infinity();
-  bool above_least = false;               // greater than `least`, not equal
-  bool required = false;                  // has no default
-  std::vector<std::string> choices;       // for texts
-  std::vector<std::string> variables;     // known in expressions besides the coordinates
+  bool above_least = false;            // greater than `least`, not equal
+  bool required = false;               // has no default
+  std::vector<std::string> choices;    // for texts
+  std::vector<std::string> variables;  // known in expressions besides the coordinates
 };
 
 inline Domain any(std::string_view unit = "") {

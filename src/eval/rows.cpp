@@ -26,22 +26,30 @@ void RowEvaluator::run(const Program& program, size_t begin, size_t end, const S
     const double *a = row(in.a), *b = row(in.b), *c = row(in.c);
     switch (in.op) {
       case Op::input:
-        if (in.value == 0) std::copy_n(xs_.data(), n, out);
-        else std::fill_n(out, n, in.value == 1 ? y_ : z_);
+        if (in.value == 0)
+          std::copy_n(xs_.data(), n, out);
+        else
+          std::fill_n(out, n, in.value == 1 ? y_ : z_);
         break;
-      case Op::constant: std::fill_n(out, n, in.value); break;
+      case Op::constant:
+        std::fill_n(out, n, in.value);
+        break;
       case Op::affine: {
         const program::AffineRow& m = program.maps[in.aux];
         for (size_t p = 0; p < n; ++p) out[p] = program::apply_affine(m, a[p], b[p], c[p]);
         break;
       }
-      case Op::source: run_source(program, in, {out, n}, source_row); break;
-      case Op::call: ASSERT(false && "calls are inlined before evaluation"); break;
+      case Op::source:
+        run_source(program, in, {out, n}, source_row);
+        break;
+      case Op::call:
+        ASSERT(false && "calls are inlined before evaluation");
+        break;
 #define OMBRE_LANE_1(name) math::name(a[p])
 #define OMBRE_LANE_2(name) math::name(a[p], b[p])
 #define OMBRE_LANE_3(name) math::name(a[p], b[p], c[p])
-#define OMBRE_ROW(name, arity)                                          \
-  case Op::name:                                                        \
+#define OMBRE_ROW(name, arity)                                        \
+  case Op::name:                                                      \
     for (size_t p = 0; p < n; ++p) out[p] = OMBRE_LANE_##arity(name); \
     break;
         OMBRE_OPS(OMBRE_ROW)

@@ -37,10 +37,14 @@ class Lowerer {
 
   Field lower(const Node& node) {
     switch (node.kind) {
-      case Kind::number: return p_.constant(node.number);
-      case Kind::variable: return variable(node.name);
-      case Kind::negate: return -lower(*node.operands[0]);
-      case Kind::logical_not: return logical_not(lower(*node.operands[0]));
+      case Kind::number:
+        return p_.constant(node.number);
+      case Kind::variable:
+        return variable(node.name);
+      case Kind::negate:
+        return -lower(*node.operands[0]);
+      case Kind::logical_not:
+        return logical_not(lower(*node.operands[0]));
       case Kind::conditional: {
         const Field condition = lower(*node.operands[0]);
         const Field yes = lower(*node.operands[1]);
@@ -51,7 +55,8 @@ class Lowerer {
         for (const auto& operand : node.operands) arguments.push_back(lower(*operand));
         return find_function(node.name)->lower(arguments);
       }
-      case Kind::binary: break;
+      case Kind::binary:
+        break;
     }
     return chain(node);
   }
@@ -76,23 +81,40 @@ class Lowerer {
 
   static Field combine(Binary binary, Field a, Field b) {
     switch (binary) {
-      case Binary::add: return a + b;
-      case Binary::subtract: return a - b;
-      case Binary::multiply: return a * b;
-      case Binary::divide: return a / b;
-      case Binary::mod: return a.builder->apply(Op::mod, a, b);
-      case Binary::power: return power(a, b);
-      case Binary::less: return less(a, b);
-      case Binary::less_equal: return less_equal(a, b);
-      case Binary::greater: return less(b, a);
-      case Binary::greater_equal: return less_equal(b, a);
-      case Binary::equal: return a.builder->apply(Op::equal, a, b);
-      case Binary::not_equal: return logical_not(a.builder->apply(Op::equal, a, b));
-      case Binary::logical_and: return logical_and(a, b);
-      case Binary::logical_or: return logical_or(a, b);
-      case Binary::logical_xor: return logical_not(a.builder->apply(Op::equal, truth(a), truth(b)));
-      case Binary::logical_nand: return logical_not(logical_and(a, b));
-      case Binary::logical_nor: return logical_not(logical_or(a, b));
+      case Binary::add:
+        return a + b;
+      case Binary::subtract:
+        return a - b;
+      case Binary::multiply:
+        return a * b;
+      case Binary::divide:
+        return a / b;
+      case Binary::mod:
+        return a.builder->apply(Op::mod, a, b);
+      case Binary::power:
+        return power(a, b);
+      case Binary::less:
+        return less(a, b);
+      case Binary::less_equal:
+        return less_equal(a, b);
+      case Binary::greater:
+        return less(b, a);
+      case Binary::greater_equal:
+        return less_equal(b, a);
+      case Binary::equal:
+        return a.builder->apply(Op::equal, a, b);
+      case Binary::not_equal:
+        return logical_not(a.builder->apply(Op::equal, a, b));
+      case Binary::logical_and:
+        return logical_and(a, b);
+      case Binary::logical_or:
+        return logical_or(a, b);
+      case Binary::logical_xor:
+        return logical_not(a.builder->apply(Op::equal, truth(a), truth(b)));
+      case Binary::logical_nand:
+        return logical_not(logical_and(a, b));
+      case Binary::logical_nor:
+        return logical_not(logical_or(a, b));
     }
     return a;
   }
@@ -115,7 +137,8 @@ void each_variable(const Node& root, F f) {
 // The range of the text's own characters: in its file if it stands there literally, else in a
 // source made of the text alone.
 SourceRange text_range(const std::string& text, const SourceRange& where) {
-  if (where.source && where.end - where.begin == text.size() && where.source->text().substr(where.begin, text.size()) == text)
+  if (where.source && where.end - where.begin == text.size() &&
+      where.source->text().substr(where.begin, text.size()) == text)
     return where;
   std::string name = "expression";
   if (where.source) {
@@ -148,7 +171,8 @@ std::vector<FunctionInfo> function_table() {
   return table;
 }
 
-std::optional<Expression> Expression::parse(const std::string& text, const SourceRange& where, Diagnostics& diagnostics) {
+std::optional<Expression> Expression::parse(const std::string& text, const SourceRange& where,
+                                            Diagnostics& diagnostics) {
   Expression expression;
   expression.where_ = text_range(text, where);
   expression.root_ = parse_tree(text, expression.where_, diagnostics);
@@ -174,7 +198,8 @@ bool Expression::check_variables(const std::vector<std::string>& known, Diagnost
     all_known = false;
     std::string hint = did_you_mean(node.name, known);
     if (hint.empty()) hint = "known here are " + join(known, ", ");
-    diagnostics.error(where_.part(node.begin, node.end), "there is no variable \"" + node.name + "\" in this expression", hint);
+    diagnostics.error(where_.part(node.begin, node.end),
+                      "there is no variable \"" + node.name + "\" in this expression", hint);
   });
   return all_known;
 }

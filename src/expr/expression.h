@@ -16,9 +16,23 @@ namespace ombre::expr {
 
 enum class Kind : uint8_t { number, variable, negate, logical_not, binary, call, conditional };
 enum class Binary : uint8_t {
-  add, subtract, multiply, divide, mod, power,
-  less, less_equal, greater, greater_equal, equal, not_equal,
-  logical_and, logical_or, logical_xor, logical_nand, logical_nor,
+  add,
+  subtract,
+  multiply,
+  divide,
+  mod,
+  power,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  equal,
+  not_equal,
+  logical_and,
+  logical_or,
+  logical_xor,
+  logical_nand,
+  logical_nor,
 };
 
 struct Node {
@@ -63,7 +77,7 @@ class Expression {
  private:
   std::shared_ptr<const Node> root_;
   std::string canonical_;
-  SourceRange where_;   // in the file, or in a source of its own that holds just the expression
+  SourceRange where_;  // in the file, or in a source of its own that holds just the expression
 };
 
 // x y z rho phic r theta phis: what every expression knows.

@@ -116,8 +116,9 @@ TEST(Expression, PrintsInOneWay) {
   EXPECT_EQ(parse("a ? b : c", d)->text(), "a ? b : c");
   EXPECT_EQ(parse("(x^y)^z", d)->text(), "(x^y)^z");
   EXPECT_EQ(parse("x-(y-z)", d)->text(), "x - (y - z)");
-  for (const char* text : {"x - (y - z) - 1", "(x + 1)*(y/2)/3", "-x^-y", "(a ? b : c) + 1", "not(x)*2", "((x and y) or z) and 1",
-                           "2^(x + 1)", "(x < y) < z", "x < (y < z)", "if(x, 1e-30, y)", "-(-x)", "(x ? 1 : 2) ? 3 : 4"}) {
+  for (const char* text :
+       {"x - (y - z) - 1", "(x + 1)*(y/2)/3", "-x^-y", "(a ? b : c) + 1", "not(x)*2", "((x and y) or z) and 1",
+        "2^(x + 1)", "(x < y) < z", "x < (y < z)", "if(x, 1e-30, y)", "-(-x)", "(x ? 1 : 2) ? 3 : 4"}) {
     const auto once = parse(text, d);
     ASSERT_TRUE(once) << to_text(d);
     EXPECT_EQ(parse(once->text(), d)->text(), once->text());
@@ -135,7 +136,8 @@ TEST(Expression, MessagesPointIntoTheString) {
             "part.vcad:1:8: error: there is no variable \"rhoo\" in this expression; did you mean \"rho\"?\n"
             "  1 | f(\"x + rhoo\")\n"
             "    |        ^~~~\n");
-  EXPECT_NE(message("x + ").find("the expression ends where a number, a name or \"(\" was expected"), std::string::npos);
+  EXPECT_NE(message("x + ").find("the expression ends where a number, a name or \"(\" was expected"),
+            std::string::npos);
   EXPECT_NE(message("").find("the expression is empty"), std::string::npos);
   EXPECT_NE(message("(x").find("where \")\" was expected"), std::string::npos);
   EXPECT_NE(message("x := 3").find("assignments"), std::string::npos);

@@ -67,9 +67,8 @@ constexpr auto table = std::to_array<Function>({
     {"mod", 2, 2, "a, b", "remainder of a/b with the sign of a, as a % b", binary<Op::mod>},
     {"min", 1, -1, "a, b, ...", "least", [](Arguments a) { return program::fold({a.begin(), a.end()}, program::min); }},
     {"max", 1, -1, "a, b, ...", "greatest",
-     [](Arguments a) {
-       return program::fold({a.begin(), a.end()}, static_cast<Field (*)(Field, Field)>(program::max));
-     }},
+     [](Arguments
+            a) { return program::fold({a.begin(), a.end()}, static_cast<Field (*)(Field, Field)>(program::max)); }},
     {"avg", 1, -1, "a, b, ...", "mean", [](Arguments a) { return sum(a) / static_cast<double>(a.size()); }},
     {"sum", 1, -1, "a, b, ...", "sum", sum},
     {"clamp", 3, 3, "lo, v, hi", "v, but at least lo and at most hi",
@@ -77,7 +76,8 @@ constexpr auto table = std::to_array<Function>({
     {"deg2rad", 1, 1, "v", "degrees to radians", [](Arguments a) { return a[0] * (pi / 180); }},
     {"rad2deg", 1, 1, "v", "radians to degrees", [](Arguments a) { return a[0] * (180 / pi); }},
     {"normal_dist", 1, 3, "v, mean = 0, sd = 1", "density of the normal distribution", normal_dist},
-    {"if", 3, 3, "c, a, b", "a where c is not 0, else b", [](Arguments a) { return program::select(a[0], a[1], a[2]); }},
+    {"if", 3, 3, "c, a, b", "a where c is not 0, else b",
+     [](Arguments a) { return program::select(a[0], a[1], a[2]); }},
 });
 
 }  // namespace

@@ -32,27 +32,39 @@ int level_of(Binary binary) {
   switch (binary) {
     case Binary::logical_or:
     case Binary::logical_xor:
-    case Binary::logical_nor: return level_or;
+    case Binary::logical_nor:
+      return level_or;
     case Binary::logical_and:
-    case Binary::logical_nand: return level_and;
+    case Binary::logical_nand:
+      return level_and;
     case Binary::add:
-    case Binary::subtract: return level_add;
+    case Binary::subtract:
+      return level_add;
     case Binary::multiply:
     case Binary::divide:
-    case Binary::mod: return level_multiply;
-    case Binary::power: return level_power;
-    default: return level_compare;
+    case Binary::mod:
+      return level_multiply;
+    case Binary::power:
+      return level_power;
+    default:
+      return level_compare;
   }
 }
 
 // The first spelling of each is the canonical one.
 constexpr Operator operators[] = {
-    {"+", Binary::add},           {"-", Binary::subtract},     {"*", Binary::multiply},     {"/", Binary::divide},
-    {"%", Binary::mod},           {"^", Binary::power},        {"<", Binary::less},         {"<=", Binary::less_equal},
-    {">", Binary::greater},       {">=", Binary::greater_equal}, {"==", Binary::equal},     {"!=", Binary::not_equal},
-    {"and", Binary::logical_and}, {"or", Binary::logical_or},  {"xor", Binary::logical_xor}, {"nand", Binary::logical_nand},
-    {"nor", Binary::logical_nor}, {"=", Binary::equal},        {"<>", Binary::not_equal},   {"&&", Binary::logical_and},
-    {"||", Binary::logical_or},   {"&", Binary::logical_and},  {"|", Binary::logical_or},
+    {"+", Binary::add},           {"-", Binary::subtract},
+    {"*", Binary::multiply},      {"/", Binary::divide},
+    {"%", Binary::mod},           {"^", Binary::power},
+    {"<", Binary::less},          {"<=", Binary::less_equal},
+    {">", Binary::greater},       {">=", Binary::greater_equal},
+    {"==", Binary::equal},        {"!=", Binary::not_equal},
+    {"and", Binary::logical_and}, {"or", Binary::logical_or},
+    {"xor", Binary::logical_xor}, {"nand", Binary::logical_nand},
+    {"nor", Binary::logical_nor}, {"=", Binary::equal},
+    {"<>", Binary::not_equal},    {"&&", Binary::logical_and},
+    {"||", Binary::logical_or},   {"&", Binary::logical_and},
+    {"|", Binary::logical_or},
 };
 
 class Parser {
@@ -62,7 +74,8 @@ class Parser {
 
   NodePtr run() {
     advance();
-    if (now_.type == Token::Type::end && !failed_) fail(now_, "the expression is empty", "write one, such as \"x^2 + y^2 - 4\"");
+    if (now_.type == Token::Type::end && !failed_)
+      fail(now_, "the expression is empty", "write one, such as \"x^2 + y^2 - 4\"");
     NodePtr root = expression(level_conditional);
     if (!failed_ && now_.type != Token::Type::end) unexpected("an operator or the end of the expression");
     return failed_ ? nullptr : root;
@@ -74,7 +87,8 @@ class Parser {
   // Tokens
 
   void advance() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r')) ++at_;
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r'))
+      ++at_;
     now_ = {};
     now_.begin = static_cast<uint32_t>(at_);
     if (at_ < text_.size()) read_token();
@@ -92,11 +106,13 @@ class Parser {
     }
     now_.type = Token::Type::symbol;
     const std::string_view two = text_.substr(at_, 2);
-    if (two == "<=" || two == ">=" || two == "==" || two == "!=" || two == "<>" || two == "&&" || two == "||" || two == ":=")
+    if (two == "<=" || two == ">=" || two == "==" || two == "!=" || two == "<>" || two == "&&" || two == "||" ||
+        two == ":=")
       at_ += 2;
     else
       ++at_;
-    while (at_ < text_.size() && (static_cast<unsigned char>(text_[at_]) & 0xC0) == 0x80) ++at_;  // the rest of a UTF-8 letter
+    while (at_ < text_.size() && (static_cast<unsigned char>(text_[at_]) & 0xC0) == 0x80)
+      ++at_;  // the rest of a UTF-8 letter
   }
 
   void read_number() {
@@ -117,7 +133,8 @@ class Parser {
   void fail(const Token& token, std::string message, std::string hint = "") {
     if (failed_) return;
     failed_ = true;
-    diagnostics_.error(where_.part(token.begin, std::max(token.end, token.begin + 1)), std::move(message), std::move(hint));
+    diagnostics_.error(where_.part(token.begin, std::max(token.end, token.begin + 1)), std::move(message),
+                       std::move(hint));
   }
 
   void unexpected(const std::string& expected) {
@@ -125,7 +142,8 @@ class Parser {
     if (is_symbol(":=") || is_symbol(";"))
       return fail(now_, "assignments and several statements are not supported in an expression",
                   "compute the value in the script and splice it in with str()");
-    if (is_symbol("[") || is_symbol("{")) return fail(now_, "loops, vectors and blocks are not supported in an expression");
+    if (is_symbol("[") || is_symbol("{"))
+      return fail(now_, "loops, vectors and blocks are not supported in an expression");
     fail(now_, "expected " + expected + ", found \"" + std::string(now_.text) + "\"");
   }
 
@@ -172,7 +190,8 @@ class Parser {
       }
       const int level = level_of(*binary);
       if (level < least_level) return left;
-      if (++operators_ > most_operators) fail(now_, "this expression has more than " + format_count(most_operators) + " operators");
+      if (++operators_ > most_operators)
+        fail(now_, "this expression has more than " + format_count(most_operators) + " operators");
       if (!implicit_) advance();
       // Powers group to the right, everything else to the left.
       const NodePtr right = *binary == Binary::power ? power_exponent() : expression(level + 1);
@@ -223,7 +242,8 @@ class Parser {
         node->number = token.number;
         return node;
       }
-      case Token::Type::name: return name();
+      case Token::Type::name:
+        return name();
       case Token::Type::symbol:
         if (token.text == "(") {
           advance();
@@ -233,7 +253,8 @@ class Parser {
         }
         if (token.text == "-" || token.text == "+" || token.text == "!") return sign(token);
         break;
-      case Token::Type::end: break;
+      case Token::Type::end:
+        break;
     }
     unexpected("a number, a name or \"(\"");
     return nullptr;
@@ -290,7 +311,8 @@ class Parser {
   void unknown_function(const Token& token) {
     std::vector<std::string> names;
     for (const Function& function : functions()) names.emplace_back(function.name);
-    fail(token, "there is no function \"" + std::string(token.text) + "\" in expressions", did_you_mean(token.text, names));
+    fail(token, "there is no function \"" + std::string(token.text) + "\" in expressions",
+         did_you_mean(token.text, names));
   }
 
   NodePtr call(const Token& token, const Function& function) {
@@ -337,12 +359,17 @@ std::string_view spelling(Binary binary) {
 
 int level_of(const Node& node) {
   switch (node.kind) {
-    case Kind::binary: return level_of(node.binary);
+    case Kind::binary:
+      return level_of(node.binary);
     case Kind::negate:
-    case Kind::logical_not: return level_sign;
-    case Kind::conditional: return level_conditional;
-    case Kind::number: return node.number < 0 ? level_sign : level_atom;
-    default: return level_atom;
+    case Kind::logical_not:
+      return level_sign;
+    case Kind::conditional:
+      return level_conditional;
+    case Kind::number:
+      return node.number < 0 ? level_sign : level_atom;
+    default:
+      return level_atom;
   }
 }
 
@@ -359,10 +386,14 @@ NodePtr parse_tree(std::string_view text, const SourceRange& where, Diagnostics&
 
 std::string print_tree(const Node& node) {
   switch (node.kind) {
-    case Kind::number: return format_number(node.number);
-    case Kind::variable: return node.name;
-    case Kind::negate: return "-" + bracketed(*node.operands[0], level_power);
-    case Kind::logical_not: return "not(" + print_tree(*node.operands[0]) + ")";
+    case Kind::number:
+      return format_number(node.number);
+    case Kind::variable:
+      return node.name;
+    case Kind::negate:
+      return "-" + bracketed(*node.operands[0], level_power);
+    case Kind::logical_not:
+      return "not(" + print_tree(*node.operands[0]) + ")";
     case Kind::conditional:
       return bracketed(*node.operands[0], level_or) + " ? " + bracketed(*node.operands[1], level_or) + " : " +
              bracketed(*node.operands[2], level_or);
@@ -371,12 +402,14 @@ std::string print_tree(const Node& node) {
       for (size_t i = 0; i < node.operands.size(); ++i) text += (i ? ", " : "") + print_tree(*node.operands[i]);
       return text + ")";
     }
-    case Kind::binary: break;
+    case Kind::binary:
+      break;
   }
   // A chain to the left is printed without recursion: it may be long.
   std::vector<const Node*> chain{&node};
   const int level = level_of(node);
-  while (chain.back()->operands[0]->kind == Kind::binary && level_of(*chain.back()->operands[0]) == level && level != level_power)
+  while (chain.back()->operands[0]->kind == Kind::binary && level_of(*chain.back()->operands[0]) == level &&
+         level != level_power)
     chain.push_back(chain.back()->operands[0].get());
   std::string text = bracketed(*chain.back()->operands[0], level == level_power ? level + 1 : level);
   for (size_t i = chain.size(); i-- > 0;) {

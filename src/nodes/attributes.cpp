@@ -16,23 +16,32 @@ struct Attribute {
   std::string overlap = "first";
 
   static Spec<Attribute> spec() {
-    return {"attribute", "attributes", "Gives its child a named value, constant or by a formula: density, infill, temperature, ...",
+    return {"attribute",
+            "attributes",
+            "Gives its child a named value, constant or by a formula: density, infill, temperature, ...",
             {{"name", &Attribute::name, "Its name", required()},
-             {"value", &Attribute::value, "A number, or an expression; d is the signed distance of the child", required(with_variables({"d"}))},
+             {"value", &Attribute::value, "A number, or an expression; d is the signed distance of the child",
+              required(with_variables({"d"}))},
              {"unit", &Attribute::unit_text, "Its unit, for whoever reads it"},
              {"default", &Attribute::default_value, "Its value where no solid gives one"},
-             {"overlap", &Attribute::overlap, "How values combine where solids overlap", one_of({"first", "mean", "sum", "max"})}},
-            one_solid, "attribute(\"infill\", \"0.2 + 0.02*z\", \"1\") { cube(10); }"};
+             {"overlap", &Attribute::overlap, "How values combine where solids overlap",
+              one_of({"first", "mean", "sum", "max"})}},
+            one_solid,
+            "attribute(\"infill\", \"0.2 + 0.02*z\", \"1\") { cube(10); }"};
   }
 
   bool complete(const Reader& reader) const {
     if (!name.empty() && fold_name(name) != "material") return true;
-    reader.diagnostics.error(reader.where, name.empty() ? "an attribute needs a name" : "the attribute \"material\" is set by fgrade or material");
+    reader.diagnostics.error(reader.where, name.empty() ? "an attribute needs a name"
+                                                        : "the attribute \"material\" is set by fgrade or material");
     return false;
   }
 
   AttributeDeclaration declares() const {
-    const Overlap rule = overlap == "mean" ? Overlap::mean : overlap == "sum" ? Overlap::sum : overlap == "max" ? Overlap::max : Overlap::first;
+    const Overlap rule = overlap == "mean"  ? Overlap::mean
+                         : overlap == "sum" ? Overlap::sum
+                         : overlap == "max" ? Overlap::max
+                                            : Overlap::first;
     return {name, unit_text, default_value, rule};
   }
 

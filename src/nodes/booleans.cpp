@@ -31,9 +31,12 @@ struct Union {
   std::string materials = "mix";
 
   static Spec<Union> spec() {
-    return {"union", "booleans", "What is in any of its children.",
+    return {"union",
+            "booleans",
+            "What is in any of its children.",
             {{"materials", &Union::materials, overlap_doc, overlap_choices()}},
-            many_solids, "union() { cube(8, \"red\"); translate(4, 4, 4) { sphere(4, \"blue\"); } }"};
+            many_solids,
+            "union() { cube(8, \"red\"); translate(4, 4, 4) { sphere(4, \"blue\"); } }"};
   }
 
   // Outside, the least distance is exact; inside it is a bound.
@@ -69,9 +72,12 @@ struct Intersection {
   std::string materials = "mix";
 
   static Spec<Intersection> spec() {
-    return {"intersection", "booleans", "What is in all of its children.",
+    return {"intersection",
+            "booleans",
+            "What is in all of its children.",
             {{"materials", &Intersection::materials, overlap_doc, overlap_choices()}},
-            many_solids, "intersection() { cube(8, \"red\"); sphere(5, \"red\"); }"};
+            many_solids,
+            "intersection() { cube(8, \"red\"); sphere(5, \"red\"); }"};
   }
 
   Metric metric(const Inputs& in) const {
@@ -91,7 +97,9 @@ struct Intersection {
 
   Field distance(const Inputs& in, const Point& p) const { return program::fold(in.distances(p), greatest); }
   Field inside(const Inputs& in, const Point& p) const { return program::fold(in.insides(p), program::logical_and); }
-  Field interior(const Inputs& in, const Point& p) const { return program::fold(in.interiors(p), program::logical_and); }
+  Field interior(const Inputs& in, const Point& p) const {
+    return program::fold(in.interiors(p), program::logical_and);
+  }
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     if (demand == Demand::everywhere) return weighted(in, p, demand, overlap_weights(in, p, demand, materials));
@@ -110,8 +118,8 @@ struct Intersection {
 
 struct Difference {
   static Spec<Difference> spec() {
-    return {"difference", "booleans", "What is in its first child and in none of the others.",
-            {}, many_solids, "difference() { cube(8, \"red\"); cylinder(2, 10); }"};
+    return {"difference", "booleans",  "What is in its first child and in none of the others.",
+            {},           many_solids, "difference() { cube(8, \"red\"); cylinder(2, 10); }"};
   }
 
   Metric metric(const Inputs& in) const {
@@ -146,7 +154,7 @@ struct Difference {
 struct Negate {
   static Spec<Negate> spec() {
     return {"negate", "booleans", "Everything that is not in its child. Without bounds: use it inside an intersection.",
-            {}, one_solid, "intersection() { cube(8, \"red\"); negate() { sphere(5, \"red\"); } }"};
+            {},       one_solid,  "intersection() { cube(8, \"red\"); negate() { sphere(5, \"red\"); } }"};
   }
 
   Box reach(const Inputs&, const Box& where, double) const { return where; }
@@ -154,7 +162,9 @@ struct Negate {
   Field inside(const Inputs& in, const Point& p) const { return logical_not(in.interior(0, p)); }
   Field interior(const Inputs& in, const Point& p) const { return logical_not(in.inside(0, p)); }
 
-  Composition composition(const Inputs& in, const Point& p, Demand) const { return in.composition(0, p, Demand::everywhere); }
+  Composition composition(const Inputs& in, const Point& p, Demand) const {
+    return in.composition(0, p, Demand::everywhere);
+  }
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand) const {
     return in.attribute(0, name, p, Demand::everywhere);
   }

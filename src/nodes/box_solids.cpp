@@ -13,9 +13,13 @@ struct Cube {
   MaterialName material;
 
   static Spec<Cube> spec() {
-    return {"cube", "box solids", "Cube, centred on the origin.",
-            {{"side", &Cube::side, "Length of an edge", unit::positive_mm}, {"material", &Cube::material, "Its material"}},
-            no_inputs, "cube(10, \"red\");"};
+    return {
+        "cube",
+        "box solids",
+        "Cube, centred on the origin.",
+        {{"side", &Cube::side, "Length of an edge", unit::positive_mm}, {"material", &Cube::material, "Its material"}},
+        no_inputs,
+        "cube(10, \"red\");"};
   }
 
   Box bounds(const Box& where) const {
@@ -34,10 +38,13 @@ struct RectPrism {
   MaterialName material;
 
   static Spec<RectPrism> spec() {
-    return {"rectprism", "box solids", "Block with edges along the axes, centred on the origin.",
+    return {"rectprism",
+            "box solids",
+            "Block with edges along the axes, centred on the origin.",
             {{"size", &RectPrism::size, "Lengths along x, y and z", unit::positive_mm},
              {"material", &RectPrism::material, "Its material"}},
-            no_inputs, "rectprism((20, 10, 5), \"blue\");"};
+            no_inputs,
+            "rectprism((20, 10, 5), \"blue\");"};
   }
 
   Box bounds(const Box& where) const { return Box::centered(0.5 * size.upper(where)); }
@@ -53,11 +60,14 @@ struct HalfSpace {
   MaterialName material;
 
   static Spec<HalfSpace> spec() {
-    return {"half_space", "box solids", "Everything behind a plane. Cut other solids with it.",
+    return {"half_space",
+            "box solids",
+            "Everything behind a plane. Cut other solids with it.",
             {{"normal", &HalfSpace::normal, "Direction that leads out of it; need not have length one", required()},
              {"offset", &HalfSpace::offset, "Distance of the plane from the origin along the normal", unit::mm},
              {"material", &HalfSpace::material, "Its material"}},
-            no_inputs, "intersection() { sphere(8, \"red\"); half_space((0, 0, 1)); }"};
+            no_inputs,
+            "intersection() { sphere(8, \"red\"); half_space((0, 0, 1)); }"};
   }
 
   bool complete(const Reader& reader) const {

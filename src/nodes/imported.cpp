@@ -16,13 +16,17 @@ struct Mesh {
   program::SourceField source;  // read when the node is made
 
   static Spec<Mesh> spec() {
-    return {"mesh", "imported", "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF, in mm.",
+    return {"mesh",
+            "imported",
+            "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF, in mm.",
             {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
              {"material", &Mesh::material, "Its material"},
              {"inside", &Mesh::inside_rule,
-              "What is inside: nonzero (winding number; overlapping shells stay solid), parity, or generalized (for open meshes)",
+              "What is inside: nonzero (winding number; overlapping shells stay solid), parity, or generalized (for "
+              "open meshes)",
               one_of({"nonzero", "parity", "generalized"})}},
-            no_inputs, "mesh(\"models/gear.stl\", \"red\");"};
+            no_inputs,
+            "mesh(\"models/gear.stl\", \"red\");"};
   }
 
   bool complete(const Reader& reader) {

@@ -33,8 +33,9 @@ void warn_of_implicit_distance(const Reader& reader, const Node& input) {
 
 bool same_length(const Reader& reader, size_t functions, size_t materials, std::string_view noun) {
   if (functions == materials) return true;
-  reader.diagnostics.error(reader.where, std::string(reader.node) + " has " + std::to_string(functions) + " " + std::string(noun) +
-                                             " for " + std::to_string(materials) + " materials",
+  reader.diagnostics.error(reader.where,
+                           std::string(reader.node) + " has " + std::to_string(functions) + " " + std::string(noun) +
+                               " for " + std::to_string(materials) + " materials",
                            "give one for each");
   return false;
 }
@@ -54,7 +55,8 @@ struct Mixture {
       finite.push_back(is_finite(v));
       nonzero.push_back(truth(values.back()));
     }
-    const Field usable = logical_and(program::fold(finite, program::logical_and), program::fold(nonzero, program::logical_or));
+    const Field usable =
+        logical_and(program::fold(finite, program::logical_and), program::fold(nonzero, program::logical_or));
     std::map<MaterialId, std::vector<Field>> terms;
     const std::vector<Field> shares = threshold ? winners(values) : normalised(values);
     for (size_t i = 0; i < shares.size(); ++i) terms[materials[i]].push_back(shares[i]);
@@ -70,7 +72,8 @@ struct Mixture {
   }
 
  private:
-  static Composition fractions(const std::map<MaterialId, std::vector<Field>>& terms, const Composition& own, Field usable, Field zero) {
+  static Composition fractions(const std::map<MaterialId, std::vector<Field>>& terms, const Composition& own,
+                               Field usable, Field zero) {
     Composition result;
     for (const auto& [id, list] : terms) {
       const Field share = list.empty() ? zero : program::fold(list, add);
@@ -103,7 +106,8 @@ struct Mixture {
   }
 };
 
-Mixture mixture(const Inputs& in, const Point& p, const std::vector<Number>& functions, const std::vector<MaterialName>& materials) {
+Mixture mixture(const Inputs& in, const Point& p, const std::vector<Number>& functions,
+                const std::vector<MaterialName>& materials) {
   Mixture result;
   const expr::Variables variables = distance_variable(in, p);
   for (const Number& function : functions) result.raw.push_back(function.at(p, variables));
@@ -114,7 +118,8 @@ Mixture mixture(const Inputs& in, const Point& p, const std::vector<Number>& fun
 std::string list_text(const std::vector<Number>& functions) {
   std::string text;
   for (const Number& f : functions)
-    text += (text.empty() ? "\"" : ", \"") + (f.constant() ? expr::Expression::constant(*f.constant()).text() : f.expression()->text()) + "\"";
+    text += (text.empty() ? "\"" : ", \"") +
+            (f.constant() ? expr::Expression::constant(*f.constant()).text() : f.expression()->text()) + "\"";
   return text;
 }
 
@@ -124,12 +129,16 @@ struct FGrade {
   std::string mode = "prob";
 
   static Spec<FGrade> spec() {
-    return {"fgrade", "material gradients", "Sets the composition of its child by formulas, one for each material.",
-            {{"functions", &FGrade::functions, "Expressions; d is the signed distance of the child", required(with_variables({"d"}))},
+    return {"fgrade",
+            "material gradients",
+            "Sets the composition of its child by formulas, one for each material.",
+            {{"functions", &FGrade::functions, "Expressions; d is the signed distance of the child",
+              required(with_variables({"d"}))},
              {"materials", &FGrade::materials, "A material for each expression", required()},
              {"mode", &FGrade::mode, "prob: the values are shares of a mixture. thresh: the greatest value takes all",
               one_of({"prob", "thresh"})}},
-            one_solid, "fgrade([\"0.5 + x/20\", \"0.5 - x/20\"], [\"red\", \"blue\"], \"prob\") { cube(10); }"};
+            one_solid,
+            "fgrade([\"0.5 + x/20\", \"0.5 - x/20\"], [\"red\", \"blue\"], \"prob\") { cube(10); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
@@ -145,7 +154,8 @@ struct FGrade {
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     Mixture result = mixture(in, p, functions, materials);
     result.threshold = mode == "thresh";
-    return result.over(in, p, demand, "the fractions of fgrade are all zero or not finite (" + list_text(functions) + ")");
+    return result.over(in, p, demand,
+                       "the fractions of fgrade are all zero or not finite (" + list_text(functions) + ")");
   }
 };
 
@@ -154,10 +164,14 @@ struct Material {
   std::vector<Number> fractions;
 
   static Spec<Material> spec() {
-    return {"material", "material gradients", "Sets the composition of its child: one material, or a mixture.",
+    return {"material",
+            "material gradients",
+            "Sets the composition of its child: one material, or a mixture.",
             {{"materials", &Material::materials, "One or more materials", required()},
-             {"fractions", &Material::fractions, "A share for each, numbers or fields; without it all the same", with_variables({"d"})}},
-            one_solid, "material([\"red\", \"clear\"], [0.3, 0.7]) { sphere(5); }"};
+             {"fractions", &Material::fractions, "A share for each, numbers or fields; without it all the same",
+              with_variables({"d"})}},
+            one_solid,
+            "material([\"red\", \"clear\"], [0.3, 0.7]) { sphere(5); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {

@@ -17,7 +17,8 @@ Field add(Field a, Field b) { return a + b; }
 // All inputs are of one and the same single material everywhere, and nothing can be wrong with it.
 bool is_one_material(const std::vector<Composition>& parts) {
   for (const Composition& part : parts)
-    if (part.fractions.size() != 1 || !part.checks.empty() || part.fractions[0].first != parts[0].fractions[0].first) return false;
+    if (part.fractions.size() != 1 || !part.checks.empty() || part.fractions[0].first != parts[0].fractions[0].first)
+      return false;
   return true;
 }
 
@@ -40,7 +41,8 @@ Composition weighted(const Inputs& in, const Point& p, Demand demand, const std:
   const Field total = program::fold(weights, add);
   Composition result;
   for (auto& [id, list] : terms) result.fractions.emplace_back(id, program::fold(std::move(list), add) / total);
-  for (auto& [number, list] : marks) result.checks.emplace_back(number, program::fold(std::move(list), program::logical_or));
+  for (auto& [number, list] : marks)
+    result.checks.emplace_back(number, program::fold(std::move(list), program::logical_or));
   return result;
 }
 
@@ -84,9 +86,15 @@ Field overlapping_attribute(const Inputs& in, std::string_view name, const Point
   };
   Field value = zero;
   switch (declaration.overlap) {
-    case design::Overlap::first: value = total(first_true(marks)); break;
-    case design::Overlap::sum: value = total(marks); break;
-    case design::Overlap::mean: value = total(marks) / program::fold(marks, add); break;
+    case design::Overlap::first:
+      value = total(first_true(marks));
+      break;
+    case design::Overlap::sum:
+      value = total(marks);
+      break;
+    case design::Overlap::mean:
+      value = total(marks) / program::fold(marks, add);
+      break;
     case design::Overlap::max: {
       const Field least = p.constant(-std::numeric_limits<double>::infinity());
       std::vector<Field> present;

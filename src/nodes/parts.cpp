@@ -11,9 +11,12 @@ struct Part {
   std::string name;
 
   static Spec<Part> spec() {
-    return {"part", "parts", "Names a part of the design. Stands at the top level, or directly in root.",
+    return {"part",
+            "parts",
+            "Names a part of the design. Stands at the top level, or directly in root.",
             {{"name", &Part::name, "Its name", required()}},
-            one_solid, "part(\"handle\") { cylinder(2, 20, \"red\"); }"};
+            one_solid,
+            "part(\"handle\") { cylinder(2, 20, \"red\"); }"};
   }
 
   bool complete(const Reader& reader) const {

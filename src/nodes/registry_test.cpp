@@ -30,7 +30,9 @@ class BallSource : public program::FieldSource {
   std::string name() const override { return "ball"; }
   Hash content() const override { return {1, 2}; }
   Box bounds() const override { return Box::centered({4, 4, 4}); }
-  int channel(std::string_view channel_name) const override { return channel_name == "inside" ? 0 : channel_name == "distance" ? 1 : -1; }
+  int channel(std::string_view channel_name) const override {
+    return channel_name == "inside" ? 0 : channel_name == "distance" ? 1 : -1;
+  }
   double sample(int channel, Vec3 p) const override {
     const double distance = length(p) - 4;
     return channel == 1 ? distance : distance <= 0 ? 1 : 0;
@@ -91,7 +93,8 @@ class RandomDesign {
   Data one_number(const Domain& domain, bool may_be_field) {
     const double lo = std::isfinite(domain.least) ? domain.least + 0.5 : -6, value = number(lo, lo + 6);
     if (!may_be_field || index(3)) return Data(value);
-    const char* waves[] = {" + 0.3*sin(x + y)", " + 0.2*cos(3*theta)", " + 0.1*rho/(1 + rho)", " + 0.3*min(x, y, 1)/(1 + r)"};
+    const char* waves[] = {" + 0.3*sin(x + y)", " + 0.2*cos(3*theta)", " + 0.1*rho/(1 + rho)",
+                           " + 0.3*min(x, y, 1)/(1 + r)"};
     return Data(format_rounded(value + 1) + waves[index(4)]);
   }
 
@@ -104,7 +107,8 @@ class RandomDesign {
     const std::string_view kind = parameter.kind;
     if (!domain.choices.empty()) return Data(domain.choices[index(domain.choices.size())]);
     if (kind == "number") return one_number(domain, false);
-    if (kind == "number or field" && type.name == "function") return Data("x^2 + 2*y^2 + z^2 - " + format_rounded(number(4, 30)));
+    if (kind == "number or field" && type.name == "function")
+      return Data("x^2 + 2*y^2 + z^2 - " + format_rounded(number(4, 30)));
     if (kind == "number or field") return one_number(domain, true);
     if (kind == "3 numbers or fields") return vector(domain, true);
     if (kind == "3 numbers" && type.name == "function")
@@ -123,7 +127,9 @@ class RandomDesign {
     }
     DataList list;
     for (size_t i = 0; i < lists_; ++i)
-      list.push_back(kind == "list of materials" ? Data(i % 2 ? "red" : "clear") : i % 2 ? Data("0.1 + abs(d)/9") : Data(number(0.1, 1)));
+      list.push_back(kind == "list of materials" ? Data(i % 2 ? "red" : "clear")
+                     : i % 2                     ? Data("0.1 + abs(d)/9")
+                                                 : Data(number(0.1, 1)));
     return Data(std::move(list));
   }
 
@@ -143,13 +149,15 @@ Lowered lower(const NodePtr& node, const MaterialTable& materials, Demand demand
   program::Builder builder;
   Lowering lowering(context, builder);
   const Point p = Point::origin_frame(builder);
-  std::vector<std::pair<std::string, Field>> outputs{
-      {"inside", lowering.inside(*node, p)}, {"interior", lowering.interior(*node, p)}, {"distance", lowering.distance(*node, p)}};
+  std::vector<std::pair<std::string, Field>> outputs{{"inside", lowering.inside(*node, p)},
+                                                     {"interior", lowering.interior(*node, p)},
+                                                     {"distance", lowering.distance(*node, p)}};
   const Composition composition = lowering.composition(*node, p, demand);
   for (const auto& [id, fraction] : composition.fractions) outputs.emplace_back("fraction", fraction);
   for (const auto& [number, mark] : composition.checks) outputs.emplace_back("check", mark);
   context.finish_bodies();
-  Lowered lowered{program::inline_bodies(builder.finish(outputs)), composition.fractions.size(), composition.checks.size()};
+  Lowered lowered{program::inline_bodies(builder.finish(outputs)), composition.fractions.size(),
+                  composition.checks.size()};
   return lowered;
 }
 
@@ -160,7 +168,9 @@ std::vector<double> at(const program::Program& program, Vec3 p) {
   return outputs;
 }
 
-Data round_trip(const NodePtr& node, const MaterialTable& materials) { return to_data({materials, {{"part", node}}, std::nullopt}); }
+Data round_trip(const NodePtr& node, const MaterialTable& materials) {
+  return to_data({materials, {{"part", node}}, std::nullopt});
+}
 
 class EveryNode : public testing::TestWithParam<std::string> {
  protected:
@@ -188,7 +198,8 @@ TEST_P(EveryNode, BoundsHoldWhatIsInside) {
     for (int i = 0; i < 300; ++i) {
       const Vec3 p{random.number(-40, 40), random.number(-40, 40), random.number(-40, 40)};
       if (at(lowered.program, p)[0] == 0) continue;
-      EXPECT_TRUE(bounds.contains(p)) << print_json(round_trip(node, random.materials)) << p.x << " " << p.y << " " << p.z;
+      EXPECT_TRUE(bounds.contains(p)) << print_json(round_trip(node, random.materials)) << p.x << " " << p.y << " "
+                                      << p.z;
     }
   }
 }
@@ -211,7 +222,8 @@ TEST_P(EveryNode, IntervalsHoldPoints) {
         std::vector<double> values;
         evaluate_point(lowered.program, p, values);
         for (size_t v = 0; v < values.size(); ++v)
-          ASSERT_TRUE(ranges[v].contains(values[v])) << program::to_text(lowered.program) << "v" << v << " = " << values[v];
+          ASSERT_TRUE(ranges[v].contains(values[v]))
+              << program::to_text(lowered.program) << "v" << v << " = " << values[v];
         // The program for the box has the same bits.
         const auto whole = at(lowered.program, p), part = at(shorter, p);
         for (size_t o = 0; o < whole.size(); ++o)
@@ -272,7 +284,8 @@ TEST_P(EveryNode, KeepsItsLipschitzBound) {
       const Vec3 p{random.number(-15, 15), random.number(-15, 15), random.number(-15, 15)};
       const Vec3 step{random.number(-1, 1), random.number(-1, 1), random.number(-1, 1)};
       const double change = std::abs(at(lowered.program, p)[2] - at(lowered.program, p + step)[2]);
-      ASSERT_LE(change, metric.lipschitz * length(step) * (1 + 1e-9) + 1e-9) << print_json(round_trip(node, random.materials));
+      ASSERT_LE(change, metric.lipschitz * length(step) * (1 + 1e-9) + 1e-9)
+          << print_json(round_trip(node, random.materials));
     }
   }
 }
@@ -289,10 +302,12 @@ TEST_P(EveryNode, ExactDistancesLeadToTheSurface) {
     for (int i = 0; i < 50; ++i) {
       const Vec3 p{random.number(-15, 15), random.number(-15, 15), random.number(-15, 15)};
       constexpr double h = 1e-5;
-      const Vec3 gradient = (0.5 / h) * Vec3{g(p + Vec3{h, 0, 0}) - g(p - Vec3{h, 0, 0}), g(p + Vec3{0, h, 0}) - g(p - Vec3{0, h, 0}),
-                                             g(p + Vec3{0, 0, h}) - g(p - Vec3{0, 0, h})};
+      const Vec3 gradient =
+          (0.5 / h) * Vec3{g(p + Vec3{h, 0, 0}) - g(p - Vec3{h, 0, 0}), g(p + Vec3{0, h, 0}) - g(p - Vec3{0, h, 0}),
+                           g(p + Vec3{0, 0, h}) - g(p - Vec3{0, 0, h})};
       if (std::abs(length(gradient) - 1) > 1e-4) continue;  // on an edge of the medial axis
-      EXPECT_NEAR(g(p - g(p) * gradient), 0, 1e-3) << print_json(round_trip(node, random.materials)) << p.x << " " << p.y << " " << p.z;
+      EXPECT_NEAR(g(p - g(p) * gradient), 0, 1e-3)
+          << print_json(round_trip(node, random.materials)) << p.x << " " << p.y << " " << p.z;
     }
   }
 }
@@ -316,7 +331,8 @@ TEST_P(EveryNode, PrintsAndReadsBack) {
 }
 
 std::vector<std::string> all_names() { return registry().names(); }
-INSTANTIATE_TEST_SUITE_P(Registry, EveryNode, testing::ValuesIn(all_names()), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Registry, EveryNode, testing::ValuesIn(all_names()),
+                         [](const auto& test) { return test.param; });
 
 // Whole random trees, not one node at the top.
 TEST(RandomTrees, HoldTheSameProperties) {
@@ -329,7 +345,8 @@ TEST(RandomTrees, HoldTheSameProperties) {
       const Vec3 p{random.number(-20, 20), random.number(-20, 20), random.number(-20, 20)};
       const auto values = at(lowered.program, p);
       if (values[0] == 0) continue;
-      EXPECT_TRUE(bounds.contains(p)) << seed << " " << to_tree({random.materials, {{"part", node}}, std::nullopt}) << p.x << " " << p.y << " " << p.z;
+      EXPECT_TRUE(bounds.contains(p)) << seed << " " << to_tree({random.materials, {{"part", node}}, std::nullopt})
+                                      << p.x << " " << p.y << " " << p.z;
       double sum = 0;
       for (size_t f = 0; f < lowered.fraction_count; ++f) sum += values[3 + f];
       EXPECT_NEAR(sum, 1, 1e-12);

@@ -13,9 +13,13 @@ struct Sphere {
   MaterialName material;
 
   static Spec<Sphere> spec() {
-    return {"sphere", "round solids", "Ball, centred on the origin.",
-            {{"radius", &Sphere::radius, "Its radius", unit::positive_mm}, {"material", &Sphere::material, "Its material"}},
-            no_inputs, "sphere(5, \"red\");"};
+    return {
+        "sphere",
+        "round solids",
+        "Ball, centred on the origin.",
+        {{"radius", &Sphere::radius, "Its radius", unit::positive_mm}, {"material", &Sphere::material, "Its material"}},
+        no_inputs,
+        "sphere(5, \"red\");"};
   }
 
   Box bounds(const Box& where) const {
@@ -32,10 +36,13 @@ struct Ellipsoid {
   MaterialName material;
 
   static Spec<Ellipsoid> spec() {
-    return {"ellipsoid", "round solids", "Ball stretched along the axes, centred on the origin.",
+    return {"ellipsoid",
+            "round solids",
+            "Ball stretched along the axes, centred on the origin.",
             {{"radii", &Ellipsoid::radii, "Half lengths along x, y and z", unit::positive_mm},
              {"material", &Ellipsoid::material, "Its material"}},
-            no_inputs, "ellipsoid((8, 5, 3), \"cyan\");"};
+            no_inputs,
+            "ellipsoid((8, 5, 3), \"cyan\");"};
   }
 
   Metric metric() const { return radii.x == radii.y && radii.y == radii.z ? Metric::exact() : Metric::bounded(); }
@@ -57,11 +64,14 @@ struct Cylinder {
   MaterialName material;
 
   static Spec<Cylinder> spec() {
-    return {"cylinder", "round solids", "Cylinder along z, centred on the origin.",
+    return {"cylinder",
+            "round solids",
+            "Cylinder along z, centred on the origin.",
             {{"radius", &Cylinder::radius, "Its radius", unit::positive_mm},
              {"height", &Cylinder::height, "Its length along z", unit::positive_mm},
              {"material", &Cylinder::material, "Its material"}},
-            no_inputs, "cylinder(4, 10, \"green\");"};
+            no_inputs,
+            "cylinder(4, 10, \"green\");"};
   }
 
   Box bounds(const Box& where) const {
@@ -77,12 +87,15 @@ struct Cone {
   MaterialName material;
 
   static Spec<Cone> spec() {
-    return {"cone", "round solids", "Cone or frustum along z, centred on the origin, its base down.",
+    return {"cone",
+            "round solids",
+            "Cone or frustum along z, centred on the origin, its base down.",
             {{"base", &Cone::base, "Radius at the lower end", unit::not_negative_mm},
              {"top", &Cone::top, "Radius at the upper end; 0 is a point", unit::not_negative_mm},
              {"height", &Cone::height, "Its length along z", unit::positive_mm},
              {"material", &Cone::material, "Its material"}},
-            no_inputs, "cone(5, 2, 10, \"yellow\");"};
+            no_inputs,
+            "cone(5, 2, 10, \"yellow\");"};
   }
 
   bool complete(const Reader& reader) const {
@@ -102,7 +115,8 @@ struct Cone {
     const Field disc = select(p.z <= 0, low, high);
     const Field beyond_disc = max(rho - disc, 0.0), beyond_end = abs(p.z) - half;
     const Field run = high - low, rise = half * 2.0;
-    const Field along = min(max(((rho - low) * run + (p.z + half) * rise) / (square(run) + square(rise)), 0.0), p.constant(1));
+    const Field along =
+        min(max(((rho - low) * run + (p.z + half) * rise) / (square(run) + square(rise)), 0.0), p.constant(1));
     const Field from_slope = rho - (low + run * along), above_slope = p.z - (rise * along - half);
     const Field nearest = sqrt(min(square(beyond_disc) + square(beyond_end), square(from_slope) + square(above_slope)));
     return select(logical_and(from_slope < 0, beyond_end < 0), -nearest, nearest);
@@ -114,11 +128,14 @@ struct Torus {
   MaterialName material;
 
   static Spec<Torus> spec() {
-    return {"torus", "round solids", "Ring lying flat in XY, centred on the origin.",
+    return {"torus",
+            "round solids",
+            "Ring lying flat in XY, centred on the origin.",
             {{"ring", &Torus::ring, "Radius of the centre line", unit::positive_mm},
              {"tube", &Torus::tube, "Radius of the tube", unit::positive_mm},
              {"material", &Torus::material, "Its material"}},
-            no_inputs, "torus(8, 2, \"magenta\");"};
+            no_inputs,
+            "torus(8, 2, \"magenta\");"};
   }
 
   // A tube as wide as the ring closes the hole, and its inner half then folds over the axis.
@@ -139,13 +156,17 @@ struct Strut {
   MaterialName material;
 
   static Spec<Strut> spec() {
-    return {"strut", "round solids", "Cylinder from one point to another.",
-            {{"start", &Strut::start, "Centre of one end", unit::mm},
-             {"end", &Strut::end, "Centre of the other end", unit::mm},
-             {"radius", &Strut::radius, "Its radius", unit::positive_mm},
-             {"material", &Strut::material, "Its material"},
-             {"caps", &Strut::caps, "Ends: flat, or round (half balls beyond the end points)", one_of({"flat", "round"})}},
-            no_inputs, "strut((0, 0, 0), (10, 5, 3), 1, \"red\");"};
+    return {
+        "strut",
+        "round solids",
+        "Cylinder from one point to another.",
+        {{"start", &Strut::start, "Centre of one end", unit::mm},
+         {"end", &Strut::end, "Centre of the other end", unit::mm},
+         {"radius", &Strut::radius, "Its radius", unit::positive_mm},
+         {"material", &Strut::material, "Its material"},
+         {"caps", &Strut::caps, "Ends: flat, or round (half balls beyond the end points)", one_of({"flat", "round"})}},
+        no_inputs,
+        "strut((0, 0, 0), (10, 5, 3), 1, \"red\");"};
   }
 
   bool complete(const Reader& reader) const {

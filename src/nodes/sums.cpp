@@ -17,10 +17,15 @@ struct Sum {
   Number iso = 0;
 
   static Spec<Sum> spec() {
-    return {"sum", "booleans", "Joins its children organically, or takes a level set of their summed distances.",
-            {{"blend", &Sum::blend, "How far from its surface a child still swells its neighbours; 0: take the level set", unit::not_negative_mm},
-             {"iso", &Sum::iso, "Without blend: solid where the distances add up to this or less", unit::mm}},
-            many_solids, "sum(blend=2) { strut((0, 0, 0), (10, 0, 0), 1, \"red\"); strut((0, 0, 0), (0, 10, 0), 1, \"blue\"); }"};
+    return {
+        "sum",
+        "booleans",
+        "Joins its children organically, or takes a level set of their summed distances.",
+        {{"blend", &Sum::blend, "How far from its surface a child still swells its neighbours; 0: take the level set",
+          unit::not_negative_mm},
+         {"iso", &Sum::iso, "Without blend: solid where the distances add up to this or less", unit::mm}},
+        many_solids,
+        "sum(blend=2) { strut((0, 0, 0), (10, 0, 0), 1, \"red\"); strut((0, 0, 0), (0, 10, 0), 1, \"blue\"); }"};
   }
 
   bool is_level_set() const { return blend.constant() && *blend.constant() == 0; }
@@ -29,7 +34,8 @@ struct Sum {
   // Where no child's g is below blend, the falloffs are zero and g is blend.
   Box reach(const Inputs& in, const Box& where, double margin) const {
     const Interval blends = blend.range(where);
-    if (is_level_set()) return in.count() == 1 ? in.reach(0, where, std::max(0.0, margin + iso.range(where).hi)) : where;
+    if (is_level_set())
+      return in.count() == 1 ? in.reach(0, where, std::max(0.0, margin + iso.range(where).hi)) : where;
     if (margin >= blends.lo && margin > 0) return where;
     Box box;
     for (size_t i = 0; i < in.count(); ++i) box = hull(box, in.reach(i, where, in.count() == 1 ? margin : blends.hi));

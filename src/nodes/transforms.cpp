@@ -34,9 +34,12 @@ struct Translate : Transform<Translate> {
   Vec3 by;
 
   static Spec<Translate> spec() {
-    return {"translate", "transforms", "Moves what is in its braces.",
+    return {"translate",
+            "transforms",
+            "Moves what is in its braces.",
             {{"by", &Translate::by, "How far along x, y and z", required(unit::mm)}},
-            one_solid, "translate(5, 0, 0) { sphere(3, \"red\"); }"};
+            one_solid,
+            "translate(5, 0, 0) { sphere(3, \"red\"); }"};
   }
 
   Affine here_from_input() const { return Affine::translation(by); }
@@ -49,25 +52,30 @@ struct Rotate : Transform<Rotate> {
   double degrees = 0;
 
   static Spec<Rotate> spec() {
-    return {"rotate", "transforms", "Turns what is in its braces, right-handed, about fixed axes.",
+    return {"rotate",
+            "transforms",
+            "Turns what is in its braces, right-handed, about fixed axes.",
             {{"angles", &Rotate::angles, "Pitch about x, yaw about y, roll about z", unit::degrees},
              {"order", &Rotate::order, "Which axis is turned about first, second, third",
               one_of({"zyx", "xyz", "xzy", "yxz", "yzx", "zxy"})},
              {"axis", &Rotate::axis, "Instead of angles: a direction to turn about", {}},
              {"degrees", &Rotate::degrees, "With axis: the angle", unit::degrees},
              {"around", &Rotate::around, "A point that stays where it is", unit::mm}},
-            one_solid, "rotate(axis=z, deg=45) { cube(6, \"red\"); }"};
+            one_solid,
+            "rotate(axis=z, deg=45) { cube(6, \"red\"); }"};
   }
 
   bool complete(const Reader& reader) const {
     if (!axis || length(*axis) > 0) return true;
-    reader.diagnostics.error(reader.where, "the axis of rotate has no direction", "write x, y, z or for example (1, 1, 0)");
+    reader.diagnostics.error(reader.where, "the axis of rotate has no direction",
+                             "write x, y, z or for example (1, 1, 0)");
     return false;
   }
 
   Affine here_from_input() const {
     Affine turn;
-    if (axis) turn = Affine::rotation(*axis, degrees);
+    if (axis)
+      turn = Affine::rotation(*axis, degrees);
     else
       for (const char letter : order) {
         const int i = letter - 'x';
@@ -83,9 +91,12 @@ struct Scale : Transform<Scale> {
   Vec3 by{1, 1, 1};
 
   static Spec<Scale> spec() {
-    return {"scale", "transforms", "Stretches what is in its braces, away from the origin.",
+    return {"scale",
+            "transforms",
+            "Stretches what is in its braces, away from the origin.",
             {{"by", &Scale::by, "Factors along x, y and z; not 0", required()}},
-            one_solid, "scale(1, 1, 2) { sphere(4, \"red\"); }"};
+            one_solid,
+            "scale(1, 1, 2) { sphere(4, \"red\"); }"};
   }
 
   bool complete(const Reader& reader) const {
@@ -101,14 +112,18 @@ struct Mirror : Transform<Mirror> {
   Vec3 normal{1, 0, 0};
 
   static Spec<Mirror> spec() {
-    return {"mirror", "transforms", "Mirrors what is in its braces at a plane through the origin.",
+    return {"mirror",
+            "transforms",
+            "Mirrors what is in its braces at a plane through the origin.",
             {{"normal", &Mirror::normal, "Direction at a right angle to the plane", required()}},
-            one_solid, "mirror(x) { translate(5, 0, 0) { cone(3, 1, 6, \"red\"); } }"};
+            one_solid,
+            "mirror(x) { translate(5, 0, 0) { cone(3, 1, 6, \"red\"); } }"};
   }
 
   bool complete(const Reader& reader) const {
     if (length(normal) > 0) return true;
-    reader.diagnostics.error(reader.where, "the normal of mirror has no direction", "write x, y, z or for example (1, 1, 0)");
+    reader.diagnostics.error(reader.where, "the normal of mirror has no direction",
+                             "write x, y, z or for example (1, 1, 0)");
     return false;
   }
 
@@ -125,9 +140,12 @@ struct Matrix : Transform<Matrix> {
   Affine matrix;
 
   static Spec<Matrix> spec() {
-    return {"matrix", "transforms", "Applies an affine map to what is in its braces.",
+    return {"matrix",
+            "transforms",
+            "Applies an affine map to what is in its braces.",
             {{"matrix", &Matrix::matrix, "3 or 4 rows of 4 numbers; the last column moves, in mm", required()}},
-            one_solid, "matrix([[1, 0.3, 0, 0], [0, 1, 0, 0], [0, 0, 1, 2]]) { cube(6, \"red\"); }"};
+            one_solid,
+            "matrix([[1, 0.3, 0, 0], [0, 1, 0, 0], [0, 0, 1, 2]]) { cube(6, \"red\"); }"};
   }
 
   bool complete(const Reader& reader) const {

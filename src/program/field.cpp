@@ -17,7 +17,8 @@ Builder::Builder() {
 
 size_t Builder::KeyHash::operator()(const Key& key) const {
   uint64_t h = key.bits * 0x9E3779B97F4A7C15ull + static_cast<uint64_t>(key.op);
-  for (const uint64_t part : {uint64_t{key.a}, uint64_t{key.b}, uint64_t{key.c}, std::bit_cast<uint64_t>(key.pointer)}) {
+  for (const uint64_t part :
+       {uint64_t{key.a}, uint64_t{key.b}, uint64_t{key.c}, std::bit_cast<uint64_t>(key.pointer)}) {
     h = (h ^ part) * 0xD6E8FEB86659FD93ull;
     h ^= h >> 32;
   }
@@ -52,9 +53,12 @@ bool Builder::is_truth(Field field) const {
     case Op::logical_not:
     case Op::logical_and:
     case Op::logical_or:
-    case Op::is_finite: return true;
-    case Op::constant: return in.value == 0 || in.value == 1;
-    default: return false;
+    case Op::is_finite:
+      return true;
+    case Op::constant:
+      return in.value == 0 || in.value == 1;
+    default:
+      return false;
   }
 }
 
@@ -100,7 +104,8 @@ Field Builder::apply(Op op, Field a, Field b, Field c) {
       if (b == c) return b;
       if (vb == 1.0 && vc == 0.0 && is_truth(a)) return a;
       break;
-    default: break;
+    default:
+      break;
   }
   Instruction in;
   in.op = op;
@@ -115,7 +120,9 @@ Field Builder::affine(const AffineRow& row, Field a, Field b, Field c) {
   const Field parts[] = {a, b, c};
   for (int i = 0; i < 3; ++i) {
     if (row[i] == 0 || row[(i + 1) % 3] != 0 || row[(i + 2) % 3] != 0) continue;
-    Field result = row[i] == 1 ? parts[i] : row[i] == -1 ? apply(Op::negate, parts[i]) : apply(Op::multiply, constant(row[i]), parts[i]);
+    Field result = row[i] == 1    ? parts[i]
+                   : row[i] == -1 ? apply(Op::negate, parts[i])
+                                  : apply(Op::multiply, constant(row[i]), parts[i]);
     return row[3] == 0 ? result : apply(Op::add, result, constant(row[3]));
   }
   Instruction in;

@@ -10,13 +10,16 @@
 #include "base/math.h"
 
 // One row an op: name, operand count. The meaning is math::name.
-#define OMBRE_OPS(row)                                                                                              \
-  row(add, 2) row(subtract, 2) row(multiply, 2) row(divide, 2) row(negate, 1) row(min, 2) row(max, 2) row(abs, 1)   \
-      row(sqrt, 1) row(square, 1) row(mod, 2) row(pow, 2) row(floor, 1) row(ceil, 1) row(round, 1) row(trunc, 1)    \
-          row(sin, 1) row(cos, 1) row(tan, 1) row(asin, 1) row(acos, 1) row(atan, 1) row(atan2, 2) row(sinh, 1)     \
-              row(cosh, 1) row(tanh, 1) row(exp, 1) row(log, 1) row(log10, 1) row(log2, 1) row(less, 2)             \
-                  row(less_equal, 2) row(equal, 2) row(truth, 1) row(logical_not, 1) row(logical_and, 2)            \
-                      row(logical_or, 2) row(select, 3) row(is_finite, 1)
+// clang-format off
+#define OMBRE_OPS(row)                                                                     \
+  row(add, 2) row(subtract, 2) row(multiply, 2) row(divide, 2) row(negate, 1)              \
+  row(min, 2) row(max, 2) row(abs, 1) row(sqrt, 1) row(square, 1) row(mod, 2) row(pow, 2)  \
+  row(floor, 1) row(ceil, 1) row(round, 1) row(trunc, 1)                                   \
+  row(sin, 1) row(cos, 1) row(tan, 1) row(asin, 1) row(acos, 1) row(atan, 1) row(atan2, 2) \
+  row(sinh, 1) row(cosh, 1) row(tanh, 1) row(exp, 1) row(log, 1) row(log10, 1) row(log2, 1) \
+  row(less, 2) row(less_equal, 2) row(equal, 2) row(truth, 1)                              \
+  row(logical_not, 1) row(logical_and, 2) row(logical_or, 2) row(select, 3) row(is_finite, 1)
+// clang-format on
 
 namespace ombre::program {
 
@@ -37,14 +40,13 @@ struct OpInfo {
 };
 
 inline OpInfo info(Op op) {
-  constexpr auto table = std::to_array<OpInfo>({
-      {"input", 0},
-      {"constant", 0},
-      {"affine", 3},
-      {"source", 3},
-      {"call", 3},
+  constexpr auto table = std::to_array<OpInfo>({{"input", 0},
+                                                {"constant", 0},
+                                                {"affine", 3},
+                                                {"source", 3},
+                                                {"call", 3},
 #define OMBRE_ROW(name, arity) {#name, arity},
-      OMBRE_OPS(OMBRE_ROW)
+                                                OMBRE_OPS(OMBRE_ROW)
 #undef OMBRE_ROW
   });
   return table[static_cast<size_t>(op)];
@@ -70,13 +72,15 @@ T apply(Op op, const T& a, const T& b, const T& c) {
 #define OMBRE_CALL_2(name) math::name(a, b)
 #define OMBRE_CALL_3(name) math::name(a, b, c)
 #define OMBRE_ROW(name, arity) \
-  case Op::name: return OMBRE_CALL_##arity(name);
+  case Op::name:               \
+    return OMBRE_CALL_##arity(name);
     OMBRE_OPS(OMBRE_ROW)
 #undef OMBRE_ROW
 #undef OMBRE_CALL_1
 #undef OMBRE_CALL_2
 #undef OMBRE_CALL_3
-    default: return a;  // inputs, constants, sources and calls are not arithmetic
+    default:
+      return a;  // inputs, constants, sources and calls are not arithmetic
   }
 }
 

@@ -20,8 +20,10 @@ std::string describe(const Program& program, const Instruction& in, std::map<con
   const OpInfo op = info(in.op);
   std::string text(op.name);
   switch (in.op) {
-    case Op::input: return text + " " + std::string(1, static_cast<char>('x' + static_cast<int>(in.value)));
-    case Op::constant: return text + " " + format_number(in.value);
+    case Op::input:
+      return text + " " + std::string(1, static_cast<char>('x' + static_cast<int>(in.value)));
+    case Op::constant:
+      return text + " " + format_number(in.value);
     case Op::affine: {
       text += " [";
       for (const double m : program.maps[in.aux]) text += format_number(m) + " ";
@@ -39,7 +41,8 @@ std::string describe(const Program& program, const Instruction& in, std::map<con
       text += " body" + std::to_string(number) + "." + call.body->output_names[call.output];
       break;
     }
-    default: break;
+    default:
+      break;
   }
   return text + operands(in, op.arity);
 }
@@ -75,16 +78,24 @@ void evaluate_intervals(const Program& program, const Box& box, std::vector<Inte
     const Instruction& in = program.code[i];
     const Interval &a = values[in.a], &b = values[in.b], &c = values[in.c];
     switch (in.op) {
-      case Op::input: values[i] = box.axis(static_cast<int>(in.value)); break;
-      case Op::constant: values[i] = std::isnan(in.value) ? Interval::everything() : Interval(in.value); break;
-      case Op::affine: values[i] = apply_affine(program.maps[in.aux], a, b, c); break;
+      case Op::input:
+        values[i] = box.axis(static_cast<int>(in.value));
+        break;
+      case Op::constant:
+        values[i] = std::isnan(in.value) ? Interval::everything() : Interval(in.value);
+        break;
+      case Op::affine:
+        values[i] = apply_affine(program.maps[in.aux], a, b, c);
+        break;
       case Op::source: {
         const Read& read = program.reads[in.aux];
         const Box where{{a.lo, b.lo, c.lo}, {a.hi, b.hi, c.hi}};
         values[i] = source_ranges ? source_ranges(read, where) : read.source->range(read.channel, where);
         break;
       }
-      case Op::call: ASSERT(false && "calls are inlined before evaluation"); break;
+      case Op::call:
+        ASSERT(false && "calls are inlined before evaluation");
+        break;
       default: {
         const int arity = info(in.op).arity;
         const bool known = a.is_point() && (arity < 2 || b.is_point()) && (arity < 3 || c.is_point());
@@ -105,12 +116,23 @@ void evaluate_point(const Program& program, Vec3 p, std::vector<double>& values)
     const Instruction& in = program.code[i];
     const double a = values[in.a], b = values[in.b], c = values[in.c];
     switch (in.op) {
-      case Op::input: values[i] = p[static_cast<int>(in.value)]; break;
-      case Op::constant: values[i] = in.value; break;
-      case Op::affine: values[i] = apply_affine(program.maps[in.aux], a, b, c); break;
-      case Op::source: values[i] = program.reads[in.aux].source->sample(program.reads[in.aux].channel, {a, b, c}); break;
-      case Op::call: ASSERT(false && "calls are inlined before evaluation"); break;
-      default: values[i] = apply(in.op, a, b, c);
+      case Op::input:
+        values[i] = p[static_cast<int>(in.value)];
+        break;
+      case Op::constant:
+        values[i] = in.value;
+        break;
+      case Op::affine:
+        values[i] = apply_affine(program.maps[in.aux], a, b, c);
+        break;
+      case Op::source:
+        values[i] = program.reads[in.aux].source->sample(program.reads[in.aux].channel, {a, b, c});
+        break;
+      case Op::call:
+        ASSERT(false && "calls are inlined before evaluation");
+        break;
+      default:
+        values[i] = apply(in.op, a, b, c);
     }
   }
 }

@@ -16,8 +16,8 @@ using ValueId = uint32_t;
 struct Instruction {
   Op op = Op::constant;
   ValueId a = 0, b = 0, c = 0;
-  uint32_t aux = 0;   // index into maps, reads or calls
-  double value = 0;   // of constants; the number of an input
+  uint32_t aux = 0;  // index into maps, reads or calls
+  double value = 0;  // of constants; the number of an input
 };
 
 struct Read {

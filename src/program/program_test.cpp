@@ -58,7 +58,8 @@ TEST(Points, ComposeAffineMapsExactly) {
 
 TEST(Intervals, HoldEveryOpOnRandomAndOddValues) {
   std::mt19937 random(1);
-  const double odd[] = {0.0, -0.0, 1, -1, inf, -inf, std::nan(""), 1e300, -1e300, 1e-310, 0.5, 2, 3.14159265358979, 1e9};
+  const double odd[] = {0.0, -0.0, 1, -1, inf, -inf, std::nan(""), 1e300, -1e300, 1e-310, 0.5, 2, 3.14159265358979,
+                        1e9};
   const auto pick = [&]() -> double {
     if (random() % 3 == 0) return odd[random() % std::size(odd)];
     return std::uniform_real_distribution<double>(-8, 8)(random);
@@ -67,14 +68,14 @@ TEST(Intervals, HoldEveryOpOnRandomAndOddValues) {
     if (std::isnan(a) || std::isnan(b)) return Interval::everything();
     return Interval(std::min(a, b), std::max(a, b));
   };
-#define OMBRE_ROW(name, arity)                                                                     \
-  for (int n = 0; n < 20000; ++n) {                                                                \
-    const double a = pick(), b = pick(), c = pick();                                               \
-    const Interval ia = around(a, pick()), ib = around(b, pick()), ic = around(c, pick());         \
-    const double v = apply(Op::name, a, b, c);                                                     \
-    const Interval i = apply(Op::name, ia, ib, ic);                                                \
-    ASSERT_TRUE(i.contains(v)) << #name << "(" << a << ", " << b << ", " << c << ") = " << v      \
-                               << " not in [" << i.lo << ", " << i.hi << "]";                      \
+#define OMBRE_ROW(name, arity)                                                                                      \
+  for (int n = 0; n < 20000; ++n) {                                                                                 \
+    const double a = pick(), b = pick(), c = pick();                                                                \
+    const Interval ia = around(a, pick()), ib = around(b, pick()), ic = around(c, pick());                          \
+    const double v = apply(Op::name, a, b, c);                                                                      \
+    const Interval i = apply(Op::name, ia, ib, ic);                                                                 \
+    ASSERT_TRUE(i.contains(v)) << #name << "(" << a << ", " << b << ", " << c << ") = " << v << " not in [" << i.lo \
+                               << ", " << i.hi << "]";                                                              \
   }
   OMBRE_OPS(OMBRE_ROW)
 #undef OMBRE_ROW
@@ -102,7 +103,8 @@ TEST(InlineBodies, KeepsTheMeaning) {
   Builder inner;
   *body = inner.finish({{"g", length(inner.input(0), inner.input(1))}});
   Builder b;
-  const Field f = b.call(body, 0, b.input(0), b.input(1), b.input(2)) + b.call(body, 0, b.input(1), b.constant(3), b.input(2));
+  const Field f =
+      b.call(body, 0, b.input(0), b.input(1), b.input(2)) + b.call(body, 0, b.input(1), b.constant(3), b.input(2));
   const Program program = b.finish({{"v", f}});
   EXPECT_EQ(inlined_size(program), static_cast<double>(program.code.size() + 2 * body->code.size()));
   EXPECT_EQ(value(inline_bodies(program), {3, 4, 0}), 10);
@@ -115,7 +117,8 @@ TEST(AffineOperands, SeeThroughNestedMaps) {
   const Program program = b.finish({{"v", select(p.x, p.y, p.z)}});
   const auto map = affine_operands(program, program.code[program.outputs[0]]);
   ASSERT_TRUE(map);
-  const Vec3 expected = (Affine::scaling({1, -2, 3}) * Affine::rotation({1, 2, 3}, 40))({1, 5, 7}), found = (*map)({1, 5, 7});
+  const Vec3 expected = (Affine::scaling({1, -2, 3}) * Affine::rotation({1, 2, 3}, 40))({1, 5, 7}),
+             found = (*map)({1, 5, 7});
   EXPECT_NEAR(length(expected - found), 0, 1e-12);
   const Program curved = b.finish({{"v", select(square(p.x), p.y, p.z)}});
   EXPECT_FALSE(affine_operands(curved, curved.code[curved.outputs[0]]));

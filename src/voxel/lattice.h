@@ -12,15 +12,18 @@ namespace ombre::voxel {
 // Voxel (i, j, k) has its centre at origin + (index + 0.5) * pitch. Indices always count in the
 // job's full box, whatever part of it is asked for.
 struct Lattice {
-  Vec3 origin;                       // the corner of least x, y, z; mm
+  Vec3 origin;  // the corner of least x, y, z; mm
   std::array<Pitch, 3> pitch;
-  std::array<int64_t, 3> count{};    // voxels on each axis
+  std::array<int64_t, 3> count{};  // voxels on each axis
 
   Vec3 center(int64_t i, int64_t j, int64_t k) const {
-    return {origin.x + pitch[0].times(static_cast<double>(i) + 0.5), origin.y + pitch[1].times(static_cast<double>(j) + 0.5),
+    return {origin.x + pitch[0].times(static_cast<double>(i) + 0.5),
+            origin.y + pitch[1].times(static_cast<double>(j) + 0.5),
             origin.z + pitch[2].times(static_cast<double>(k) + 0.5)};
   }
-  uint64_t voxels() const { return static_cast<uint64_t>(count[0]) * static_cast<uint64_t>(count[1]) * static_cast<uint64_t>(count[2]); }
+  uint64_t voxels() const {
+    return static_cast<uint64_t>(count[0]) * static_cast<uint64_t>(count[1]) * static_cast<uint64_t>(count[2]);
+  }
   Box box() const;
 };
 

@@ -95,8 +95,10 @@ std::vector<LayerResult> LayerEvaluator::layers(int64_t begin, int64_t end) cons
     for (LayerResult& layer : results) {
       for (int64_t row = strip.lo[1]; row < strip.hi[1]; ++row) {
         auto& runs = layer.runs.rows[static_cast<size_t>(row)];
-        if (touched) append_runs(runs, voxels, count[0]);
-        else append_run(runs, 0, static_cast<uint32_t>(count[0]));
+        if (touched)
+          append_runs(runs, voxels, count[0]);
+        else
+          append_run(runs, 0, static_cast<uint32_t>(count[0]));
         voxels += touched ? count[0] : 0;
       }
     }

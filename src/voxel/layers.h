@@ -17,9 +17,9 @@ enum class Dither { stochastic, threshold };
 
 // What the outputs of a program are. Output 0 is the truth value "inside".
 struct MaterialProgram {
-  program::Program program;                // without calls
-  std::vector<MaterialId> materials;       // outputs 1 .. materials.size() are their fractions, which sum to one
-  size_t check_count = 0;                  // the outputs after them are 1 where a check fails
+  program::Program program;           // without calls
+  std::vector<MaterialId> materials;  // outputs 1 .. materials.size() are their fractions, which sum to one
+  size_t check_count = 0;             // the outputs after them are 1 where a check fails
 };
 
 struct CheckHits {
@@ -28,8 +28,8 @@ struct CheckHits {
 };
 
 struct LayerResult {
-  RunLayer runs;                           // of the whole width and height of the lattice
-  std::vector<uint64_t> material_counts;   // by MaterialId, 256 entries; void not counted
+  RunLayer runs;                          // of the whole width and height of the lattice
+  std::vector<uint64_t> material_counts;  // by MaterialId, 256 entries; void not counted
   std::vector<CheckHits> checks;
 };
 

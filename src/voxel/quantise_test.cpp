@@ -40,7 +40,16 @@ TEST(Quantise, DrawsAreUniform) {
 }
 
 TEST(Quantise, NeighboursAndSeedsAreUncorrelated) {
-  for (const std::array<int64_t, 3> step : {std::array<int64_t, 3>{1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {0, 1, 1}, {1, 1, 1}, {-1, 1, 0}, {0, 64, 0}, {256, 0, 0}})
+  for (const std::array<int64_t, 3> step : {std::array<int64_t, 3>{1, 0, 0},
+                                            {2, 0, 0},
+                                            {0, 1, 0},
+                                            {0, 0, 1},
+                                            {1, 1, 0},
+                                            {0, 1, 1},
+                                            {1, 1, 1},
+                                            {-1, 1, 0},
+                                            {0, 64, 0},
+                                            {256, 0, 0}})
     EXPECT_LT(std::abs(correlation(step, 7, 7)), four_sigma) << step[0] << step[1] << step[2];
   EXPECT_LT(std::abs(correlation({0, 0, 0}, 0, 1)), four_sigma);
   EXPECT_LT(std::abs(correlation({0, 0, 0}, 5, uint64_t{5} << 32)), four_sigma);

@@ -115,23 +115,25 @@ MaterialId* StripEvaluator::voxels(int64_t i, int64_t j, int64_t k) {
     buffer_->assign(static_cast<size_t>(strip_.voxels()), 0);
     touched_ = true;
   }
-  return buffer_->data() + ((k - strip_.lo[2]) * strip_.size(1) + (j - strip_.lo[1])) * strip_.size(0) + (i - strip_.lo[0]);
+  return buffer_->data() + ((k - strip_.lo[2]) * strip_.size(1) + (j - strip_.lo[1])) * strip_.size(0) +
+         (i - strip_.lo[0]);
 }
 
 void StripEvaluator::fill(const TileBox& tile, MaterialId material) {
   for (int64_t k = tile.lo[2]; k < tile.hi[2]; ++k)
-    for (int64_t j = tile.lo[1]; j < tile.hi[1]; ++j)
-      std::fill_n(voxels(tile.lo[0], j, k), tile.size(0), material);
+    for (int64_t j = tile.lo[1]; j < tile.hi[1]; ++j) std::fill_n(voxels(tile.lo[0], j, k), tile.size(0), material);
 }
 
 void StripEvaluator::evaluate(program::Program program, const TileBox& tile) {
   const size_t early = program::order_for_first(program);
-  for (int64_t i = tile.lo[0]; i < tile.hi[0]; ++i) xs_[static_cast<size_t>(i - tile.lo[0])] = lattice_.center(i, 0, 0).x;
+  for (int64_t i = tile.lo[0]; i < tile.hi[0]; ++i)
+    xs_[static_cast<size_t>(i - tile.lo[0])] = lattice_.center(i, 0, 0).x;
   for (int64_t k = tile.lo[2]; k < tile.hi[2]; ++k)
     for (int64_t j = tile.lo[1]; j < tile.hi[1]; ++j) evaluate_row(program, early, tile, j, k);
 }
 
-void StripEvaluator::evaluate_row(const program::Program& program, size_t early, const TileBox& tile, int64_t j, int64_t k) {
+void StripEvaluator::evaluate_row(const program::Program& program, size_t early, const TileBox& tile, int64_t j,
+                                  int64_t k) {
   const Vec3 p = lattice_.center(tile.lo[0], j, k);
   const eval::SourceRow source_row = [&](const program::Read& read, std::span<double> values) {
     if (!sources_->has(read.tag)) return false;
@@ -150,7 +152,8 @@ void StripEvaluator::evaluate_row(const program::Program& program, size_t early,
   if (materials_.check_count > 0) count_checks(program, tile, j, k);
 }
 
-void StripEvaluator::quantise_row(const program::Program& program, int64_t begin, int64_t end, const TileBox& tile, int64_t j, int64_t k) {
+void StripEvaluator::quantise_row(const program::Program& program, int64_t begin, int64_t end, const TileBox& tile,
+                                  int64_t j, int64_t k) {
   const auto inside = rows_.values(program.outputs[0]);
   const size_t count = materials_.materials.size();
   const uint32_t row = row_hash(seed_, j, k);
@@ -159,7 +162,8 @@ void StripEvaluator::quantise_row(const program::Program& program, int64_t begin
     const auto at = static_cast<size_t>(n);
     if (inside[at] == 0) continue;
     for (size_t m = 0; m < count; ++m) fractions_[m] = rows_.values(program.outputs[m + 1])[at];
-    const size_t chosen = dither_ == Dither::threshold ? greatest(fractions_) : pick(fractions_, uniform(row, tile.lo[0] + n));
+    const size_t chosen =
+        dither_ == Dither::threshold ? greatest(fractions_) : pick(fractions_, uniform(row, tile.lo[0] + n));
     out[n] = materials_.materials[chosen];
   }
 }

@@ -53,7 +53,8 @@ class StripEvaluator {
   void fill(const TileBox& tile, MaterialId material);
   void evaluate(program::Program program, const TileBox& tile);
   void evaluate_row(const program::Program& program, size_t early, const TileBox& tile, int64_t j, int64_t k);
-  void quantise_row(const program::Program& program, int64_t begin, int64_t end, const TileBox& tile, int64_t j, int64_t k);
+  void quantise_row(const program::Program& program, int64_t begin, int64_t end, const TileBox& tile, int64_t j,
+                    int64_t k);
   void count_checks(const program::Program& program, const TileBox& tile, int64_t j, int64_t k);
   MaterialId* voxels(int64_t i, int64_t j, int64_t k);
 

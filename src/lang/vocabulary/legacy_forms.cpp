@@ -12,15 +12,28 @@ struct Alias {
 };
 
 constexpr Alias aliases[] = {
-    {"sphere", "r", "radius"},          {"cylinder", "r", "radius"},        {"cylinder", "h", "height"},
-    {"cube", "s", "side"},              {"cube", "size", "side"},           {"rectprism", "s", "size"},
-    {"cone", "r1", "base"},             {"cone", "r2", "top"},              {"cone", "h", "height"},
-    {"strut", "r", "radius"},           {"rotate", "deg", "degrees"},       {"fgrade", "func", "functions"},
-    {"fgrade", "function", "functions"}, {"function", "func", "expression"}, {"function", "expr", "expression"},
-    {"mesh", "file", "path"},           {"sum", "b", "blend"},              {"ellipsoid", "r", "radii"},
+    {"sphere", "r", "radius"},
+    {"cylinder", "r", "radius"},
+    {"cylinder", "h", "height"},
+    {"cube", "s", "side"},
+    {"cube", "size", "side"},
+    {"rectprism", "s", "size"},
+    {"cone", "r1", "base"},
+    {"cone", "r2", "top"},
+    {"cone", "h", "height"},
+    {"strut", "r", "radius"},
+    {"rotate", "deg", "degrees"},
+    {"fgrade", "func", "functions"},
+    {"fgrade", "function", "functions"},
+    {"function", "func", "expression"},
+    {"function", "expr", "expression"},
+    {"mesh", "file", "path"},
+    {"sum", "b", "blend"},
+    {"ellipsoid", "r", "radii"},
 };
 
-constexpr std::string_view vector_nodes[] = {"rectprism", "ellipsoid", "translate", "scale", "mirror", "rotate", "half_space"};
+constexpr std::string_view vector_nodes[] = {"rectprism", "ellipsoid", "translate", "scale",
+                                             "mirror",    "rotate",    "half_space"};
 
 bool is_number_like(const Data& data) { return data.number() || data.string(); }
 
@@ -43,7 +56,8 @@ Argument vector_argument(const std::string& name, const Argument& a, const Argum
 void gather_leading_numbers(const design::NodeType& type, std::vector<Argument>& arguments) {
   if (std::find(std::begin(vector_nodes), std::end(vector_nodes), type.name) == std::end(vector_nodes)) return;
   if (positional_count(arguments) < 3) return;
-  if (!arguments[0].value.number() || !is_number_like(arguments[1].value) || !is_number_like(arguments[2].value)) return;
+  if (!arguments[0].value.number() || !is_number_like(arguments[1].value) || !is_number_like(arguments[2].value))
+    return;
   arguments[0] = vector_argument("", arguments[0], arguments[1], arguments[2]);
   arguments.erase(arguments.begin() + 1, arguments.begin() + 3);
 }
@@ -109,7 +123,8 @@ std::vector<Argument> modern_arguments(const design::NodeType& type, std::vector
     arguments[0].value = Data(DataList(3, arguments[0].value), arguments[0].value.where);
   for (Argument& argument : arguments)
     for (const Alias& alias : aliases)
-      if (alias.node == type.name && alias.spelling == argument.name && type.parameter(argument.name) < 0) argument.name = alias.parameter;
+      if (alias.node == type.name && alias.spelling == argument.name && type.parameter(argument.name) < 0)
+        argument.name = alias.parameter;
   return arguments;
 }
 

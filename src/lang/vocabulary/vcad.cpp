@@ -19,20 +19,22 @@ namespace {
 constexpr std::string_view axes[] = {"x", "y", "z"};
 
 // A name for every argument: given, or by position. False, and diagnostics, when one has no parameter.
-bool bind(const NodeType& type, const std::vector<Argument>& arguments, std::vector<NamedValue>& values, Diagnostics& diagnostics,
-          const SourceRange& whole) {
+bool bind(const NodeType& type, const std::vector<Argument>& arguments, std::vector<NamedValue>& values,
+          Diagnostics& diagnostics, const SourceRange& whole) {
   std::vector<bool> taken(type.parameters.size(), false);
   bool good = true;
   size_t position = 0, positional = 0;
   for (const Argument& argument : arguments) {
-    const SourceRange where = argument.name_where.source ? argument.name_where : argument.value.where.source ? argument.value.where : whole;
+    const SourceRange where = argument.name_where.source    ? argument.name_where
+                              : argument.value.where.source ? argument.value.where
+                                                            : whole;
     int index = -1;
     if (argument.name.empty()) {
       ++positional;
       while (position < taken.size() && taken[position]) ++position;
       if (position == taken.size()) {
-        diagnostics.error(where, type.name + " takes at most " + std::to_string(type.parameters.size()) + " arguments: (" +
-                                     join(type.parameter_names(), ", ") + ")");
+        diagnostics.error(where, type.name + " takes at most " + std::to_string(type.parameters.size()) +
+                                     " arguments: (" + join(type.parameter_names(), ", ") + ")");
         return false;
       }
       index = static_cast<int>(position);
@@ -41,7 +43,8 @@ bool bind(const NodeType& type, const std::vector<Argument>& arguments, std::vec
     }
     if (index < 0) {
       std::string hint = did_you_mean(argument.name, type.parameter_names());
-      if (hint.empty()) hint = type.parameters.empty() ? "it takes none" : "it has " + join(type.parameter_names(), ", ");
+      if (hint.empty())
+        hint = type.parameters.empty() ? "it takes none" : "it has " + join(type.parameter_names(), ", ");
       diagnostics.error(where, type.name + " has no parameter \"" + argument.name + "\"", hint);
       good = false;
       continue;
@@ -60,7 +63,8 @@ bool bind(const NodeType& type, const std::vector<Argument>& arguments, std::vec
 
 }  // namespace
 
-VcadVocabulary::VcadVocabulary(const design::Registry& registry, const design::MaterialTable& materials, design::SourceLoader* loader)
+VcadVocabulary::VcadVocabulary(const design::Registry& registry, const design::MaterialTable& materials,
+                               design::SourceLoader* loader)
     : registry_(registry), materials_(materials), loader_(loader) {}
 
 bool VcadVocabulary::knows(std::string_view name) const {
@@ -93,7 +97,9 @@ std::vector<std::string> VcadVocabulary::constants() const {
 NodePtr VcadVocabulary::make(const Invocation& call, Diagnostics& diagnostics) {
   const size_t errors_before = diagnostics.error_count();
   const NodeType* type = registry_.find(node_name(call.name));
-  NodePtr node = fold_name(call.name) == "root" ? make_root(call, diagnostics) : type ? make_of_type(*type, call, diagnostics) : nullptr;
+  NodePtr node = fold_name(call.name) == "root" ? make_root(call, diagnostics)
+                 : type                         ? make_of_type(*type, call, diagnostics)
+                                                : nullptr;
   if (diagnostics.error_count() > errors_before)
     for (const SourceRange& from : call.called_from) diagnostics.note(from, "called from here");
   return node;
@@ -120,7 +126,8 @@ NodePtr VcadVocabulary::joined(std::vector<NodePtr> nodes, const Reader& reader)
 NodePtr VcadVocabulary::shared(NodePtr node) {
   if (!node) return node;
   std::string key = node->type().name;
-  for (size_t i = 0; i < node->type().parameters.size(); ++i) key += '|' + print_json_line(node->type().get(node->value(), i, false));
+  for (size_t i = 0; i < node->type().parameters.size(); ++i)
+    key += '|' + print_json_line(node->type().get(node->value(), i, false));
   for (const NodePtr& input : node->inputs()) key += '@' + std::to_string(reinterpret_cast<uintptr_t>(input.get()));
   const Hash hash = hash_bytes(key);
   std::string digest(reinterpret_cast<const char*>(&hash), sizeof hash);
@@ -142,17 +149,21 @@ NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnosti
   for (const Argument& argument : call.arguments) {
     const auto at = argument.name.empty() ? names.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(position++, 3))
                                           : std::find(names.begin(), names.end(), argument.name);
-    if (at == names.end()) return fail(argument.value.where.source ? argument.value.where : call.whole, "root takes three arguments", "write " + form);
+    if (at == names.end())
+      return fail(argument.value.where.source ? argument.value.where : call.whole, "root takes three arguments",
+                  "write " + form);
     corners[static_cast<size_t>(at - names.begin())] = &argument.value;
   }
-  if (!corners[0] || !corners[1] || !corners[2]) return fail(call.whole, "root needs the corners of its box and a voxel size", "write " + form);
+  if (!corners[0] || !corners[1] || !corners[2])
+    return fail(call.whole, "root needs the corners of its box and a voxel size", "write " + form);
 
   design::Sampling sampling;
   Vec3 voxel;
   const auto read_corner = [&](size_t i, const design::Domain& domain, Vec3& value) {
     return design::read(*corners[i], domain, value, {materials_, diagnostics, loader_, call.whole, "root", names[i]});
   };
-  const bool good = static_cast<bool>(read_corner(0, design::unit::mm, sampling.box.lo) & read_corner(1, design::unit::mm, sampling.box.hi) &
+  const bool good = static_cast<bool>(read_corner(0, design::unit::mm, sampling.box.lo) &
+                                      read_corner(1, design::unit::mm, sampling.box.hi) &
                                       read_corner(2, design::unit::positive_mm, voxel));
   if (!good) return nullptr;
   for (int axis = 0; axis < 3; ++axis) {
@@ -160,7 +171,8 @@ NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnosti
       return fail(corners[1]->where.source ? corners[1]->where : call.whole,
                   "the box of root is empty: max must be greater than min on each axis");
     const auto pitch = Pitch::from_mm(voxel[axis]);
-    if (!pitch) return fail(corners[2]->where, "the voxel size " + format_number(voxel[axis]) + " mm has too many digits");
+    if (!pitch)
+      return fail(corners[2]->where, "the voxel size " + format_number(voxel[axis]) + " mm has too many digits");
     sampling.pitch[static_cast<size_t>(axis)] = *pitch;
   }
   if (call.children.empty()) return nullptr;  // told of as an empty design
@@ -178,7 +190,8 @@ std::optional<design::Design> VcadVocabulary::finish(const std::vector<NodePtr>&
   }
   const std::vector<NodePtr>& solids = root_where_ ? root_children_ : top_level;
   if (solids.empty()) {
-    diagnostics.error(whole, "the design is empty: nothing in it makes a solid", "write for example sphere(5, \"red\");");
+    diagnostics.error(whole, "the design is empty: nothing in it makes a solid",
+                      "write for example sphere(5, \"red\");");
     return std::nullopt;
   }
   design::Design design{materials_, {}, sampling_};
@@ -203,7 +216,8 @@ std::optional<design::Design> VcadVocabulary::finish(const std::vector<NodePtr>&
   }
   for (const design::Node* node : topological(design.roots()))
     if (node->type().name == "part" && !parts.contains(node))
-      diagnostics.warning(node->where(), "a part inside of something else does not count as one", "move it to the top level");
+      diagnostics.warning(node->where(), "a part inside of something else does not count as one",
+                          "move it to the top level");
   if (diagnostics.has_errors()) return std::nullopt;
   return design;
 }

@@ -12,7 +12,8 @@ namespace ombre::lang {
 class VcadVocabulary : public Vocabulary {
  public:
   // All three must outlive the vocabulary; without a loader, meshes are errors.
-  VcadVocabulary(const design::Registry& registry, const design::MaterialTable& materials, design::SourceLoader* loader);
+  VcadVocabulary(const design::Registry& registry, const design::MaterialTable& materials,
+                 design::SourceLoader* loader);
 
   bool knows(std::string_view name) const override;
   std::vector<std::string> names() const override;

@@ -19,7 +19,8 @@ std::optional<AffineRow> affine_form(const Program& program, ValueId id) {
       row[static_cast<size_t>(in.value)] = 1;
       return row;
     }
-    case Op::constant: return AffineRow{0, 0, 0, in.value};
+    case Op::constant:
+      return AffineRow{0, 0, 0, in.value};
     case Op::negate: {
       const auto a = affine_form(program, in.a);
       if (!a) return std::nullopt;
@@ -44,7 +45,8 @@ std::optional<AffineRow> affine_form(const Program& program, ValueId id) {
       row[3] += m[3];
       return row;
     }
-    default: return std::nullopt;
+    default:
+      return std::nullopt;
   }
 }
 

@@ -24,12 +24,16 @@ class Inliner {
   }
 
  private:
-  Field translate(const Program& program, const Instruction& in, const std::vector<Field>& fields, const Arguments& inputs) {
+  Field translate(const Program& program, const Instruction& in, const std::vector<Field>& fields,
+                  const Arguments& inputs) {
     const auto at = [&](ValueId id) { return fields[id]; };
     switch (in.op) {
-      case Op::input: return {&builder_, inputs[static_cast<size_t>(in.value)]};
-      case Op::constant: return builder_.constant(in.value);
-      case Op::affine: return builder_.affine(program.maps[in.aux], at(in.a), at(in.b), at(in.c));
+      case Op::input:
+        return {&builder_, inputs[static_cast<size_t>(in.value)]};
+      case Op::constant:
+        return builder_.constant(in.value);
+      case Op::affine:
+        return builder_.affine(program.maps[in.aux], at(in.a), at(in.b), at(in.c));
       case Op::source: {
         const Read& read = program.reads[in.aux];
         return builder_.source(read.source, read.channel, at(in.a), at(in.b), at(in.c));

@@ -25,7 +25,8 @@ ValueId settled(const Program& program, ValueId i, const std::vector<Interval>& 
       if (values[in.a].lo > 0 || values[in.a].hi < 0) return in.b;
       if (values[in.a] == Interval(0)) return in.c;
       return i;
-    default: return i;
+    default:
+      return i;
   }
 }
 
@@ -120,6 +121,8 @@ class Shortener {
 
 }  // namespace
 
-Program shorten(const Program& program, const std::vector<Interval>& values) { return Shortener(program, values).run(); }
+Program shorten(const Program& program, const std::vector<Interval>& values) {
+  return Shortener(program, values).run();
+}
 
 }  // namespace ombre::program
