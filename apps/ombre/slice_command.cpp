@@ -120,22 +120,21 @@ compile::SliceOptions slice_options(const SliceArguments& a, const compile::Slic
   return options;
 }
 
-int dry_run(const compile::Plan& plan, const compile::SliceOptions& options, Session& session,
-            const std::string& design) {
+int dry_run(const compile::Plan& plan, const compile::SliceOptions& options, Session& session) {
   const compile::SliceEstimate estimate = compile::estimate_slice(plan.request, plan.producer, options);
   tell_estimate(session.console, plan.request, estimate);
-  tell_checks(session.console, estimate.checks, design);
+  tell_checks(session.console, estimate.checks);
   return options.strict && !estimate.checks.empty() ? check_failed : done;
 }
 
 int write_slices(const compile::Plan& plan, const compile::SliceOptions& options, Session& session,
-                 const std::string& design, const StopFlag& stop) {
+                 const StopFlag& stop) {
   ProgressLine progress(session.console);
   try {
     const compile::SliceReport report = compile::slice(plan.request, plan.producer, options, &progress, &stop);
     progress.finish();
     tell_report(session.console, plan.request, options, report);
-    tell_checks(session.console, report.checks, design);
+    tell_checks(session.console, report.checks);
     return report.stopped_by_check ? check_failed : done;
   } catch (const Cancelled&) {
     progress.finish();
@@ -172,8 +171,7 @@ int slice(const SliceArguments& a, Session& session) {
 
   const compile::SliceOptions options = slice_options(a, plan->request);
   tell_plan(session.console, plan->request, options);
-  return a.dry_run ? dry_run(*plan, options, session, a.design)
-                   : write_slices(*plan, options, session, a.design, interrupt.flag());
+  return a.dry_run ? dry_run(*plan, options, session) : write_slices(*plan, options, session, interrupt.flag());
 }
 
 }  // namespace

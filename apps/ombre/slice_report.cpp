@@ -107,10 +107,10 @@ void tell_report(const Console& console, const compile::SliceRequest& request, c
                          {"seconds", report.seconds}});
 }
 
-void tell_checks(const Console& console, const std::vector<compile::CheckReport>& checks, const std::string& design) {
+void tell_checks(const Console& console, const std::vector<compile::CheckReport>& checks) {
   for (const compile::CheckReport& check : checks)
-    console.warn(design + ": " + check.text + " (" + counted(static_cast<int64_t>(check.voxels), "voxel") +
-                 ", the lowest at " + mm_text(check.first_mm) + " mm)");
+    console.warn(check.text + " (" + counted(static_cast<int64_t>(check.voxels), "voxel") + ", the lowest at " +
+                 mm_text(check.first_mm) + " mm)");
 }
 
 }  // namespace ombre::cli

@@ -14,7 +14,7 @@ void tell_estimate(const Console& console, const compile::SliceRequest& request,
                    const compile::SliceEstimate& estimate);
 void tell_report(const Console& console, const compile::SliceRequest& request, const compile::SliceOptions& options,
                  const compile::SliceReport& report);
-void tell_checks(const Console& console, const std::vector<compile::CheckReport>& checks, const std::string& design);
+void tell_checks(const Console& console, const std::vector<compile::CheckReport>& checks);
 
 // "1.5 GiB"
 std::string bytes_text(double bytes);

@@ -84,7 +84,7 @@ std::optional<Pitch> Pitch::from_mm(double mm) {
 }
 
 std::string Pitch::text() const {
-  const std::string decimal_text = format_number(mm());
+  std::string decimal_text = format_number(mm());
   if (decimal_text.size() <= 8 && from_mm(mm()) == *this) return decimal_text;
   return std::to_string(numerator) + '/' + std::to_string(denominator);
 }

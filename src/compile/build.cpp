@@ -56,6 +56,30 @@ std::optional<Built> build_flat_program(const design::Design& design, Diagnostic
   return built;
 }
 
+void leave_out_impossible(Built& built, const Box& box) {
+  voxel::MaterialProgram& m = built.materials;
+  std::vector<Interval> values;
+  program::evaluate_intervals(m.program, box, values);
+  program::Program kept = m.program;
+  std::vector<MaterialId> materials;
+  std::vector<design::Check> checks;
+  kept.outputs.resize(1);
+  kept.output_names.resize(1);
+  for (size_t n = 1; n < m.program.outputs.size(); ++n) {
+    if (values[m.program.outputs[n]] == Interval(0)) continue;
+    kept.outputs.push_back(m.program.outputs[n]);
+    kept.output_names.push_back(m.program.output_names[n]);
+    if (n <= m.materials.size())
+      materials.push_back(m.materials[n - 1]);
+    else
+      checks.push_back(built.checks[n - 1 - m.materials.size()]);
+  }
+  m.program = program::shorten(kept, values);
+  m.materials = std::move(materials);
+  m.check_count = checks.size();
+  built.checks = std::move(checks);
+}
+
 std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnostics) {
   if (design.sampling) return design.sampling->box;
   Box box;

@@ -22,6 +22,9 @@ Built build_program(const design::Design& design);
 // The same, ready to be evaluated. Nothing, and a diagnostic, when it would not fit into memory.
 std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics);
 
+// Leaves out materials and checks that cannot occur within the box, and what only they needed.
+void leave_out_impossible(Built& built, const Box& box);
+
 // Where the design lies: the box that is sampled, or the bounds of its solids. Nothing, and diagnostics,
 // when it is empty or has no bounds.
 std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnostics);

@@ -139,6 +139,7 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   if (!lattice) return std::nullopt;
   auto built = build_flat_program(design, diagnostics);
   if (!built) return std::nullopt;
+  leave_out_impossible(*built, lattice->box());
   warn_of_features(options.printer, box->size(), {loaded->source, 0, 0}, diagnostics);
 
   Plan plan;

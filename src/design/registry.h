@@ -22,10 +22,12 @@ struct ParameterInfo {
 struct InputInfo {
   ValueType type = ValueType::solid;
   size_t least = 0, most = 0;
+  bool grouped = false;  // what one statement of a script makes (a loop, a module) is one input, its union
 };
 inline constexpr InputInfo no_inputs{};
 inline constexpr InputInfo one_solid{ValueType::solid, 1, 1};
 inline constexpr InputInfo many_solids{ValueType::solid, 1, std::numeric_limits<size_t>::max()};
+inline constexpr InputInfo grouped_solids{ValueType::solid, 1, std::numeric_limits<size_t>::max(), true};
 
 class NodeType {
  public:

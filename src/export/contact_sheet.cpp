@@ -14,7 +14,7 @@ namespace ombre::exporting {
 namespace {
 
 constexpr uint32_t sheet_width = 1600, tallest_tile = 800, margin = 16, label_gap = 6, label_scale = 2;
-constexpr formats::Rgba paper{244, 244, 240, 255}, tile_colour{255, 255, 255, 255}, ink{90, 90, 90, 255};
+constexpr formats::Rgba paper{250, 250, 248, 255}, tile_colour{229, 232, 236, 255}, ink{90, 90, 90, 255};
 
 // Pixels [left, right) x [top, bottom).
 struct Crop {
@@ -64,6 +64,12 @@ Crop occupied(const std::vector<SheetLayer>& layers, const SheetStyle& style) {
 Grid arrange(uint32_t count, double width_mm, double height_mm) {
   Grid grid;
   grid.columns = std::min<uint32_t>(count, static_cast<uint32_t>(std::ceil(std::sqrt(count * 1.5))));
+  // A little narrower where that fills all rows.
+  for (uint32_t fewer = grid.columns; fewer * fewer >= count; --fewer)
+    if (count % fewer == 0) {
+      grid.columns = fewer;
+      break;
+    }
   // Tall parts stand in one row as long as their tiles stay wide enough to be seen.
   if (height_mm > 2 * width_mm) grid.columns = std::min<uint32_t>(count, 2 * grid.columns);
   grid.rows = (count + grid.columns - 1) / grid.columns;

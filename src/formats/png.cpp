@@ -8,6 +8,8 @@
 #include <cmath>
 #include <csetjmp>
 #include <cstring>
+#include <optional>
+#include <unordered_map>
 
 #include "base/assert.h"
 #include "base/error.h"
@@ -28,7 +30,8 @@ constexpr png_uint_32 largest_side = 1'000'000;
 struct Compression {
   int level, strategy;
 };
-constexpr Compression indexed_compression{4, Z_RLE}, rgba_compression{1, Z_DEFAULT_STRATEGY};
+constexpr Compression indexed_compression{4, Z_RLE}, rgba_compression{1, Z_DEFAULT_STRATEGY},
+    picture_compression{9, Z_DEFAULT_STRATEGY};
 constexpr size_t chunk_bytes = size_t{256} << 10;
 
 struct Failure {
@@ -85,6 +88,7 @@ struct Header {
   int colour_count = 0, alpha_count = 0;
   png_uint_32 dots_per_metre_x = 0, dots_per_metre_y = 0;
   bool compare_rows = false;
+  bool is_picture = false;  // small files matter more than speed
 };
 
 bool write_header(Writer& writer, const Header& header) {
@@ -99,8 +103,9 @@ bool write_header(Writer& writer, const Header& header) {
     png_set_pHYs(writer.png, writer.info, header.dots_per_metre_x, header.dots_per_metre_y, PNG_RESOLUTION_METER);
 
   // Everything that decides the bytes is stated, whatever the library's defaults.
-  const Compression& compression =
-      header.colour_type == PNG_COLOR_TYPE_PALETTE ? indexed_compression : rgba_compression;
+  const Compression& compression = header.is_picture                              ? picture_compression
+                                   : header.colour_type == PNG_COLOR_TYPE_PALETTE ? indexed_compression
+                                                                                  : rgba_compression;
   png_set_compression_level(writer.png, compression.level);
   png_set_compression_strategy(writer.png, compression.strategy);
   png_set_compression_mem_level(writer.png, 9);
@@ -207,8 +212,43 @@ std::string encode_png(const RunLayer& layer, const Palette& palette, const PngL
   return std::move(writer.bytes);
 }
 
+namespace {
+
+// Pictures of at most 256 colours are indexed, which makes them several times smaller. Their palette is
+// in the order in which the colours come up.
+std::optional<std::string> encode_few_colours(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgba) {
+  std::unordered_map<uint32_t, uint8_t> entries;
+  std::vector<uint8_t> indices(rgba.size() / 4);
+  Header header;
+  for (size_t n = 0; n < indices.size(); ++n) {
+    const uint8_t* pixel = rgba.data() + 4 * n;
+    uint32_t key = 0;
+    std::memcpy(&key, pixel, 4);
+    const auto [entry, is_new] = entries.try_emplace(key, static_cast<uint8_t>(entries.size()));
+    if (is_new) {
+      if (entries.size() > 256) return std::nullopt;
+      header.colours[entry->second] = {pixel[0], pixel[1], pixel[2]};
+      header.alphas[entry->second] = pixel[3];
+    }
+    indices[n] = entry->second;
+  }
+  header.width = width;
+  header.height = height;
+  header.colour_type = PNG_COLOR_TYPE_PALETTE;
+  header.colour_count = header.alpha_count = static_cast<int>(entries.size());
+  header.is_picture = true;
+  Writer writer;
+  start(writer, header);
+  for (size_t row = 0; row < height; ++row) require(write_row(writer, indices.data() + row * width), writer);
+  require(write_end(writer), writer);
+  return std::move(writer.bytes);
+}
+
+}  // namespace
+
 std::string encode_png(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgba) {
   ASSERT(rgba.size() == size_t{4} * width * height);
+  if (auto indexed = encode_few_colours(width, height, rgba)) return std::move(*indexed);
   Header header;
   header.width = width;
   header.height = height;

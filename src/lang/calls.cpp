@@ -109,7 +109,7 @@ void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scop
     };
     ++node_depth_;
     const Inside inside{node_depth_};
-    run_block(statement.children, scope, invocation.children);
+    run_block(statement.children, scope, invocation.children, &invocation.group_ends);
   }
   invocation.name = statement.name.text();
   invocation.where = statement.name.span.range();

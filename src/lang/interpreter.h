@@ -88,8 +88,9 @@ class Interpreter {
   // --- statements.cpp
   const ScopePtr& unit_scope(const Unit& unit);
   void assign(const ast::Plan& plan, const ScopePtr& scope, bool is_main);
-  void run_block(const ast::Block& block, const ScopePtr& outer, Nodes& out);
-  void run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out);
+  // `ends`, where it is given, gets the size of `out` after each statement that gave something.
+  void run_block(const ast::Block& block, const ScopePtr& outer, Nodes& out, std::vector<size_t>* ends = nullptr);
+  void run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out, std::vector<size_t>* ends = nullptr);
   void run_action(const ast::Statement& statement, const ScopePtr& scope, Nodes& out);
   void execute(const ast::Statement& statement, const ScopePtr& scope, Nodes& out);
   void execute_modified(const ast::Statement& statement, const ScopePtr& scope, Nodes& out);

@@ -65,16 +65,20 @@ void Interpreter::assign(const ast::Plan& plan, const ScopePtr& scope, bool is_m
   }
 }
 
-void Interpreter::run_block(const ast::Block& block, const ScopePtr& outer, Nodes& out) {
-  if (block.plan.defines_nothing()) return run_actions(block.plan, outer, out);
+void Interpreter::run_block(const ast::Block& block, const ScopePtr& outer, Nodes& out, std::vector<size_t>* ends) {
+  if (block.plan.defines_nothing()) return run_actions(block.plan, outer, out, ends);
   const ScopePtr scope = make_scope(outer, &block.plan);
   const SpecialsMark mark(*this);
   assign(block.plan, scope, false);
-  run_actions(block.plan, scope, out);
+  run_actions(block.plan, scope, out, ends);
 }
 
-void Interpreter::run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out) {
-  for (const Statement* action : plan.actions) run_action(*action, scope, out);
+void Interpreter::run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out, std::vector<size_t>* ends) {
+  for (const Statement* action : plan.actions) {
+    const size_t before = out.size();
+    run_action(*action, scope, out);
+    if (ends && out.size() > before) ends->push_back(out.size());
+  }
 }
 
 // A mistake in a statement does not stop those after it; a failed assertion does, as they rely on it.

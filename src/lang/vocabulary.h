@@ -30,8 +30,11 @@ struct Invocation {
   SourceRange whole;  // from the name to the closing parenthesis
   std::vector<Argument> arguments;
   std::vector<design::NodePtr> children;  // null results are left out
-  bool is_top_level = false;              // a statement of the main file, outside of any call
-  std::vector<SourceRange> called_from;   // user module calls around it, innermost first, at most 8
+  // The children that one statement of the braces gave stand together; each group ends before these
+  // positions. Loops, modules and conditions may give several.
+  std::vector<size_t> group_ends;
+  bool is_top_level = false;             // a statement of the main file, outside of any call
+  std::vector<SourceRange> called_from;  // user module calls around it, innermost first, at most 8
 };
 
 class Vocabulary {

@@ -2,6 +2,7 @@
 #include "base/text.h"
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
+#include "nodes/child_distance.h"
 
 namespace ombre::nodes {
 namespace {
@@ -30,7 +31,8 @@ struct Attribute {
             "attribute(\"infill\", \"0.2 + 0.02*z\", \"1\") { cube(10); }"};
   }
 
-  bool complete(const Reader& reader) const {
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
+    if (value.expression() && value.expression()->uses("d")) warn_of_implicit_distance(reader, *inputs[0]);
     if (!name.empty() && fold_name(name) != "material") return true;
     reader.diagnostics.error(reader.where, name.empty() ? "an attribute needs a name"
                                                         : "the attribute \"material\" is set by fgrade or material");
@@ -48,10 +50,7 @@ struct Attribute {
   // Attributes of other names come from the child.
   Field attribute(const Inputs& in, std::string_view wanted, const Point& p, Demand demand) const {
     if (wanted != name) return in.attribute(0, wanted, p, demand);
-    return value.at(p, [&](std::string_view variable) -> std::optional<Field> {
-      if (variable != "d") return std::nullopt;
-      return in.distance(0, p);
-    });
+    return value.at(p, distance_variable(in, p));
   }
 };
 

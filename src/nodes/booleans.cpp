@@ -76,7 +76,7 @@ struct Intersection {
             "booleans",
             "What is in all of its children.",
             {{"materials", &Intersection::materials, overlap_doc, overlap_choices()}},
-            many_solids,
+            grouped_solids,
             "intersection() { cube(8, \"red\"); sphere(5, \"red\"); }"};
   }
 
@@ -118,8 +118,8 @@ struct Intersection {
 
 struct Difference {
   static Spec<Difference> spec() {
-    return {"difference", "booleans",  "What is in its first child and in none of the others.",
-            {},           many_solids, "difference() { cube(8, \"red\"); cylinder(2, 10); }"};
+    return {"difference", "booleans",     "What is in its first child and in none of the others.",
+            {},           grouped_solids, "difference() { cube(8, \"red\"); cylinder(2, 10); }"};
   }
 
   Metric metric(const Inputs& in) const {

@@ -3,6 +3,7 @@
 
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
+#include "nodes/child_distance.h"
 
 namespace ombre::nodes {
 namespace {
@@ -11,24 +12,10 @@ using namespace design;
 
 Field add(Field a, Field b) { return a + b; }
 
-// The variable d, the signed distance of the input.
-expr::Variables distance_variable(const Inputs& in, const Point& p) {
-  return [&in, &p](std::string_view name) -> std::optional<Field> {
-    if (name != "d") return std::nullopt;
-    return in.distance(0, p);
-  };
-}
-
 bool uses_distance(const std::vector<Number>& numbers) {
   for (const Number& number : numbers)
     if (number.expression() && number.expression()->uses("d")) return true;
   return false;
-}
-
-void warn_of_implicit_distance(const Reader& reader, const Node& input) {
-  if (!input.metric().is_implicit()) return;
-  reader.diagnostics.warning(reader.where, "\"d\" is used over a shape of which only the sign is known",
-                             "its value is taken as it is, which need not be a distance in mm");
 }
 
 bool same_length(const Reader& reader, size_t functions, size_t materials, std::string_view noun) {

@@ -57,6 +57,13 @@ struct LayerEvaluator::Parts {
   uint64_t seed;
   std::vector<std::unique_ptr<program::RowSampler>> samplers;  // by tag
 
+  // What is left of the program in a slab.
+  program::Program program_for(const TileBox& slab) const {
+    std::vector<Interval> values;
+    program::evaluate_intervals(materials.program, centers(lattice, slab), values);
+    return program::shorten(materials.program, values);
+  }
+
   // Sources whose operands are affine in (x, y, z) are placed on the voxel rows, each placement once.
   void place_sources() {
     for (const program::Instruction& in : materials.program.code) {
@@ -85,7 +92,8 @@ std::vector<LayerResult> LayerEvaluator::layers(int64_t begin, int64_t end) cons
     layer.runs.rows.resize(static_cast<size_t>(count[1]));
     layer.material_counts.assign(256, 0);
   }
-  StripEvaluator evaluator(parts_->materials, parts_->lattice, parts_->dither, parts_->seed);
+  const program::Program slab = parts_->program_for({{0, 0, begin}, {count[0], count[1], end}});
+  StripEvaluator evaluator(parts_->materials, slab, parts_->lattice, parts_->dither, parts_->seed);
   std::vector<MaterialId> buffer;
   for (int64_t j = 0; j < count[1]; j += strip_rows) {
     const TileBox strip{{0, j, begin}, {count[0], std::min(j + strip_rows, count[1]), end}};

@@ -8,12 +8,22 @@
 namespace ombre::voxel {
 namespace {
 
-constexpr int64_t leaf_width = 64, leaf_height = 8;  // voxels of a tile that is evaluated row by row
+// Voxels of a tile that is evaluated row by row. Long programs pay for smaller tiles, in which more of
+// them falls away.
+struct Leaf {
+  int64_t width, height;
+};
+constexpr Leaf widest_leaf{64, 8}, small_leaf{16, 4};
+constexpr size_t long_program = 100;
 
-// Tiles are halved along their longer side until they are leaves.
-std::array<TileBox, 2> halves(const TileBox& tile) {
-  const size_t axis = tile.size(0) * leaf_height > tile.size(1) * leaf_width ? 0 : 1;
-  const int64_t unit = axis == 0 ? leaf_width : leaf_height;
+Leaf leaf_for(const program::Program& program) { return program.code.size() < long_program ? widest_leaf : small_leaf; }
+
+bool is_leaf(const TileBox& tile, Leaf leaf) { return tile.size(0) <= leaf.width && tile.size(1) <= leaf.height; }
+
+// Tiles are halved along their longer side, counted in leaves, until they are leaves.
+std::array<TileBox, 2> halves(const TileBox& tile, Leaf leaf) {
+  const size_t axis = tile.size(0) * leaf.height > tile.size(1) * leaf.width ? 0 : 1;
+  const int64_t unit = axis == 0 ? leaf.width : leaf.height;
   const int64_t units = (tile.size(static_cast<int>(axis)) + unit - 1) / unit;
   const int64_t cut = tile.lo[axis] + (units / 2) * unit;
   std::array<TileBox, 2> parts{tile, tile};
@@ -22,9 +32,12 @@ std::array<TileBox, 2> halves(const TileBox& tile) {
   return parts;
 }
 
-bool is_leaf(const TileBox& tile) { return tile.size(0) <= leaf_width && tile.size(1) <= leaf_height; }
-
 }  // namespace
+
+Box centers(const Lattice& lattice, const TileBox& tile) {
+  return {lattice.center(tile.lo[0], tile.lo[1], tile.lo[2]),
+          lattice.center(tile.hi[0] - 1, tile.hi[1] - 1, tile.hi[2] - 1)};
+}
 
 StripSources::StripSources(const std::vector<std::unique_ptr<program::RowSampler>>& samplers, const TileBox& strip)
     : strip_(strip), spans_(samplers.size()) {
@@ -65,8 +78,15 @@ void StripSources::fill(uint32_t tag, int64_t i_begin, int64_t j, int64_t k, std
   }
 }
 
-StripEvaluator::StripEvaluator(const MaterialProgram& materials, const Lattice& lattice, Dither dither, uint64_t seed)
-    : materials_(materials), lattice_(lattice), dither_(dither), seed_(seed), rows_(leaf_width), xs_(leaf_width) {
+StripEvaluator::StripEvaluator(const MaterialProgram& materials, const program::Program& program,
+                               const Lattice& lattice, Dither dither, uint64_t seed)
+    : materials_(materials),
+      program_(program),
+      lattice_(lattice),
+      dither_(dither),
+      seed_(seed),
+      rows_(widest_leaf.width),
+      xs_(widest_leaf.width) {
   fractions_.resize(materials.materials.size());
 }
 
@@ -77,14 +97,12 @@ bool StripEvaluator::run(const TileBox& strip, const StripSources& sources, std:
   buffer_ = &buffer;
   checks_ = &checks;
   touched_ = false;
-  descend(materials_.program, strip);
+  descend(program_, strip);
   return touched_;
 }
 
 void StripEvaluator::descend(const program::Program& program, const TileBox& tile) {
-  const Vec3 lo = lattice_.center(tile.lo[0], tile.lo[1], tile.lo[2]);
-  const Vec3 hi = lattice_.center(tile.hi[0] - 1, tile.hi[1] - 1, tile.hi[2] - 1);
-  evaluate_intervals(program, {lo, hi}, intervals_, [&](const program::Read& read, const Box& where) {
+  evaluate_intervals(program, centers(lattice_, tile), intervals_, [&](const program::Read& read, const Box& where) {
     return sources_->has(read.tag) ? sources_->range(read.tag, tile) : read.source->range(read.channel, where);
   });
   const Interval inside = intervals_[program.outputs[0]];
@@ -106,8 +124,9 @@ void StripEvaluator::descend(const program::Program& program, const TileBox& til
     if (settled && full == 1) return fill(tile, materials_.materials[which]);
   }
   program::Program shorter = program::shorten(program, intervals_);
-  if (is_leaf(tile)) return evaluate(std::move(shorter), tile);
-  for (const TileBox& half : halves(tile)) descend(shorter, half);
+  const Leaf leaf = leaf_for(shorter);
+  if (is_leaf(tile, leaf)) return evaluate(std::move(shorter), tile);
+  for (const TileBox& half : halves(tile, leaf)) descend(shorter, half);
 }
 
 MaterialId* StripEvaluator::voxels(int64_t i, int64_t j, int64_t k) {

@@ -17,6 +17,9 @@ struct TileBox {
   int64_t voxels() const { return size(0) * size(1) * size(2); }
 };
 
+// The box around a tile's voxel centres.
+Box centers(const Lattice& lattice, const TileBox& tile);
+
 // What the sources that know their rows say in a strip of rows of a few layers.
 class StripSources {
  public:
@@ -41,7 +44,9 @@ class StripSources {
 // One thread's work on one strip. Writes material ids into a dense buffer of the strip.
 class StripEvaluator {
  public:
-  StripEvaluator(const MaterialProgram& materials, const Lattice& lattice, Dither dither, uint64_t seed);
+  // `program` is that of the materials, or what is left of it where the strip lies. All must outlive this.
+  StripEvaluator(const MaterialProgram& materials, const program::Program& program, const Lattice& lattice,
+                 Dither dither, uint64_t seed);
 
   // Buffers hold the strip's voxels, x fastest, then y, then z. Returns false if all of it is void,
   // and then leaves the buffer alone.
@@ -59,6 +64,7 @@ class StripEvaluator {
   MaterialId* voxels(int64_t i, int64_t j, int64_t k);
 
   const MaterialProgram& materials_;
+  const program::Program& program_;
   const Lattice& lattice_;
   Dither dither_;
   uint64_t seed_;

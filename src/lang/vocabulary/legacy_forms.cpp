@@ -99,10 +99,10 @@ void spell_out_short_strut(std::vector<Argument>& arguments) {
 
 // function((min), (max), "expr", "mat")
 void spell_out_bounded_function(std::vector<Argument>& arguments) {
-  if (positional_count(arguments) < 3 || !arguments[0].value.list() || !arguments[1].value.list()) return;
+  const size_t count = positional_count(arguments);
+  if (count < 3 || !arguments[0].value.list() || !arguments[1].value.list()) return;
   const std::string_view names[] = {"min", "max", "expression", "material"};
-  for (size_t i = 0; i < std::min<size_t>(4, positional_count(arguments)); ++i)
-    if (arguments[i].name.empty()) arguments[i].name = names[i];
+  for (size_t i = 0; i < std::min<size_t>(4, count); ++i) arguments[i].name = names[i];
 }
 
 }  // namespace

@@ -111,11 +111,29 @@ NodePtr VcadVocabulary::make_of_type(const NodeType& type, const Invocation& cal
   if (!bind(type, arguments, values, diagnostics, call.whole)) return nullptr;
   const Reader reader{materials_, diagnostics, loader_, call.whole, type.name, ""};
   std::vector<NodePtr> children = call.children;
+  if (type.inputs.grouped && call.group_ends.size() < children.size()) {
+    children = groups(call, reader);
+    if (children.empty()) return nullptr;
+  }
   if (type.inputs.most == 1 && children.size() > 1) {
     children = {joined(std::move(children), reader)};
     if (!children[0]) return nullptr;
   }
   return shared(design::make_node(type, values, std::move(children), reader));
+}
+
+// As OpenSCAD has it: difference() { for (...) ...; sphere(5); } takes the ball out of all that the loop makes.
+std::vector<NodePtr> VcadVocabulary::groups(const Invocation& call, const Reader& reader) {
+  std::vector<NodePtr> result;
+  size_t begin = 0;
+  for (const size_t end : call.group_ends) {
+    const auto first = call.children.begin() + static_cast<std::ptrdiff_t>(begin),
+               last = call.children.begin() + static_cast<std::ptrdiff_t>(end);
+    result.push_back(shared(joined({first, last}, reader)));
+    if (!result.back()) return {};
+    begin = end;
+  }
+  return result;
 }
 
 NodePtr VcadVocabulary::joined(std::vector<NodePtr> nodes, const Reader& reader) const {

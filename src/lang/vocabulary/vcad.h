@@ -28,6 +28,7 @@ class VcadVocabulary : public Vocabulary {
  private:
   design::NodePtr make_root(const Invocation& call, Diagnostics& diagnostics);
   design::NodePtr make_of_type(const design::NodeType& type, const Invocation& call, Diagnostics& diagnostics);
+  std::vector<design::NodePtr> groups(const Invocation& call, const design::Reader& reader);
   design::NodePtr joined(std::vector<design::NodePtr> nodes, const design::Reader& reader) const;
   design::NodePtr shared(design::NodePtr node);
 
