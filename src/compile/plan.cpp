@@ -48,7 +48,7 @@ class LatticePlanner {
     if ((whole_tray_ || place_ == voxel::Placement::center) && !cover_tray()) return std::nullopt;
     if (count(0) > most_in_layer / count(1))
       return fail(
-          "one layer would have " + format_count(static_cast<unsigned long long>(count(0) * count(1))) + " voxels",
+          "one layer would have " + format_count(static_cast<unsigned long long>(count(0)) * static_cast<unsigned long long>(count(1))) + " voxels",
           "choose larger voxels with --voxel or --dpi");
     return lattice_;
   }

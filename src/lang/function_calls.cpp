@@ -1,6 +1,7 @@
 // Calls in expressions, with what they may end in: conditions, let, further calls.
 #include <algorithm>
 
+#include "base/assert.h"
 #include "lang/interpreter.h"
 
 namespace ombre::lang {
@@ -25,6 +26,7 @@ Value Interpreter::eval_tail(const Expr& start, const ScopePtr& outer) {
         const auto& call = static_cast<const ast::Call&>(*expr);
         Callee callee;
         if (const Builtin* builtin = resolve(call, scope, callee)) return call_builtin(*builtin, call, scope);
+        ASSERT(callee.parameters && callee.body);
         ScopePtr inner = make_scope(callee.scope);
         bind(*callee.parameters, call.arguments, scope, inner, call.callee->span, mark.size());
         scope = std::move(inner);

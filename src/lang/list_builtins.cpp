@@ -87,7 +87,8 @@ class Search {
 
   std::vector<double> places(const Value& wanted) const {
     std::vector<double> found;
-    const std::vector<Value>& items = call_[1].list() ? call_[1].list()->items : characters_;
+    const auto* list = call_[1].list();
+    const std::vector<Value>& items = list ? list->items : characters_;
     for (size_t i = 0; i < items.size(); ++i) {
       call_.meter.spend();
       if (!matches(items[i], wanted)) continue;

@@ -105,6 +105,7 @@ inline ScopePtr::ScopePtr(const ScopePtr& other) : scope_(other.scope_) {
   if (scope_) ++scope_->owners_;
 }
 inline ScopePtr::~ScopePtr() {
+  // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Branch): every constructor sets it
   if (scope_ && --scope_->owners_ == 0) delete scope_;
 }
 
