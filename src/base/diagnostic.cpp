@@ -19,6 +19,18 @@ std::string_view label(Severity severity) {
   return "error";
 }
 
+// Control characters in a design could steer the terminal that shows them.
+std::string without_controls(std::string_view text) {
+  std::string clean;
+  for (const char c : text) {
+    if ((c >= 0 && c < ' ' && c != '\t' && c != '\n') || c == '\x7f')
+      clean += "\uFFFD";
+    else
+      clean += c;
+  }
+  return clean;
+}
+
 // The source line and, under it, a caret with the length of the range.
 std::string excerpt(const SourceRange& where, Place place) {
   std::string_view line = where.source->line(place.line);
@@ -45,8 +57,10 @@ std::string excerpt(const SourceRange& where, Place place) {
     else if ((static_cast<unsigned char>(line[i]) & 0xC0) != 0x80)
       text += ' ';
   }
-  int width = end.line == place.line ? end.column - place.column : 1;
-  width = std::clamp(width, 1, static_cast<int>(widest_line));
+  // No longer than what is shown of the range.
+  int shown = 0;
+  for (size_t i = at; i < to; ++i) shown += (static_cast<unsigned char>(line[i]) & 0xC0) != 0x80;
+  const int width = std::clamp(end.line == place.line ? end.column - place.column : 1, 1, std::max(1, shown));
   text += '^' + std::string(width - 1, '~') + '\n';
   return text;
 }
@@ -71,19 +85,21 @@ void Diagnostics::note(SourceRange where, std::string message) {
 }
 
 std::string to_text(const Diagnostic& diagnostic) {
+  const SourceRange& where = diagnostic.where;
+  const bool has_place = where.source && where.end > 0;
   std::string text;
   Place place;
-  if (diagnostic.where.source) {
-    place = diagnostic.where.source->place(diagnostic.where.begin);
-    text +=
-        diagnostic.where.source->name() + ':' + std::to_string(place.line) + ':' + std::to_string(place.column) + ": ";
+  if (where.source) text += where.source->name() + ": ";
+  if (has_place) {
+    place = where.source->place(where.begin);
+    text.insert(text.size() - 1, std::to_string(place.line) + ':' + std::to_string(place.column) + ':');
   }
   text += label(diagnostic.severity);
   text += ": " + diagnostic.message;
   if (!diagnostic.hint.empty()) text += "; " + diagnostic.hint;
   text += '\n';
-  if (diagnostic.where.source) text += excerpt(diagnostic.where, place);
-  return text;
+  if (has_place) text += excerpt(where, place);
+  return without_controls(text);
 }
 
 std::string to_text(const Diagnostics& diagnostics) {

@@ -12,7 +12,6 @@ namespace ombre::math {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 Interval widen(double lo, double hi) {
   const Interval once = outward(lo, hi);

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <unordered_set>
 
 #include "base/text.h"
 
@@ -56,17 +57,24 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool end_array() override { return close(); }
   bool key(string_t& name) override {
     const SourceRange where = token();
-    for (const auto& [other, member] : std::get<DataMembers>(stack_.back().value))
-      if (other == name) diagnostics_.error(where, "the key \"" + name + "\" is given twice");
+    if (!names_.back().insert(name).second) diagnostics_.error(where, "the key \"" + name + "\" is given twice");
     keys_.push_back(std::move(name));
     return true;
   }
   bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override {
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while ...": keep the last part.
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while ...", or
+    // "[json.exception.out_of_range.406] number overflow parsing '1e999'": keep the last part.
     std::string message = error.what();
-    if (const size_t at = message.find(": "); at != std::string::npos) message = message.substr(at + 2);
+    const bool has_place = message.find("] parse error at ") != std::string::npos;
+    if (const size_t at = message.find(has_place ? ": " : "] "); at != std::string::npos)
+      message = message.substr(at + 2);
     const auto offset = static_cast<uint32_t>(position > 0 ? position - 1 : 0);
-    diagnostics_.error({source_, offset, offset + 1}, "this is not valid JSON: " + message);
+    for (const std::string_view end : {"expected '}'", "expected ']'"})
+      if (const size_t at = message.find(end); at != std::string::npos)
+        message.replace(at, end.size(), std::string("expected ',' or ") + std::string(end.substr(9)));
+    const auto size = static_cast<uint32_t>(source_->text().size());
+    diagnostics_.error({source_, std::min(offset, size), std::min(offset + 1, size)},
+                       "this is not valid JSON: " + message);
     return false;
   }
 
@@ -118,6 +126,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
       return false;
     }
     stack_.push_back(std::move(data));
+    names_.emplace_back();
     return true;
   }
 
@@ -125,6 +134,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     const SourceRange where = token();
     Data data = std::move(stack_.back());
     stack_.pop_back();
+    names_.pop_back();
     data.where.end = where.end;
     return place(std::move(data));
   }
@@ -133,6 +143,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   Diagnostics& diagnostics_;
   std::vector<Data> stack_;
   std::vector<std::string> keys_;
+  std::vector<std::unordered_set<std::string>> names_;  // the keys of every open object
   size_t last_end_ = 0;
 };
 

@@ -85,7 +85,7 @@ std::optional<Pitch> Pitch::from_mm(double mm) {
 
 std::string Pitch::text() const {
   std::string decimal_text = format_number(mm());
-  if (decimal_text.size() <= 8 && from_mm(mm()) == *this) return decimal_text;
+  if (decimal_text.size() <= 8 && parse(decimal_text) == *this) return decimal_text;
   return std::to_string(numerator) + '/' + std::to_string(denominator);
 }
 

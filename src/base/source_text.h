@@ -23,8 +23,11 @@ class SourceText {
   std::string_view line(int number) const;  // without its line end; empty past the end
 
  private:
+  size_t characters_before(size_t offset) const;
+
   std::string name_, text_;
   std::vector<size_t> line_starts_;
+  std::vector<size_t> characters_before_block_;  // so that places in very long lines are found quickly
 };
 
 using SourcePtr = std::shared_ptr<const SourceText>;
@@ -33,7 +36,8 @@ inline SourcePtr make_source(std::string name, std::string text) {
   return std::make_shared<const SourceText>(std::move(name), std::move(text));
 }
 
-// Bytes [begin, end) of a source; no source means "nowhere in particular".
+// Bytes [begin, end) of a source; no source means "nowhere in particular", an empty range at its
+// beginning the source as a whole.
 struct SourceRange {
   SourcePtr source;
   uint32_t begin = 0, end = 0;

@@ -35,7 +35,7 @@ std::string format_count(unsigned long long count) {
 
 std::optional<double> parse_number(std::string_view text) {
   double value = 0;
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (status != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
@@ -81,7 +81,7 @@ std::optional<std::string> closest_name(std::string_view name, std::span<const s
   size_t best_distance = std::max<size_t>(1, folded.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     const size_t distance = edit_distance(folded, fold_name(candidate));
-    if (distance >= best_distance) continue;
+    if (distance >= best_distance || distance >= folded.size()) continue;  // nothing in common
     best_distance = distance;
     best = candidate;
   }
@@ -95,9 +95,9 @@ std::string did_you_mean(std::string_view name, std::span<const std::string> can
 
 std::string join(std::span<const std::string> parts, std::string_view separator) {
   std::string text;
-  for (const std::string& part : parts) {
-    if (!text.empty()) text += separator;
-    text += part;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) text += separator;
+    text += parts[i];
   }
   return text;
 }

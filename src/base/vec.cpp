@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/math.h"
+
 namespace ombre {
 namespace {
 
@@ -18,7 +20,7 @@ CosSin cos_sin_degrees(double degrees) {
   if (turn == -90) return {0, -1};
   if (std::abs(turn) == 180) return {-1, 0};
   const double radians = turn * std::numbers::pi / 180;
-  return {std::cos(radians), std::sin(radians)};
+  return {math::cos(radians), math::sin(radians)};
 }
 
 // Eigenvalues of a symmetric 3x3 matrix by Jacobi rotations.
@@ -50,7 +52,10 @@ Vec3 symmetric_eigenvalues(std::array<std::array<double, 3>, 3> m) {
 }  // namespace
 
 Affine Affine::rotation(Vec3 axis, double degrees) {
-  const Vec3 n = (1 / ombre::length(axis)) * axis;
+  // Divided by its greatest component first: an axis along x, y or z then has length one exactly.
+  const double size = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
+  const Vec3 along{axis.x / size, axis.y / size, axis.z / size};
+  const Vec3 n = (1 / ombre::length(along)) * along;
   const auto [c, s] = cos_sin_degrees(degrees);
   const double k = 1 - c;
   return {{Vec3{c + k * n.x * n.x, k * n.x * n.y - s * n.z, k * n.x * n.z + s * n.y},
@@ -72,11 +77,16 @@ Affine operator*(const Affine& c_from_b, const Affine& b_from_a) {
 double determinant(const Affine& map) { return dot(map.rows[0], cross(map.rows[1], map.rows[2])); }
 
 Affine inverse(const Affine& map) {
-  const double scale = 1 / determinant(map);
+  // Bring the entries near one, by a power of two: a determinant of tiny entries underflows.
+  double greatest = 0;
+  for (const Vec3& row : map.rows) greatest = std::max({greatest, std::abs(row.x), std::abs(row.y), std::abs(row.z)});
+  const double unit = std::ldexp(1.0, -std::ilogb(greatest));
+  const Affine near_one{{unit * map.rows[0], unit * map.rows[1], unit * map.rows[2]}, {}};
+  const double scale = unit / determinant(near_one);
   // The columns of the inverse are the cross products of the rows.
-  const Vec3 a = scale * cross(map.rows[1], map.rows[2]);
-  const Vec3 b = scale * cross(map.rows[2], map.rows[0]);
-  const Vec3 c = scale * cross(map.rows[0], map.rows[1]);
+  const Vec3 a = scale * cross(near_one.rows[1], near_one.rows[2]);
+  const Vec3 b = scale * cross(near_one.rows[2], near_one.rows[0]);
+  const Vec3 c = scale * cross(near_one.rows[0], near_one.rows[1]);
   Affine result{{Vec3{a.x, b.x, c.x}, Vec3{a.y, b.y, c.y}, Vec3{a.z, b.z, c.z}}, {}};
   result.offset = -result.linear(map.offset);
   return result;

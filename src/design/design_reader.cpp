@@ -113,6 +113,8 @@ class DesignReader {
       }
       const NodePtr solid = resolve(*node);
       if (!solid) continue;
+      for (const Part& other : design_.parts)
+        if (other.name == *name->string()) error(*name, "there are two parts with the name \"" + other.name + "\"");
       if (solid->type().output != ValueType::solid)
         error(*node, "a part must be a solid, " + solid->type().name + " is not");
       design_.parts.push_back({*name->string(), solid});

@@ -68,14 +68,19 @@ class NodeValueOf final : public NodeValue {
   Box reach(const Inputs& in, const Box& where, double margin) const override {
     if constexpr (requires { data.reach(in, where, margin); }) return intersect(data.reach(in, where, margin), where);
     // A leaf's g is at least the distance to its shape.
-    else if constexpr (requires { data.bounds(where); })
-      return intersect(data.bounds(where).expanded(margin), where);
-    else
+    else if constexpr (requires { data.bounds(where); }) {
+      // Fields are bounded better within the first answer: what is looked for lies there.
+      const Box first = intersect(data.bounds(where).expanded(margin), where);
+      return intersect(data.bounds(first).expanded(margin), first);
+    } else
       return in.count() > 0 ? in.reach(0, where, margin) : where;
   }
 
   Metric metric(const Inputs& in) const override {
-    if (!type_.has_constant_numbers(data)) return Metric::implicit();
+    // A field in place of a number bends the shape that it belongs to; what only carries a field along
+    // leaves its input's shape as it is.
+    if constexpr (!passes_on)
+      if (!type_.has_constant_numbers(data)) return Metric::implicit();
     if constexpr (requires { data.metric(in); })
       return data.metric(in);
     else if constexpr (requires { data.metric(); })

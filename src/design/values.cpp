@@ -91,8 +91,9 @@ bool read(const Data& data, const Domain& domain, Number& value, const Reader& r
 bool read(const Data& data, const Domain& domain, Numbers3& value, const Reader& reader) {
   if (!read_list(data, 3, "three numbers (x, y, z)" + with_unit(domain), reader)) return false;
   const DataList& list = *data.list();
-  return static_cast<bool>(read(list[0], domain, value.x, reader) & read(list[1], domain, value.y, reader) &
-                           read(list[2], domain, value.z, reader));
+  const bool x = read(list[0], domain, value.x, reader), y = read(list[1], domain, value.y, reader),
+             z = read(list[2], domain, value.z, reader);
+  return x && y && z;
 }
 
 bool read(const Data& data, const Domain&, bool& value, const Reader& reader) {
@@ -120,8 +121,9 @@ bool read(const Data& data, const Domain& domain, std::string& value, const Read
 bool read(const Data& data, const Domain& domain, Vec3& value, const Reader& reader) {
   if (!read_list(data, 3, "three numbers (x, y, z)" + with_unit(domain), reader)) return false;
   const DataList& list = *data.list();
-  return static_cast<bool>(read(list[0], domain, value.x, reader) & read(list[1], domain, value.y, reader) &
-                           read(list[2], domain, value.z, reader));
+  const bool x = read(list[0], domain, value.x, reader), y = read(list[1], domain, value.y, reader),
+             z = read(list[2], domain, value.z, reader);
+  return x && y && z;
 }
 
 bool read(const Data& data, const Domain& domain, std::optional<Vec3>& value, const Reader& reader) {

@@ -197,6 +197,7 @@ bool Expression::check_variables(const std::vector<std::string>& known, Diagnost
       if (name == node.name) return;
     all_known = false;
     std::string hint = did_you_mean(node.name, known);
+    if (node.name == "d") hint = "d, the distance of the child, is known in fgrade, material and attribute";
     if (hint.empty()) hint = "known here are " + join(known, ", ");
     diagnostics.error(where_.part(node.begin, node.end),
                       "there is no variable \"" + node.name + "\" in this expression", hint);

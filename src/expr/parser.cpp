@@ -378,6 +378,13 @@ std::string bracketed(const Node& node, int least_level) {
   return level_of(node) < least_level ? "(" + text + ")" : text;
 }
 
+// What follows a sign or ^ may have a sign of its own. No more brackets than the text had, so that what
+// reads also reads back.
+std::string signed_operand(const Node& node) {
+  const bool is_signed = node.kind == Kind::negate || node.kind == Kind::logical_not;
+  return is_signed ? print_tree(node) : bracketed(node, level_power);
+}
+
 }  // namespace
 
 NodePtr parse_tree(std::string_view text, const SourceRange& where, Diagnostics& diagnostics) {
@@ -386,24 +393,19 @@ NodePtr parse_tree(std::string_view text, const SourceRange& where, Diagnostics&
 
 std::string print_tree(const Node& node) {
   switch (node.kind) {
-    case Kind::number:
-      return format_number(node.number);
-    case Kind::variable:
-      return node.name;
-    case Kind::negate:
-      return "-" + bracketed(*node.operands[0], level_power);
-    case Kind::logical_not:
-      return "not(" + print_tree(*node.operands[0]) + ")";
+    case Kind::number: return format_number(node.number);
+    case Kind::variable: return node.name;
+    case Kind::negate: return "-" + signed_operand(*node.operands[0]);
+    case Kind::logical_not: return "not " + signed_operand(*node.operands[0]);
     case Kind::conditional:
-      return bracketed(*node.operands[0], level_or) + " ? " + bracketed(*node.operands[1], level_or) + " : " +
-             bracketed(*node.operands[2], level_or);
+      return bracketed(*node.operands[0], level_or) + " ? " + print_tree(*node.operands[1]) + " : " +
+             print_tree(*node.operands[2]);
     case Kind::call: {
       std::string text = node.name + "(";
       for (size_t i = 0; i < node.operands.size(); ++i) text += (i ? ", " : "") + print_tree(*node.operands[i]);
       return text + ")";
     }
-    case Kind::binary:
-      break;
+    case Kind::binary: break;
   }
   // A chain to the left is printed without recursion: it may be long.
   std::vector<const Node*> chain{&node};
@@ -415,7 +417,7 @@ std::string print_tree(const Node& node) {
   for (size_t i = chain.size(); i-- > 0;) {
     const bool tight = level >= level_multiply;
     const std::string op(spelling(chain[i]->binary));
-    text += (tight ? op : " " + op + " ") + bracketed(*chain[i]->operands[1], level == level_power ? level : level + 1);
+    text += (tight ? op : " " + op + " ") + (level == level_power ? signed_operand(*chain[i]->operands[1]) : bracketed(*chain[i]->operands[1], level + 1));
   }
   return text;
 }

@@ -28,7 +28,7 @@ bool is_tiny(std::string_view number) {
 }  // namespace
 
 void fail(Diagnostics& diagnostics, const std::string& name, const std::string& message, std::string hint) {
-  diagnostics.error({}, name + ": " + message, std::move(hint));
+  diagnostics.error({make_source(name, ""), 0, 0}, message, std::move(hint));
   throw DesignError();
 }
 

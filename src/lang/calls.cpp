@@ -109,7 +109,9 @@ void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scop
     };
     ++node_depth_;
     const Inside inside{node_depth_};
+    const size_t mistakes = diagnostics_.error_count();
     run_block(statement.children, scope, invocation.children, &invocation.group_ends);
+    invocation.has_wrong_children = diagnostics_.error_count() > mistakes;
   }
   invocation.name = statement.name.text();
   invocation.where = statement.name.span.range();

@@ -111,6 +111,7 @@ NodePtr VcadVocabulary::make_of_type(const NodeType& type, const Invocation& cal
   if (!bind(type, arguments, values, diagnostics, call.whole)) return nullptr;
   const Reader reader{materials_, diagnostics, loader_, call.whole, type.name, ""};
   std::vector<NodePtr> children = call.children;
+  if (children.empty() && call.has_wrong_children && type.inputs.least > 0) return nullptr;  // told already
   if (type.inputs.grouped && call.group_ends.size() < children.size()) {
     children = groups(call, reader);
     if (children.empty()) return nullptr;
@@ -180,10 +181,9 @@ NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnosti
   const auto read_corner = [&](size_t i, const design::Domain& domain, Vec3& value) {
     return design::read(*corners[i], domain, value, {materials_, diagnostics, loader_, call.whole, "root", names[i]});
   };
-  const bool good = static_cast<bool>(read_corner(0, design::unit::mm, sampling.box.lo) &
-                                      read_corner(1, design::unit::mm, sampling.box.hi) &
-                                      read_corner(2, design::unit::positive_mm, voxel));
-  if (!good) return nullptr;
+  const bool lo = read_corner(0, design::unit::mm, sampling.box.lo), hi = read_corner(1, design::unit::mm, sampling.box.hi),
+             size = read_corner(2, design::unit::positive_mm, voxel);
+  if (!lo || !hi || !size) return nullptr;
   for (int axis = 0; axis < 3; ++axis) {
     if (!(sampling.box.lo[axis] < sampling.box.hi[axis]))
       return fail(corners[1]->where.source ? corners[1]->where : call.whole,
@@ -196,15 +196,17 @@ NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnosti
   if (call.children.empty()) return nullptr;  // told of as an empty design
   sampling_ = sampling;
   root_children_ = call.children;
-  return joined(call.children, {materials_, diagnostics, loader_, call.whole, "root", ""});
+  return root_ = joined(call.children, {materials_, diagnostics, loader_, call.whole, "root", ""});
 }
 
 std::optional<design::Design> VcadVocabulary::finish(const std::vector<NodePtr>& top_level, const SourceRange& whole,
                                                      Diagnostics& diagnostics) const {
   if (diagnostics.has_errors()) return std::nullopt;
-  if (root_where_ && top_level.size() > 1) {
-    diagnostics.error(*root_where_, "with root, everything stands inside its braces, but there is something beside it");
-    return std::nullopt;
+  if (root_where_) {
+    for (const NodePtr& beside : top_level)
+      if (beside != root_)
+        diagnostics.error(beside->where(), "this stands beside root, which is all that is sampled", "put it inside the braces of root");
+    if (diagnostics.has_errors()) return std::nullopt;
   }
   const std::vector<NodePtr>& solids = root_where_ ? root_children_ : top_level;
   if (solids.empty()) {

@@ -38,6 +38,7 @@ class VcadVocabulary : public Vocabulary {
   std::unordered_map<std::string, design::NodePtr> known_;  // equal nodes become one
   std::optional<design::Sampling> sampling_;
   std::optional<SourceRange> root_where_;
+  design::NodePtr root_;
   std::vector<design::NodePtr> root_children_;
 };
 

@@ -78,7 +78,8 @@ double inlined_size(const Program& program) {
 Program inline_bodies(const Program& program) {
   if (!program.has_calls()) return program;
   Builder builder;
-  const auto& fields = Inliner(builder).expand(program, {0, 1, 2});
+  Inliner inliner(builder);
+  const auto& fields = inliner.expand(program, {0, 1, 2});
   std::vector<std::pair<std::string, Field>> outputs;
   for (size_t i = 0; i < program.outputs.size(); ++i)
     outputs.emplace_back(program.output_names[i], fields[program.outputs[i]]);

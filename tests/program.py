@@ -1,0 +1,47 @@
+"""What the runners share: how the program is called, and how checks run side by side."""
+import concurrent.futures
+import os
+import pathlib
+import subprocess
+import sys
+
+TESTS = pathlib.Path(__file__).resolve().parent
+SOURCE = TESTS.parent
+
+
+def environment():
+    variables = dict(os.environ, NO_COLOR="1")
+    variables.setdefault("OMBRE_DATA", str(SOURCE))
+    return variables
+
+
+def run(arguments, cwd=None, timeout=120, **options):
+    """Runs a command; its output as text, its status in .returncode."""
+    return subprocess.run([str(a) for a in arguments], cwd=cwd, env=environment(), timeout=timeout, text=True,
+                          encoding="utf-8", errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, **options)
+
+
+def check_all(checks, threads=None):
+    """Runs (name, function) pairs side by side. A function returns what is wrong, "" if nothing is, or
+    "skipped: why". Prints the failures and a summary; returns the exit status."""
+    def guarded(function):
+        try:
+            return function() or ""
+        except Exception as error:  # a check that breaks is a check that fails
+            return f"{type(error).__name__}: {error}"
+
+    failed = skipped = 0
+    with concurrent.futures.ThreadPoolExecutor(threads or os.cpu_count()) as pool:
+        results = [(name, pool.submit(guarded, function)) for name, function in checks]
+        for name, future in results:
+            problem = future.result()
+            if problem.startswith("skipped: "):
+                skipped += 1
+                print(f"{name}: {problem}")
+            elif problem:
+                failed += 1
+                print(f"FAILED {name}\n    " + problem.rstrip().replace("\n", "\n    "))
+            sys.stdout.flush()
+    print(f"{len(checks) - failed - skipped} of {len(checks)} passed" + (f", {skipped} skipped" if skipped else ""))
+    return 1 if failed else 0

@@ -1,0 +1,416 @@
+#!/usr/bin/env python3
+"""Whole jobs, run as a user would: what lies in the folder, and what becomes of it when things go wrong.
+
+    python3 tests/run_files.py build/dev/apps/ombre/ombre [NAME...]
+"""
+import argparse
+import functools
+import json
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import tempfile
+import time
+
+import png
+import program
+
+EXAMPLES = program.SOURCE / "examples"
+NOBODY = 65534
+
+# Something to do for some seconds at small voxels: a graded gyroid in a ball.
+BALL = """
+fgrade(["0.5 + z/10", "0.5 - z/10"], ["red", "blue"]) {
+  intersection(materials="first") {
+    sphere(5);
+    function("sin(4*x)*cos(4*y) + sin(4*y)*cos(4*z) + sin(4*z)*cos(4*x)");
+  }
+}
+"""
+SMALL = ["--voxel", "0.1"]
+LONG = ["--voxel", "0.03"]
+
+
+class Job:
+    """A folder for one check, with a design in it."""
+
+    def __init__(self, ombre, scratch):
+        self.ombre, self.folder = ombre, pathlib.Path(scratch)
+        self.design = self.write("ball.vcad", BALL)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def command(self, out, *arguments, design=None):
+        return [self.ombre, "slice", design or self.design, "-o", self.folder / out, *arguments]
+
+    def slice(self, out, *arguments, design=None, status=0, **options):
+        result = program.run(self.command(out, *arguments, design=design), cwd=self.folder, **options)
+        expect(result.returncode == status, f"status {result.returncode}, expected {status}: {result.stderr[-1500:]}")
+        return result
+
+    def start(self, out, *arguments):
+        command = [str(a) for a in self.command(out, *arguments)]
+        return subprocess.Popen(command, cwd=self.folder, env=program.environment(), stdin=subprocess.DEVNULL,
+                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def images(self, out):
+        return [png.read(path) for path in layers(self.folder / out)]
+
+
+def expect(good, message):
+    if not good:
+        raise AssertionError(message)
+
+
+def layers(folder):
+    return sorted(folder.glob("slice_*.png"))
+
+
+def files(folder):
+    return {p.name: p.read_bytes() for p in sorted(folder.iterdir())}
+
+
+def expect_same(one, other, names=None):
+    """The same files with the same bytes; of these names alone, if they are given."""
+    a, b = files(one), files(other)
+    if names:
+        a, b = ({n: c for n, c in f.items() if names(n)} for f in (a, b))
+    expect(a.keys() == b.keys(), f"other files: {sorted(a.keys() ^ b.keys())[:8]}")
+    different = [name for name in a if a[name] != b[name]]
+    expect(not different, f"other bytes: {different[:8]}")
+
+
+# ---- the same input gives the same bytes
+
+
+def threads_do_not_change_bytes(job):
+    job.slice("one", *SMALL, "--threads", "1")
+    job.slice("two", *SMALL, "--threads", "2")
+    expect_same(job.folder / "one", job.folder / "two")
+
+
+def memory_does_not_change_bytes(job):
+    job.slice("plenty", *SMALL)
+    job.slice("little", *SMALL, "--memory", "1M")
+    expect_same(job.folder / "plenty", job.folder / "little")
+
+
+def pieces_make_the_whole(job):
+    job.slice("whole", *SMALL)
+    job.slice("pieces", *SMALL, "--layers", "41:90")
+    job.slice("pieces", *SMALL, "--layers", ":17", "--resume")
+    job.slice("pieces", *SMALL, "--layers=-10:", "--resume")
+    job.slice("pieces", *SMALL, "--resume")
+    expect_same(job.folder / "whole", job.folder / "pieces")
+
+
+def a_piece_has_the_names_and_bytes_of_the_whole(job):
+    job.slice("whole", *SMALL)
+    job.slice("piece", *SMALL, "--layers", "30:33")
+    names = [p.name for p in layers(job.folder / "piece")]
+    expect(names == ["slice_00030.png", "slice_00031.png", "slice_00032.png"], str(names))
+    expect_same(job.folder / "whole", job.folder / "piece", lambda name: name in names)
+
+
+def seeds_change_the_mixture_only(job):
+    job.slice("a", *SMALL, "--seed", "1")
+    job.slice("b", *SMALL, "--seed", "2")
+    expect(files(job.folder / "a") != files(job.folder / "b"), "the same files for two seeds")
+    inside = [[[pixel[3] > 0 for row in image.rows for pixel in row] for image in job.images(out)[40:44]]
+              for out in "ab"]
+    expect(inside[0] == inside[1], "the seed moved the surface")
+
+
+def printed_designs_are_the_same_job(job):
+    """A script, and what --emit json makes of it."""
+    text = ('union() { sphere(2, "red"); translate(1, 0, 0) { rotate(10, 20, 30) { cube("3 + 0.1*sin(x)", "blue"); } } }\n'
+            'part("lid") { translate(0, 0, 3) { cylinder(1, 2, "green"); } }')
+    design = job.write("parts.vcad", text)
+    for name, script in (("ball", job.design), ("parts", design)):
+        printed = program.run([job.ombre, "slice", script, "--emit", "json"]).stdout
+        job.slice(name, *SMALL, design=script)
+        job.slice(name + "_json", *SMALL, design=job.write(name + ".json", printed))
+        hashes = [json.loads((job.folder / out / "job.json").read_text())["design_hash"] for out in (name, name + "_json")]
+        expect(hashes[0] == hashes[1], f"{name}: design hashes {hashes}")
+        expect_same(job.folder / name, job.folder / (name + "_json"), lambda file: file.startswith("slice_"))
+    expect_same(job.folder / "parts", job.folder / "parts_json")
+
+
+def roundabout_rotations_keep_the_voxels(job):
+    """OpenVCAD (2023), Fig. 12: turned by 33.3 degrees and back, but for rounding at the boundary."""
+    body = """difference() { union(materials="first") { cube(7.34, "red"); translate(3, 1, 2) { sphere(2.7, "blue"); } }
+              cylinder(1.9, 12); }"""
+    root = "root((-6, -6, -6), (6, 6, 6), (0.1, 0.1, 0.1)) { %s }"
+    turned = "rotate((-33.3, -33.3, -33.3), order=\"xyz\") { rotate(33.3, 33.3, 33.3) { %s } }"
+    job.slice("plain", design=job.write("plain.vcad", root % body))
+    job.slice("turned", design=job.write("turned.vcad", root % turned % body))
+    different = inside = 0
+    for a, b in zip(job.images("plain"), job.images("turned")):
+        for row_a, row_b in zip(a.rows, b.rows):
+            inside += sum(pixel[3] > 0 for pixel in row_a)
+            if row_a != row_b:
+                different += sum(p != q for p, q in zip(row_a, row_b))
+    expect(inside > 300_000 and different <= 5, f"{different} of {inside} voxels differ")
+
+
+# ---- images
+
+
+def images_lie_as_the_design_does(job):
+    """x to the right, y up, file 0 the lowest layer; void is transparent; colours are the materials'."""
+    cells = {(3, 0, 0): "red", (0, 2, 0): "green", (0, 0, 1): "blue"}
+    colours = {"red": (255, 0, 0, 255), "green": (0, 160, 70, 255), "blue": (0, 80, 255, 255)}
+    cubes = "".join(f'translate({x + 0.5}, {y + 0.5}, {z + 0.5}) {{ cube(1, "{m}"); }}' for (x, y, z), m in cells.items())
+    design = job.write("cells.vcad", f"root((0, 0, 0), (4, 3, 2), (1, 1, 1)) {{ {cubes} }}")
+    for form, colour_type in (("indexed", png.INDEXED), ("rgba", png.RGBA)):
+        job.slice(form, "--format", form, design=design)
+        images = job.images(form)
+        expect(len(images) == 2, f"{len(images)} layers")
+        for z, image in enumerate(images):
+            expect(image.colour_type == colour_type, f"colour type {image.colour_type}")
+            expect((image.width, image.height) == (4, 3), f"{image.width} x {image.height}")
+            expect(image.pixels_per_metre == (1000, 1000), f"pHYs {image.pixels_per_metre}")
+            for y in range(3):
+                for x in range(4):
+                    wanted = colours.get(cells.get((x, y, z)), (0, 0, 0, 0))
+                    found = image.rows[2 - y][x]
+                    expect(found == wanted, f"{form} voxel {(x, y, z)}: {found}, expected {wanted}")
+
+
+def images_tell_their_resolution(job):
+    job.slice("dpi", "--dpi", "600,300", "--layer-height", "0.027", "--layers", "50")
+    found = job.images("dpi")[0].pixels_per_metre
+    wanted = (round(600 / 0.0254), round(300 / 0.0254))
+    expect(found == wanted, f"pHYs {found}, expected {wanted}")
+
+
+def palettes_of_any_size(job):
+    """A row of n materials: 1, 2, 4 or 8 bits a pixel, each with its exact colour."""
+    for count, depth in ((1, 1), (3, 2), (4, 4), (15, 4), (16, 8), (100, 8)):
+        colours = [(7 * i % 256, 255 - i, (31 * i + 5) % 256, 255 - i % 2) for i in range(count)]
+        entries = [dict(zip("rgba", colour), name=f"m{i}") for i, colour in enumerate(colours)]
+        materials = job.write("materials.json", json.dumps({"materials": entries}))
+        design = job.write(f"row{count}.vcad", f"root((0, 0, 0), ({count + 1}, 1, 1), (1, 1, 1)) "
+                           f"for (i = [0:{count - 1}]) translate(i + 0.5, 0.5, 0.5) {{ cube(1, i + 1); }}")
+        for form in ("indexed", "rgba"):
+            out = f"{form}{count}"
+            job.slice(out, "--format", form, "--materials", materials, design=design)
+            image = job.images(out)[0]
+            expect(form == "rgba" or image.depth == depth, f"{count} materials with {image.depth} bits")
+            wanted = colours + [(0, 0, 0, 0)]
+            expect(image.rows[0] == wanted, f"{count} materials, {form}: {image.rows[0][:4]}..., expected {wanted[:4]}...")
+
+
+# ---- interruptions
+
+
+def whole_long_job(job):
+    began = time.monotonic()
+    job.slice("whole", *LONG)
+    return time.monotonic() - began
+
+
+def resume_and_compare(job, out):
+    kept = job.slice(out, *LONG, "--resume", "--json")
+    done = [json.loads(line) for line in kept.stdout.splitlines()][-1]
+    expect_same(job.folder / "whole", job.folder / out)
+    return done["layers_kept"]
+
+
+def killed_jobs_resume(job):
+    """kill -9 at any moment, then --resume: the bytes of a job that was left alone."""
+    seconds, kept = whole_long_job(job), []
+    chance = random.Random(time.time_ns())
+    for attempt in range(4):
+        out = f"killed{attempt}"
+        process = job.start(out, *LONG)
+        time.sleep(chance.uniform(0.02, 0.95) * seconds)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        kept.append(resume_and_compare(job, out))
+    expect(any(kept), f"no layer of {kept} was kept in any attempt")
+
+
+def killed_twice_resumes(job):
+    seconds = whole_long_job(job)
+    for arguments in ([], ["--resume"]):
+        process = job.start("killed", *LONG, *arguments)
+        time.sleep(0.35 * seconds)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    resume_and_compare(job, "killed")
+
+
+def interrupted_jobs_resume(job):
+    seconds = whole_long_job(job)
+    process = job.start("interrupted", *LONG)
+    time.sleep(max(0.3, 0.4 * seconds))
+    process.send_signal(signal.SIGINT)
+    status = process.wait(timeout=20)
+    expect(status == 130, f"status {status} after an interrupt, expected 130")
+    resume_and_compare(job, "interrupted")
+
+
+def resume_refuses_another_job(job):
+    job.slice("out", *SMALL, "--layers", "0:5")
+    result = job.slice("out", *SMALL, "--resume", "--seed", "7", status=2)
+    expect("seed" in result.stderr, f"it does not say what differs: {result.stderr}")
+
+
+def damaged_layers_are_made_again(job):
+    job.slice("whole", *SMALL)
+    job.slice("out", *SMALL)
+    first, second, *_ = layers(job.folder / "out")
+    first.write_bytes(first.read_bytes()[:-7])
+    second.unlink()
+    job.slice("out", *SMALL, "--resume")
+    expect_same(job.folder / "whole", job.folder / "out")
+
+
+# ---- folders
+
+
+def foreign_files_are_left_alone(job):
+    out = job.folder / "out"
+    out.mkdir()
+    (out / "notes.txt").write_text("mine")
+    result = job.slice("out", *SMALL, status=2)
+    expect("notes.txt" in result.stderr or str(out) in result.stderr, f"it does not say where: {result.stderr}")
+    expect([p.name for p in out.iterdir()] == ["notes.txt"], "it wrote all the same")
+    job.slice("out", *SMALL, "--force")
+    job.slice("out", *SMALL, "--force")
+    expect((out / "notes.txt").read_text() == "mine", "it changed a file of others")
+    expect(len(layers(out)) == 100, f"{len(layers(out))} layers")
+
+
+def finished_jobs_are_not_overwritten(job):
+    job.slice("out", *SMALL)
+    before = files(job.folder / "out")
+    job.slice("out", *SMALL, status=2)
+    expect(files(job.folder / "out") == before, "it changed the job")
+
+
+def force_removes_the_old_layers(job):
+    job.slice("out", "--voxel", "0.1")
+    job.slice("out", "--voxel", "0.5", "--force")
+    job.slice("fresh", "--voxel", "0.5")
+    expect_same(job.folder / "out", job.folder / "fresh")
+
+
+def output_that_is_a_file(job):
+    job.write("out", "not a folder")
+    result = job.slice("out", *SMALL, status=2)
+    expect(str(job.folder / "out") in result.stderr, f"it does not name the path: {result.stderr}")
+    expect((job.folder / "out").read_text() == "not a folder", "it changed the file")
+
+
+def become_nobody():
+    os.setgroups([])
+    os.setgid(NOBODY)
+    os.setuid(NOBODY)
+
+
+def folder_that_may_not_be_written(job):
+    closed = job.folder / "closed"
+    closed.mkdir()
+    closed.chmod(0o555)
+    job.folder.chmod(0o755)
+    options = {"preexec_fn": become_nobody} if os.getuid() == 0 else {}
+    try:
+        able = program.run([job.ombre, "--version"], **options).returncode == 0
+    except (PermissionError, subprocess.SubprocessError):
+        able = False
+    if not able:
+        return "skipped: no user without rights to run as"
+    result = job.slice("closed/out", *SMALL, status=2, **options)
+    expect(str(closed / "out") in result.stderr, f"it does not name the path: {result.stderr}")
+    expect("ermission" in result.stderr, f"it does not say why: {result.stderr}")
+    return ""
+
+
+def full_disk(job):
+    """Status 2 and a message with the path; nothing half-written; --resume once there is space."""
+    disk = job.folder / "disk"
+    disk.mkdir()
+    mounted = program.run(["mount", "-t", "tmpfs", "-o", "size=1m", "none", disk])
+    if mounted.returncode != 0:
+        return "skipped: mounting a small file system needs root's rights: " + mounted.stderr.strip()
+    try:
+        job.slice("whole", *SMALL)
+        (disk / "filler").write_bytes(bytes((1 << 20) - 64 * 1024))
+        result = job.slice("disk/out", *SMALL, status=2)
+        expect(str(disk / "out") in result.stderr, f"it does not name the path: {result.stderr}")
+        for path in layers(disk / "out"):
+            expect(path.read_bytes() == (job.folder / "whole" / path.name).read_bytes(), f"{path.name} is not whole")
+        (disk / "filler").unlink()
+        job.slice("disk/out", *SMALL, "--resume")
+        expect_same(job.folder / "whole", disk / "out")
+    finally:
+        program.run(["umount", disk])
+    return ""
+
+
+# ---- what the repository promises
+
+
+def example_slices(job, example):
+    command = [job.ombre, "slice", example, "-o", job.folder / "out", "--voxel", "0.5", "--json"]
+    result = program.run(command, cwd=job.folder)
+    told = [e["message"] for e in map(json.loads, result.stdout.splitlines()) if e["event"] == "message"]
+    expect(result.returncode == 0, f"status {result.returncode}: {told} {result.stderr}")
+    expect(not told, f"it warned: {told}")
+    expect((EXAMPLES / "pictures" / (example.stem + ".png")).exists(), "it has no picture in examples/pictures")
+
+
+def reference_is_up_to_date(job):
+    printed = program.run([job.ombre, "nodes", "--markdown"]).stdout
+    reference = program.SOURCE / "docs" / "nodes.md"
+    found = reference.read_text(encoding="utf-8") if reference.exists() else ""
+    expect(found == printed, "docs/nodes.md is not what the program prints; write it anew with\n"
+                             f"{job.ombre} nodes --markdown > docs/nodes.md")
+
+
+def examples_of_nodes_slice(job):
+    listed = program.run([job.ombre, "nodes", "--json"]).stdout
+    for node in map(json.loads, listed.splitlines()):
+        design = job.write(node["name"] + ".vcad", node["example"])
+        result = program.run(job.command(node["name"], "--voxel", "0.5", design=design), cwd=EXAMPLES)
+        expect(result.returncode == 0, f"{node['name']}: {node['example']}\n{result.stderr}")
+        expect(": warning: " not in result.stderr, f"{node['name']}: {result.stderr}")
+
+
+QUICK = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make_the_whole,
+         a_piece_has_the_names_and_bytes_of_the_whole, seeds_change_the_mixture_only, printed_designs_are_the_same_job,
+         roundabout_rotations_keep_the_voxels, images_lie_as_the_design_does, images_tell_their_resolution,
+         palettes_of_any_size, resume_refuses_another_job, damaged_layers_are_made_again, foreign_files_are_left_alone,
+         finished_jobs_are_not_overwritten, force_removes_the_old_layers, output_that_is_a_file,
+         folder_that_may_not_be_written, full_disk, reference_is_up_to_date, examples_of_nodes_slice]
+SLOW = [killed_jobs_resume, killed_twice_resumes, interrupted_jobs_resume]
+
+
+def in_scratch(function, ombre):
+    with tempfile.TemporaryDirectory() as scratch:
+        return function(Job(ombre, scratch))
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Checks whole slice jobs.")
+    parser.add_argument("ombre", type=pathlib.Path, help="the program")
+    parser.add_argument("names", nargs="*", help="only these")
+    a = parser.parse_args()
+    functions = {f.__name__: f for f in SLOW + QUICK}
+    for example in sorted(EXAMPLES.glob("*.vcad")):
+        functions[f"example {example.stem}"] = functools.partial(example_slices, example=example)
+    if a.names:
+        functions = {name: f for name, f in functions.items() if name in a.names or name.removeprefix("example ") in a.names}
+    ombre = a.ombre.resolve()
+    return program.check_all([(name, lambda f=f: in_scratch(f, ombre)) for name, f in functions.items()])
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
