@@ -69,9 +69,11 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     if (const size_t at = message.find(has_place ? ": " : "] "); at != std::string::npos)
       message = message.substr(at + 2);
     const auto offset = static_cast<uint32_t>(position > 0 ? position - 1 : 0);
-    for (const std::string_view end : {"expected '}'", "expected ']'"})
+    for (const char bracket : {'}', ']'}) {
+      const std::string end = std::string("; expected '") + bracket + "'";
       if (const size_t at = message.find(end); at != std::string::npos)
-        message.replace(at, end.size(), std::string("expected ',' or ") + std::string(end.substr(9)));
+        message.replace(at, end.size(), std::string("; expected ',' or '") + bracket + "'");
+    }
     const auto size = static_cast<uint32_t>(source_->text().size());
     diagnostics_.error({source_, std::min(offset, size), std::min(offset + 1, size)},
                        "this is not valid JSON: " + message);
