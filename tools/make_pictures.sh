@@ -40,7 +40,7 @@ draw() {
   shift 3
   rm -rf "$scratch/job"
   "$ombre" slice "examples/$name.vcad" -o "$scratch/job" --quiet "$@"
-  "$ombre" sheet "$scratch/job" -o "$picture" --count "$count" --quiet
+  "$ombre" sheet --force "$scratch/job" -o "$picture" --count "$count" --quiet
   echo "$picture"
 }
 

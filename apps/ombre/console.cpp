@@ -2,10 +2,13 @@
 #include "ombre/console.h"
 
 #include <unistd.h>
+#include <cerrno>
+#include <system_error>
 
 #include <cstdio>
 #include <cstdlib>
 
+#include "base/error.h"
 #include "base/json.h"
 
 namespace ombre::cli {
@@ -14,6 +17,13 @@ namespace {
 void put(std::FILE* stream, const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stream);
   std::fflush(stream);
+}
+
+// Data that does not arrive is a failure; a remark for people that nobody reads is not.
+void put_data(const std::string& text) {
+  errno = 0;
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (!written) throw Error("cannot write to standard output: " + std::generic_category().message(errno));
 }
 
 const char* name(Severity severity) {
@@ -35,12 +45,12 @@ bool is_set(const char* variable) {
 
 }  // namespace
 
-void Console::print(const std::string& text) const { put(stdout, text); }
+void Console::print(const std::string& text) const { put_data(text); }
 
 void Console::event(const std::string& event_name, DataMembers members) const {
   if (voice_ != Voice::programs) return;
   members.emplace(members.begin(), "event", event_name);
-  put(stdout, print_json_line(members) + '\n');
+  put_data(print_json_line(members) + '\n');
 }
 
 void Console::say(const std::string& text) const {

@@ -1,16 +1,31 @@
 // ombre sheet: a contact sheet of a finished job's layers.
+#include <filesystem>
 #include <memory>
 
+#include "base/error.h"
 #include "compile/job_sheet.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 
 namespace ombre::cli {
+namespace {
+
+// Only files are replaced, and only when told to.
+void refuse_to_overwrite(const std::string& path, bool force) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (!std::filesystem::exists(status)) return;
+  if (!std::filesystem::is_regular_file(status)) throw Error(path + " is not a file; choose another name");
+  if (!force) throw Error(path + " exists already; replace it with --force, or choose another name");
+}
+
+}  // namespace
 
 Command add_sheet(CLI::App& program, OutputOptions& output) {
   struct Arguments {
     std::string folder, image = "sheet.png";
     int layers = 12;
+    bool force = false;
   };
   CLI::App* app = program.add_subcommand("sheet", "Draw layers of a job side by side, in true proportions, as one PNG");
   auto arguments = std::make_shared<Arguments>();
@@ -19,9 +34,11 @@ Command add_sheet(CLI::App& program, OutputOptions& output) {
   app->add_option("--count", arguments->layers, "How many layers, evenly spaced (default 12)")
       ->check(CLI::Range(1, 200))
       ->type_name("N");
+  app->add_flag("--force", arguments->force, "Replace the picture if it is there");
   add_output_options(*app, output);
   app->footer("Example:\n  ombre sheet part_slices -o part.png\n");
   return {app, [arguments](Session& session) {
+            refuse_to_overwrite(arguments->image, arguments->force);
             compile::write_contact_sheet(arguments->folder, arguments->image, arguments->layers);
             session.console.say("wrote " + arguments->image);
             session.console.event("done", {{"file", arguments->image}});

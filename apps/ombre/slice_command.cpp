@@ -1,4 +1,5 @@
 // ombre slice: a printable slice stack from a design.
+#include <charconv>
 #include <filesystem>
 #include <memory>
 
@@ -21,7 +22,7 @@ struct SliceArguments {
   std::string design, folder, printer, voxel, dpi, layer_height, dither = "stochastic", image, place, materials, layers,
                                                                  memory = "2G", emit;
   std::vector<std::string> definitions;
-  uint64_t seed = 0;
+  std::string seed = "0";
   int threads = 0;
   bool tray = false, force = false, resume = false, dry_run = false, strict = false;
 };
@@ -86,6 +87,13 @@ std::string output_folder(const SliceArguments& a) {
   return std::filesystem::path(a.design).stem().string() + "_slices";
 }
 
+uint64_t parse_seed(const std::string& text) {
+  uint64_t seed = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (status == std::errc() && end == text.data() + text.size()) return seed;
+  throw WrongArgument("--seed " + text + " is not a whole number from 0 to 18446744073709551615");
+}
+
 compile::PlanOptions plan_options(const SliceArguments& a, voxel::Printer printer) {
   compile::PlanOptions options;
   options.program = "ombre " OMBRE_VERSION;
@@ -95,7 +103,7 @@ compile::PlanOptions plan_options(const SliceArguments& a, voxel::Printer printe
   if (!a.dpi.empty()) options.pitch = parse_dpi(a.dpi);
   if (!a.layer_height.empty()) options.pitch[2] = parse_layer_height(a.layer_height);
   options.dither = a.dither == "threshold" ? voxel::Dither::threshold : voxel::Dither::stochastic;
-  options.seed = a.seed;
+  options.seed = parse_seed(a.seed);
   if (!a.image.empty()) options.image = a.image == "rgba" ? voxel::ImageFormat::rgba : voxel::ImageFormat::indexed;
   if (!a.place.empty()) options.place = a.place == "center" ? voxel::Placement::center : voxel::Placement::design;
   options.whole_tray = a.tray;

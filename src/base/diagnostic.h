@@ -36,7 +36,8 @@ class Diagnostics {
   size_t error_count_ = 0;
 };
 
-// "file:line:column: error: message; hint" ("file: error: ..." for a file as a whole), then the source line and a caret line.
+// "file:line:column: error: message; hint" ("file: error: ..." for a file as a whole), then the source line and a caret
+// line.
 std::string to_text(const Diagnostic& diagnostic);
 // All of them, and how many more there were.
 std::string to_text(const Diagnostics& diagnostics);

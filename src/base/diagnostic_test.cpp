@@ -33,9 +33,10 @@ TEST(Diagnostic, CaretLines) {
       {"x = 1;\r\ny = ;\r\n", 12, 13, "part.vcad:2:5: error: wrong\n  2 | y = ;\n    |     ^\n"},
       {"abc", 3, 3, "part.vcad:1:4: error: wrong\n  1 | abc\n    |    ^\n"},  // the end of the text
       {"abc\n", 4, 4, "part.vcad:2:1: error: wrong\n"},                       // an empty last line
-      {"", 0, 0, "part.vcad:1:1: error: wrong\n"},
+      {"ab", 0, 0, "part.vcad: error: wrong\n"},                              // the source as a whole
+      {"", 0, 0, "part.vcad: error: wrong\n"},
       {"ab\ncd", 1, 4, "part.vcad:1:2: error: wrong\n  1 | ab\n    |  ^\n"},  // a range over lines
-      {"ab", 1, 0, "part.vcad:1:2: error: wrong\n  1 | ab\n    |  ^\n"},
+      {"ab", 0, 1, "part.vcad:1:1: error: wrong\n  1 | ab\n    | ^\n"},
   };
   for (const auto& c : cases) EXPECT_EQ(shown(c.text, c.begin, c.end), c.expected);
 }

@@ -18,6 +18,15 @@ double exp(double v) { return Sleef_cinz_expd1_u10purec(v); }
 double log(double v) { return Sleef_cinz_logd1_u10purec(v); }
 double log10(double v) { return Sleef_cinz_log10d1_u10purec(v); }
 double log2(double v) { return Sleef_cinz_log2d1_u10purec(v); }
-double pow(double base, double exponent) { return Sleef_cinz_powd1_u10purec(base, exponent); }
+// Whole powers of whole numbers are exact while doubles hold them: 10^2 is 100.
+double pow(double base, double exponent) {
+  constexpr double largest_exact = 0x1p53;
+  if (base == std::trunc(base) && exponent == std::trunc(exponent) && std::abs(exponent) <= 53) {
+    double product = 1;
+    for (int left = std::abs(static_cast<int>(exponent)); left > 0; --left) product *= base;
+    if (std::abs(product) <= largest_exact) return exponent < 0 ? 1 / product : product;
+  }
+  return Sleef_cinz_powd1_u10purec(base, exponent);
+}
 
 }  // namespace ombre::math

@@ -12,6 +12,13 @@
 
 namespace ombre {
 
+namespace {
+
+// More threads than cores gain nothing, and the library would complain.
+int worker_count(int threads) { return threads > 0 ? std::min(threads, core_count()) : core_count(); }
+
+}  // namespace
+
 int core_count() { return std::max(1, tbb::info::default_concurrency()); }
 
 void run_ordered(size_t count, int threads, size_t window, const std::function<std::shared_ptr<void>(size_t)>& produce,
@@ -34,7 +41,7 @@ void run_ordered(size_t count, int threads, size_t window, const std::function<s
       failed = true;
     }
   };
-  tbb::task_arena arena(threads > 0 ? threads : core_count());
+  tbb::task_arena arena(worker_count(threads));
   arena.execute([&] {
     size_t next = 0;
     const auto take = [&](tbb::flow_control& flow) -> Item {
@@ -56,7 +63,7 @@ void run_ordered(size_t count, int threads, size_t window, const std::function<s
 }
 
 void run_parallel(size_t count, int threads, const std::function<void(size_t)>& body) {
-  tbb::task_arena arena(threads > 0 ? threads : core_count());
+  tbb::task_arena arena(worker_count(threads));
   arena.execute([&] { tbb::parallel_for(size_t{0}, count, [&](size_t i) { body(i); }); });
 }
 

@@ -149,19 +149,26 @@ void JobFolder::resume() {
 void JobFolder::remove_old_job() {
   if (!holds(job_file)) return;
   const std::optional<Data> job = read_job(in_folder(job_file));
-  // What cannot be read is taken for ours if the journal is there too.
-  if (job ? !is_slice_job(*job) : !holds(journal_file))
-    throw Error(in_folder(job_file) + " was not written by Ombre; move it away, or choose another folder");
-
-  const std::optional<LayerNames> layers = layer_names(job);
-  std::set<std::string, std::less<>> in_journal;
+  std::set<std::string, std::less<>> ours;
   if (holds(journal_file))
     for (std::string& name : journal_files(formats::read_file(in_folder(journal_file))))
-      if (name.ends_with(".png")) in_journal.insert(std::move(name));
-  for (const std::string& name : names()) {
-    const std::string_view whole = without_part(name);
-    if (in_journal.count(whole) > 0 || (layers && layers->contains(whole))) remove_file(in_folder(name));
-  }
+      if (name.ends_with(".png")) ours.insert(std::move(name));
+  // A damaged job.json is taken for ours where the journal beside it names layers.
+  if (job ? !is_slice_job(*job) : ours.empty())
+    throw Error(in_folder(job_file) + " was not written by Ombre; move it away, or choose another folder");
+  const std::optional<LayerNames> layers = layer_names(job);
+  const auto is_ours = [&](std::string_view name) {
+    return is_bookkeeping(name) || ours.count(name) > 0 || (layers && layers->contains(name));
+  };
+  // Before anything goes: what stays may not be in the new job's way.
+  const LayerNames coming = layer_names(request_);
+  for (const std::string& name : names())
+    if (const std::string_view whole = without_part(name); coming.contains(whole) && !is_ours(whole))
+      refuse_collision(name);
+
+  for (const std::string& name : names())
+    if (const std::string_view whole = without_part(name); !is_bookkeeping(whole) && is_ours(whole))
+      remove_file(in_folder(name));
   // job.json goes last: until then the folder is known for what it is.
   for (const std::string name : {journal_file, job_file}) {
     remove_file(in_folder(name + std::string(part_suffix)));
@@ -180,10 +187,12 @@ void JobFolder::refuse_foreign_files() const {
 void JobFolder::refuse_collisions() const {
   const LayerNames layers = layer_names(request_);
   for (const std::string& name : names())
-    if (name == journal_file || layers.contains(without_part(name)))
-      throw Error(
-          in_folder(name) +
-          " is not part of a slice job, but a job would write that name; move it away, or choose another folder");
+    if (name == journal_file || layers.contains(without_part(name))) refuse_collision(name);
+}
+
+void JobFolder::refuse_collision(const std::string& name) const {
+  throw Error(in_folder(name) +
+              " is not part of a slice job, but a job would write that name; move it away, or choose another folder");
 }
 
 void JobFolder::remove_parts() const {

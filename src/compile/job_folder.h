@@ -49,6 +49,7 @@ class JobFolder {
   void remove_old_job();
   void refuse_foreign_files() const;
   void refuse_collisions() const;
+  [[noreturn]] void refuse_collision(const std::string& name) const;
   void remove_parts() const;
   void keep_proven(std::vector<JournalEntry> entries);
   bool proven(const JournalEntry& entry) const;

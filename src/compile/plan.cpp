@@ -48,7 +48,9 @@ class LatticePlanner {
     if ((whole_tray_ || place_ == voxel::Placement::center) && !cover_tray()) return std::nullopt;
     if (count(0) > most_in_layer / count(1))
       return fail(
-          "one layer would have " + format_count(static_cast<unsigned long long>(count(0)) * static_cast<unsigned long long>(count(1))) + " voxels",
+          "one layer would have " +
+              format_count(static_cast<unsigned long long>(count(0)) * static_cast<unsigned long long>(count(1))) +
+              " voxels",
           "choose larger voxels with --voxel or --dpi");
     return lattice_;
   }
@@ -80,8 +82,9 @@ class LatticePlanner {
       return false;
     }
     for (int axis = 0; axis < 3; ++axis) {
-      const int64_t tray = voxel::voxels_along((*printer_.build_mm)[axis], pitch(axis));
       const int64_t part = count(axis);
+      // Whole voxels of the tray, to the nearest, as printers count theirs; a part as large as the tray fits.
+      const int64_t tray = std::max<int64_t>(part, std::llround((*printer_.build_mm)[axis] / pitch(axis).mm()));
       int64_t before = 0;  // voxels between the tray's corner and the part's
       if (place_ == voxel::Placement::center)
         before = axis == 2 ? 0 : (tray - part) / 2;

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "compile/build.h"
+#include "compile/find_printer.h"
 #include "compile/test_designs.h"
 
 namespace ombre::compile {
@@ -175,6 +176,37 @@ TEST(Layers, AgreeWithTheReferencePointByPoint) {
             if (values[program.outputs[m + 1]] == 1) expected = built->materials.materials[m];
         ASSERT_EQ(voxels.at(i, j, k), expected) << i << " " << j << " " << k;
       }
+}
+
+// The tray of a J750 at 600 x 300 dpi has 11575 x 4606 voxels, and parts keep theirs on it.
+TEST(Lattices, CoverTheTray) {
+  Diagnostics diagnostics;
+  PlanOptions options;
+  options.printer = *find_printer("j750", diagnostics);
+  options.printer_given = true;
+  const LoadedPtr loaded = load_text("translate(20, 30, 1) rectprism(6, 4, 2, \"red\");", diagnostics);
+  const auto part = plan_slice(loaded, options, diagnostics);
+  options.whole_tray = true;
+  const auto tray = plan_slice(loaded, options, diagnostics);
+  options.whole_tray = false;
+  options.place = voxel::Placement::center;
+  const auto center = plan_slice(loaded, options, diagnostics);
+  ASSERT_TRUE(part && tray && center) << to_text(diagnostics);
+  for (const auto* plan : {&*tray, &*center}) {
+    const auto& lattice = plan->request.lattice;
+    EXPECT_EQ(lattice.count[0], 11575);
+    EXPECT_EQ(lattice.count[1], 4606);
+    EXPECT_EQ(lattice.count[2], 75);  // up to the part's top, 2 mm in layers of 27 um
+    for (int axis = 0; axis < 3; ++axis) {
+      const double voxels =
+          (part->request.lattice.origin[axis] - lattice.origin[axis]) / lattice.pitch[static_cast<size_t>(axis)].mm();
+      EXPECT_NEAR(voxels, std::round(voxels), 1e-6);
+    }
+  }
+  // The design's own place, to the nearest voxel; or the middle.
+  EXPECT_NEAR(tray->request.lattice.origin.x, 0, 0.0212);
+  EXPECT_NEAR(center->request.lattice.box().center().x, 20, 0.0424);
+  EXPECT_NEAR(center->request.lattice.box().center().y, 30, 0.0848);
 }
 
 }  // namespace ombre::compile

@@ -118,7 +118,8 @@ TEST(Expression, PrintsInOneWay) {
   EXPECT_EQ(parse("x-(y-z)", d)->text(), "x - (y - z)");
   for (const char* text :
        {"x - (y - z) - 1", "(x + 1)*(y/2)/3", "-x^-y", "(a ? b : c) + 1", "not(x)*2", "((x and y) or z) and 1",
-        "2^(x + 1)", "--x", "2^-x^-2", "not not x", "not -x*2", "x ? y : z ? 1 : 2", "(x < y) < z", "x < (y < z)", "if(x, 1e-30, y)", "-(-x)", "(x ? 1 : 2) ? 3 : 4"}) {
+        "2^(x + 1)", "--x", "2^-x^-2", "not not x", "not -x*2", "x ? y : z ? 1 : 2", "(x < y) < z", "x < (y < z)",
+        "if(x, 1e-30, y)", "-(-x)", "(x ? 1 : 2) ? 3 : 4"}) {
     const auto once = parse(text, d);
     ASSERT_TRUE(once) << to_text(d);
     EXPECT_EQ(parse(once->text(), d)->text(), once->text());

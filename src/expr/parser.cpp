@@ -393,10 +393,14 @@ NodePtr parse_tree(std::string_view text, const SourceRange& where, Diagnostics&
 
 std::string print_tree(const Node& node) {
   switch (node.kind) {
-    case Kind::number: return format_number(node.number);
-    case Kind::variable: return node.name;
-    case Kind::negate: return "-" + signed_operand(*node.operands[0]);
-    case Kind::logical_not: return "not " + signed_operand(*node.operands[0]);
+    case Kind::number:
+      return format_number(node.number);
+    case Kind::variable:
+      return node.name;
+    case Kind::negate:
+      return "-" + signed_operand(*node.operands[0]);
+    case Kind::logical_not:
+      return "not " + signed_operand(*node.operands[0]);
     case Kind::conditional:
       return bracketed(*node.operands[0], level_or) + " ? " + print_tree(*node.operands[1]) + " : " +
              print_tree(*node.operands[2]);
@@ -405,7 +409,8 @@ std::string print_tree(const Node& node) {
       for (size_t i = 0; i < node.operands.size(); ++i) text += (i ? ", " : "") + print_tree(*node.operands[i]);
       return text + ")";
     }
-    case Kind::binary: break;
+    case Kind::binary:
+      break;
   }
   // A chain to the left is printed without recursion: it may be long.
   std::vector<const Node*> chain{&node};
@@ -417,7 +422,8 @@ std::string print_tree(const Node& node) {
   for (size_t i = chain.size(); i-- > 0;) {
     const bool tight = level >= level_multiply;
     const std::string op(spelling(chain[i]->binary));
-    text += (tight ? op : " " + op + " ") + (level == level_power ? signed_operand(*chain[i]->operands[1]) : bracketed(*chain[i]->operands[1], level + 1));
+    text += (tight ? op : " " + op + " ") + (level == level_power ? signed_operand(*chain[i]->operands[1])
+                                                                  : bracketed(*chain[i]->operands[1], level + 1));
   }
   return text;
 }

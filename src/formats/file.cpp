@@ -12,7 +12,7 @@
 namespace ombre::formats {
 namespace {
 
-constexpr size_t least_chunk = size_t{64} << 10;
+constexpr size_t least_chunk = size_t{64} << 10, largest_file = size_t{16} << 30;
 
 // Relative paths also say where they led.
 [[noreturn]] void throw_unreadable(const std::string& path, const std::string& reason) {
@@ -33,6 +33,8 @@ struct Close {
 std::string read_file(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw_unreadable(path, "it is a directory");
+  if (std::filesystem::is_character_file(path, ignored) || std::filesystem::is_block_file(path, ignored))
+    throw_unreadable(path, "it is a device");
   errno = 0;
   const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
   if (!file) throw_unreadable(path, std::generic_category().message(errno));
@@ -44,6 +46,7 @@ std::string read_file(const std::string& path) {
   for (;;) {
     filled += std::fread(bytes.data() + filled, 1, bytes.size() - filled, file.get());
     if (filled < bytes.size()) break;
+    if (filled > largest_file) throw_unreadable(path, "it has more than 16 GiB");
     bytes.resize(2 * bytes.size() + least_chunk);
   }
   if (std::ferror(file.get()) != 0) throw_unreadable(path, std::generic_category().message(errno));

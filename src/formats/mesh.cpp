@@ -16,7 +16,8 @@ std::string extension(const std::string& name) { return to_lower(std::filesystem
 
 std::optional<Mesh> report_unknown(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
   if (bytes.substr(0, zip_signature.size()) == zip_signature)
-    diagnostics.error({make_source(name, ""), 0, 0}, "this is a zip archive (3MF and AMF files are), which cannot be read as a mesh",
+    diagnostics.error({make_source(name, ""), 0, 0},
+                      "this is a zip archive (3MF and AMF files are), which cannot be read as a mesh",
                       "save the mesh as STL, OBJ, PLY or OFF");
   else
     diagnostics.error({make_source(name, ""), 0, 0}, "neither the name nor the content tells which mesh format this is",

@@ -153,7 +153,7 @@ TEST(Mesh, UnknownFormatsAreNamed) {
 
 TEST(Mesh, EmptyFilesAreNamed) {
   for (const std::string ending : {"stl", "obj", "ply", "off"})
-    expect_message("a." + ending, "", "a." + ending + ": the file is empty");
+    expect_message("a." + ending, "", "a." + ending + ": error: the file is empty");
 }
 
 TEST(Mesh, GarbageIsAMessage) {
@@ -195,7 +195,7 @@ TEST(Stl, CutShortSaysWhatIsMissing) {
   bytes.resize(59000, '\0');
   EXPECT_EQ(
       message("wing.stl", bytes),
-      "error: wing.stl: this binary STL is cut short: its header promises 1,200 triangles (60,084 bytes), the file "
+      "wing.stl: error: this binary STL is cut short: its header promises 1,200 triangles (60,084 bytes), the file "
       "has 59,000 bytes\n");
   expect_message("a.stl", binary_stl("solid x").substr(0, 200),
                  "promises 4 triangles (284 bytes), the file has 200 bytes");

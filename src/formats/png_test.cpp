@@ -147,8 +147,14 @@ TEST(Png, SameLayerSameBytes) {
 TEST(Png, PicturesKeepTheirPixels) {
   std::vector<uint8_t> rgba(4 * 5 * 3);
   for (size_t i = 0; i < rgba.size(); ++i) rgba[i] = static_cast<uint8_t>(i * 11);
-  const PngImage image = decode_png(encode_png(5, 3, rgba), "test");
-  EXPECT_EQ(image.pixels, rgba);
+  const PngImage few = decode_png(encode_png(5, 3, rgba), "test");
+  EXPECT_EQ(few.format, PngFormat::indexed);
+  for (uint32_t n = 0; n < 15; ++n)
+    EXPECT_EQ(few.colour(n % 5, n / 5), (Rgba{rgba[4 * n], rgba[4 * n + 1], rgba[4 * n + 2], rgba[4 * n + 3]}));
+
+  std::vector<uint8_t> many(4 * 20 * 20);  // more colours than a palette holds
+  for (size_t i = 0; i < many.size(); ++i) many[i] = static_cast<uint8_t>(i % 4 == 0 ? i / 4 : i / 1024 + i % 4);
+  EXPECT_EQ(decode_png(encode_png(20, 20, many), "test").pixels, many);
 }
 
 TEST(Png, DamagedFilesAreErrorsThatNameTheFile) {

@@ -21,6 +21,7 @@ using Symbol = const std::string*;
 
 class Names {
  public:
+  bool contains(std::string_view text) const { return names_.count(std::string(text)) > 0; }
   Symbol intern(std::string_view text) { return &*names_.emplace(text).first; }
 
  private:

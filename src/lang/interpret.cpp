@@ -28,12 +28,24 @@ Interpreter::Interpreter(const Program& program, Vocabulary& vocabulary, const O
   special("$preview", false);
 }
 
+// A definition whose name the script does not have is a slip of the pen.
+void Interpreter::warn_of_unused(const Definition& definition, const Unit& main) {
+  std::vector<std::string> names;
+  for (const ast::Assign* assignment : main.plan.assignments) names.emplace_back(*assignment->name.symbol);
+  report({Severity::warning,
+          {},
+          "the design has no variable \"" + definition.name + "\" that -D could set",
+          did_you_mean(definition.name, names)});
+}
+
 Interpreter::Nodes Interpreter::run() {
   Nodes nodes;
   try {
-    for (const Definition& definition : options_.definitions)
-      overrides_[program_.names->intern(definition.name)] = from_data(definition.value, meter_);
     const Unit& main = program_.units.front();
+    for (const Definition& definition : options_.definitions) {
+      if (!program_.names->contains(definition.name)) warn_of_unused(definition, main);
+      overrides_[program_.names->intern(definition.name)] = from_data(definition.value, meter_);
+    }
     const ScopePtr& scope = unit_scope(main);
     try {
       run_actions(main.plan, scope, nodes);

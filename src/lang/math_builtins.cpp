@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "base/math.h"
 #include "lang/builtins.h"
 
 namespace ombre::lang {
@@ -48,8 +49,8 @@ constexpr double degrees = 180 / std::numbers::pi;
 double quadrant_sine(double angle) {
   if (angle == 30) return 0.5;
   if (angle == 90) return 1;
-  if (angle > 45) return std::cos((90 - angle) / degrees);
-  return std::sin(angle / degrees);
+  if (angle > 45) return math::cos((90 - angle) / degrees);
+  return math::sin(angle / degrees);
 }
 
 double sine(double angle) {
@@ -87,12 +88,12 @@ double inverse(double angle, double argument, Function function) {
   return std::abs(angle - whole) < 1e-9 && function(whole) == argument ? whole : angle;
 }
 
-double arc_sine(double x) { return inverse(std::asin(x) * degrees, x, sine); }
-double arc_cosine(double x) { return inverse(std::acos(x) * degrees, x, cosine); }
-double arc_tangent(double x) { return inverse(std::atan(x) * degrees, x, tangent); }
+double arc_sine(double x) { return inverse(math::asin(x) * degrees, x, sine); }
+double arc_cosine(double x) { return inverse(math::acos(x) * degrees, x, cosine); }
+double arc_tangent(double x) { return inverse(math::atan(x) * degrees, x, tangent); }
 
 double arc_tangent2(double y, double x) {
-  const double angle = std::atan2(y, x) * degrees;
+  const double angle = math::atan2(y, x) * degrees;
   const double eighth = std::round(angle / 45) * 45;
   return std::abs(angle - eighth) < 1e-12 ? eighth : angle;
 }
@@ -113,15 +114,15 @@ double absolute(double x) { return std::abs(x); }
 double floor_of(double x) { return std::floor(x); }
 double ceil_of(double x) { return std::ceil(x); }
 double round_of(double x) { return std::round(x); }
-double ln(double x) { return std::log(x); }
-double exponential(double x) { return std::exp(x); }
+double ln(double x) { return math::log(x); }
+double exponential(double x) { return math::exp(x); }
 double root(double x) { return std::sqrt(x); }
-double power(double x, double y) { return std::pow(x, y); }
+double power(double x, double y) { return math::pow(x, y); }
 
 // log(x) is decimal, log(base, x) of any base.
 Value logarithm(const BuiltinCall& call) {
-  if (call.size() == 1) return std::log10(call.number(0));
-  return std::log(call.number(1)) / std::log(call.number(0));
+  if (call.size() == 1) return math::log10(call.number(0));
+  return math::log(call.number(1)) / math::log(call.number(0));
 }
 
 // Of several numbers, or of one list of numbers.

@@ -1,6 +1,7 @@
 #include "lang/operators.h"
 
 #include <cmath>
+#include "base/math.h"
 
 namespace ombre::lang {
 namespace {
@@ -22,7 +23,7 @@ double number_of(Operator op, double a, double b) {
     case Operator::modulo:
       return std::fmod(a, b);
     default:
-      return std::pow(a, b);
+      return math::pow(a, b);
   }
 }
 

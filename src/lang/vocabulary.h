@@ -33,7 +33,7 @@ struct Invocation {
   // The children that one statement of the braces gave stand together; each group ends before these
   // positions. Loops, modules and conditions may give several.
   std::vector<size_t> group_ends;
-  bool has_wrong_children = false;        // there were mistakes in the braces, and they were told
+  bool has_wrong_children = false;       // there were mistakes in the braces, and they were told
   bool is_top_level = false;             // a statement of the main file, outside of any call
   std::vector<SourceRange> called_from;  // user module calls around it, innermost first, at most 8
 };

@@ -142,7 +142,8 @@ struct FGrade {
     Mixture result = mixture(in, p, functions, materials);
     result.threshold = mode == "thresh";
     return result.over(in, p, demand,
-                       "the fractions of fgrade are all zero or not finite (" + list_text(functions) + "), the child keeps its own materials there");
+                       "the fractions of fgrade are all zero or not finite (" + list_text(functions) +
+                           "), the child keeps its own materials there");
   }
 };
 
@@ -181,7 +182,9 @@ struct Material {
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     return mixture(in, p, fractions, materials)
-        .over(in, p, demand, "the fractions of material are all zero or not finite (" + list_text(fractions) + "), the child keeps its own materials there");
+        .over(in, p, demand,
+              "the fractions of material are all zero or not finite (" + list_text(fractions) +
+                  "), the child keeps its own materials there");
   }
 };
 

@@ -32,7 +32,8 @@ std::optional<expr::Expression> parse(const std::string& text) {
   const std::string before = "sphere(\"";
   const SourcePtr source = make_source("fuzz.vcad", before + text + "\");");
   const auto begin = static_cast<uint32_t>(before.size());
-  auto expression = expr::Expression::parse(text, {source, begin, begin + static_cast<uint32_t>(text.size())}, diagnostics);
+  auto expression =
+      expr::Expression::parse(text, {source, begin, begin + static_cast<uint32_t>(text.size())}, diagnostics);
   require(expression.has_value() == !diagnostics.has_errors());
   check_places(diagnostics);
   return expression;

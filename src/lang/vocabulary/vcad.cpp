@@ -181,7 +181,8 @@ NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnosti
   const auto read_corner = [&](size_t i, const design::Domain& domain, Vec3& value) {
     return design::read(*corners[i], domain, value, {materials_, diagnostics, loader_, call.whole, "root", names[i]});
   };
-  const bool lo = read_corner(0, design::unit::mm, sampling.box.lo), hi = read_corner(1, design::unit::mm, sampling.box.hi),
+  const bool lo = read_corner(0, design::unit::mm, sampling.box.lo),
+             hi = read_corner(1, design::unit::mm, sampling.box.hi),
              size = read_corner(2, design::unit::positive_mm, voxel);
   if (!lo || !hi || !size) return nullptr;
   for (int axis = 0; axis < 3; ++axis) {
@@ -205,7 +206,8 @@ std::optional<design::Design> VcadVocabulary::finish(const std::vector<NodePtr>&
   if (root_where_) {
     for (const NodePtr& beside : top_level)
       if (beside != root_)
-        diagnostics.error(beside->where(), "this stands beside root, which is all that is sampled", "put it inside the braces of root");
+        diagnostics.error(beside->where(), "this stands beside root, which is all that is sampled",
+                          "put it inside the braces of root");
     if (diagnostics.has_errors()) return std::nullopt;
   }
   const std::vector<NodePtr>& solids = root_where_ ? root_children_ : top_level;
