@@ -27,6 +27,14 @@ std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand dema
   return marks;
 }
 
+// Least and greatest distances are exact on one side of a surface, and bounds on the other.
+Metric joined_metric(const Inputs& in) {
+  if (in.count() == 1) return in.metric(0);
+  Metric metric = Metric::bounded();
+  for (size_t i = 0; i < in.count(); ++i) metric = weaker(metric, in.metric(i));
+  return metric;
+}
+
 struct Union {
   std::string materials = "mix";
 
@@ -39,13 +47,7 @@ struct Union {
             "union() { cube(8, \"red\"); translate(4, 4, 4) { sphere(4, \"blue\"); } }"};
   }
 
-  // Outside, the least distance is exact; inside it is a bound.
-  Metric metric(const Inputs& in) const {
-    if (in.count() == 1) return in.metric(0);
-    Metric metric = Metric::bounded();
-    for (size_t i = 0; i < in.count(); ++i) metric = weaker(metric, in.metric(i));
-    return metric;
-  }
+  Metric metric(const Inputs& in) const { return joined_metric(in); }
 
   Box reach(const Inputs& in, const Box& where, double margin) const {
     Box box;
@@ -80,12 +82,7 @@ struct Intersection {
             "intersection() { cube(8, \"red\"); sphere(5, \"red\"); }"};
   }
 
-  Metric metric(const Inputs& in) const {
-    if (in.count() == 1) return in.metric(0);
-    Metric metric = Metric::bounded();
-    for (size_t i = 0; i < in.count(); ++i) metric = weaker(metric, in.metric(i));
-    return metric;
-  }
+  Metric metric(const Inputs& in) const { return joined_metric(in); }
 
   // Children without bounds of their own are asked within those of the others.
   Box reach(const Inputs& in, const Box& where, double margin) const {
@@ -122,12 +119,7 @@ struct Difference {
             {},           grouped_solids, "difference() { cube(8, \"red\"); cylinder(2, 10); }"};
   }
 
-  Metric metric(const Inputs& in) const {
-    if (in.count() == 1) return in.metric(0);
-    Metric metric = Metric::bounded();
-    for (size_t i = 0; i < in.count(); ++i) metric = weaker(metric, in.metric(i));
-    return metric;
-  }
+  Metric metric(const Inputs& in) const { return joined_metric(in); }
 
   Field distance(const Inputs& in, const Point& p) const {
     std::vector<Field> distances = in.distances(p);

@@ -1,23 +1,8 @@
 // Puts what the first output needs in front.
+#include "program/passes/copy_tables.h"
 #include "program/passes/passes.h"
 
 namespace ombre::program {
-namespace {
-
-void copy_tables(const Program& from, Program& to, Instruction& in) {
-  if (in.op == Op::affine) {
-    to.maps.push_back(from.maps[in.aux]);
-    in.aux = static_cast<uint32_t>(to.maps.size() - 1);
-  } else if (in.op == Op::source) {
-    to.reads.push_back(from.reads[in.aux]);
-    in.aux = static_cast<uint32_t>(to.reads.size() - 1);
-  } else if (in.op == Op::call) {
-    to.calls.push_back(from.calls[in.aux]);
-    in.aux = static_cast<uint32_t>(to.calls.size() - 1);
-  }
-}
-
-}  // namespace
 
 size_t order_for_first(Program& program) {
   const size_t n = program.code.size();

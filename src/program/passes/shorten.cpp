@@ -1,4 +1,5 @@
 // Drops what a region has settled.
+#include "program/passes/copy_tables.h"
 #include "program/passes/passes.h"
 
 namespace ombre::program {
@@ -94,21 +95,10 @@ class Shortener {
         in.a = renamed_[target_[in.a]];
         in.b = renamed_[target_[in.b]];
         in.c = renamed_[target_[in.c]];
-        copy_tables(in);
+        copy_tables(from_, to_, in);
       }
       renamed_[i] = static_cast<ValueId>(to_.code.size());
       to_.code.push_back(in);
-    }
-  }
-
-  void copy_tables(Instruction& in) {
-    if (in.op == Op::affine) {
-      to_.maps.push_back(from_.maps[in.aux]);
-      in.aux = static_cast<uint32_t>(to_.maps.size() - 1);
-    }
-    if (in.op == Op::source) {
-      to_.reads.push_back(from_.reads[in.aux]);
-      in.aux = static_cast<uint32_t>(to_.reads.size() - 1);
     }
   }
 

@@ -1,0 +1,19 @@
+// Moves an instruction from one program to another.
+#pragma once
+
+#include "program/program.h"
+
+namespace ombre::program {
+
+// What the instruction's aux names in `from` is added to `to`, and aux names it there.
+inline void copy_tables(const Program& from, Program& to, Instruction& in) {
+  const auto copy = [&](const auto& source, auto& target) {
+    target.push_back(source[in.aux]);
+    in.aux = static_cast<uint32_t>(target.size() - 1);
+  };
+  if (in.op == Op::affine) copy(from.maps, to.maps);
+  if (in.op == Op::source) copy(from.reads, to.reads);
+  if (in.op == Op::call) copy(from.calls, to.calls);
+}
+
+}  // namespace ombre::program
