@@ -1,3 +1,6 @@
+// Tasks by oneTBB.
+#ifndef OMBRE_PLAIN_THREADS
+
 #include "base/tasks.h"
 
 #include <tbb/info.h>
@@ -68,3 +71,5 @@ void run_parallel(size_t count, int threads, const std::function<void(size_t)>& 
 }
 
 }  // namespace ombre
+
+#endif  // OMBRE_PLAIN_THREADS

@@ -3,6 +3,7 @@
 #include <map>
 #include <numbers>
 
+#include "base/tasks.h"
 #include "compile/build.h"
 #include "compile/find_printer.h"
 #include "compile/test_designs.h"
@@ -151,6 +152,23 @@ TEST(Layers, DoNotDependOnHowTheyAreGrouped) {
   const Voxels by_8 = slice_text(design), by_1 = slice_text(design, {}, 1), by_13 = slice_text(design, {}, 13);
   EXPECT_TRUE(by_8.ids == by_1.ids);
   EXPECT_TRUE(by_8.ids == by_13.ids);
+}
+
+TEST(Layers, MayBeAskedBySeveralThreadsAtOnce) {
+  Diagnostics diagnostics;
+  const LoadedPtr loaded =
+      load_text("fgrade([\"0.5 + d/10\", \"0.5 - d/10\"], [\"red\", \"blue\"], \"prob\") { mesh(\"" OMBRE_SOURCE_DIR
+                "/examples/models/tetrahedron.off\"); }",
+                diagnostics);
+  const auto plan = plan_slice(loaded, {}, diagnostics);
+  ASSERT_TRUE(plan) << to_text(diagnostics);
+  const int64_t count = std::min<int64_t>(16, plan->request.lattice.count[2]);
+  std::vector<std::vector<MaterialId>> together(static_cast<size_t>(count));
+  run_parallel(together.size(), 4, [&](size_t k) {
+    together[k] = unpack(plan->producer(static_cast<int64_t>(k), static_cast<int64_t>(k) + 1));
+  });
+  for (size_t k = 0; k < together.size(); ++k)
+    EXPECT_TRUE(together[k] == unpack(plan->producer(static_cast<int64_t>(k), static_cast<int64_t>(k) + 1))) << k;
 }
 
 // Tiles, row spans and shortened programs give what the reference gives at every voxel.
