@@ -56,7 +56,8 @@ class OrderedRun {
   void consume_ready(std::unique_lock<std::mutex>& lock) {
     if (is_consuming_) return;
     is_consuming_ = true;
-    for (auto first = ready_.begin(); !failure_ && first != ready_.end() && first->first == consumed_; first = ready_.begin()) {
+    for (auto first = ready_.begin(); !failure_ && first != ready_.end() && first->first == consumed_;
+         first = ready_.begin()) {
       const std::shared_ptr<void> result = std::move(first->second);
       ready_.erase(first);
       attempt(lock, [&] { consume_(consumed_, result); });
