@@ -66,6 +66,7 @@ std::string to_text(const Program& program) {
     for (const auto& [candidate, number] : bodies)
       if (number == done) body = candidate;
     text += "body" + std::to_string(done) + "\n";
+    ASSERT(body);  // numbers count up from 0
     print(*body, text, bodies);
   }
   return text;
