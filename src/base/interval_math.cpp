@@ -4,6 +4,7 @@
 // values at the ends enclose all others as they are.
 // A function with an error of one unit in the last place, evaluated at the ends of an interval on
 // which it is monotonic, is enclosed by those values widened by two units.
+#include <iterator>
 #include <numbers>
 
 #include "base/math.h"
@@ -55,6 +56,18 @@ Interval multiply(Interval a, Interval b) {
   if (!a.is_bounded() && !lacks_zero(b)) return Interval::everything();
   if (!b.is_bounded() && !lacks_zero(a)) return Interval::everything();
   return {std::min({p, q, r, s}), std::max({p, q, r, s})};
+}
+
+// Rounded once, which keeps the order: the extremes are at corners.
+Interval fma(Interval a, Interval b, Interval c) {
+  if (multiply(a, b).is_everything()) return Interval::everything();
+  const double corners[] = {std::fma(a.lo, b.lo, c.lo), std::fma(a.lo, b.hi, c.lo), std::fma(a.hi, b.lo, c.lo),
+                            std::fma(a.hi, b.hi, c.lo), std::fma(a.lo, b.lo, c.hi), std::fma(a.lo, b.hi, c.hi),
+                            std::fma(a.hi, b.lo, c.hi), std::fma(a.hi, b.hi, c.hi)};
+  if (std::any_of(std::begin(corners), std::end(corners), [](double v) { return std::isnan(v); }))
+    return Interval::everything();
+  const auto [lo, hi] = std::minmax_element(std::begin(corners), std::end(corners));
+  return {*lo, *hi};
 }
 
 Interval divide(Interval a, Interval b) {

@@ -43,6 +43,7 @@ inline double truth(double v) { return v != 0 ? 1 : 0; }
 inline double logical_not(double v) { return v != 0 ? 0 : 1; }
 inline double logical_and(double a, double b) { return a != 0 && b != 0 ? 1 : 0; }
 inline double logical_or(double a, double b) { return a != 0 || b != 0 ? 1 : 0; }
+inline double fma(double a, double b, double c) { return std::fma(a, b, c); }  // rounded once
 inline double select(double condition, double a, double b) { return condition != 0 ? a : b; }
 inline double is_finite(double v) { return std::isfinite(v) ? 1 : 0; }
 
@@ -85,6 +86,7 @@ Interval truth(Interval v);
 Interval logical_not(Interval v);
 Interval logical_and(Interval a, Interval b);
 Interval logical_or(Interval a, Interval b);
+Interval fma(Interval a, Interval b, Interval c);
 Interval select(Interval condition, Interval a, Interval b);
 Interval is_finite(Interval v);
 

@@ -18,7 +18,8 @@
   row(sin, 1) row(cos, 1) row(tan, 1) row(asin, 1) row(acos, 1) row(atan, 1) row(atan2, 2) \
   row(sinh, 1) row(cosh, 1) row(tanh, 1) row(exp, 1) row(log, 1) row(log10, 1) row(log2, 1) \
   row(less, 2) row(less_equal, 2) row(equal, 2) row(truth, 1)                              \
-  row(logical_not, 1) row(logical_and, 2) row(logical_or, 2) row(select, 3) row(is_finite, 1)
+  row(logical_not, 1) row(logical_and, 2) row(logical_or, 2) row(select, 3) row(is_finite, 1) \
+  row(fma, 3)
 // clang-format on
 
 namespace ombre::program {

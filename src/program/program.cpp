@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "base/text.h"
+#include "program/single.h"
 
 namespace ombre::program {
 namespace {
@@ -72,41 +73,48 @@ std::string to_text(const Program& program) {
   return text;
 }
 
+namespace {
+
+Interval apply_reference(Op op, Interval a, Interval b, Interval c) {
+  const int arity = info(op).arity;
+  const bool known = a.is_point() && (arity < 2 || b.is_point()) && (arity < 3 || c.is_point());
+  if (!known) return apply(op, a, b, c);
+  const double value = apply(op, a.lo, b.lo, c.lo);
+  return std::isnan(value) ? Interval::everything() : Interval(value);
+}
+
+}  // namespace
+
 void evaluate_intervals(const Program& program, const Box& box, std::vector<Interval>& values,
-                        const SourceRanges& source_ranges) {
+                        const SourceRanges& source_ranges, Precision precision) {
+  const bool batch = precision == Precision::batch;
+  const auto rounded = [&](Interval v) { return batch ? to_single(v) : v; };
   values.resize(program.code.size());
   for (size_t i = 0; i < program.code.size(); ++i) {
     const Instruction& in = program.code[i];
     const Interval &a = values[in.a], &b = values[in.b], &c = values[in.c];
     switch (in.op) {
       case Op::input:
-        values[i] = box.axis(static_cast<int>(in.value));
+        values[i] = rounded(box.axis(static_cast<int>(in.value)));
         break;
       case Op::constant:
-        values[i] = std::isnan(in.value) ? Interval::everything() : Interval(in.value);
+        values[i] = std::isnan(in.value) ? Interval::everything() : rounded(in.value);
         break;
       case Op::affine:
+        ASSERT(!batch && "batches have fused multiplications and additions instead");
         values[i] = apply_affine(program.maps[in.aux], a, b, c);
         break;
       case Op::source: {
         const Read& read = program.reads[in.aux];
         const Box where{{a.lo, b.lo, c.lo}, {a.hi, b.hi, c.hi}};
-        values[i] = source_ranges ? source_ranges(read, where) : read.source->range(read.channel, where);
+        values[i] = rounded(source_ranges ? source_ranges(read, where) : read.source->range(read.channel, where));
         break;
       }
       case Op::call:
         ASSERT(false && "calls are inlined before evaluation");
         break;
-      default: {
-        const int arity = info(in.op).arity;
-        const bool known = a.is_point() && (arity < 2 || b.is_point()) && (arity < 3 || c.is_point());
-        if (!known) {
-          values[i] = apply(in.op, a, b, c);
-          break;
-        }
-        const double value = apply(in.op, a.lo, b.lo, c.lo);
-        values[i] = std::isnan(value) ? Interval::everything() : Interval(value);
-      }
+      default:
+        values[i] = batch ? apply_single(in.op, a, b, c) : apply_reference(in.op, a, b, c);
     }
   }
 }

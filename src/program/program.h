@@ -51,10 +51,13 @@ std::string to_text(const Program& program);
 // Says what a source can be over operands' ranges; by default what the source itself says.
 using SourceRanges = std::function<Interval(const Read&, const Box&)>;
 
+// Which evaluator's rounded values intervals enclose: the reference's, or those of float batches.
+enum class Precision : uint8_t { reference, batch };
+
 // The value of each instruction over a box of inputs; encloses every point's rounded value.
-// `code` may not hold calls.
+// `code` may not hold calls. For batches see program/single.h.
 void evaluate_intervals(const Program& program, const Box& box, std::vector<Interval>& values,
-                        const SourceRanges& source_ranges = nullptr);
+                        const SourceRanges& source_ranges = nullptr, Precision precision = Precision::reference);
 
 // Value of each instruction at a point, in double precision: the reference.
 void evaluate_point(const Program& program, Vec3 p, std::vector<double>& values);

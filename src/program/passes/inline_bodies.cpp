@@ -1,8 +1,8 @@
 // Bodies are written where they are called. Equal calls share one copy.
 #include <map>
 
-#include "program/field.h"
 #include "program/passes/passes.h"
+#include "program/passes/replay.h"
 
 namespace ombre::program {
 namespace {
@@ -17,37 +17,21 @@ class Inliner {
   const std::vector<Field>& expand(const Program& program, const Arguments& inputs) {
     auto [it, is_new] = done_.try_emplace({&program, inputs});
     if (!is_new) return it->second;
-    std::vector<Field> fields;
-    fields.reserve(program.code.size());
-    for (const Instruction& in : program.code) fields.push_back(translate(program, in, fields, inputs));
+    std::vector<Field> fields =
+        replay(builder_, program, {at(inputs[0]), at(inputs[1]), at(inputs[2])},
+               [&](ValueId id, const std::vector<Field>& done) { return call(program, id, done); });
     return done_[{&program, inputs}] = std::move(fields);
   }
 
  private:
-  Field translate(const Program& program, const Instruction& in, const std::vector<Field>& fields,
-                  const Arguments& inputs) {
-    const auto at = [&](ValueId id) { return fields[id]; };
-    switch (in.op) {
-      case Op::input:
-        return {&builder_, inputs[static_cast<size_t>(in.value)]};
-      case Op::constant:
-        return builder_.constant(in.value);
-      case Op::affine:
-        return builder_.affine(program.maps[in.aux], at(in.a), at(in.b), at(in.c));
-      case Op::source: {
-        const Read& read = program.reads[in.aux];
-        return builder_.source(read.source, read.channel, at(in.a), at(in.b), at(in.c));
-      }
-      case Op::call: {
-        const Call& call = program.calls[in.aux];
-        const auto& body = expand(*call.body, {at(in.a).id, at(in.b).id, at(in.c).id});
-        return body[call.body->outputs[call.output]];
-      }
-      default: {
-        const int arity = info(in.op).arity;
-        return builder_.apply(in.op, at(in.a), arity > 1 ? at(in.b) : Field{}, arity > 2 ? at(in.c) : Field{});
-      }
-    }
+  Field at(ValueId id) { return {&builder_, id}; }
+
+  std::optional<Field> call(const Program& program, ValueId id, const std::vector<Field>& done) {
+    const Instruction& in = program.code[id];
+    if (in.op != Op::call) return std::nullopt;
+    const Call& called = program.calls[in.aux];
+    const auto& body = expand(*called.body, {done[in.a].id, done[in.b].id, done[in.c].id});
+    return body[called.body->outputs[called.output]];
   }
 
   Builder& builder_;

@@ -14,6 +14,13 @@ Program inline_bodies(const Program& program);
 // becomes a constant, what cannot win a min, max or select falls away.
 Program shorten(const Program& program, const std::vector<Interval>& values);
 
+// Where a distance is only compared with zero, compares what decides its sign. Sets and materials stay
+// what they are but for rounding at boundaries.
+Program sign_only(const Program& program);
+
+// Affine maps become chains of fused multiply-adds, and so do products that are only added to something.
+Program fuse(const Program& program);
+
 // Moves what output 0 needs to the front and returns how many instructions that is.
 size_t order_for_first(Program& program);
 

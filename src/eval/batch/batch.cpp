@@ -1,0 +1,287 @@
+#include "eval/batch/batch.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "base/assert.h"
+
+namespace ombre::eval {
+
+using program::Instruction;
+using program::Op;
+using program::ValueId;
+
+namespace {
+
+constexpr uint8_t axis_x = 1, axis_y = 2, axis_z = 4, all_axes = 7;
+constexpr size_t late = 8;
+constexpr ValueId none = ~ValueId{0};
+
+size_t padded(size_t count) { return (count + batch_lanes - 1) / batch_lanes * batch_lanes; }
+
+// The axis along which values that depend on these axes are stored; 0: they are one number.
+uint8_t row_axis(uint8_t mask) { return mask & axis_x ? axis_x : mask & axis_y ? axis_y : mask; }
+
+template <class F>
+void each_operand(const Instruction& in, F f) {
+  const int arity = info(in.op).arity;
+  if (arity > 0) f(in.a);
+  if (arity > 1) f(in.b);
+  if (arity > 2) f(in.c);
+}
+
+}  // namespace
+
+void BatchEvaluator::begin(const program::Program& program, const std::vector<Interval>& ranges,
+                           const BoxPoints& points, const SourceRows& sources) {
+  program_ = &program;
+  sources_ = &sources;
+  width_ = points.xs.size();
+  rows_ = points.ys.size();
+  layers_ = points.zs.size();
+  classify();
+  find_order();
+  pair_sines();
+  reserve();
+  place_constants_and_inputs(points);
+  compile(ranges);
+
+  // What does not change from layer to layer.
+  run(steps_[0], 0, 1);
+  run(steps_[axis_y], 0, rows_);
+  run(steps_[axis_z], 0, layers_);
+  run(steps_[axis_x], 0, width_);
+  if (!steps_[axis_x | axis_y].empty())
+    for (size_t j = 0; j < rows_; ++j) run(steps_[axis_x | axis_y], j, width_);
+}
+
+void BatchEvaluator::begin_layer(size_t k) {
+  k_ = k;
+  for (const auto& [from, to] : layer_numbers_) *to = from[k];
+  run(steps_[axis_y | axis_z], 0, rows_);
+  run(steps_[axis_x | axis_z], 0, width_);
+}
+
+void BatchEvaluator::begin_row(size_t j) {
+  j_ = j;
+  run(steps_[all_axes], j, width_);
+}
+
+void BatchEvaluator::finish_row() { run(steps_[late], j_, width_); }
+
+Values BatchEvaluator::output(size_t n) const {
+  const ValueId id = program_->outputs[n];
+  return {place_for(id, all_axes).at(j_), row_axis(facts_[id].mask) != axis_x};
+}
+
+// What an instruction reads; sources that know their rows need no operands.
+template <class F>
+void BatchEvaluator::each_read(const Instruction& in, F f) const {
+  if (in.op == Op::source && sources_->has(program_->reads[in.aux])) return;
+  each_operand(in, f);
+}
+
+// Which axes does each value depend on, and who needs it?
+void BatchEvaluator::classify() {
+  facts_.assign(program_->code.size(), Fact{});
+  for (size_t i = 0; i < facts_.size(); ++i) {
+    const Instruction& in = program_->code[i];
+    uint8_t& mask = facts_[i].mask;
+    if (in.op == Op::input) mask = static_cast<uint8_t>(1 << static_cast<int>(in.value));
+    each_operand(in, [&](ValueId id) { mask |= facts_[id].mask; });
+    if (in.op == Op::source && sources_->has(program_->reads[in.aux])) mask = all_axes;
+  }
+  for (const ValueId id : program_->outputs) facts_[id].needed = true;
+  facts_[program_->outputs[0]].early = true;
+  for (size_t i = facts_.size(); i-- > 0;) {
+    if (!facts_[i].needed) continue;
+    each_read(program_->code[i], [&](ValueId id) {
+      facts_[id].needed = true;
+      facts_[id].early |= facts_[i].early;
+    });
+  }
+}
+
+// What output 0 needs comes first. Notes where each value is used last.
+void BatchEvaluator::find_order() {
+  order_.clear();
+  for (const bool early : {true, false})
+    for (ValueId i = 0; i < facts_.size(); ++i)
+      if (facts_[i].needed && facts_[i].early == early) order_.push_back(i);
+  for (const ValueId i : order_)
+    each_read(program_->code[i], [&](ValueId id) {
+      facts_[id].last_use = i;
+      if (facts_[id].mask != facts_[i].mask) facts_[id].outlives = true;
+    });
+  for (const ValueId id : program_->outputs) facts_[id].outlives = true;
+}
+
+// Sine and cosine of one value are computed together.
+void BatchEvaluator::pair_sines() {
+  seen_.assign(facts_.size(), none);
+  for (const ValueId i : order_) {
+    facts_[i].partner = none;
+    const Instruction& in = program_->code[i];
+    if (in.op != Op::sin && in.op != Op::cos) continue;
+    const ValueId other = seen_[in.a];
+    seen_[in.a] = i;
+    if (other == none || program_->code[other].op == in.op) continue;
+    facts_[i].partner = other;
+    facts_[other].partner = i;
+  }
+}
+
+size_t BatchEvaluator::row_length(uint8_t mask) const { return padded(point_count(mask)); }
+
+size_t BatchEvaluator::point_count(uint8_t mask) const {
+  switch (row_axis(mask)) {
+    case axis_x:
+      return width_;
+    case axis_y:
+      return rows_;
+    case axis_z:
+      return layers_;
+    default:
+      return 1;
+  }
+}
+
+// Room for the case that no row is used twice.
+void BatchEvaluator::reserve() {
+  size_t floats = 2 * batch_lanes;
+  for (const Fact& fact : facts_) {
+    const bool each_row = fact.mask == (axis_x | axis_y) && fact.outlives;
+    floats += (each_row ? rows_ : 1) * row_length(fact.mask) + batch_lanes;
+  }
+  if (memory_.size() < floats) memory_.resize(floats);
+  const auto address = reinterpret_cast<uintptr_t>(memory_.data());
+  constexpr uintptr_t alignment = batch_lanes * sizeof(float);
+  next_ = memory_.data() + (alignment - address % alignment) % alignment / sizeof(float);
+  for (auto& rows : free_) rows.clear();
+  for (auto& steps : steps_) steps.clear();
+  layer_numbers_.clear();
+}
+
+// A place for a value's result.
+BatchEvaluator::Place BatchEvaluator::take(ValueId id) {
+  Fact& fact = facts_[id];
+  auto& free_rows = free_[fact.mask];
+  if (!fact.outlives && !free_rows.empty()) {
+    fact.base = free_rows.back();
+    free_rows.pop_back();
+    return {fact.base, 0};
+  }
+  const bool each_row = fact.mask == (axis_x | axis_y) && fact.outlives;
+  const size_t length = row_length(fact.mask);
+  fact.base = next_;
+  next_ += (each_row ? rows_ : 1) * length;
+  if (fact.mask == axis_z) next_ += batch_lanes;
+  if (fact.mask == axis_z && fact.outlives) layer_numbers_.emplace_back(fact.base, fact.base + length);
+  return {fact.base, each_row ? static_cast<ptrdiff_t>(length) : 0};
+}
+
+void BatchEvaluator::release(ValueId id, ValueId user) {
+  Fact& fact = facts_[id];
+  if (fact.outlives || fact.last_use != user) return;
+  fact.last_use = none;  // an operand may be named twice
+  free_[fact.mask].push_back(fact.base);
+}
+
+// Where an instruction that depends on the axes `consumer` finds a value.
+BatchEvaluator::Place BatchEvaluator::place_for(ValueId id, uint8_t consumer) const {
+  const Fact& fact = facts_[id];
+  const uint8_t own = row_axis(fact.mask), reader = row_axis(consumer);
+  if (own == axis_x && fact.mask == (axis_x | axis_y))
+    return {fact.base, fact.outlives ? static_cast<ptrdiff_t>(row_length(fact.mask)) : 0};
+  if (own == reader || own == 0) return {fact.base, 0};
+  if (own == axis_y) return {fact.base, 1};  // one number for each row
+  // One number for the layer, which begin_layer puts behind the row of all layers' numbers.
+  return {fact.base + row_length(fact.mask), 0};
+}
+
+void BatchEvaluator::place_constants_and_inputs(const BoxPoints& points) {
+  for (ValueId id = 0; id < facts_.size(); ++id) {
+    const Instruction& in = program_->code[id];
+    if (!facts_[id].needed || (in.op != Op::constant && in.op != Op::input)) continue;
+    Fact& fact = facts_[id];
+    fact.outlives = true;
+    fact.done = true;
+    const size_t length = row_length(fact.mask);
+    take(id);
+    if (in.op == Op::constant) {
+      std::fill_n(fact.base, length, static_cast<float>(in.value));
+      continue;
+    }
+    const std::span<const float> values = fact.mask == axis_x ? points.xs : fact.mask == axis_y ? points.ys : points.zs;
+    std::copy(values.begin(), values.end(), fact.base);
+    std::fill(fact.base + values.size(), fact.base + length, values.back());
+  }
+}
+
+void BatchEvaluator::compile(const std::vector<Interval>& ranges) {
+  for (const ValueId id : order_)
+    if (!facts_[id].done) compile_one(id, ranges);
+}
+
+void BatchEvaluator::compile_one(ValueId id, const std::vector<Interval>& ranges) {
+  const Instruction& in = program_->code[id];
+  Fact& fact = facts_[id];
+  fact.done = true;
+  Step step;
+  Place* places[] = {&step.a, &step.b, &step.c};
+  Unknowns unknowns = Unknowns::never;
+  size_t n = 0;
+  each_read(in, [&](ValueId operand) {
+    *places[n] = place_for(operand, fact.mask);
+    if (row_axis(facts_[operand].mask) != row_axis(fact.mask)) step.numbers |= static_cast<uint8_t>(1 << n);
+    if (ranges[operand].is_everything()) unknowns = Unknowns::possible;
+    ++n;
+  });
+  each_read(in, [&](ValueId operand) { release(operand, id); });
+
+  step.out = take(id);
+  if (in.op == Op::source) {
+    step.read = &program_->reads[in.aux];
+    step.kind = sources_->has(*step.read) ? Step::Kind::fill : Step::Kind::sample;
+  } else if (fact.partner != none && !facts_[fact.partner].done) {
+    facts_[fact.partner].done = true;
+    step.kind = Step::Kind::sine_cosine;
+    step.second_out = take(fact.partner);
+    if (in.op == Op::cos) std::swap(step.out, step.second_out);
+  } else {
+    step.kernel = kernels_.kernel(in.op, step.numbers, unknowns);
+  }
+  steps_[fact.mask == all_axes && !fact.early ? late : fact.mask].push_back(step);
+}
+
+void BatchEvaluator::run(const std::vector<Step>& steps, size_t j, size_t count) {
+  for (const Step& step : steps) {
+    switch (step.kind) {
+      case Step::Kind::kernel:
+        step.kernel(step.a.at(j), step.b.at(j), step.c.at(j), step.out.at(j), count);
+        break;
+      case Step::Kind::sine_cosine:
+        kernels_.sine_cosine(step.a.at(j), step.out.at(j), step.second_out.at(j), count);
+        break;
+      case Step::Kind::fill:
+        sources_->fill(*step.read, j, k_, {step.out.at(j), count});
+        break;
+      case Step::Kind::sample:
+        sample(step, j, count);
+        break;
+    }
+  }
+}
+
+void BatchEvaluator::sample(const Step& step, size_t j, size_t count) const {
+  const float *a = step.a.at(j), *b = step.b.at(j), *c = step.c.at(j);
+  float* out = step.out.at(j);
+  const auto value = [&](const float* row, size_t n, unsigned number) {
+    return static_cast<double>(row[step.numbers & number ? 0 : n]);
+  };
+  for (size_t n = 0; n < count; ++n)
+    out[n] = static_cast<float>(step.read->source->sample(
+        step.read->channel, {value(a, n, a_is_number), value(b, n, b_is_number), value(c, n, c_is_number)}));
+}
+
+}  // namespace ombre::eval

@@ -1,0 +1,24 @@
+// Writes a program's instructions into a builder, so that a pass can change some on the way.
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include "program/field.h"
+
+namespace ombre::program {
+
+// The field to take for an instruction, given those of the instructions before it; nothing: a copy.
+using Rewrite = std::function<std::optional<Field>(ValueId id, const std::vector<Field>& done)>;
+
+// One field for each instruction. `program` may not hold calls.
+std::vector<Field> replay(Builder& builder, const Program& program, const std::array<Field, 3>& inputs,
+                          const Rewrite& rewrite = nullptr);
+
+// The program with some instructions replaced, without what nothing needs any more.
+Program rewritten(const Program& program, const std::function<Rewrite(Builder&)>& rewrite);
+
+// Which of x, y, z (bits 1, 2, 4) each instruction depends on.
+std::vector<uint8_t> axis_masks(const Program& program);
+
+}  // namespace ombre::program

@@ -1,0 +1,103 @@
+#include "program/single.h"
+
+namespace ombre::program {
+namespace {
+
+bool is_zero(Interval v) { return v.lo == 0 && v.hi == 0; }
+bool lacks_zero(Interval v) { return v.lo > 0 || v.hi < 0; }
+
+// The batches' elementary functions are within one unit in the last place.
+Interval widened(Interval v) {
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  const auto down = [](float end) { return std::nextafter(std::nextafter(end, -inf), -inf); };
+  const auto up = [](float end) { return std::nextafter(std::nextafter(end, inf), inf); };
+  return {static_cast<double>(down(static_cast<float>(v.lo))), static_cast<double>(up(static_cast<float>(v.hi)))};
+}
+
+Interval trigonometric(Interval argument, Interval value) {
+  if (argument.lo < -batch_trigonometric_limit || argument.hi > batch_trigonometric_limit)
+    return Interval::everything();
+  return to_single(
+      {std::max(-1.0, value.lo - batch_trigonometric_error), std::min(1.0, value.hi + batch_trigonometric_error)});
+}
+
+// Rounded once, which keeps the order: the extremes are at corners.
+Interval fused(Interval a, Interval b, Interval c) {
+  if (math::multiply(a, b).is_everything()) return Interval::everything();
+  float lo = std::numeric_limits<float>::infinity(), hi = -lo;
+  for (const double x : {a.lo, a.hi}) {
+    for (const double y : {b.lo, b.hi}) {
+      const auto at = [&](double z) {
+        return std::fma(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
+      };
+      const float low = at(c.lo), high = at(c.hi);
+      if (std::isnan(low) || std::isnan(high)) return Interval::everything();
+      lo = std::min(lo, low);
+      hi = std::max(hi, high);
+    }
+  }
+  return {static_cast<double>(lo), static_cast<double>(hi)};
+}
+
+Interval select(Interval condition, Interval a, Interval b) {
+  if (lacks_zero(condition)) return a;
+  if (is_zero(condition)) return b;
+  return condition.is_everything() ? condition : hull(a, b);
+}
+
+Interval logical(Op op, Interval a, Interval b) {
+  const bool settled = op == Op::logical_and ? is_zero(a) || is_zero(b) : lacks_zero(a) || lacks_zero(b);
+  if (settled) return op == Op::logical_and ? 0 : 1;
+  if (a.is_everything() || b.is_everything()) return Interval::everything();
+  return op == Op::logical_and ? math::logical_and(a, b) : math::logical_or(a, b);
+}
+
+// The remainder of rounded operands may lie on the other side of a period only if they do: it is exact.
+Interval elementary(Op op, Interval a, Interval b, Interval c) {
+  const Interval value = apply(op, a, b, c);
+  if (value.is_everything()) return value;
+  const bool not_negative = value.lo >= 0;
+  const Interval wide = widened(value);
+  return {not_negative ? std::max(0.0, wide.lo) : wide.lo, wide.hi};
+}
+
+}  // namespace
+
+Interval to_single(Interval v) {
+  return {static_cast<double>(static_cast<float>(v.lo)), static_cast<double>(static_cast<float>(v.hi))};
+}
+
+Interval apply_single(Op op, Interval a, Interval b, Interval c) {
+  if (op == Op::select) return select(a, b, c);
+  if (op == Op::logical_and || op == Op::logical_or) return logical(op, a, b);
+  const int arity = info(op).arity;
+  if (a.is_everything() || (arity > 1 && b.is_everything()) || (arity > 2 && c.is_everything()))
+    return Interval::everything();
+  switch (op) {
+    case Op::fma:
+      return fused(a, b, c);
+    case Op::sin:
+    case Op::cos:
+      return trigonometric(a, apply(op, a, b, c));
+    case Op::tan:
+    case Op::asin:
+    case Op::acos:
+    case Op::atan:
+    case Op::atan2:
+    case Op::sinh:
+    case Op::cosh:
+    case Op::tanh:
+    case Op::exp:
+    case Op::log:
+    case Op::log10:
+    case Op::log2:
+    case Op::pow:
+      return elementary(op, a, b, c);
+    case Op::is_finite:
+      return a.is_bounded() ? Interval(1) : Interval::everything();
+    default:
+      return to_single(apply(op, a, b, c));
+  }
+}
+
+}  // namespace ombre::program
