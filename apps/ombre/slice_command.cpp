@@ -20,7 +20,7 @@ namespace {
 
 struct SliceArguments {
   std::string design, folder, printer, voxel, dpi, layer_height, dither = "stochastic", image, place, materials, layers,
-                                                                 memory = "2G", emit;
+                                                                 memory = "2G", emit, evaluator = "batch";
   std::vector<std::string> definitions;
   std::string seed = "0";
   int threads = 0;
@@ -51,6 +51,10 @@ void add_arguments(CLI::App& app, SliceArguments& a) {
   app.add_option("--dither", a.dither, "How a mixture becomes one material a voxel: stochastic (default) or threshold")
       ->check(CLI::IsMember({"stochastic", "threshold"}))
       ->type_name("MODE");
+  app.add_option("--evaluator", a.evaluator,
+                 "Who computes values: batch (default, floats, fast) or reference (double precision, slow)")
+      ->check(CLI::IsMember({"batch", "reference"}))
+      ->type_name("NAME");
   app.add_option("--seed", a.seed, "Seed of the dithering (default 0); equal seeds give equal files")->type_name("N");
   app.add_option("--format", a.image, "Image format: rgba or indexed (default: the printer's)")
       ->check(CLI::IsMember({"rgba", "indexed"}))
@@ -104,6 +108,7 @@ compile::PlanOptions plan_options(const SliceArguments& a, voxel::Printer printe
   if (!a.layer_height.empty()) options.pitch[2] = parse_layer_height(a.layer_height);
   options.dither = a.dither == "threshold" ? voxel::Dither::threshold : voxel::Dither::stochastic;
   options.seed = parse_seed(a.seed);
+  if (a.evaluator == "reference") options.evaluator.evaluator = voxel::Evaluator::reference;
   if (!a.image.empty()) options.image = a.image == "rgba" ? voxel::ImageFormat::rgba : voxel::ImageFormat::indexed;
   if (!a.place.empty()) options.place = a.place == "center" ? voxel::Placement::center : voxel::Placement::design;
   options.whole_tray = a.tray;

@@ -34,6 +34,7 @@ Data sampling(const SliceRequest& request) {
                      {"origin_mm", triple(lattice.origin)},
                      {"size_mm", triple(lattice.box().size())},
                      {"dither", request.dither == voxel::Dither::stochastic ? "stochastic" : "threshold"},
+                     {"evaluator", request.evaluator == voxel::Evaluator::batch ? "batch" : "reference"},
                      {"seed", std::to_string(request.seed)}};  // text, since it may have 64 bits
 }
 

@@ -48,6 +48,7 @@ struct PlanOptions {
   bool printer_given = false;                 // then its pitch goes before the design's own
   std::array<std::optional<Pitch>, 3> pitch;  // goes before both, axis by axis
   voxel::Dither dither = voxel::Dither::stochastic;
+  voxel::EvaluatorOptions evaluator;
   uint64_t seed = 0;
   std::optional<voxel::ImageFormat> image;  // else the printer's
   std::optional<voxel::Placement> place;    // else the printer's; center: the build plate, the part in its middle

@@ -30,6 +30,7 @@ struct SliceRequest {
   std::string printer;      // the profile's name
   voxel::Lattice lattice;
   voxel::Dither dither = voxel::Dither::stochastic;
+  voxel::Evaluator evaluator = voxel::Evaluator::batch;
   uint64_t seed = 0;
   std::vector<SliceMaterial> materials;  // those used, by ascending id, without void
   formats::PngFormat format = formats::PngFormat::indexed;

@@ -144,7 +144,7 @@ Field Builder::affine(const AffineRow& row, Field a, Field b, Field c) {
   return field;
 }
 
-Field Builder::source(const SourceField& source, int channel, Field a, Field b, Field c) {
+Field Builder::source(const SourceField& source, int channel, Field a, Field b, Field c, uint32_t tag) {
   Instruction in;
   in.op = Op::source;
   in.a = a.id;
@@ -152,7 +152,7 @@ Field Builder::source(const SourceField& source, int channel, Field a, Field b, 
   in.c = c.id;
   in.aux = static_cast<uint32_t>(reads_.size());
   const Field field = intern({Op::source, in.a, in.b, in.c, static_cast<uint64_t>(channel), source.get()}, in);
-  if (code_[field.id].aux == reads_.size()) reads_.push_back({source, channel});
+  if (code_[field.id].aux == reads_.size()) reads_.push_back({source, channel, tag});
   return field;
 }
 

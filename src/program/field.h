@@ -33,7 +33,7 @@ class Builder {
   Field constant(double value);
   Field apply(Op op, Field a, Field b = {}, Field c = {});
   Field affine(const AffineRow& row, Field a, Field b, Field c);
-  Field source(const SourceField& source, int channel, Field a, Field b, Field c);
+  Field source(const SourceField& source, int channel, Field a, Field b, Field c, uint32_t tag = 0);
   // `body` may still grow; its outputs are numbered in the order in which they were added.
   Field call(const std::shared_ptr<Program>& body, uint32_t output, Field a, Field b, Field c);
 

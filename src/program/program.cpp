@@ -113,6 +113,12 @@ void evaluate_intervals(const Program& program, const Box& box, std::vector<Inte
       case Op::call:
         ASSERT(false && "calls are inlined before evaluation");
         break;
+      case Op::divide:
+        if (in.a == in.b && a.is_bounded() && (a.lo > 0 || a.hi < 0)) {
+          values[i] = 1;
+          break;
+        }
+        [[fallthrough]];
       default:
         values[i] = batch ? apply_single(in.op, a, b, c) : apply_reference(in.op, a, b, c);
     }

@@ -1,10 +1,12 @@
 #include "voxel/layers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
+#include "base/assert.h"
 #include "program/passes/passes.h"
-#include "voxel/tile.h"
+#include "voxel/walk.h"
 
 namespace ombre::voxel {
 namespace {
@@ -48,58 +50,115 @@ Affine design_from_index(const Lattice& lattice) {
   return map;
 }
 
+// What is left of a program in a region.
+struct Remainder {
+  program::Program program;
+  std::vector<Interval> ranges;
+};
+
+// Floats carry 24 bits; a hundredth of a voxel should still be seen at the far end.
+bool floats_resolve(const Lattice& lattice) {
+  const Box box = lattice.box();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double farthest = std::max(std::abs(box.lo[axis]), std::abs(box.hi[axis]));
+    if (farthest * 0x1p-24 > 0.01 * lattice.pitch[static_cast<size_t>(axis)].mm()) return false;
+  }
+  return true;
+}
+
+const eval::KernelSet& kernels_named(const std::string& name) {
+  const auto& sets = eval::kernel_sets();
+  ASSERT(!sets.empty() && "best_evaluator gives the reference then");
+  for (const eval::KernelSet& set : sets)
+    if (set.name == name) return set;
+  return sets.front();
+}
+
 }  // namespace
 
+std::vector<std::string> instruction_sets() {
+  std::vector<std::string> names;
+  for (const eval::KernelSet& set : eval::kernel_sets()) names.emplace_back(set.name);
+  return names;
+}
+
+Evaluator best_evaluator(const Lattice& lattice) {
+  return eval::kernel_sets().empty() || !floats_resolve(lattice) ? Evaluator::reference : Evaluator::batch;
+}
+
 struct LayerEvaluator::Parts {
-  MaterialProgram materials;
-  Lattice lattice;
-  Dither dither;
-  uint64_t seed;
+  VoxelJob job;
+  EvaluatorOptions options;
   std::vector<std::unique_ptr<program::RowSampler>> samplers;  // by tag
 
+  bool is_batch() const { return options.evaluator == Evaluator::batch; }
+  program::Precision precision() const {
+    return is_batch() ? program::Precision::batch : program::Precision::reference;
+  }
+
+  std::unique_ptr<LeafEvaluator> make_leaf() const {
+    return is_batch() ? batch_leaf(job, kernels_named(options.instruction_set)) : reference_leaf(job);
+  }
+
+  WalkOptions walk_options() const {
+    WalkOptions walk;
+    walk.prune = options.prune;
+    if (options.leaf_width > 0) walk.leaf_width = walk.small_leaf_width = walk.widest = options.leaf_width;
+    return walk;
+  }
+
   // What is left of the program in a slab.
-  program::Program program_for(const TileBox& slab) const {
+  Remainder remainder(const TileBox& slab) const {
+    const program::Program& whole = is_batch() ? job.selector.batch : job.selector.reference;
+    Remainder rest;
     std::vector<Interval> values;
-    program::evaluate_intervals(materials.program, centers(lattice, slab), values);
-    return program::shorten(materials.program, values);
+    program::evaluate_intervals(whole, centers(job.lattice, slab), values, nullptr, precision());
+    rest.program = program::shorten(whole, values, &rest.ranges);
+    return rest;
   }
 
   // Sources whose operands are affine in (x, y, z) are placed on the voxel rows, each placement once.
   void place_sources() {
-    for (const program::Instruction& in : materials.program.code) {
+    for (const program::Instruction& in : job.selector.reference.code) {
       if (in.op != program::Op::source) continue;
-      program::Read& read = materials.program.reads[in.aux];
+      program::Read& read = job.selector.reference.reads[in.aux];
       read.tag = static_cast<uint32_t>(samplers.size());
-      const auto map = program::affine_operands(materials.program, in);
-      samplers.push_back(map ? read.source->rows(read.channel, *map * design_from_index(lattice)) : nullptr);
+      const auto map = program::affine_operands(job.selector.reference, in);
+      samplers.push_back(map ? read.source->rows(read.channel, *map * design_from_index(job.lattice)) : nullptr);
     }
   }
 };
 
-LayerEvaluator::LayerEvaluator(MaterialProgram program, const Lattice& lattice, Dither dither, uint64_t seed)
-    : parts_(std::make_unique<Parts>(Parts{std::move(program), lattice, dither, seed, {}})) {
+LayerEvaluator::LayerEvaluator(MaterialProgram program, const Lattice& lattice, Dither dither, uint64_t seed,
+                               const EvaluatorOptions& options)
+    : parts_(std::make_unique<Parts>(Parts{{make_selector(program, dither), lattice, seed}, options, {}})) {
   parts_->place_sources();
+  if (parts_->is_batch()) make_batch(parts_->job.selector);
 }
 
 LayerEvaluator::~LayerEvaluator() = default;
 
 std::vector<LayerResult> LayerEvaluator::layers(int64_t begin, int64_t end) const {
-  const auto& count = parts_->lattice.count;
+  const auto& count = parts_->job.lattice.count;
   std::vector<LayerResult> results(static_cast<size_t>(end - begin));
-  std::vector<std::vector<CheckHits>> checks(results.size(), std::vector<CheckHits>(parts_->materials.check_count));
+  const size_t check_count = parts_->job.selector.check_count;
+  std::vector<std::vector<CheckHits>> checks(results.size(), std::vector<CheckHits>(check_count));
   for (LayerResult& layer : results) {
     layer.runs.width = static_cast<uint32_t>(count[0]);
     layer.runs.rows.resize(static_cast<size_t>(count[1]));
     layer.material_counts.assign(256, 0);
   }
-  const program::Program slab = parts_->program_for({{0, 0, begin}, {count[0], count[1], end}});
-  StripEvaluator evaluator(parts_->materials, slab, parts_->lattice, parts_->dither, parts_->seed);
-  std::vector<MaterialId> buffer;
+  const Remainder slab = parts_->remainder({{0, 0, begin}, {count[0], count[1], end}});
+  const auto leaf = parts_->make_leaf();
+  TileWalk walk(parts_->job, parts_->precision(), parts_->walk_options(), *leaf);
+  StripVoxels buffer;
   for (int64_t j = 0; j < count[1]; j += strip_rows) {
     const TileBox strip{{0, j, begin}, {count[0], std::min(j + strip_rows, count[1]), end}};
     const StripSources sources(parts_->samplers, strip);
-    const bool touched = evaluator.run(strip, sources, buffer, checks);
-    const MaterialId* voxels = buffer.data();
+    buffer.begin(strip, checks);
+    walk.run(slab.program, slab.ranges, strip, sources, buffer);
+    const bool touched = buffer.touched();
+    const MaterialId* voxels = buffer.ids().data();
     for (LayerResult& layer : results) {
       for (int64_t row = strip.lo[1]; row < strip.hi[1]; ++row) {
         auto& runs = layer.runs.rows[static_cast<size_t>(row)];

@@ -12,7 +12,7 @@
 
 namespace ombre::voxel {
 
-// How a composition becomes one material. Both are pure functions of (seed, i, j, k, composition).
+// How a composition becomes one material. All are pure functions of (seed, i, j, k, composition).
 enum class Dither { stochastic, threshold };
 
 // What the outputs of a program are. Output 0 is the truth value "inside".
@@ -33,10 +33,26 @@ struct LayerResult {
   std::vector<CheckHits> checks;
 };
 
+// Who computes values. Batches are floats, the reference is in double precision; voxels within rounding
+// of a boundary may differ.
+enum class Evaluator { batch, reference };
+
+struct EvaluatorOptions {
+  Evaluator evaluator = Evaluator::batch;
+  // These decide no voxel, only speed:
+  std::string instruction_set;  // one of instruction_sets(); empty: the best
+  bool prune = true;            // ask intervals about tiles
+  int64_t leaf_width = 0;       // of tiles that are not cut further; 0: what suits
+};
+
+// The names of what batches can run on here, best first; none without hardware multiply-add.
+std::vector<std::string> instruction_sets();
+
 // Thread-safe; the result for a layer does not depend on how layers are grouped.
 class LayerEvaluator {
  public:
-  LayerEvaluator(MaterialProgram program, const Lattice& lattice, Dither dither, uint64_t seed);
+  LayerEvaluator(MaterialProgram program, const Lattice& lattice, Dither dither, uint64_t seed,
+                 const EvaluatorOptions& options = {});
   ~LayerEvaluator();
 
   // Layers [begin, end) of the lattice, lowest first. Works best on 4 to 16 at a time.
@@ -46,5 +62,8 @@ class LayerEvaluator {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
+
+// Batches, unless this machine has no hardware multiply-add or floats cannot tell the lattice's voxels apart.
+Evaluator best_evaluator(const Lattice& lattice);
 
 }  // namespace ombre::voxel

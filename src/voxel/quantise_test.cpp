@@ -9,7 +9,7 @@
 namespace ombre::voxel {
 namespace {
 
-double draw(uint64_t seed, int64_t i, int64_t j, int64_t k) { return uniform(row_hash(seed, j, k), i); }
+double draw(uint64_t seed, int64_t i, int64_t j, int64_t k) { return hashed_draw(row_hash(seed, j, k), i) * 0x1p-24; }
 
 // Correlation of draws at voxels that differ by the given step, over a 100^3 block.
 double correlation(std::array<int64_t, 3> step, uint64_t seed, uint64_t other_seed) {
@@ -60,20 +60,12 @@ TEST(Quantise, NegativeAndLargeIndicesDiffer) {
   EXPECT_NE(draw(0, 11574, 4605, 7407), draw(0, 11575, 4605, 7407));
 }
 
-TEST(Quantise, PickFollowsTheFractions) {
-  const std::array<double, 3> fractions{0.2, 0.0, 0.8};
-  EXPECT_EQ(pick(fractions, 0.0), 0u);
-  EXPECT_EQ(pick(fractions, 0.1999), 0u);
-  EXPECT_EQ(pick(fractions, 0.2001), 2u);
-  EXPECT_EQ(pick(fractions, 1 - 0x1p-24), 2u);
-  // What is not positive is never picked, whatever rounding does.
-  const std::array<double, 4> odd{-1, std::nan(""), 1.0 / 3, 0};
-  for (const double u : {0.0, 0.5, 1 - 0x1p-24}) EXPECT_EQ(pick(odd, u), 2u);
-}
-
-TEST(Quantise, GreatestTakesTheFirstOnTies) {
-  EXPECT_EQ(greatest(std::array<double, 3>{0.25, 0.5, 0.25}), 1u);
-  EXPECT_EQ(greatest(std::array<double, 3>{0.4, 0.4, 0.2}), 0u);
+TEST(Quantise, TheFirstThresholdAboveTheDrawDecides) {
+  const std::array<double, 2> thresholds{0.2, 0.2};  // fractions 0.2, 0, 0.8
+  EXPECT_EQ(first_above<double>(thresholds, 0.0), 0u);
+  EXPECT_EQ(first_above<double>(thresholds, 0.1999), 0u);
+  EXPECT_EQ(first_above<double>(thresholds, 0.2), 2u);
+  EXPECT_EQ(first_above<double>(thresholds, 1 - 0x1p-24), 2u);
 }
 
 }  // namespace ombre::voxel

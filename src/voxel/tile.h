@@ -1,11 +1,11 @@
-// Evaluates boxes of voxels: settles what intervals can settle, the rest row by row.
+// Boxes of voxels, and what is known of one strip of them.
 #pragma once
 
-#include <map>
+#include <algorithm>
 #include <memory>
+#include <span>
 #include <vector>
 
-#include "eval/rows.h"
 #include "voxel/layers.h"
 
 namespace ombre::voxel {
@@ -29,8 +29,18 @@ class StripSources {
   bool has(uint32_t tag) const { return tag < spans_.size() && !spans_[tag].empty(); }
   // 1 or 0 where the whole tile is inside or outside, else both.
   Interval range(uint32_t tag, const TileBox& tile) const;
+  // The same as evaluate_intervals asks for it; valid as long as this and the tile.
+  program::SourceRanges ranges(const TileBox& tile) const;
   // values[n] = 1 where voxel i_begin + n of the row is inside.
-  void fill(uint32_t tag, int64_t i_begin, int64_t j, int64_t k, std::span<double> values) const;
+  template <class T>
+  void fill(uint32_t tag, int64_t i_begin, int64_t j, int64_t k, std::span<T> values) const {
+    std::fill(values.begin(), values.end(), T{0});
+    const int64_t i_end = i_begin + static_cast<int64_t>(values.size());
+    for (const program::Span& span : row(tag, j, k)) {
+      const int64_t from = std::max(span.begin, i_begin), to = std::min(span.end, i_end);
+      if (from < to) std::fill(values.begin() + (from - i_begin), values.begin() + (to - i_begin), T{1});
+    }
+  }
 
  private:
   const std::vector<program::Span>& row(uint32_t tag, int64_t j, int64_t k) const {
@@ -41,41 +51,23 @@ class StripSources {
   std::vector<std::vector<std::vector<std::vector<program::Span>>>> spans_;  // [tag][layer][row]
 };
 
-// One thread's work on one strip. Writes material ids into a dense buffer of the strip.
-class StripEvaluator {
+// The materials of a strip's voxels, x fastest, then y, then z. Nothing is written until a voxel is.
+class StripVoxels {
  public:
-  // `program` is that of the materials, or what is left of it where the strip lies. All must outlive this.
-  StripEvaluator(const MaterialProgram& materials, const program::Program& program, const Lattice& lattice,
-                 Dither dither, uint64_t seed);
+  // Forgets what was there; `checks[layer][check]` outlives this.
+  void begin(const TileBox& strip, std::vector<std::vector<CheckHits>>& checks);
+  bool touched() const { return touched_; }  // else all of it is void
+  const std::vector<MaterialId>& ids() const { return ids_; }
 
-  // Buffers hold the strip's voxels, x fastest, then y, then z. Returns false if all of it is void,
-  // and then leaves the buffer alone.
-  bool run(const TileBox& strip, const StripSources& sources, std::vector<MaterialId>& buffer,
-           std::vector<std::vector<CheckHits>>& checks);
+  MaterialId* at(int64_t i, int64_t j, int64_t k);
+  void fill(const TileBox& tile, MaterialId material);
+  void note_check(size_t check, int64_t i, int64_t j, int64_t k);
 
  private:
-  void descend(const program::Program& program, const TileBox& tile);
-  void fill(const TileBox& tile, MaterialId material);
-  void evaluate(program::Program program, const TileBox& tile);
-  void evaluate_row(const program::Program& program, size_t early, const TileBox& tile, int64_t j, int64_t k);
-  void quantise_row(const program::Program& program, int64_t begin, int64_t end, const TileBox& tile, int64_t j,
-                    int64_t k);
-  void count_checks(const program::Program& program, const TileBox& tile, int64_t j, int64_t k);
-  MaterialId* voxels(int64_t i, int64_t j, int64_t k);
-
-  const MaterialProgram& materials_;
-  const program::Program& program_;
-  const Lattice& lattice_;
-  Dither dither_;
-  uint64_t seed_;
   TileBox strip_;
-  const StripSources* sources_ = nullptr;
-  std::vector<MaterialId>* buffer_ = nullptr;
-  std::vector<std::vector<CheckHits>>* checks_ = nullptr;
   bool touched_ = false;
-  eval::RowEvaluator rows_;
-  std::vector<double> xs_, fractions_;
-  std::vector<Interval> intervals_;
+  std::vector<MaterialId> ids_;
+  std::vector<std::vector<CheckHits>>* checks_ = nullptr;
 };
 
 }  // namespace ombre::voxel

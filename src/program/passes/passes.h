@@ -12,7 +12,8 @@ Program inline_bodies(const Program& program);
 
 // The program for a region in which the instructions have the given values: what is settled there
 // becomes a constant, what cannot win a min, max or select falls away.
-Program shorten(const Program& program, const std::vector<Interval>& values);
+// `kept`, if given, gets the values of the instructions that are left.
+Program shorten(const Program& program, const std::vector<Interval>& values, std::vector<Interval>* kept = nullptr);
 
 // Where a distance is only compared with zero, compares what decides its sign. Sets and materials stay
 // what they are but for rounding at boundaries.

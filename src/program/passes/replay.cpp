@@ -17,7 +17,7 @@ Field copy(Builder& builder, const Program& program, const Instruction& in, cons
       return builder.affine(program.maps[in.aux], at(in.a), at(in.b), at(in.c));
     case Op::source: {
       const Read& read = program.reads[in.aux];
-      return builder.source(read.source, read.channel, at(in.a), at(in.b), at(in.c));
+      return builder.source(read.source, read.channel, at(in.a), at(in.b), at(in.c), read.tag);
     }
     case Op::call:
       ASSERT(false && "calls are inlined before");

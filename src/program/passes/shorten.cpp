@@ -5,6 +5,8 @@
 namespace ombre::program {
 namespace {
 
+bool lacks_zero(Interval v) { return v.lo > 0 || v.hi < 0; }
+
 // The operand that an instruction is sure to equal, or the instruction itself.
 ValueId settled(const Program& program, ValueId i, const std::vector<Interval>& values) {
   const Instruction& in = program.code[i];
@@ -26,6 +28,15 @@ ValueId settled(const Program& program, ValueId i, const std::vector<Interval>& 
       if (values[in.a].lo > 0 || values[in.a].hi < 0) return in.b;
       if (values[in.a] == Interval(0)) return in.c;
       return i;
+    case Op::add:
+      // Zeros aside, whose sign a sum may change.
+      if (values[in.a] == Interval(0) && lacks_zero(values[in.b])) return in.b;
+      if (values[in.b] == Interval(0) && lacks_zero(values[in.a])) return in.a;
+      return i;
+    case Op::multiply:
+      if (values[in.a] == Interval(1)) return in.b;
+      if (values[in.b] == Interval(1)) return in.a;
+      return i;
     default:
       return i;
   }
@@ -33,7 +44,10 @@ ValueId settled(const Program& program, ValueId i, const std::vector<Interval>& 
 
 class Shortener {
  public:
-  Shortener(const Program& program, const std::vector<Interval>& values) : from_(program), values_(values) {}
+  Shortener(const Program& program, const std::vector<Interval>& values, std::vector<Interval>* kept)
+      : from_(program), values_(values), kept_(kept) {
+    if (kept_) kept_->clear();
+  }
 
   Program run() {
     find_needed();
@@ -99,11 +113,13 @@ class Shortener {
       }
       renamed_[i] = static_cast<ValueId>(to_.code.size());
       to_.code.push_back(in);
+      if (kept_) kept_->push_back(values_[i]);
     }
   }
 
   const Program& from_;
   const std::vector<Interval>& values_;
+  std::vector<Interval>* kept_;
   Program to_;
   std::vector<ValueId> target_, renamed_;
   std::vector<bool> needed_;
@@ -111,8 +127,8 @@ class Shortener {
 
 }  // namespace
 
-Program shorten(const Program& program, const std::vector<Interval>& values) {
-  return Shortener(program, values).run();
+Program shorten(const Program& program, const std::vector<Interval>& values, std::vector<Interval>* kept) {
+  return Shortener(program, values, kept).run();
 }
 
 }  // namespace ombre::program

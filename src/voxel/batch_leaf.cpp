@@ -1,0 +1,140 @@
+// Tiles in float batches.
+#include <cmath>
+
+#include "eval/batch/batch.h"
+#include "program/passes/passes.h"
+#include "voxel/choose.h"
+#include "voxel/draws.h"
+#include "voxel/leaf.h"
+
+namespace ombre::voxel {
+namespace {
+
+class TileRows : public eval::SourceRows {
+ public:
+  TileRows(const StripSources& sources, const TileBox& tile) : sources_(sources), tile_(tile) {}
+  bool has(const program::Read& read) const override { return sources_.has(read.tag); }
+  void fill(const program::Read& read, size_t j, size_t k, std::span<float> values) const override {
+    sources_.fill(read.tag, tile_.lo[0], tile_.lo[1] + static_cast<int64_t>(j), tile_.lo[2] + static_cast<int64_t>(k),
+                  values);
+  }
+
+ private:
+  const StripSources& sources_;
+  const TileBox& tile_;
+};
+
+class BatchLeaf : public LeafEvaluator {
+ public:
+  BatchLeaf(const VoxelJob& job, const eval::KernelSet& kernels)
+      : job_(job), choice_(choice_kernels(kernels.name)), batch_(kernels), reference_(reference_leaf(job)) {}
+
+  void evaluate(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile,
+                const StripSources& sources, StripVoxels& voxels) override {
+    tile_ = tile;
+    sources_ = &sources;
+    voxels_ = &voxels;
+    may_be_unknown_ = false;
+    for (const program::ValueId id : program.outputs)
+      may_be_unknown_ = may_be_unknown_ || ranges[id].is_everything();
+    has_reference_ = false;
+    place(tile);
+    const TileRows rows(sources, tile_);
+    batch_.begin(program, ranges, {xs_, ys_, zs_}, rows);
+    for (size_t k = 0; k < zs_.size(); ++k) {
+      batch_.begin_layer(k);
+      for (size_t j = 0; j < ys_.size(); ++j) evaluate_row(j, tile.lo[1] + static_cast<int64_t>(j), tile.lo[2] + static_cast<int64_t>(k));
+    }
+  }
+
+ private:
+  void place(const TileBox& tile) {
+    const Lattice& lattice = job_.lattice;
+    const auto centers = [&](size_t axis, std::vector<float>& values) {
+      values.clear();
+      for (int64_t n = tile.lo[axis]; n < tile.hi[axis]; ++n)
+        values.push_back(static_cast<float>(lattice.center(n, n, n)[static_cast<int>(axis)]));
+    };
+    centers(0, xs_);
+    centers(1, ys_);
+    centers(2, zs_);
+  }
+
+  void evaluate_row(size_t row, int64_t j, int64_t k) {
+    batch_.begin_row(row);
+    const eval::Values inside = batch_.output(0);
+    if (inside.is_number ? *inside.row == 0 : !choice_.any(inside.row, xs_.size())) return;
+    batch_.finish_row();
+    thresholds_.clear();
+    for (size_t t = 0; t < job_.selector.threshold_count; ++t) thresholds_.push_back(batch_.output(1 + t));
+    MaterialId* out = voxels_->at(tile_.lo[0], j, k);
+    const ChoiceRow choice{inside,      thresholds_, job_.selector.materials, draws_of_row(job_.seed, j, k),
+                           tile_.lo[0], xs_.size()};
+    choice_.choose(choice, out);
+    for (size_t c = 0; c < job_.selector.check_count; ++c) count_check(c, inside, j, k);
+    if (may_be_unknown_) redo_unknown(inside, j, k);
+  }
+
+  void count_check(size_t check, const eval::Values& inside, int64_t j, int64_t k) {
+    const eval::Values marks = batch_.output(1 + job_.selector.threshold_count + check);
+    if (marks.is_number && *marks.row == 0) return;
+    for (size_t n = 0; n < xs_.size(); ++n) {
+      const bool counts = inside[n] != 0 && marks[n] != 0 && !is_unknown(n, inside);
+      if (counts) voxels_->note_check(check, tile_.lo[0] + static_cast<int64_t>(n), j, k);
+    }
+  }
+
+  bool is_unknown(size_t n, const eval::Values& inside) const {
+    if (!may_be_unknown_) return false;
+    if (std::isnan(inside[n])) return true;
+    if (inside[n] == 0) return false;
+    for (size_t output = 1; output <= job_.selector.threshold_count + job_.selector.check_count; ++output)
+      if (std::isnan(batch_.output(output)[n])) return true;
+    return false;
+  }
+
+  // Stretches of voxels that ended as NaN.
+  void redo_unknown(const eval::Values& inside, int64_t j, int64_t k) {
+    for (size_t n = 0; n < xs_.size();) {
+      size_t end = n;
+      while (end < xs_.size() && is_unknown(end, inside)) ++end;
+      if (end > n) redo({{tile_.lo[0] + static_cast<int64_t>(n), j, k}, {tile_.lo[0] + static_cast<int64_t>(end), j + 1, k + 1}});
+      n = end + 1;
+    }
+  }
+
+  void redo(const TileBox& stretch) {
+    if (!has_reference_) {
+      shorten_reference();
+      has_reference_ = true;
+    }
+    std::fill_n(voxels_->at(stretch.lo[0], stretch.lo[1], stretch.lo[2]), stretch.size(0), MaterialId{0});
+    reference_->evaluate(reference_program_, {}, stretch, *sources_, *voxels_);
+  }
+
+  void shorten_reference() {
+    std::vector<Interval> ranges;
+    evaluate_intervals(job_.selector.reference, centers(job_.lattice, tile_), ranges, sources_->ranges(tile_));
+    reference_program_ = program::shorten(job_.selector.reference, ranges);
+  }
+
+  const VoxelJob& job_;
+  ChoiceKernels choice_;
+  eval::BatchEvaluator batch_;
+  std::unique_ptr<LeafEvaluator> reference_;
+  TileBox tile_;
+  const StripSources* sources_ = nullptr;
+  StripVoxels* voxels_ = nullptr;
+  bool may_be_unknown_ = false, has_reference_ = false;
+  program::Program reference_program_;
+  std::vector<float> xs_, ys_, zs_;
+  std::vector<eval::Values> thresholds_;
+};
+
+}  // namespace
+
+std::unique_ptr<LeafEvaluator> batch_leaf(const VoxelJob& job, const eval::KernelSet& kernels) {
+  return std::make_unique<BatchLeaf>(job, kernels);
+}
+
+}  // namespace ombre::voxel

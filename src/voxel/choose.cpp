@@ -1,0 +1,135 @@
+#include "voxel/choose.h"
+
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "voxel/choose.cpp"
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#include <hwy/foreach_target.h>
+//
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace ombre::voxel {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::ScalableTag<float>;
+using DU = hn::RebindToUnsigned<D>;
+using DI = hn::RebindToSigned<D>;
+using V = hn::Vec<D>;
+using VU = hn::Vec<DU>;
+
+// quantise.h has the meaning.
+HWY_INLINE VU scramble(VU h) {
+  const DU d;
+  h = hn::Xor(h, hn::ShiftRight<16>(h));
+  h = hn::Mul(h, hn::Set(d, 0x7FEB352Du));
+  h = hn::Xor(h, hn::ShiftRight<15>(h));
+  h = hn::Mul(h, hn::Set(d, 0x846CA68Bu));
+  return hn::Xor(h, hn::ShiftRight<16>(h));
+}
+
+struct HashDraws {
+  explicit HashDraws(const ChoiceRow& row)
+      : next(hn::Add(hn::Set(DU(), row.draws.hash),
+                     hn::Mul(hn::Iota(DU(), static_cast<uint32_t>(row.i_begin)), hn::Set(DU(), 0xC2B2AE35u)))),
+        step(hn::Set(DU(), 0xC2B2AE35u * static_cast<uint32_t>(hn::Lanes(DU())))) {}
+  HWY_INLINE VU take(size_t) {
+    const VU draw = hn::ShiftRight<8>(scramble(next));
+    next = hn::Add(next, step);
+    return draw;
+  }
+  VU next, step;
+};
+
+struct TableDraws {
+  explicit TableDraws(const ChoiceRow& row)
+      : table(row.draws.table), first(static_cast<uint32_t>(row.i_begin) + row.draws.offset) {}
+  HWY_INLINE VU take(size_t n) const {
+    return hn::LoadU(DU(), table + ((first + static_cast<uint32_t>(n)) & 63));
+  }
+  const uint32_t* table;
+  uint32_t first;
+};
+
+HWY_INLINE V threshold(const eval::Values& values, size_t n) {
+  return values.is_number ? hn::Set(D(), *values.row) : hn::Load(D(), values.row + n);
+}
+
+// The materials of one vector of voxels, a number a lane.
+template <class Source>
+HWY_INLINE VU chosen(const ChoiceRow& row, Source& draws, size_t n) {
+  VU id = hn::Set(DU(), row.materials[0]);
+  if (!row.thresholds.empty()) {
+    const V u = hn::Mul(hn::ConvertTo(D(), hn::BitCast(DI(), draws.take(n))), hn::Set(D(), 0x1p-24f));
+    for (size_t t = 0; t < row.thresholds.size(); ++t) {
+      const auto beyond = hn::Ge(u, threshold(row.thresholds[t], n));
+      id = hn::IfThenElse(hn::RebindMask(DU(), beyond), hn::Set(DU(), row.materials[t + 1]), id);
+    }
+  }
+  if (row.inside.is_number) return id;
+  // A comparison with NaN is false.
+  const auto inside = hn::Gt(hn::Abs(hn::Load(D(), row.inside.row + n)), hn::Zero(D()));
+  return hn::IfThenElseZero(hn::RebindMask(DU(), inside), id);
+}
+
+HWY_INLINE void store(VU ids, MaterialId* out) {
+  const hn::Rebind<uint8_t, DU> bytes;
+  hn::StoreU(hn::U8FromU32(ids), bytes, out);
+}
+
+template <class Source>
+void choose_with(const ChoiceRow& row, MaterialId* voxels) {
+  Source draws(row);
+  const size_t lanes = hn::Lanes(DU());
+  size_t n = 0;
+  for (; n + lanes <= row.count; n += lanes) store(chosen(row, draws, n), voxels + n);
+  if (n == row.count) return;
+  MaterialId rest[64];
+  store(chosen(row, draws, n), rest);
+  std::memcpy(voxels + n, rest, row.count - n);
+}
+
+void choose(const ChoiceRow& row, MaterialId* voxels) {
+  if (row.inside.is_number && !(*row.inside.row != 0)) {
+    std::memset(voxels, 0, row.count);
+  } else if (row.inside.is_number && row.thresholds.empty()) {
+    std::memset(voxels, row.materials[0], row.count);
+  } else if (row.draws.table) {
+    choose_with<TableDraws>(row, voxels);
+  } else {
+    choose_with<HashDraws>(row, voxels);
+  }
+}
+
+bool any(const float* values, size_t count) {
+  size_t n = 0;
+  const size_t lanes = hn::Lanes(D());
+  for (; n + lanes <= count; n += lanes)
+    if (!hn::AllTrue(D(), hn::Eq(hn::Load(D(), values + n), hn::Zero(D())))) return true;
+  for (; n < count; ++n)
+    if (values[n] != 0) return true;
+  return false;
+}
+
+}  // namespace
+ChoiceKernels choice_kernels_here() { return {choose, any}; }
+}  // namespace HWY_NAMESPACE
+}  // namespace ombre::voxel
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ombre::voxel {
+
+ChoiceKernels choice_kernels([[maybe_unused]] std::string_view instruction_set) {
+#if HWY_ARCH_X86
+  if (instruction_set == "avx512") return N_AVX3::choice_kernels_here();
+  if (instruction_set == "avx2") return N_AVX2::choice_kernels_here();
+#endif
+  return HWY_STATIC_DISPATCH(choice_kernels_here)();
+}
+
+}  // namespace ombre::voxel
+#endif

@@ -1,0 +1,38 @@
+// Chooses the materials of a row of voxels from thresholds and draws, in SIMD.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "base/run.h"
+#include "eval/batch/batch.h"
+
+namespace ombre::voxel {
+
+// Where a row's draws come from: 24-bit whole numbers u, each standing for u / 2^24.
+struct Draws {
+  uint32_t hash = 0;                // row_hash(seed, j, k); voxel i draws draw(hash, i)
+  const uint32_t* table = nullptr;  // or a row of a mask of period 64, repeated for another 64
+  uint32_t offset = 0;              // voxel i draws table[(i + offset) % 64]
+};
+
+struct ChoiceRow {
+  eval::Values inside;  // not 0 where there is material
+  std::span<const eval::Values> thresholds;
+  std::span<const MaterialId> materials;  // one more than thresholds
+  Draws draws;
+  int64_t i_begin = 0;  // index of the row's first voxel
+  size_t count = 0;
+};
+
+// Rows of floats are padded as batches are. NaN counts as outside.
+struct ChoiceKernels {
+  void (*choose)(const ChoiceRow& row, MaterialId* voxels);
+  // Is any of the values not 0?
+  bool (*any)(const float* values, size_t count);
+};
+
+// By the name of a set of eval::kernel_sets(); all give the same voxels.
+ChoiceKernels choice_kernels(std::string_view instruction_set);
+
+}  // namespace ombre::voxel

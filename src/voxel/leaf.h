@@ -1,0 +1,32 @@
+// What evaluates the voxels of tiles that intervals cannot settle: the reference, or float batches.
+#pragma once
+
+#include <memory>
+
+#include "eval/batch/kernels.h"
+#include "voxel/selector.h"
+#include "voxel/tile.h"
+
+namespace ombre::voxel {
+
+// Everything that the voxels of a job depend on.
+struct VoxelJob {
+  Selector selector;
+  Lattice lattice;
+  uint64_t seed = 0;
+};
+
+// One thread's evaluator. `program` is what is left of the selector's in a tile, `ranges` its values there.
+class LeafEvaluator {
+ public:
+  virtual ~LeafEvaluator() = default;
+  virtual void evaluate(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile,
+                        const StripSources& sources, StripVoxels& voxels) = 0;
+};
+
+// Double precision, one op at a time.
+std::unique_ptr<LeafEvaluator> reference_leaf(const VoxelJob& job);
+// Floats. Voxels whose values floats cannot hold are evaluated by the reference.
+std::unique_ptr<LeafEvaluator> batch_leaf(const VoxelJob& job, const eval::KernelSet& kernels);
+
+}  // namespace ombre::voxel

@@ -1,0 +1,85 @@
+#include "voxel/walk.h"
+
+#include <bit>
+
+#include "program/passes/passes.h"
+
+namespace ombre::voxel {
+namespace {
+
+// Costs relative to one op on one voxel in a batch: of starting an op on a row, of an op on intervals
+// and of copying it to a shorter program.
+constexpr double row_cost = 60, question_cost = 500;
+// A level at which questions do not pay is tried again now and then.
+constexpr uint32_t patience = 32;
+constexpr double memory = 0.9;  // of the average gain
+
+size_t level_of(const TileBox& tile) { return static_cast<size_t>(std::bit_width(static_cast<uint64_t>(tile.voxels()))); }
+
+}  // namespace
+
+void TileWalk::run(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& strip,
+                   const StripSources& sources, StripVoxels& voxels) {
+  sources_ = &sources;
+  voxels_ = &voxels;
+  descend(program, ranges, strip);
+}
+
+bool TileWalk::is_small(const program::Program& program, const TileBox& tile) const {
+  const bool is_long = program.code.size() >= options_.long_program;
+  return tile.size(0) <= (is_long ? options_.small_leaf_width : options_.leaf_width) &&
+         tile.size(1) <= (is_long ? options_.small_leaf_height : options_.leaf_height);
+}
+
+// Will asking about the tile spare more than it costs?
+bool TileWalk::pays(const program::Program& program, const TileBox& tile) {
+  if (!options_.prune) return false;
+  if (must_cut(tile)) return true;
+  Gain& gain = gains_[level_of(tile)];
+  const auto ops = static_cast<double>(program.code.size());
+  const double rows = static_cast<double>(tile.size(1) * tile.size(2));
+  const double work = ops * (static_cast<double>(tile.voxels()) + rows * row_cost);
+  if (gain.share * work > ops * question_cost || ++gain.skipped >= patience) {
+    gain.skipped = 0;
+    return true;
+  }
+  return false;
+}
+
+void TileWalk::descend(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile) {
+  if (!pays(program, tile)) {
+    if (must_cut(tile)) return cut(program, ranges, tile);
+    return leaf_.evaluate(program, ranges, tile, *sources_, *voxels_);
+  }
+  std::vector<Interval> values;
+  evaluate_intervals(program, centers(job_.lattice, tile), values, sources_->ranges(tile), precision_);
+  const auto settled = job_.selector.settled(program, values);
+  Gain& gain = gains_[level_of(tile)];
+  if (settled) {
+    gain.share = memory * gain.share + (1 - memory);
+    if (*settled != 0) voxels_->fill(tile, *settled);
+    return;
+  }
+  std::vector<Interval> kept;
+  const program::Program shorter = program::shorten(program, values, &kept);
+  const double left = static_cast<double>(shorter.code.size()) / static_cast<double>(program.code.size());
+  gain.share = memory * gain.share + (1 - memory) * std::max(0.0, 1 - left);
+  if (is_small(shorter, tile)) return leaf_.evaluate(shorter, kept, tile, *sources_, *voxels_);
+  cut(shorter, kept, tile);
+}
+
+// In halves along the longer side, counted in leaves.
+void TileWalk::cut(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile) {
+  const bool is_long = program.code.size() >= options_.long_program;
+  const int64_t width = is_long ? options_.small_leaf_width : options_.leaf_width;
+  const int64_t height = is_long ? options_.small_leaf_height : options_.leaf_height;
+  const size_t axis = tile.size(0) * height > tile.size(1) * width ? 0 : 1;
+  const int64_t unit = axis == 0 ? width : height;
+  const int64_t units = (tile.size(static_cast<int>(axis)) + unit - 1) / unit;
+  TileBox low = tile, high = tile;
+  low.hi[axis] = high.lo[axis] = tile.lo[axis] + (units / 2) * unit;
+  descend(program, ranges, low);
+  descend(program, ranges, high);
+}
+
+}  // namespace ombre::voxel
