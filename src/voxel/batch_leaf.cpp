@@ -35,15 +35,15 @@ class BatchLeaf : public LeafEvaluator {
     sources_ = &sources;
     voxels_ = &voxels;
     may_be_unknown_ = false;
-    for (const program::ValueId id : program.outputs)
-      may_be_unknown_ = may_be_unknown_ || ranges[id].is_everything();
+    for (const program::ValueId id : program.outputs) may_be_unknown_ = may_be_unknown_ || ranges[id].is_everything();
     has_reference_ = false;
     place(tile);
     const TileRows rows(sources, tile_);
     batch_.begin(program, ranges, {xs_, ys_, zs_}, rows);
     for (size_t k = 0; k < zs_.size(); ++k) {
       batch_.begin_layer(k);
-      for (size_t j = 0; j < ys_.size(); ++j) evaluate_row(j, tile.lo[1] + static_cast<int64_t>(j), tile.lo[2] + static_cast<int64_t>(k));
+      for (size_t j = 0; j < ys_.size(); ++j)
+        evaluate_row(j, tile.lo[1] + static_cast<int64_t>(j), tile.lo[2] + static_cast<int64_t>(k));
     }
   }
 
@@ -98,7 +98,8 @@ class BatchLeaf : public LeafEvaluator {
     for (size_t n = 0; n < xs_.size();) {
       size_t end = n;
       while (end < xs_.size() && is_unknown(end, inside)) ++end;
-      if (end > n) redo({{tile_.lo[0] + static_cast<int64_t>(n), j, k}, {tile_.lo[0] + static_cast<int64_t>(end), j + 1, k + 1}});
+      if (end > n)
+        redo({{tile_.lo[0] + static_cast<int64_t>(n), j, k}, {tile_.lo[0] + static_cast<int64_t>(end), j + 1, k + 1}});
       n = end + 1;
     }
   }

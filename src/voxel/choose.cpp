@@ -47,9 +47,7 @@ struct HashDraws {
 struct TableDraws {
   explicit TableDraws(const ChoiceRow& row)
       : table(row.draws.table), first(static_cast<uint32_t>(row.i_begin) + row.draws.offset) {}
-  HWY_INLINE VU take(size_t n) const {
-    return hn::LoadU(DU(), table + ((first + static_cast<uint32_t>(n)) & 63));
-  }
+  HWY_INLINE VU take(size_t n) const { return hn::LoadU(DU(), table + ((first + static_cast<uint32_t>(n)) & 63)); }
   const uint32_t* table;
   uint32_t first;
 };

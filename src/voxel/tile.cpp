@@ -54,8 +54,7 @@ MaterialId* StripVoxels::at(int64_t i, int64_t j, int64_t k) {
     ids_.assign(static_cast<size_t>(strip_.voxels()), 0);
     touched_ = true;
   }
-  return ids_.data() + ((k - strip_.lo[2]) * strip_.size(1) + (j - strip_.lo[1])) * strip_.size(0) +
-         (i - strip_.lo[0]);
+  return ids_.data() + ((k - strip_.lo[2]) * strip_.size(1) + (j - strip_.lo[1])) * strip_.size(0) + (i - strip_.lo[0]);
 }
 
 void StripVoxels::fill(const TileBox& tile, MaterialId material) {

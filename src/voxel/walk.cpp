@@ -14,7 +14,9 @@ constexpr double row_cost = 60, question_cost = 500;
 constexpr uint32_t patience = 32;
 constexpr double memory = 0.9;  // of the average gain
 
-size_t level_of(const TileBox& tile) { return static_cast<size_t>(std::bit_width(static_cast<uint64_t>(tile.voxels()))); }
+size_t level_of(const TileBox& tile) {
+  return static_cast<size_t>(std::bit_width(static_cast<uint64_t>(tile.voxels())));
+}
 
 }  // namespace
 
