@@ -38,6 +38,14 @@ ProbeProgram build(const design::Design& design) {
   return result;
 }
 
+// The program with those of many parts written out that reach the point.
+program::Program parts_at(const program::Program& program, Vec3 point) {
+  if (!program.has_parts()) return program;
+  std::vector<Interval> ranges;
+  program::evaluate_intervals(program, {point, point}, ranges);
+  return program::expand_parts(program, ranges, program::Precision::reference);
+}
+
 }  // namespace
 
 std::optional<std::vector<ProbeResult>> probe(const Loaded& loaded, const std::vector<Vec3>& points,
@@ -48,9 +56,10 @@ std::optional<std::vector<ProbeResult>> probe(const Loaded& loaded, const std::v
   std::vector<ProbeResult> results;
   std::vector<double> values;
   for (const Vec3 point : points) {
-    program::evaluate_point(built.program, point, values);
+    const program::Program here = parts_at(built.program, point);
+    program::evaluate_point(here, point, values);
     size_t next = 0;
-    const auto output = [&] { return values[built.program.outputs[next++]]; };
+    const auto output = [&] { return values[here.outputs[next++]]; };
     ProbeResult result;
     result.point = point;
     result.inside = output() != 0;

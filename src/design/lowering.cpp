@@ -58,6 +58,12 @@ LoweringContext::Body& LoweringContext::body_of(const Node& node) {
   return *slot;
 }
 
+uint32_t LoweringContext::register_check(const Node& node, const std::string& message) {
+  const auto [it, is_new] = check_numbers_.try_emplace({&node, message}, static_cast<uint32_t>(checks_.size()));
+  if (is_new) checks_.push_back({node.where(), message});
+  return it->second;
+}
+
 void LoweringContext::finish_bodies() {
   for (Body* body : body_order_) *body->program = body->builder.finish(body->outputs);
 }
@@ -74,7 +80,7 @@ Lowering::Key Lowering::key_of(const Node& node, const Point& p, Query query) {
 }
 
 LoweringContext::Body* Lowering::body_for(const Node& node) {
-  return &node != own_ && context_.is_shared(node) ? &context_.body_of(node) : nullptr;
+  return &node != own_ && !stands_alone_ && context_.is_shared(node) ? &context_.body_of(node) : nullptr;
 }
 
 Field Lowering::once(const Node& node, const Point& p, Query query,
@@ -182,10 +188,18 @@ MaterialId Lowering::material(const MaterialName& name) const {
 }
 
 uint32_t Lowering::add_check(const Node& node, const std::string& message) {
-  const auto [it, is_new] =
-      context_.check_numbers_.try_emplace({&node, message}, static_cast<uint32_t>(context_.checks_.size()));
-  if (is_new) context_.checks_.push_back({node.where(), message});
-  return it->second;
+  if (!stands_alone_) return context_.register_check(node, message);
+  for (size_t n = 0; n < local_checks_.size(); ++n)
+    if (local_checks_[n].node == &node && local_checks_[n].message == message) return static_cast<uint32_t>(n);
+  local_checks_.push_back({&node, message});
+  return static_cast<uint32_t>(local_checks_.size() - 1);
+}
+
+std::optional<PartFields> Lowering::many_parts(const Node& node, PartQuery query, const Point& p) {
+  if (stands_alone_) return std::nullopt;  // tables do not hold tables
+  const ManyParts* parts = context_.many_parts(node, query);
+  if (!parts) return std::nullopt;
+  return parts->at(p);
 }
 
 }  // namespace ombre::design

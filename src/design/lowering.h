@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "design/many_parts.h"
 #include "design/node.h"
 
 namespace ombre::design {
@@ -27,6 +28,9 @@ class LoweringContext {
   const MaterialTable& materials() const { return materials_; }
   const std::vector<Check>& checks() const { return checks_; }
   const std::vector<AttributeDeclaration>& attributes() const { return attributes_; }
+  uint32_t register_check(const Node& node, const std::string& message);
+  // The node's inputs as a table; null if they are few, or most do not go into one.
+  const ManyParts* many_parts(const Node& node, PartQuery query);
   // Writes the code of the bodies into their programs; call it when nothing more will be lowered.
   void finish_bodies();
 
@@ -44,6 +48,7 @@ class LoweringContext {
   std::map<std::pair<const Node*, std::string>, bool> carries_;  // does a node have an attribute?
   std::unordered_map<const Node*, std::unique_ptr<Body>> bodies_;
   std::vector<Body*> body_order_;
+  std::map<std::pair<const Node*, PartQuery>, std::unique_ptr<ManyParts>> many_parts_;
 };
 
 // Lowers nodes into one builder. A node that is used more than once becomes a body, a sub-program
@@ -58,6 +63,17 @@ class Lowering {
   Composition composition(const Node& node, const Point& p, Demand demand);
   Field attribute(const Node& node, std::string_view name, const Point& p, Demand demand);
   Field value(const Node& node, const Point& p);
+
+  // Inputs of a node as many parts; nothing if they are few.
+  std::optional<PartFields> many_parts(const Node& node, PartQuery query, const Point& p);
+  // From here on, nodes that are used more than once are not called as bodies, and checks are kept here
+  // instead of in the context: for sub-programs that stand for themselves.
+  void write_bodies_out() { stands_alone_ = true; }
+  struct LocalCheck {
+    const Node* node;
+    std::string message;
+  };
+  const std::vector<LocalCheck>& local_checks() const { return local_checks_; }
 
   bool has_attribute(const Node& node, std::string_view name);
   const AttributeDeclaration* declaration(std::string_view name) const;
@@ -90,6 +106,8 @@ class Lowering {
   LoweringContext& context_;
   program::Builder& builder_;
   const Node* own_ = nullptr;  // the node whose body this is: it is lowered here, not called
+  bool stands_alone_ = false;
+  std::vector<LocalCheck> local_checks_;
   std::unordered_map<Key, Field, KeyHash> fields_;
   std::unordered_map<Key, Composition, KeyHash> compositions_;
 

@@ -84,6 +84,10 @@ AttributeDeclaration Inputs::declaration(std::string_view attribute_name) const 
 }
 Field Inputs::value(size_t i, const Point& p) const { return lowering_->value(input(i), p); }
 
+std::optional<PartFields> Inputs::many_parts(PartQuery query, const Point& p) const {
+  return lowering_->many_parts(node_, query, p);
+}
+
 std::vector<Field> Inputs::distances(const Point& p) const {
   std::vector<Field> fields;
   for (size_t i = 0; i < count(); ++i) fields.push_back(distance(i, p));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "design/lowered.h"
+#include "design/many_parts.h"
 #include "design/values.h"
 
 namespace ombre::design {
@@ -58,6 +59,9 @@ class Inputs {
   bool has_attribute(size_t i, std::string_view attribute_name) const;
   Field value(size_t i, const Point& p) const;  // of an input that is a field
   AttributeDeclaration declaration(std::string_view attribute_name) const;
+
+  // The inputs as a table of many parts; nothing if they are few.
+  std::optional<PartFields> many_parts(PartQuery query, const Point& p) const;
 
   // All inputs at one point.
   std::vector<Field> distances(const Point& p) const;

@@ -43,7 +43,8 @@ void RowEvaluator::run(const Program& program, size_t begin, size_t end, const S
         run_source(program, in, {out, n}, source_row);
         break;
       case Op::call:
-        ASSERT(false && "calls are inlined before evaluation");
+      case Op::parts:
+        ASSERT(false && "calls and parts are written out before evaluation");
         break;
 #define OMBRE_LANE_1(name) math::name(a[p])
 #define OMBRE_LANE_2(name) math::name(a[p], b[p])

@@ -56,17 +56,39 @@ struct Union {
   }
 
   Field distance(const Inputs& in, const Point& p) const { return program::fold(in.distances(p), program::min); }
-  Field inside(const Inputs& in, const Point& p) const { return program::fold(in.insides(p), program::logical_or); }
-  Field interior(const Inputs& in, const Point& p) const { return program::fold(in.interiors(p), program::logical_or); }
+
+  Field inside(const Inputs& in, const Point& p) const {
+    const auto parts = in.many_parts(query(), p);
+    if (!parts) return program::fold(in.insides(p), program::logical_or);
+    Field any = parts->inside;
+    for (const size_t i : parts->others) any = logical_or(any, in.inside(i, p));
+    return any;
+  }
+
+  Field interior(const Inputs& in, const Point& p) const {
+    const auto parts = in.many_parts(PartQuery::interior, p);
+    if (!parts) return program::fold(in.interiors(p), program::logical_or);
+    Field any = parts->inside;
+    for (const size_t i : parts->others) any = logical_or(any, in.interior(i, p));
+    return any;
+  }
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     if (in.count() == 1) return in.composition(0, p, demand);
+    const auto parts = demand == Demand::inside ? in.many_parts(query(), p) : std::nullopt;
+    if (parts && materials == "mix") return mixed(in, p, *parts);
+    if (parts && parts->others.empty()) return parts->composition;
     return weighted(in, p, demand, overlap_weights(in, p, demand, materials));
   }
 
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
     if (in.count() == 1) return in.attribute(0, name, p, demand);
     return overlapping_attribute(in, name, p, demand, overlap_weights(in, p, demand, "mix"), in.declaration(name));
+  }
+
+ private:
+  PartQuery query() const {
+    return materials == "mix" ? PartQuery::mix : materials == "first" ? PartQuery::first : PartQuery::last;
   }
 };
 

@@ -46,6 +46,40 @@ Composition weighted(const Inputs& in, const Point& p, Demand demand, const std:
   return result;
 }
 
+Composition mixed(const design::Inputs& in, const Point& p, const design::PartFields& parts) {
+  std::vector<Composition> others;
+  for (const size_t i : parts.others) others.push_back(in.composition(i, p, Demand::inside));
+  if (parts.only) {
+    others.push_back(Composition::pure(*parts.only, p.constant(1)));
+    if (is_one_material(others)) return others.back();
+    others.pop_back();
+  }
+
+  const Field zero = p.constant(0);
+  Field count = parts.count;
+  std::map<MaterialId, Field> sums;
+  std::map<uint32_t, Field> marks;
+  for (const auto& [id, sum] : parts.composition.fractions) sums[id] = sum;
+  for (const auto& [number, mark] : parts.composition.checks) marks[number] = mark;
+  for (size_t n = 0; n < others.size(); ++n) {
+    const Field holds = in.inside(parts.others[n], p);
+    count = count + holds;
+    for (const auto& [id, fraction] : others[n].fractions) {
+      const Field term = select(holds, fraction, zero);
+      Field& sum = sums[id];
+      sum = sum ? sum + term : term;
+    }
+    for (const auto& [number, mark] : others[n].checks) {
+      Field& bad = marks[number];
+      bad = bad ? logical_or(bad, logical_and(holds, mark)) : logical_and(holds, mark);
+    }
+  }
+  Composition result;
+  for (const auto& [id, sum] : sums) result.fractions.emplace_back(id, sum / count);
+  for (const auto& [number, mark] : marks) result.checks.emplace_back(number, mark);
+  return result;
+}
+
 std::vector<Field> first_true(const std::vector<Field>& marks) {
   std::vector<Field> result;
   Field before = marks[0].builder->constant(0);

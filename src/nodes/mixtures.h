@@ -10,6 +10,9 @@ namespace ombre::nodes {
 design::Composition weighted(const design::Inputs& in, const program::Point& p, design::Demand demand,
                              const std::vector<program::Field>& weights);
 
+// The mean of all inputs that hold the point, when most of them are rows of a table.
+design::Composition mixed(const design::Inputs& in, const program::Point& p, const design::PartFields& parts);
+
 // Truth values: is this input's distance the least, the first on ties?
 std::vector<program::Field> nearest(const std::vector<program::Field>& distances);
 // Keeps of several truth values only the first that is true (or the last).

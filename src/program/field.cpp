@@ -168,6 +168,19 @@ Field Builder::call(const std::shared_ptr<Program>& body, uint32_t output, Field
   return field;
 }
 
+Field Builder::parts(const std::shared_ptr<const PartSet>& set, size_t slot, Field a, Field b, Field c) {
+  Instruction in;
+  in.op = Op::parts;
+  in.a = a.id;
+  in.b = b.id;
+  in.c = c.id;
+  in.aux = static_cast<uint32_t>(part_sets_.size());
+  in.value = static_cast<double>(slot);
+  const Field field = intern({Op::parts, in.a, in.b, in.c, slot, set.get()}, in);
+  if (code_[field.id].aux == part_sets_.size()) part_sets_.push_back(set);
+  return field;
+}
+
 Program Builder::finish(const std::vector<std::pair<std::string, Field>>& outputs) const {
   std::vector<bool> needed(code_.size(), false);
   for (const auto& [name, field] : outputs) needed[field.id] = true;
@@ -195,6 +208,9 @@ Program Builder::finish(const std::vector<std::pair<std::string, Field>>& output
     } else if (in.op == Op::call) {
       program.calls.push_back(calls_[in.aux]);
       in.aux = static_cast<uint32_t>(program.calls.size() - 1);
+    } else if (in.op == Op::parts) {
+      program.part_sets.push_back(part_sets_[in.aux]);
+      in.aux = static_cast<uint32_t>(program.part_sets.size() - 1);
     }
     renamed[i] = static_cast<ValueId>(program.code.size());
     program.code.push_back(in);

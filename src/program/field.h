@@ -37,6 +37,9 @@ class Builder {
   // `body` may still grow; its outputs are numbered in the order in which they were added.
   Field call(const std::shared_ptr<Program>& body, uint32_t output, Field a, Field b, Field c);
 
+  // Slot of many parts.
+  Field parts(const std::shared_ptr<const PartSet>& set, size_t slot, Field a, Field b, Field c);
+
   std::optional<double> constant_value(Field field) const;
   bool is_truth(Field field) const;  // is its value always 0 or 1?
   size_t size() const { return code_.size(); }
@@ -61,6 +64,7 @@ class Builder {
   std::vector<AffineRow> maps_;
   std::vector<Read> reads_;
   std::vector<Call> calls_;
+  std::vector<std::shared_ptr<const PartSet>> part_sets_;
   std::unordered_map<Key, ValueId, KeyHash> known_;
 };
 

@@ -30,6 +30,7 @@ enum class Op : uint8_t {
   affine,    // ((m[0]*a + m[1]*b) + m[2]*c) + m[3], with m = program.maps[aux]
   source,    // channel of a field source at (a, b, c); program.reads[aux]
   call,      // output of a body at (a, b, c); program.calls[aux]
+  parts,     // slot `value` of many parts at (a, b, c); program.part_sets[aux]
 #define OMBRE_ROW(name, arity) name,
   OMBRE_OPS(OMBRE_ROW)
 #undef OMBRE_ROW
@@ -46,6 +47,7 @@ inline OpInfo info(Op op) {
                                                 {"affine", 3},
                                                 {"source", 3},
                                                 {"call", 3},
+                                                {"parts", 3},
 #define OMBRE_ROW(name, arity) {#name, arity},
                                                 OMBRE_OPS(OMBRE_ROW)
 #undef OMBRE_ROW

@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "base/text.h"
+#include "program/parts.h"
 #include "program/single.h"
 
 namespace ombre::program {
@@ -40,6 +41,12 @@ std::string describe(const Program& program, const Instruction& in, std::map<con
       const Call& call = program.calls[in.aux];
       const size_t number = bodies.try_emplace(call.body.get(), bodies.size()).first->second;
       text += " body" + std::to_string(number) + "." + call.body->output_names[call.output];
+      break;
+    }
+    case Op::parts: {
+      const PartSet& set = *program.part_sets[in.aux];
+      text += " slot " + format_number(in.value) + " of " + std::to_string(set.reference.size()) + " parts in " +
+              std::to_string(set.reference.body_count()) + " kinds at";
       break;
     }
     default:
@@ -113,6 +120,11 @@ void evaluate_intervals(const Program& program, const Box& box, std::vector<Inte
       case Op::call:
         ASSERT(false && "calls are inlined before evaluation");
         break;
+      case Op::parts: {
+        const Box where{{a.lo, b.lo, c.lo}, {a.hi, b.hi, c.hi}};
+        values[i] = program.part_sets[in.aux]->index.reaches(where) ? Interval::everything() : Interval(0);
+        break;
+      }
       case Op::divide:
         if (in.a == in.b && a.is_bounded() && (a.lo > 0 || a.hi < 0)) {
           values[i] = 1;
@@ -144,7 +156,8 @@ void evaluate_point(const Program& program, Vec3 p, std::vector<double>& values)
         values[i] = program.reads[in.aux].source->sample(program.reads[in.aux].channel, {a, b, c});
         break;
       case Op::call:
-        ASSERT(false && "calls are inlined before evaluation");
+      case Op::parts:
+        ASSERT(false && "calls and parts are written out before evaluation");
         break;
       default:
         values[i] = apply(in.op, a, b, c);

@@ -16,8 +16,8 @@ using ValueId = uint32_t;
 struct Instruction {
   Op op = Op::constant;
   ValueId a = 0, b = 0, c = 0;
-  uint32_t aux = 0;  // index into maps, reads or calls
-  double value = 0;  // of constants; the number of an input
+  uint32_t aux = 0;  // index into maps, reads, calls or part sets
+  double value = 0;  // of constants; the number of an input or of a slot
 };
 
 struct Read {
@@ -27,6 +27,7 @@ struct Read {
 };
 
 struct Program;
+struct PartSet;
 
 struct Call {
   std::shared_ptr<const Program> body;
@@ -39,10 +40,12 @@ struct Program {
   std::vector<AffineRow> maps;
   std::vector<Read> reads;
   std::vector<Call> calls;
+  std::vector<std::shared_ptr<const PartSet>> part_sets;  // parts.h
   std::vector<ValueId> outputs;
   std::vector<std::string> output_names;  // as many as outputs; for printing
 
   bool has_calls() const { return !calls.empty(); }
+  bool has_parts() const { return !part_sets.empty(); }
 };
 
 // One line an instruction, then the outputs; bodies after the program that calls them.
@@ -59,7 +62,7 @@ enum class Precision : uint8_t { reference, batch };
 void evaluate_intervals(const Program& program, const Box& box, std::vector<Interval>& values,
                         const SourceRanges& source_ranges = nullptr, Precision precision = Precision::reference);
 
-// Value of each instruction at a point, in double precision: the reference.
+// Value of each instruction at a point, in double precision: the reference. Without calls and parts.
 void evaluate_point(const Program& program, Vec3 p, std::vector<double>& values);
 
 }  // namespace ombre::program

@@ -116,7 +116,10 @@ class BatchLeaf : public LeafEvaluator {
   void shorten_reference() {
     std::vector<Interval> ranges;
     evaluate_intervals(job_.selector.reference, centers(job_.lattice, tile_), ranges, sources_->ranges(tile_));
-    reference_program_ = program::shorten(job_.selector.reference, ranges);
+    std::vector<Interval> kept;
+    reference_program_ = program::shorten(job_.selector.reference, ranges, &kept);
+    if (reference_program_.has_parts())
+      reference_program_ = program::expand_parts(reference_program_, kept, program::Precision::reference);
   }
 
   const VoxelJob& job_;

@@ -94,7 +94,8 @@ TEST(Layers, AreTheSameWhateverWayTheyAreEvaluated) {
     for (const int64_t width : {16, 48, 512}) {
       EvaluatorOptions options;
       options.leaf_width = width;
-      expect_same(evaluate(program, lattice, options, 3, dither), expected, "tiles of " + std::to_string(width), program);
+      expect_same(evaluate(program, lattice, options, 3, dither), expected, "tiles of " + std::to_string(width),
+                  program);
     }
     expect_same(evaluate(program, lattice, plain, 1, dither), expected, "single layers", program);
     if (testing::Test::HasFailure()) return;
@@ -123,7 +124,8 @@ TEST(Layers, BatchesFollowTheReference) {
   }
   EXPECT_LT(static_cast<double>(different), 1e-3 * static_cast<double>(voxels));
   EXPECT_GT(static_cast<double>(inside), 0.1 * static_cast<double>(voxels));
-  RecordProperty("different_voxels_per_million", static_cast<int>(1e6 * static_cast<double>(different) / static_cast<double>(voxels)));
+  RecordProperty("different_voxels_per_million",
+                 static_cast<int>(1e6 * static_cast<double>(different) / static_cast<double>(voxels)));
 }
 
 }  // namespace ombre::voxel

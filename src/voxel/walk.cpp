@@ -28,7 +28,7 @@ void TileWalk::run(const program::Program& program, const std::vector<Interval>&
 }
 
 bool TileWalk::is_small(const program::Program& program, const TileBox& tile) const {
-  const bool is_long = program.code.size() >= options_.long_program;
+  const bool is_long = is_long_program(program);
   return tile.size(0) <= (is_long ? options_.small_leaf_width : options_.leaf_width) &&
          tile.size(1) <= (is_long ? options_.small_leaf_height : options_.leaf_height);
 }
@@ -49,10 +49,12 @@ bool TileWalk::pays(const program::Program& program, const TileBox& tile) {
 }
 
 void TileWalk::descend(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile) {
-  if (!pays(program, tile)) {
-    if (must_cut(tile)) return cut(program, ranges, tile);
-    return leaf_.evaluate(program, ranges, tile, *sources_, *voxels_);
-  }
+  if (program.has_parts() || pays(program, tile)) return ask(program, tile);
+  if (must_cut(tile)) return cut(program, ranges, tile);
+  leaf_.evaluate(program, ranges, tile, *sources_, *voxels_);
+}
+
+void TileWalk::ask(const program::Program& program, const TileBox& tile) {
   std::vector<Interval> values;
   evaluate_intervals(program, centers(job_.lattice, tile), values, sources_->ranges(tile), precision_);
   const auto settled = job_.selector.settled(program, values);
@@ -64,6 +66,11 @@ void TileWalk::descend(const program::Program& program, const std::vector<Interv
   }
   std::vector<Interval> kept;
   const program::Program shorter = program::shorten(program, values, &kept);
+  if (shorter.has_parts()) {
+    const bool few = parts_in_reach(shorter, kept, options_.many_parts) < options_.many_parts;
+    if (must_cut(tile) || !(few || is_small(shorter, tile))) return cut(shorter, kept, tile);
+    return ask(program::expand_parts(shorter, kept, precision_), tile);
+  }
   const double left = static_cast<double>(shorter.code.size()) / static_cast<double>(program.code.size());
   gain.share = memory * gain.share + (1 - memory) * std::max(0.0, 1 - left);
   if (is_small(shorter, tile)) return leaf_.evaluate(shorter, kept, tile, *sources_, *voxels_);
@@ -72,7 +79,7 @@ void TileWalk::descend(const program::Program& program, const std::vector<Interv
 
 // In halves along the longer side, counted in leaves.
 void TileWalk::cut(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile) {
-  const bool is_long = program.code.size() >= options_.long_program;
+  const bool is_long = is_long_program(program);
   const int64_t width = is_long ? options_.small_leaf_width : options_.leaf_width;
   const int64_t height = is_long ? options_.small_leaf_height : options_.leaf_height;
   const size_t axis = tile.size(0) * height > tile.size(1) * width ? 0 : 1;

@@ -15,6 +15,7 @@ struct WalkOptions {
   int64_t leaf_width = 64, leaf_height = 8;
   int64_t small_leaf_width = 16, small_leaf_height = 4;
   size_t long_program = 100;  // instructions
+  size_t many_parts = 4;      // while so many reach a tile, it is cut before they are written out
   // Wider tiles are always cut.
   int64_t widest = 256, highest = 16;
 };
@@ -37,7 +38,11 @@ class TileWalk {
   };
 
   void descend(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile);
+  void ask(const program::Program& program, const TileBox& tile);
   void cut(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile);
+  bool is_long_program(const program::Program& program) const {
+    return program.has_parts() || program.code.size() >= options_.long_program;
+  }
   bool is_small(const program::Program& program, const TileBox& tile) const;
   bool must_cut(const TileBox& tile) const { return tile.size(0) > options_.widest || tile.size(1) > options_.highest; }
   bool pays(const program::Program& program, const TileBox& tile);

@@ -14,6 +14,7 @@ inline void copy_tables(const Program& from, Program& to, Instruction& in) {
   if (in.op == Op::affine) copy(from.maps, to.maps);
   if (in.op == Op::source) copy(from.reads, to.reads);
   if (in.op == Op::call) copy(from.calls, to.calls);
+  if (in.op == Op::parts) copy(from.part_sets, to.part_sets);
 }
 
 }  // namespace ombre::program

@@ -10,6 +10,13 @@ namespace ombre::program {
 // Replaces every call by the code of its body.
 Program inline_bodies(const Program& program);
 
+// Replaces ops that stand for many parts by the code of those that reach a region, in which the
+// instructions have the given values.
+Program expand_parts(const Program& program, const std::vector<Interval>& values, Precision precision);
+
+// How many parts such ops stand for in the region: of the op with the most of them, or `most`.
+size_t parts_in_reach(const Program& program, const std::vector<Interval>& values, size_t most);
+
 // The program for a region in which the instructions have the given values: what is settled there
 // becomes a constant, what cannot win a min, max or select falls away.
 // `kept`, if given, gets the values of the instructions that are left.

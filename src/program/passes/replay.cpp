@@ -19,6 +19,8 @@ Field copy(Builder& builder, const Program& program, const Instruction& in, cons
       const Read& read = program.reads[in.aux];
       return builder.source(read.source, read.channel, at(in.a), at(in.b), at(in.c), read.tag);
     }
+    case Op::parts:
+      return builder.parts(program.part_sets[in.aux], static_cast<size_t>(in.value), at(in.a), at(in.b), at(in.c));
     case Op::call:
       ASSERT(false && "calls are inlined before");
       return {};

@@ -1,0 +1,158 @@
+// Lowers the inputs of a node one by one into the rows of a table.
+#include "design/many_parts.h"
+
+#include <map>
+
+#include "design/lowering.h"
+#include "design/registry.h"
+#include "program/passes/passes.h"
+
+namespace ombre::design {
+namespace {
+
+using program::Builder;
+using program::Program;
+using program::SlotKind;
+
+// With fewer inputs, writing them out costs less than looking them up.
+constexpr size_t least_parts = 32;
+
+class PartsMaker {
+ public:
+  PartsMaker(LoweringContext& context, PartQuery query) : context_(context), query_(query) {
+    set_->slots.push_back(SlotKind::any);
+    if (query == PartQuery::mix) {
+      made_.count_slot = set_->slots.size();
+      set_->slots.push_back(SlotKind::sum);
+    }
+  }
+
+  ManyParts make(const Node& node) {
+    for (size_t i = 0; i < node.inputs().size(); ++i)
+      if (!add(*node.inputs()[i])) made_.others.push_back(i);
+    set_->index.build(boxes_);
+    if (is_one_material_ && !boxes_.empty() && query_ != PartQuery::interior) made_.only = material_;
+    made_.material_slots.assign(material_slots_.begin(), material_slots_.end());
+    for (const auto& [type, check] : checks_) made_.check_slots.emplace_back(check);
+    made_.set = std::move(set_);
+    return std::move(made_);
+  }
+
+ private:
+  // False: the input does not go into a table.
+  bool add(const Node& part) {
+    const Box bounds = part.bounds(design_space());
+    const Vec3 size = bounds.size();
+    if (bounds.is_empty() || std::max({size.x, size.y, size.z}) >= design_limit_mm) return false;
+    const Box box = program::grown_for_rounding(bounds);
+
+    Builder builder;
+    Lowering lowering(context_, builder);
+    lowering.write_bodies_out();
+    const Point p = Point::origin_frame(builder);
+    const Field mark = query_ == PartQuery::interior ? lowering.interior(part, p) : lowering.inside(part, p);
+    std::vector<std::pair<std::string, Field>> outputs{{"inside", mark}};
+    std::vector<int> slots{0};
+    if (query_ != PartQuery::interior) {
+      add_composition(lowering, part, mark, p, outputs, slots);
+      add_checks(lowering, mark, box, outputs, slots);
+    }
+    const Program program = builder.finish(outputs);
+    if (!program.reads.empty() || program.has_parts()) return false;
+    set_->reference.add(program, slots);
+    set_->batch.add(fuse(sign_only(program)), slots);
+    boxes_.push_back(box);
+    return true;
+  }
+
+  void set_slot(std::vector<int>& slots, size_t slot, size_t output) {
+    if (slots.size() <= slot) slots.resize(slot + 1, -1);
+    slots[slot] = static_cast<int>(output);
+  }
+
+  void add_composition(Lowering& lowering, const Node& part, Field mark, const Point& p,
+                       std::vector<std::pair<std::string, Field>>& outputs, std::vector<int>& slots) {
+    composition_ = lowering.composition(part, p, Demand::inside);
+    if (query_ == PartQuery::mix) set_slot(slots, made_.count_slot, 0);
+    for (const auto& [id, fraction] : composition_.fractions) {
+      set_slot(slots, material_slot(id), outputs.size());
+      // select, not a product: what a part says of a point outside of it may not be a number.
+      const Field term = query_ == PartQuery::mix ? select(mark, fraction, p.constant(0)) : fraction;
+      outputs.emplace_back("fraction", term);
+    }
+    const bool one = composition_.fractions.size() == 1;
+    if (one && boxes_.empty()) material_ = composition_.fractions[0].first;
+    is_one_material_ = is_one_material_ && one && composition_.fractions[0].first == material_;
+  }
+
+  size_t material_slot(MaterialId id) {
+    const auto [it, is_new] = material_slots_.try_emplace(id, set_->slots.size());
+    if (is_new)
+      set_->slots.push_back(query_ == PartQuery::mix     ? SlotKind::sum
+                            : query_ == PartQuery::first ? SlotKind::first
+                                                         : SlotKind::last);
+    return it->second;
+  }
+
+  // Checks that cannot fail where the part is are left out; the others share one for each kind of node.
+  void add_checks(Lowering& lowering, Field mark, const Box& box,
+                  std::vector<std::pair<std::string, Field>>& outputs, std::vector<int>& slots) {
+    if (composition_.checks.empty()) return;
+    std::vector<std::pair<std::string, Field>> marks;
+    for (const auto& [number, bad] : composition_.checks) marks.emplace_back("check", logical_and(mark, bad));
+    const Program program = lowering.builder().finish(marks);
+    if (!program.reads.empty()) return;
+    std::vector<Interval> ranges;
+    evaluate_intervals(program, box, ranges);
+    for (size_t n = 0; n < marks.size(); ++n) {
+      if (ranges[program.outputs[n]] == Interval(0)) continue;
+      is_one_material_ = false;
+      const Lowering::LocalCheck& check = lowering.local_checks()[composition_.checks[n].first];
+      set_slot(slots, check_slot(check), outputs.size());
+      outputs.push_back(marks[n]);
+    }
+  }
+
+  size_t check_slot(const Lowering::LocalCheck& check) {
+    const auto known = checks_.find(&check.node->type());
+    if (known != checks_.end()) return known->second.second;
+    const uint32_t number = context_.register_check(*check.node, check.message);
+    set_->slots.push_back(SlotKind::any);
+    checks_[&check.node->type()] = {number, set_->slots.size() - 1};
+    return set_->slots.size() - 1;
+  }
+
+  LoweringContext& context_;
+  PartQuery query_;
+  ManyParts made_;
+  std::shared_ptr<program::PartSet> set_ = std::make_shared<program::PartSet>();
+  std::vector<Box> boxes_;
+  Composition composition_;
+  std::map<MaterialId, size_t> material_slots_;
+  std::map<const NodeType*, std::pair<uint32_t, size_t>> checks_;
+  bool is_one_material_ = true;
+  MaterialId material_ = 0;
+};
+
+}  // namespace
+
+PartFields ManyParts::at(const Point& p) const {
+  const auto slot = [&](size_t number) { return p.builder().parts(set, number, p.x, p.y, p.z); };
+  PartFields fields;
+  fields.inside = slot(0);
+  if (count_slot > 0) fields.count = slot(count_slot);
+  for (const auto& [id, number] : material_slots) fields.composition.fractions.emplace_back(id, slot(number));
+  for (const auto& [check, number] : check_slots) fields.composition.checks.emplace_back(check, slot(number));
+  fields.others = others;
+  fields.only = only;
+  return fields;
+}
+
+const ManyParts* LoweringContext::many_parts(const Node& node, PartQuery query) {
+  if (node.inputs().size() < least_parts) return nullptr;
+  const auto [it, is_new] = many_parts_.try_emplace({&node, query});
+  if (is_new) it->second = std::make_unique<ManyParts>(PartsMaker(*this, query).make(node));
+  return it->second->others.size() + least_parts > node.inputs().size() ? nullptr : it->second.get();
+}
+
+}  // namespace ombre::design

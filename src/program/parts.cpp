@@ -1,0 +1,168 @@
+#include "program/parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/assert.h"
+
+namespace ombre::program {
+namespace {
+
+// Everything of a program but the values of its constants.
+std::string structure(const Program& program, const std::vector<int>& slots) {
+  std::string key;
+  key.reserve(program.code.size() * 13 + slots.size() * 4);
+  const auto append = [&](uint32_t value) { key.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  for (const Instruction& in : program.code) {
+    const int arity = info(in.op).arity;
+    key.push_back(static_cast<char>(in.op));
+    if (in.op == Op::input) append(static_cast<uint32_t>(in.value));
+    if (arity > 0) append(in.a);
+    if (arity > 1) append(in.b);
+    if (arity > 2) append(in.c);
+  }
+  for (const int slot : slots) append(slot < 0 ? PartTable::none : program.outputs[static_cast<size_t>(slot)]);
+  return key;
+}
+
+}  // namespace
+
+void PartTable::add(const Program& program, const std::vector<int>& slots) {
+  ASSERT(program.calls.empty() && program.reads.empty());
+  const auto [it, is_new] = known_.try_emplace(structure(program, slots), static_cast<uint32_t>(bodies_.size()));
+  if (is_new) bodies_.push_back({program, slots});
+  rows_.push_back({it->second, parameters_.size()});
+  for (const Instruction& in : program.code) {
+    if (in.op == Op::constant) parameters_.push_back(in.value);
+    if (in.op == Op::affine) parameters_.insert(parameters_.end(), program.maps[in.aux].begin(), program.maps[in.aux].end());
+  }
+}
+
+std::vector<ValueId> PartTable::append(uint32_t part, Program& to, const std::array<ValueId, 3>& inputs) const {
+  const Row& row = rows_[part];
+  const Body& body = bodies_[row.body];
+  const double* parameter = parameters_.data() + row.first;
+  std::vector<ValueId> renamed;
+  renamed.reserve(body.code.code.size());
+  for (Instruction in : body.code.code) {
+    if (in.op == Op::input) {
+      renamed.push_back(inputs[static_cast<size_t>(in.value)]);
+      continue;
+    }
+    const int arity = info(in.op).arity;
+    if (arity > 0) in.a = renamed[in.a];
+    if (arity > 1) in.b = renamed[in.b];
+    if (arity > 2) in.c = renamed[in.c];
+    if (in.op == Op::constant) in.value = *parameter++;
+    if (in.op == Op::affine) {
+      in.aux = static_cast<uint32_t>(to.maps.size());
+      to.maps.push_back({parameter[0], parameter[1], parameter[2], parameter[3]});
+      parameter += 4;
+    }
+    renamed.push_back(static_cast<ValueId>(to.code.size()));
+    to.code.push_back(in);
+  }
+  std::vector<ValueId> values;
+  for (const int slot : body.slots)
+    values.push_back(slot < 0 ? none : renamed[body.code.outputs[static_cast<size_t>(slot)]]);
+  return values;
+}
+
+size_t PartTable::bytes() const {
+  return rows_.capacity() * sizeof(Row) + parameters_.capacity() * sizeof(double);
+}
+
+bool PartIndex::Bounds::meets(const Box& box) const {
+  for (int axis = 0; axis < 3; ++axis)
+    if (static_cast<double>(lo[axis]) > box.hi[axis] || static_cast<double>(hi[axis]) < box.lo[axis]) return false;
+  return true;
+}
+
+void PartIndex::build(const std::vector<Box>& boxes) {
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  std::vector<Bounds> bounds(boxes.size());
+  order_.resize(boxes.size());
+  for (size_t n = 0; n < boxes.size(); ++n) {
+    order_[n] = static_cast<uint32_t>(n);
+    for (int axis = 0; axis < 3; ++axis) {
+      bounds[n].lo[axis] = std::nextafter(static_cast<float>(boxes[n].lo[axis]), -inf);
+      bounds[n].hi[axis] = std::nextafter(static_cast<float>(boxes[n].hi[axis]), inf);
+    }
+  }
+  knots_.clear();
+  if (!boxes.empty()) build(bounds, 0, static_cast<uint32_t>(boxes.size()));
+  for (const uint32_t part : order_) bounds_.push_back(bounds[part]);
+}
+
+// Halves at the median of the middles along the longest side.
+uint32_t PartIndex::build(const std::vector<Bounds>& boxes, uint32_t begin, uint32_t end) {
+  constexpr uint32_t most_in_leaf = 4;
+  const auto number = static_cast<uint32_t>(knots_.size());
+  Bounds bounds = boxes[order_[begin]];
+  for (uint32_t n = begin; n < end; ++n) {
+    for (int axis = 0; axis < 3; ++axis) {
+      bounds.lo[axis] = std::min(bounds.lo[axis], boxes[order_[n]].lo[axis]);
+      bounds.hi[axis] = std::max(bounds.hi[axis], boxes[order_[n]].hi[axis]);
+    }
+  }
+  knots_.push_back({bounds, begin, end, 0});
+  if (end - begin <= most_in_leaf) return number;
+  int longest = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (bounds.hi[axis] - bounds.lo[axis] > bounds.hi[longest] - bounds.lo[longest]) longest = axis;
+  const auto middle = [&](uint32_t part) { return boxes[part].lo[longest] + boxes[part].hi[longest]; };
+  const uint32_t half = begin + (end - begin) / 2;
+  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end, [&](uint32_t a, uint32_t b) {
+    return middle(a) != middle(b) ? middle(a) < middle(b) : a < b;
+  });
+  build(boxes, begin, half);
+  const uint32_t right = build(boxes, half, end);
+  knots_[number].right = right;
+  return number;
+}
+
+template <class Visit>
+void PartIndex::visit(const Box& region, Visit visit) const {
+  std::array<uint32_t, 64> open;  // deeper than any tree of 32-bit numbers
+  size_t depth = 0;
+  if (!knots_.empty()) open[depth++] = 0;
+  while (depth > 0) {
+    const uint32_t number = open[--depth];
+    const Knot& knot = knots_[number];
+    if (!knot.bounds.meets(region)) continue;
+    if (knot.right != 0) {
+      open[depth++] = knot.right;
+      open[depth++] = number + 1;
+      continue;
+    }
+    for (uint32_t n = knot.begin; n < knot.end; ++n)
+      if (bounds_[n].meets(region) && !visit(order_[n])) return;
+  }
+}
+
+void PartIndex::find(const Box& region, std::vector<uint32_t>& parts) const {
+  parts.clear();
+  visit(region, [&](uint32_t part) {
+    parts.push_back(part);
+    return true;
+  });
+  std::sort(parts.begin(), parts.end());
+}
+
+size_t PartIndex::count(const Box& region, size_t most) const {
+  size_t found = 0;
+  visit(region, [&](uint32_t) { return ++found < most; });
+  return found;
+}
+
+size_t PartIndex::bytes() const { return knots_.capacity() * sizeof(Knot) + bounds_.capacity() * sizeof(Bounds) + order_.capacity() * sizeof(uint32_t); }
+
+Box grown_for_rounding(const Box& box) {
+  constexpr double share = 0x1p-16;
+  double farthest = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    farthest = std::max({farthest, std::abs(box.lo[axis]), std::abs(box.hi[axis])});
+  return box.expanded(share * farthest);
+}
+
+}  // namespace ombre::program

@@ -1,0 +1,99 @@
+// Many parts of a few kinds as one op: tables of parameters and an index in space.
+//
+// A union of thousands of solids is not written out op by op. Each solid is a row: the number of a
+// body, which is a program without its constants, and the constants. An op `parts` stands for a value
+// that combines all rows; before evaluation in a region it is replaced by the code of those that reach
+// the region (passes/expand_parts.cpp), so that space decides what a tile costs, not the number of parts.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "base/box.h"
+#include "program/program.h"
+
+namespace ombre::program {
+
+// How the parts' values of one slot combine.
+enum class SlotKind : uint8_t {
+  any,    // is it 1 in some part?
+  sum,    // in the order of the parts
+  first,  // of the first part that has slot 0
+  last,   // of the last part that has slot 0
+};
+
+// Rows of one form of the programs.
+class PartTable {
+ public:
+  // `slots[s]` is the program's output for slot s, or -1. The program has neither calls nor sources.
+  void add(const Program& program, const std::vector<int>& slots);
+  // Appends the code of a part to `to`; its inputs are the three given values. Returns the value of each
+  // slot, or none for those that it does not have.
+  static constexpr ValueId none = ~ValueId{0};
+  std::vector<ValueId> append(uint32_t part, Program& to, const std::array<ValueId, 3>& inputs) const;
+  size_t size() const { return rows_.size(); }
+  size_t body_count() const { return bodies_.size(); }
+  const Program& body(size_t n) const { return bodies_[n].code; }
+  size_t bytes() const;
+
+ private:
+  struct Body {
+    Program code;  // its constants and maps are of no meaning
+    std::vector<int> slots;
+  };
+  struct Row {
+    uint32_t body = 0;
+    uint64_t first = 0;  // of its parameters: constants and rows of maps, in the order of the code
+  };
+
+  std::vector<Body> bodies_;
+  std::unordered_map<std::string, uint32_t> known_;
+  std::vector<Row> rows_;
+  std::vector<double> parameters_;
+};
+
+// A tree over boxes.
+class PartIndex {
+ public:
+  void build(const std::vector<Box>& boxes);
+  // The parts whose boxes meet the region, in ascending order.
+  void find(const Box& region, std::vector<uint32_t>& parts) const;
+  // How many boxes meet the region, or `most` if it is more.
+  size_t count(const Box& region, size_t most) const;
+  bool reaches(const Box& region) const { return count(region, 1) > 0; }
+  size_t bytes() const;
+
+ private:
+  struct Bounds {
+    float lo[3], hi[3];
+    bool meets(const Box& box) const;
+  };
+  struct Knot {
+    Bounds bounds;
+    uint32_t begin = 0, end = 0;  // of the leaves' parts
+    uint32_t right = 0;           // the left one follows; 0: a leaf
+  };
+  uint32_t build(const std::vector<Bounds>& boxes, uint32_t begin, uint32_t end);
+  // Until `visit` says false.
+  template <class Visit>
+  void visit(const Box& region, Visit visit) const;
+
+  std::vector<Knot> knots_;
+  std::vector<uint32_t> order_;  // parts by leaf
+  std::vector<Bounds> bounds_;   // theirs, in that order
+};
+
+struct PartSet {
+  PartTable reference, batch;
+  PartIndex index;
+  std::vector<SlotKind> slots;  // slot 0 is "inside"
+
+  const PartTable& table(Precision precision) const { return precision == Precision::batch ? batch : reference; }
+};
+
+// The box of a part, grown by what rounding in single precision can move its surface.
+Box grown_for_rounding(const Box& box);
+
+}  // namespace ombre::program

@@ -1,0 +1,130 @@
+// Writes out those of many parts that reach a region.
+#include "program/parts.h"
+#include "program/passes/copy_tables.h"
+#include "program/passes/passes.h"
+
+namespace ombre::program {
+namespace {
+
+class Expander {
+ public:
+  Expander(const Program& program, const std::vector<Interval>& values, Precision precision)
+      : from_(program), values_(values), precision_(precision) {}
+
+  Program run() {
+    std::vector<ValueId> renamed;
+    renamed.reserve(from_.code.size());
+    for (Instruction in : from_.code) {
+      if (in.op == Op::parts) {
+        renamed.push_back(slot(in, renamed));
+        continue;
+      }
+      const int arity = info(in.op).arity;
+      if (arity > 0) in.a = renamed[in.a];
+      if (arity > 1) in.b = renamed[in.b];
+      if (arity > 2) in.c = renamed[in.c];
+      copy_tables(from_, to_, in);
+      renamed.push_back(push(in));
+    }
+    for (const ValueId output : from_.outputs) to_.outputs.push_back(renamed[output]);
+    to_.output_names = from_.output_names;
+    return std::move(to_);
+  }
+
+ private:
+  // Parts at one place, written out.
+  struct Expansion {
+    const PartSet* set;
+    std::array<ValueId, 3> at;
+    std::vector<std::vector<ValueId>> values;  // [part][slot]
+    std::vector<ValueId> slots;                // combined; PartTable::none until asked for
+  };
+
+  ValueId push(const Instruction& in) {
+    to_.code.push_back(in);
+    return static_cast<ValueId>(to_.code.size() - 1);
+  }
+  ValueId constant(double value) {
+    Instruction in;
+    in.value = value;
+    return push(in);
+  }
+  ValueId apply(Op op, ValueId a, ValueId b, ValueId c = 0) {
+    Instruction in;
+    in.op = op;
+    in.a = a;
+    in.b = b;
+    in.c = c;
+    return push(in);
+  }
+
+  ValueId slot(const Instruction& in, const std::vector<ValueId>& renamed) {
+    Expansion& expansion = expand(in, renamed);
+    const auto number = static_cast<size_t>(in.value);
+    ValueId& value = expansion.slots[number];
+    if (value == PartTable::none) value = combine(expansion, number);
+    return value;
+  }
+
+  Expansion& expand(const Instruction& in, const std::vector<ValueId>& renamed) {
+    const PartSet* set = from_.part_sets[in.aux].get();
+    const std::array<ValueId, 3> at{renamed[in.a], renamed[in.b], renamed[in.c]};
+    for (Expansion& known : expansions_)
+      if (known.set == set && known.at == at) return known;
+    Expansion& made = expansions_.emplace_back(Expansion{set, at, {}, {}});
+    made.slots.assign(set->slots.size(), PartTable::none);
+    const Interval &x = values_[in.a], &y = values_[in.b], &z = values_[in.c];
+    set->index.find({{x.lo, y.lo, z.lo}, {x.hi, y.hi, z.hi}}, found_);
+    for (const uint32_t part : found_) made.values.push_back(set->table(precision_).append(part, to_, at));
+    return made;
+  }
+
+  ValueId combine(const Expansion& expansion, size_t number) {
+    const SlotKind kind = expansion.set->slots[number];
+    const auto at = [&](const std::vector<ValueId>& part) {
+      return number < part.size() ? part[number] : PartTable::none;
+    };
+    ValueId result = PartTable::none;
+    const auto take = [&](const std::vector<ValueId>& part) {
+      const ValueId value = at(part);
+      if (kind == SlotKind::first || kind == SlotKind::last) {
+        if (result == PartTable::none) result = constant(0);
+        result = apply(Op::select, part[0], value == PartTable::none ? constant(0) : value, result);
+      } else if (value != PartTable::none) {
+        result = result == PartTable::none ? value
+                                           : apply(kind == SlotKind::any ? Op::logical_or : Op::add, result, value);
+      }
+    };
+    if (kind == SlotKind::first)
+      for (size_t n = expansion.values.size(); n-- > 0;) take(expansion.values[n]);
+    else
+      for (const auto& part : expansion.values) take(part);
+    return result == PartTable::none ? constant(0) : result;
+  }
+
+  const Program& from_;
+  const std::vector<Interval>& values_;
+  Precision precision_;
+  Program to_;
+  std::vector<Expansion> expansions_;
+  std::vector<uint32_t> found_;
+};
+
+}  // namespace
+
+size_t parts_in_reach(const Program& program, const std::vector<Interval>& values, size_t most) {
+  size_t count = 0;
+  for (const Instruction& in : program.code) {
+    if (in.op != Op::parts) continue;
+    const Interval &x = values[in.a], &y = values[in.b], &z = values[in.c];
+    const Box where{{x.lo, y.lo, z.lo}, {x.hi, y.hi, z.hi}};
+    count = std::max(count, program.part_sets[in.aux]->index.count(where, most));
+  }
+  return count;
+}
+
+Program expand_parts(const Program& program, const std::vector<Interval>& values, Precision precision) {
+  return Expander(program, values, precision).run();
+}
+
+}  // namespace ombre::program
