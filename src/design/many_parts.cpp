@@ -95,8 +95,8 @@ class PartsMaker {
   }
 
   // Checks that cannot fail where the part is are left out; the others share one for each kind of node.
-  void add_checks(Lowering& lowering, Field mark, const Box& box,
-                  std::vector<std::pair<std::string, Field>>& outputs, std::vector<int>& slots) {
+  void add_checks(Lowering& lowering, Field mark, const Box& box, std::vector<std::pair<std::string, Field>>& outputs,
+                  std::vector<int>& slots) {
     if (composition_.checks.empty()) return;
     std::vector<std::pair<std::string, Field>> marks;
     for (const auto& [number, bad] : composition_.checks) marks.emplace_back("check", logical_and(mark, bad));

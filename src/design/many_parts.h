@@ -19,10 +19,10 @@ enum class PartQuery : uint8_t {
 
 // Parts at a point, as fields.
 struct PartFields {
-  Field inside;                  // or interior
-  Field count;                   // of mix: how many hold the point
-  Composition composition;       // of mix: sums of fractions; checks where they are 1
-  std::vector<size_t> others;    // inputs that are not among the parts
+  Field inside;                    // or interior
+  Field count;                     // of mix: how many hold the point
+  Composition composition;         // of mix: sums of fractions; checks where they are 1
+  std::vector<size_t> others;      // inputs that are not among the parts
   std::optional<MaterialId> only;  // all parts are of this one material, and nothing can be wrong
 };
 

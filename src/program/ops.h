@@ -41,19 +41,18 @@ struct OpInfo {
   int arity;
 };
 
-inline OpInfo info(Op op) {
-  constexpr auto table = std::to_array<OpInfo>({{"input", 0},
-                                                {"constant", 0},
-                                                {"affine", 3},
-                                                {"source", 3},
-                                                {"call", 3},
-                                                {"parts", 3},
+inline constexpr auto op_table = std::to_array<OpInfo>({{"input", 0},
+                                                        {"constant", 0},
+                                                        {"affine", 3},
+                                                        {"source", 3},
+                                                        {"call", 3},
+                                                        {"parts", 3},
 #define OMBRE_ROW(name, arity) {#name, arity},
-                                                OMBRE_OPS(OMBRE_ROW)
+                                                        OMBRE_OPS(OMBRE_ROW)
 #undef OMBRE_ROW
-  });
-  return table[static_cast<size_t>(op)];
-}
+});
+
+inline const OpInfo& info(Op op) { return op_table[static_cast<size_t>(op)]; }
 
 using AffineRow = std::array<double, 4>;
 

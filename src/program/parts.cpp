@@ -34,7 +34,8 @@ void PartTable::add(const Program& program, const std::vector<int>& slots) {
   rows_.push_back({it->second, parameters_.size()});
   for (const Instruction& in : program.code) {
     if (in.op == Op::constant) parameters_.push_back(in.value);
-    if (in.op == Op::affine) parameters_.insert(parameters_.end(), program.maps[in.aux].begin(), program.maps[in.aux].end());
+    if (in.op == Op::affine)
+      parameters_.insert(parameters_.end(), program.maps[in.aux].begin(), program.maps[in.aux].end());
   }
 }
 
@@ -68,9 +69,7 @@ std::vector<ValueId> PartTable::append(uint32_t part, Program& to, const std::ar
   return values;
 }
 
-size_t PartTable::bytes() const {
-  return rows_.capacity() * sizeof(Row) + parameters_.capacity() * sizeof(double);
-}
+size_t PartTable::bytes() const { return rows_.capacity() * sizeof(Row) + parameters_.capacity() * sizeof(double); }
 
 bool PartIndex::Bounds::meets(const Box& box) const {
   for (int axis = 0; axis < 3; ++axis)
@@ -112,9 +111,8 @@ uint32_t PartIndex::build(const std::vector<Bounds>& boxes, uint32_t begin, uint
     if (bounds.hi[axis] - bounds.lo[axis] > bounds.hi[longest] - bounds.lo[longest]) longest = axis;
   const auto middle = [&](uint32_t part) { return boxes[part].lo[longest] + boxes[part].hi[longest]; };
   const uint32_t half = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end, [&](uint32_t a, uint32_t b) {
-    return middle(a) != middle(b) ? middle(a) < middle(b) : a < b;
-  });
+  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
+                   [&](uint32_t a, uint32_t b) { return middle(a) != middle(b) ? middle(a) < middle(b) : a < b; });
   build(boxes, begin, half);
   const uint32_t right = build(boxes, half, end);
   knots_[number].right = right;
@@ -155,13 +153,14 @@ size_t PartIndex::count(const Box& region, size_t most) const {
   return found;
 }
 
-size_t PartIndex::bytes() const { return knots_.capacity() * sizeof(Knot) + bounds_.capacity() * sizeof(Bounds) + order_.capacity() * sizeof(uint32_t); }
+size_t PartIndex::bytes() const {
+  return knots_.capacity() * sizeof(Knot) + bounds_.capacity() * sizeof(Bounds) + order_.capacity() * sizeof(uint32_t);
+}
 
 Box grown_for_rounding(const Box& box) {
   constexpr double share = 0x1p-16;
   double farthest = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    farthest = std::max({farthest, std::abs(box.lo[axis]), std::abs(box.hi[axis])});
+  for (int axis = 0; axis < 3; ++axis) farthest = std::max({farthest, std::abs(box.lo[axis]), std::abs(box.hi[axis])});
   return box.expanded(share * farthest);
 }
 

@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/text.h"
 #include "program/parts.h"
+#include "program/passes/replay.h"
 #include "program/single.h"
 
 namespace ombre::program {
@@ -55,9 +56,21 @@ std::string describe(const Program& program, const Instruction& in, std::map<con
   return text + operands(in, op.arity);
 }
 
+// How often a value is computed that depends on these axes.
+std::string_view place(uint8_t mask) {
+  constexpr std::string_view places[] = {"once",       "each x",                "each y",   "each x and y",
+                                         "each layer", "each x of each layer", "each row", "each voxel"};
+  return places[mask];
+}
+
 void print(const Program& program, std::string& text, std::map<const Program*, size_t>& bodies) {
-  for (size_t i = 0; i < program.code.size(); ++i)
-    text += "  v" + std::to_string(i) + " = " + describe(program, program.code[i], bodies) + "\n";
+  const std::vector<uint8_t> masks = axis_masks(program);
+  for (size_t i = 0; i < program.code.size(); ++i) {
+    std::string line = "  v" + std::to_string(i) + " = " + describe(program, program.code[i], bodies);
+    constexpr size_t column = 48;
+    line.resize(std::max(line.size() + 2, column), ' ');
+    text += line + "; " + std::string(place(masks[i])) + "\n";
+  }
   for (size_t i = 0; i < program.outputs.size(); ++i)
     text += "  " + program.output_names[i] + " = v" + std::to_string(program.outputs[i]) + "\n";
 }

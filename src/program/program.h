@@ -48,7 +48,8 @@ struct Program {
   bool has_parts() const { return !part_sets.empty(); }
 };
 
-// One line an instruction, then the outputs; bodies after the program that calls them.
+// One line an instruction with how often it is computed, then the outputs; bodies after the program
+// that calls them.
 std::string to_text(const Program& program);
 
 // Says what a source can be over operands' ranges; by default what the source itself says.

@@ -91,8 +91,8 @@ class Expander {
         if (result == PartTable::none) result = constant(0);
         result = apply(Op::select, part[0], value == PartTable::none ? constant(0) : value, result);
       } else if (value != PartTable::none) {
-        result = result == PartTable::none ? value
-                                           : apply(kind == SlotKind::any ? Op::logical_or : Op::add, result, value);
+        result =
+            result == PartTable::none ? value : apply(kind == SlotKind::any ? Op::logical_or : Op::add, result, value);
       }
     };
     if (kind == SlotKind::first)
