@@ -10,8 +10,8 @@
 //   coupling * exp(-r^2 / (2 * beside^2) - dz^2 / (2 * across^2))     in two layers.
 //
 // The second keeps voxels of one material from standing on each other. With coupling 0 the layers know
-// nothing of each other; with `beside` as wide as `in_layer` they lose their own blue. The figures are
-// those of many tried that leave both well: see docs/dithering.md.
+// nothing of each other; with coupling 1 and `beside` as wide as `in_layer` they lose their own blue. The
+// figures do both well: see docs/dithering.md.
 //
 // The file holds each voxel's rank, 16 bits, the low byte first; x runs fastest, then y, then z.
 #include <algorithm>
