@@ -206,6 +206,64 @@ def palettes_of_any_size(job):
             expect(image.rows[0] == wanted, f"{count} materials, {form}: {image.rows[0][:4]}..., expected {wanted[:4]}...")
 
 
+# ---- single layers
+
+
+def ombre_layer(job, *arguments, status=0):
+    result = program.run([job.ombre, "layer", job.design, *arguments], cwd=job.folder)
+    expect(result.returncode == status, f"status {result.returncode}, expected {status}: {result.stderr[-1500:]}")
+    return result
+
+
+def layers_are_those_of_the_job(job):
+    """ombre layer writes what slice writes for that layer, by number or by height."""
+    for form in ("indexed", "rgba"):
+        options = [*SMALL, "--format", form, "--seed", "3", "--printer", "connex"]
+        job.slice(form, *options)
+        for number, arguments in ((0, ["--index", "0"]), (57, ["--index=57"]), (99, ["--index=-1"]), (57, ["--z", "0.7"]),
+                                  (56, ["--z", "0.69999"]), (99, ["--z", "5"]), (0, ["--z=-5"])):
+            ombre_layer(job, *options, *arguments, "-o", "one.png", "--force")
+            expect((job.folder / "one.png").read_bytes() == layers(job.folder / form)[number].read_bytes(),
+                   f"{form}, {arguments}: other bytes than layer {number}")
+
+
+def boxes_cut_layers(job):
+    ombre_layer(job, *SMALL, "--z", "0.25", "-o", "whole.png")
+    whole = png.read(job.folder / "whole.png")
+    for form, colour_type in (("indexed", png.INDEXED), ("rgba", png.RGBA)):
+        # x from -1 to 2.5 mm and y from -3 to 4 mm of a part that begins at -5 mm
+        ombre_layer(job, *SMALL, "--z", "0.25", "--box=-1,-3,2.5,4", "-o", form + ".png", "--format", form)
+        part = png.read(job.folder / (form + ".png"))
+        expect(part.colour_type == colour_type, f"colour type {part.colour_type}")
+        wanted = [row[40:75] for row in whole.rows[10:80]]
+        expect(part.rows == wanted, f"{form}: {part.width} x {part.height} other pixels")
+
+
+def layers_have_names_and_are_not_overwritten(job):
+    ombre_layer(job, *SMALL, "--index", "7")
+    name = job.folder / "ball_slice_00007.png"
+    before = name.read_bytes()
+    result = ombre_layer(job, "--voxel", "0.5", "--index", "7", status=2)
+    expect("--force" in result.stderr and name.read_bytes() == before, f"it wrote, or does not say how: {result.stderr}")
+    command = [str(a) for a in (job.ombre, "layer", job.design, *SMALL, "--index", "7", "-o", "-")]
+    piped = subprocess.run(command, cwd=job.folder, env=program.environment(), capture_output=True, check=True).stdout
+    expect(piped == before, "other bytes on stdout")
+    told = json.loads(ombre_layer(job, *SMALL, "--index", "7", "--force", "--json").stdout.splitlines()[-1])
+    expect(told["event"] == "done" and told["file"] == name.name and told["layer"] == 7, str(told))
+    expect([round(z, 9) for z in told["z_mm"]] == [-4.3, -4.2], str(told))
+
+
+def wrong_layers_are_explained(job):
+    for arguments, part in ((["--z", "5.1"], "from -5 to 5 mm"), (["--z", "top"], "--z 3.2"), ([], "--index"),
+                            (["--index", "100"], "0 to 99"), (["--index", "1:3"], "0 to 99"),
+                            (["--z", "0", "--box", "1,2,3"], "x0,y0,x1,y1"), (["--z", "0", "--box", "2,0,1,1"], "x0,y0,x1,y1"),
+                            (["--z", "0", "--box", "5,5,6,6"], "from -5,-5 to 5,5 mm"),
+                            (["--z", "0", "--index", "0"], "excludes")):
+        result = ombre_layer(job, *SMALL, *arguments, status=1)
+        expect(part in result.stderr, f"{arguments}: {result.stderr}")
+    expect(not list(job.folder.glob("*.png")), "it wrote all the same")
+
+
 # ---- interruptions
 
 
@@ -387,7 +445,8 @@ def examples_of_nodes_slice(job):
 QUICK = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make_the_whole,
          a_piece_has_the_names_and_bytes_of_the_whole, seeds_change_the_mixture_only, printed_designs_are_the_same_job,
          roundabout_rotations_keep_the_voxels, images_lie_as_the_design_does, images_tell_their_resolution,
-         palettes_of_any_size, resume_refuses_another_job, damaged_layers_are_made_again, foreign_files_are_left_alone,
+         palettes_of_any_size, layers_are_those_of_the_job, boxes_cut_layers, layers_have_names_and_are_not_overwritten,
+         wrong_layers_are_explained, resume_refuses_another_job, damaged_layers_are_made_again, foreign_files_are_left_alone,
          finished_jobs_are_not_overwritten, force_removes_the_old_layers, output_that_is_a_file,
          folder_that_may_not_be_written, full_disk, reference_is_up_to_date, examples_of_nodes_slice]
 SLOW = [killed_jobs_resume, killed_twice_resumes, interrupted_jobs_resume]
