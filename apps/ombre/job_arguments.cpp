@@ -30,8 +30,8 @@ void add_job_arguments(CLI::App& app, JobArguments& a) {
       ->check(CLI::IsMember({"stochastic", "threshold"}))
       ->type_name("MODE");
   app.add_option("--seed", a.seed, "Seed of the dithering (default 0); equal seeds give equal files")->type_name("N");
-  app.add_option("--format", a.image, "Image format: rgba or indexed (default: the printer's)")
-      ->check(CLI::IsMember({"rgba", "indexed"}))
+  app.add_option("--format", a.image, "Image format: rgba, indexed, gray or mask (default: the printer's)")
+      ->check(CLI::IsMember(voxel::image_format_names()))
       ->type_name("FORMAT");
   CLI::Option* place =
       app.add_option("--place", a.place,
@@ -58,7 +58,7 @@ std::optional<compile::PlanOptions> plan_options(const JobArguments& a, Diagnost
   if (!a.layer_height.empty()) options.pitch[2] = parse_layer_height(a.layer_height);
   options.dither = a.dither == "threshold" ? voxel::Dither::threshold : voxel::Dither::stochastic;
   options.seed = parse_seed(a.seed);
-  if (!a.image.empty()) options.image = a.image == "rgba" ? voxel::ImageFormat::rgba : voxel::ImageFormat::indexed;
+  options.image = voxel::image_format(a.image);
   if (!a.place.empty()) options.place = a.place == "center" ? voxel::Placement::center : voxel::Placement::design;
   options.whole_tray = a.tray;
   return options;

@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "compile/layer.h"
+#include "compile/layer_files.h"
 #include "export/output_file.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
@@ -75,48 +76,61 @@ std::optional<compile::LayerWindow> chosen_window(const LayerArguments& a, const
                       " to " + mm(box.hi.x) + "," + mm(box.hi.y) + " mm");
 }
 
-// part.vcad and slice_00012.png give part_slice_00012.png.
-std::string output_name(const LayerArguments& a, const compile::SliceRequest& request, int64_t layer) {
-  if (!a.output.empty()) return a.output;
-  return std::filesystem::path(a.job.design).stem().string() + "_" + request.files.name(request.first_index + layer);
+// part.vcad and slice_00012.png give part_slice_00012.png. Where each material has a file, -o layer.png gives
+// layer_red.png, layer_blue.png and so on.
+std::vector<std::string> output_files(const LayerArguments& a, const compile::SliceRequest& request, int64_t layer) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> files;
+  if (a.output.empty()) {
+    for (const std::string& name : compile::LayerFiles(request).names(layer))
+      files.push_back(fs::path(a.job.design).stem().string() + "_" + name);
+    return files;
+  }
+  if (!request.files.has_material()) return {a.output};
+  if (a.output == "-") throw WrongArgument("each material has an image, and stdout holds one; give -o a file name");
+  const fs::path path(a.output);
+  for (const std::string& word : compile::file_words(compile::material_names(request)))
+    files.push_back((path.parent_path() / (path.stem().string() + "_" + word + path.extension().string())).string());
+  return files;
 }
 
 void tell_layer(const Console& console, const compile::SliceRequest& request, int64_t layer,
-                const compile::LayerImage& image, const std::string& file) {
+                const compile::LayerImages& images, const std::vector<std::string>& files) {
   const auto face = [&](int64_t index) {
     return request.lattice.origin.z + request.lattice.pitch[2].times(static_cast<double>(index));
   };
   console.say("layer " + std::to_string(layer) + ", " + mm(face(layer)) + " to " + mm(face(layer + 1)) +
-              " mm, written to " + file);
-  DataList materials;
+              " mm, written to " + join(files, ", "));
+  DataList materials, names;
   for (size_t i = 0; i < request.materials.size(); ++i) {
-    console.say("  " + request.materials[i].name + ": " + format_count(image.voxels[i]) + " voxels");
+    console.say("  " + request.materials[i].name + ": " + format_count(images.voxels[i]) + " voxels");
     materials.emplace_back(
-        DataMembers{{"name", request.materials[i].name}, {"voxels", static_cast<double>(image.voxels[i])}});
+        DataMembers{{"name", request.materials[i].name}, {"voxels", static_cast<double>(images.voxels[i])}});
   }
-  console.event("done", {{"file", file},
+  for (const std::string& file : files) names.emplace_back(file);
+  console.event("done", {{"files", names},
                          {"layer", static_cast<double>(layer)},
                          {"z_mm", DataList{face(layer), face(layer + 1)}},
-                         {"materials", materials},
-                         {"bytes_written", static_cast<double>(image.bytes.size())}});
+                         {"materials", materials}});
 }
 
 int write_layer(const LayerArguments& a, const compile::Plan& plan, Session& session) {
   const compile::SliceRequest& request = plan.request;
   const int64_t layer = chosen_layer(a, request.lattice);
   const auto window = chosen_window(a, request.lattice);
-  const std::string file = output_name(a, request, layer);
-  const bool to_stdout = file == "-";
-  if (!to_stdout) refuse_to_overwrite(file, a.force);
+  const std::vector<std::string> files = output_files(a, request, layer);
+  const bool to_stdout = a.output == "-";
+  if (!to_stdout)
+    for (const std::string& file : files) refuse_to_overwrite(file, a.force);
 
-  const compile::LayerImage image = compile::make_layer(request, plan.producer, layer, window);
+  const compile::LayerImages images = compile::make_layer(request, plan.producer, layer, window);
   if (to_stdout) {
-    session.console.print(image.bytes);
+    session.console.print(images.bytes.front());
   } else {
-    exporting::write_file(file, image.bytes);
-    tell_layer(session.console, request, layer, image, file);
+    for (size_t i = 0; i < files.size(); ++i) exporting::write_file(files[i], images.bytes[i]);
+    tell_layer(session.console, request, layer, images, files);
   }
-  tell_checks(session.console, image.checks);
+  tell_checks(session.console, images.checks);
   return done;
 }
 

@@ -59,8 +59,8 @@ std::optional<LayerWindow> window_over(const voxel::Lattice& lattice, double x0,
   return window;
 }
 
-LayerImage make_layer(const SliceRequest& request, const LayerProducer& producer, int64_t layer,
-                      const std::optional<LayerWindow>& window) {
+LayerImages make_layer(const SliceRequest& request, const LayerProducer& producer, int64_t layer,
+                       const std::optional<LayerWindow>& window) {
   SliceRequest kept = request;
   kept.drop_empty_layers = false;
   const LayerProducer cutting = [&](int64_t begin, int64_t end) {
@@ -68,11 +68,11 @@ LayerImage make_layer(const SliceRequest& request, const LayerProducer& producer
     for (voxel::LayerResult& result : layers) result.runs = cut(result.runs, *window);
     return layers;
   };
-  std::vector<EncodedLayer> made = make_slab(kept, window ? cutting : producer, png_stack(kept), {layer, layer + 1});
+  std::vector<EncodedLayer> made = make_slab(kept, window ? cutting : producer, image_stack(kept), {layer, layer + 1});
   EncodedLayer& only = made.front();
   CheckSums checks(request);
   checks.add(only.entry.checks);
-  return {std::move(only.bytes), std::move(only.entry.voxels), checks.reports()};
+  return {std::move(only.images), std::move(only.entry.voxels), checks.reports()};
 }
 
 }  // namespace ombre::compile

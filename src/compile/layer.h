@@ -24,15 +24,15 @@ struct LayerWindow {
 // The voxels that share area with [x0, x1] x [y0, y1]; nothing when none does. The corners are finite.
 std::optional<LayerWindow> window_over(const voxel::Lattice& lattice, double x0, double y0, double x1, double y1);
 
-struct LayerImage {
-  std::string bytes;                // of the PNG file
+struct LayerImages {
+  std::vector<std::string> bytes;   // of its PNG files: one, or one for each material
   std::vector<uint64_t> voxels;     // of each of the job's materials, in the whole layer
   std::vector<CheckReport> checks;  // those that failed in the whole layer
 };
 
-// Without a window, the file that slicing writes for this layer (also where it would drop an empty one);
-// with one, those of its pixels.
-LayerImage make_layer(const SliceRequest& request, const LayerProducer& producer, int64_t layer,
-                      const std::optional<LayerWindow>& window);
+// Without a window, the files that slicing writes for this layer (also where it would drop an empty one);
+// with one, those of their pixels.
+LayerImages make_layer(const SliceRequest& request, const LayerProducer& producer, int64_t layer,
+                       const std::optional<LayerWindow>& window);
 
 }  // namespace ombre::compile
