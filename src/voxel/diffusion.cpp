@@ -17,12 +17,13 @@ constexpr int64_t below_behind = 3, straight_below = 5, below_ahead = 1;
 // Of what waits, a voxel takes this share, and not so much that one would see where it does.
 constexpr int64_t waiting_share = 4, most_waiting = whole / 4;
 
-// The noise that moves a choice lies within an eighth of a voxel: draws have 24 bits, errors 16.
-constexpr int64_t middle_draw = 1 << 23;
-constexpr int noise_shift = 10;
+// The noise that moves a choice, from end to end, in voxels. It may be white: what it adds to one voxel the
+// next ones do without, so it ends up in high frequencies, as all errors do. With less, layers of 50 % are
+// one checkerboard; with more, 10 % get uneven.
+constexpr double noise_span = 0.375;
 
 // A choice by fraction and error alone waits until half a voxel is missing, so that rare materials come
-// late: 2 % not before the 20th row. Choosing by the error and only part of the fraction mends that, and
+// late: 2 % not before the 15th row. Choosing by the error and only part of the fraction mends that, and
 // leaves the errors' mean at zero (R. Eschbach, K. Knox, "Error-diffusion algorithm with edge
 // enhancement", J. Opt. Soc. Am. A 8, 1991, seen the other way round). Here seven sixteenths count.
 constexpr int64_t fraction_counts = 7;
@@ -50,11 +51,8 @@ void LayerDiffuser::row(int64_t j, std::span<const uint8_t> inside, std::span<co
   ASSERT(fractions.size() == materials_);
   read(inside, fractions, chosen);
   receive();
-  // Each material has noise of its own: the mask at another place.
-  for (size_t m = 0; m < materials_; ++m) {
-    noise_[m] = blue_noise_row(seed_, j + 23 * static_cast<int64_t>(m), k_);
-    noise_[m].offset += 39 * static_cast<uint32_t>(m);
-  }
+  // Each material has draws of its own, as if its rows were those of another layer, far away.
+  for (size_t m = 0; m < materials_; ++m) noise_[m] = row_hash(seed_, j, k_ + (static_cast<int64_t>(m) << 24));
   direction_ = j % 2 == 0 ? 1 : -1;
   const int64_t first = direction_ > 0 ? 0 : width_ - 1;
   for (int64_t n = 0, i = first; n < width_; ++n, i += direction_)
@@ -146,7 +144,7 @@ size_t LayerDiffuser::most_wanting(int64_t i, const Fixed* errors) const {
   Fixed greatest = 0;
   for (size_t m = 0; m < materials_; ++m) {
     if (fractions[m] <= 0) continue;
-    const Fixed noise = (Fixed{noise_[m][i]} - middle_draw) >> noise_shift;
+    const auto noise = static_cast<Fixed>((uniform(noise_[m], i) - 0.5) * whole * noise_span);
     const Fixed value = errors[m] + fractions[m] * fraction_counts / sixteenths + noise;
     if (best < materials_ && value <= greatest) continue;
     best = m;

@@ -3,8 +3,8 @@
 // Each voxel takes the material that is most wanting, and hands on what it took too much or too little
 // of to the voxels after it, with the weights of R. W. Floyd and L. Steinberg ("An adaptive algorithm for
 // spatial greyscale", Proc. SID 17, 1976), every other row backwards. With several materials the error is
-// a vector that sums to zero. Blue noise moves the choice a little, so that layers of one composition do
-// not repeat each other, voxel above voxel, and no pattern sets in.
+// a vector that sums to zero. A little noise moves the choice, so that layers of one composition do not
+// repeat each other, voxel above voxel, and no pattern sets in.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "voxel/blue_noise.h"
+#include "voxel/quantise.h"
 
 namespace ombre::voxel {
 
@@ -28,9 +28,9 @@ class LayerDiffuser {
   // Materials are indices from 0, at most 256 of them. `k` is the layer's number in the job.
   LayerDiffuser(int64_t width, size_t materials, uint64_t seed, int64_t k);
 
-  // Voxels of row j; each call is for the row after the last. `inside_next` is what is inside in the row
-  // to come, empty for the last row. fractions[material][i] sum to one where inside[i] is not 0; they are
-  // rounded to 1/65536. There, chosen[i] becomes the index of a material with a
+  // Voxels of row j; each call is for the row after the last, and rows without voxels count. `inside_next` is
+  // what is inside in the row to come, empty for the last row. fractions[material][i] sum to one where
+  // inside[i] is not 0; they are rounded to 1/65536. There, chosen[i] becomes the index of a material with a
   // positive fraction; elsewhere it is left alone.
   void row(int64_t j, std::span<const uint8_t> inside, std::span<const uint8_t> inside_next,
            std::span<const float* const> fractions, std::span<uint8_t> chosen);
@@ -55,13 +55,13 @@ class LayerDiffuser {
   int64_t width_, k_;
   size_t materials_;
   uint64_t seed_;
-  int direction_ = 1;                // along x, in the row last taken
-  std::vector<uint8_t> mixed_;       // by voxel of the row, with one more at either end
-  std::vector<Fixed> fractions_;     // [voxel][material], as are the next two
-  std::vector<Fixed> errors_;        // that reach the row
-  std::vector<Fixed> below_;         // that the row hands down
-  std::vector<Fixed> waiting_;       // [material]
-  std::vector<BlueNoiseRow> noise_;  // [material]
+  int direction_ = 1;             // along x, in the row last taken
+  std::vector<uint8_t> mixed_;    // by voxel of the row, with one more at either end
+  std::vector<Fixed> fractions_;  // [voxel][material], as are the next two
+  std::vector<Fixed> errors_;     // that reach the row
+  std::vector<Fixed> below_;      // that the row hands down
+  std::vector<Fixed> waiting_;    // [material]
+  std::vector<uint32_t> noise_;   // [material], of the row
 };
 
 }  // namespace ombre::voxel
