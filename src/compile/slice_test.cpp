@@ -64,6 +64,15 @@ SliceRequest ball_request() {
   return request;
 }
 
+// Masks: a file for each of two materials.
+SliceRequest mask_request() {
+  SliceRequest request = ball_request();
+  voxel::Printer printer;
+  printer.name = "vat";
+  use_printer(request, printer, voxel::ImageFormat::mask);
+  return request;
+}
+
 // A ball, one material in each half, whose lowest and highest layers are empty. Voxels near its
 // centre fail the check.
 voxel::LayerResult ball_layer(const SliceRequest& request, int64_t k, bool with_checks) {
@@ -284,30 +293,32 @@ TEST_F(Slice, StoppedRunsResumeToTheSameBytes) {
 }
 
 TEST_F(Slice, KilledRunsResumeToTheSameBytes) {
-  const Contents reference = expected(ball_request(), root_);
   std::mt19937 random(7);
-  for (int round = 0; round < 12; ++round) {
-    const pid_t child = ::fork();
-    if (child == 0) {
-      try {
-        const SliceRequest request = ball_request();
-        const LayerProducer slow = [producer = ball(request)](int64_t begin, int64_t end) {
-          std::this_thread::sleep_for(std::chrono::milliseconds(2));
-          return producer(begin, end);
-        };
-        slice(request, slow, options(round % 2 ? FolderUse::resume : FolderUse::replace, 1));
-      } catch (...) {
-        ::_exit(1);
+  for (const SliceRequest& request : {ball_request(), mask_request()}) {
+    const Contents reference = expected(request, root_);
+    for (int round = 0; round < 12; ++round) {
+      const pid_t child = ::fork();
+      if (child == 0) {
+        try {
+          const LayerProducer slow = [producer = ball(request)](int64_t begin, int64_t end) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            return producer(begin, end);
+          };
+          slice(request, slow, options(round % 2 ? FolderUse::resume : FolderUse::replace, 1));
+        } catch (...) {
+          ::_exit(1);
+        }
+        ::_exit(0);
       }
-      ::_exit(0);
+      std::this_thread::sleep_for(std::chrono::microseconds(random() % 18000));
+      ::kill(child, SIGKILL);
+      int status = 0;
+      ::waitpid(child, &status, 0);
+      if (round % 2) continue;  // then the next run resumes what this one left
+      run(request, options(FolderUse::resume, 1));
+      expect_same(reference, contents(folder()));
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(random() % 18000));
-    ::kill(child, SIGKILL);
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    if (round % 2) continue;  // then the next run resumes what this one left
-    run(ball_request(), options(FolderUse::resume, 1));
-    expect_same(reference, contents(folder()));
+    fs::remove_all(folder());
   }
 }
 
@@ -522,15 +533,6 @@ TEST_F(Slice, ContactSheetsKeepTrueProportions) {
   EXPECT_GT(widest, 100U);
   EXPECT_NEAR(static_cast<double>(tallest) / widest, 1.0, 0.1);
   expect_error([&] { write_contact_sheet(folder("nothing"), sheet, 6); }, "nothing");
-}
-
-// Masks: a file for each of two materials.
-SliceRequest mask_request() {
-  SliceRequest request = ball_request();
-  voxel::Printer printer;
-  printer.name = "vat";
-  use_printer(request, printer, voxel::ImageFormat::mask);
-  return request;
 }
 
 TEST_F(Slice, MasksShowEachMaterialInAFileOfItsOwn) {
