@@ -17,7 +17,7 @@ inline constexpr uint32_t blue_noise_width = 64, blue_noise_height = 64, blue_no
 // x fastest, then y, then z; (rank + 1/2) * 256.
 extern const uint32_t blue_noise_draws[size_t{blue_noise_width} * blue_noise_height * blue_noise_depth];
 
-// Draws in [0, 2^24) for the voxels of a row.
+// Draws in [0, 2^24) for the voxels of a row, as `uniform` has them once divided by 2^24.
 struct BlueNoiseRow {
   const uint32_t* draws = nullptr;  // blue_noise_width of them, one after the other
   uint32_t offset = 0;
