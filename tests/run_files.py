@@ -206,6 +206,118 @@ def palettes_of_any_size(job):
             expect(image.rows[0] == wanted, f"{count} materials, {form}: {image.rows[0][:4]}..., expected {wanted[:4]}...")
 
 
+def bright(colour):
+    return (299 * colour[0] + 587 * colour[1] + 114 * colour[2] + 500) // 1000
+
+
+def materials_have_masks_of_their_own(job):
+    """The vat profile: one image for each material, white where rgba images show its colour."""
+    job.slice("rgba", *SMALL, "--format", "rgba", "--layers", "40:44")
+    job.slice("vat", "--printer", "vat-50um", *SMALL, "--layers", "40:44")
+    names = sorted(p.name for p in layers(job.folder / "vat"))
+    expect(names == [f"slice_{n:05}_{m}.png" for n in range(40, 44) for m in ("blue", "red")], str(names))
+    for n, whole in zip(range(40, 44), job.images("rgba")):
+        for name, colour in (("red", (255, 0, 0, 255)), ("blue", (0, 80, 255, 255))):
+            mask = png.read(job.folder / "vat" / f"slice_{n:05}_{name}.png")
+            expect(mask.depth == 1, f"{mask.depth} bits")
+            wanted = [[255 if pixel == colour else 0 for pixel in row] for row in whole.rows]
+            expect([[bright(pixel) for pixel in row] for row in mask.rows] == wanted, f"layer {n}: the mask of {name}")
+
+
+def gray_images_show_brightness(job):
+    job.slice("rgba", *SMALL, "--format", "rgba", "--layers", "50")
+    job.slice("gray", *SMALL, "--format", "gray", "--layers", "50")
+    wanted = [[bright(pixel) for pixel in row] for row in job.images("rgba")[0].rows]
+    found = [[bright(pixel) for pixel in row] for row in job.images("gray")[0].rows]
+    expect(found == wanted, "other brightness than in colour")
+    alike = job.write("alike.json", json.dumps({"materials": [
+        {"name": "red", "r": 100, "g": 100, "b": 100}, {"name": "blue", "r": 100, "g": 100, "b": 100}]}))
+    told = job.slice("alike", *SMALL, "--format", "gray", "--layers", "50", "--materials", alike).stderr
+    expect("both gray 100" in told, f"no word about two materials of one gray: {told}")
+
+
+def masks_resume_and_are_replaced(job):
+    job.slice("whole", *SMALL, "--format", "mask")
+    job.slice("out", *SMALL, "--format", "mask", "--layers", "0:60")
+    layers(job.folder / "out")[33].unlink()
+    job.slice("out", *SMALL, "--format", "mask", "--resume")
+    expect_same(job.folder / "whole", job.folder / "out")
+    job.slice("out", *SMALL, "--force")
+    job.slice("fresh", *SMALL)
+    expect_same(job.folder / "out", job.folder / "fresh")
+
+
+# ---- single layers
+
+
+def ombre_layer(job, *arguments, status=0):
+    result = program.run([job.ombre, "layer", job.design, *arguments], cwd=job.folder)
+    expect(result.returncode == status, f"status {result.returncode}, expected {status}: {result.stderr[-1500:]}")
+    return result
+
+
+def layers_are_those_of_the_job(job):
+    """ombre layer writes what slice writes for that layer, by number or by height."""
+    for form in ("indexed", "rgba"):
+        options = [*SMALL, "--format", form, "--seed", "3", "--printer", "connex"]
+        job.slice(form, *options)
+        for number, arguments in ((0, ["--index", "0"]), (57, ["--index=57"]), (99, ["--index=-1"]), (57, ["--z", "0.7"]),
+                                  (56, ["--z", "0.69999"]), (99, ["--z", "5"]), (0, ["--z=-5"])):
+            ombre_layer(job, *options, *arguments, "-o", "one.png", "--force")
+            expect((job.folder / "one.png").read_bytes() == layers(job.folder / form)[number].read_bytes(),
+                   f"{form}, {arguments}: other bytes than layer {number}")
+
+
+def layers_of_masks_have_several_files(job):
+    options = ["--printer", "vat-50um", *SMALL]
+    job.slice("out", *options, "--layers", "40")
+    ombre_layer(job, *options, "--index", "40")
+    ombre_layer(job, *options, "--index", "40", "-o", "mine.png")
+    for name in ("red", "blue"):
+        wanted = (job.folder / "out" / f"slice_00040_{name}.png").read_bytes()
+        for found in (f"ball_slice_00040_{name}.png", f"mine_{name}.png"):
+            expect((job.folder / found).read_bytes() == wanted, f"{found}: other bytes")
+    result = ombre_layer(job, *options, "--index", "40", "-o", "-", status=1)
+    expect("each material has an image" in result.stderr, result.stderr)
+
+
+def boxes_cut_layers(job):
+    ombre_layer(job, *SMALL, "--z", "0.25", "-o", "whole.png")
+    whole = png.read(job.folder / "whole.png")
+    for form, colour_type in (("indexed", png.INDEXED), ("rgba", png.RGBA)):
+        # x from -1 to 2.5 mm and y from -3 to 4 mm of a part that begins at -5 mm
+        ombre_layer(job, *SMALL, "--z", "0.25", "--box=-1,-3,2.5,4", "-o", form + ".png", "--format", form)
+        part = png.read(job.folder / (form + ".png"))
+        expect(part.colour_type == colour_type, f"colour type {part.colour_type}")
+        wanted = [row[40:75] for row in whole.rows[10:80]]
+        expect(part.rows == wanted, f"{form}: {part.width} x {part.height} other pixels")
+
+
+def layers_have_names_and_are_not_overwritten(job):
+    ombre_layer(job, *SMALL, "--index", "7")
+    name = job.folder / "ball_slice_00007.png"
+    before = name.read_bytes()
+    result = ombre_layer(job, "--voxel", "0.5", "--index", "7", status=2)
+    expect("--force" in result.stderr and name.read_bytes() == before, f"it wrote, or does not say how: {result.stderr}")
+    command = [str(a) for a in (job.ombre, "layer", job.design, *SMALL, "--index", "7", "-o", "-")]
+    piped = subprocess.run(command, cwd=job.folder, env=program.environment(), capture_output=True, check=True).stdout
+    expect(piped == before, "other bytes on stdout")
+    told = json.loads(ombre_layer(job, *SMALL, "--index", "7", "--force", "--json").stdout.splitlines()[-1])
+    expect(told["event"] == "done" and told["files"] == [name.name] and told["layer"] == 7, str(told))
+    expect([round(z, 9) for z in told["z_mm"]] == [-4.3, -4.2], str(told))
+
+
+def wrong_layers_are_explained(job):
+    for arguments, part in ((["--z", "5.1"], "from -5 to 5 mm"), (["--z", "top"], "--z 3.2"), ([], "--index"),
+                            (["--index", "100"], "0 to 99"), (["--index", "1:3"], "0 to 99"),
+                            (["--z", "0", "--box", "1,2,3"], "x0,y0,x1,y1"), (["--z", "0", "--box", "2,0,1,1"], "x0,y0,x1,y1"),
+                            (["--z", "0", "--box", "5,5,6,6"], "from -5,-5 to 5,5 mm"),
+                            (["--z", "0", "--index", "0"], "excludes")):
+        result = ombre_layer(job, *SMALL, *arguments, status=1)
+        expect(part in result.stderr, f"{arguments}: {result.stderr}")
+    expect(not list(job.folder.glob("*.png")), "it wrote all the same")
+
+
 # ---- interruptions
 
 
@@ -387,7 +499,9 @@ def examples_of_nodes_slice(job):
 QUICK = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make_the_whole,
          a_piece_has_the_names_and_bytes_of_the_whole, seeds_change_the_mixture_only, printed_designs_are_the_same_job,
          roundabout_rotations_keep_the_voxels, images_lie_as_the_design_does, images_tell_their_resolution,
-         palettes_of_any_size, resume_refuses_another_job, damaged_layers_are_made_again, foreign_files_are_left_alone,
+         palettes_of_any_size, materials_have_masks_of_their_own, gray_images_show_brightness,
+         masks_resume_and_are_replaced, layers_of_masks_have_several_files, layers_are_those_of_the_job, boxes_cut_layers, layers_have_names_and_are_not_overwritten,
+         wrong_layers_are_explained, resume_refuses_another_job, damaged_layers_are_made_again, foreign_files_are_left_alone,
          finished_jobs_are_not_overwritten, force_removes_the_old_layers, output_that_is_a_file,
          folder_that_may_not_be_written, full_disk, reference_is_up_to_date, examples_of_nodes_slice]
 SLOW = [killed_jobs_resume, killed_twice_resumes, interrupted_jobs_resume]

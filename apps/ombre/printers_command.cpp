@@ -29,14 +29,14 @@ std::string describe(const voxel::Printer& printer) {
     text += row("build box", format_rounded(build.x, 6) + " x " + format_rounded(build.y, 6) + " x " +
                                  format_rounded(build.z, 6) + " mm");
   }
-  text += row("images", printer.image == voxel::ImageFormat::rgba ? "rgba" : "indexed");
+  text += row("images", voxel::to_text(printer.image) + (printer.files.has_material() ? ", for each material" : ""));
   text += row("images cover", printer.origin == voxel::Placement::center ? "the build plate, the part in its middle"
                                                                          : "the design's box");
   if (printer.flip_x || printer.flip_y)
     text += row("flipped", std::string(printer.flip_x ? "x" : "") + (printer.flip_x && printer.flip_y ? ", " : "") +
                                (printer.flip_y ? "y" : ""));
-  text += row("files",
-              printer.files.name(printer.first_index) + ", " + printer.files.name(printer.first_index + 1) + ", ...");
+  const voxel::NamePattern files = printer.files.of_material("MATERIAL");
+  text += row("files", files.name(printer.first_index) + ", " + files.name(printer.first_index + 1) + ", ...");
   text += row("empty layers", printer.drop_empty_layers ? "dropped" : "kept");
   text += row("most materials", std::to_string(printer.max_materials));
   if (printer.smallest_feature)

@@ -1,26 +1,12 @@
 // ombre sheet: a contact sheet of a finished job's layers.
-#include <filesystem>
 #include <memory>
 
-#include "base/error.h"
 #include "compile/job_sheet.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
+#include "ombre/overwrite.h"
 
 namespace ombre::cli {
-namespace {
-
-// Only files are replaced, and only when told to.
-void refuse_to_overwrite(const std::string& path, bool force) {
-  std::error_code ignored;
-  const auto status = std::filesystem::status(path, ignored);
-  if (!std::filesystem::exists(status)) return;
-  if (!std::filesystem::is_regular_file(status)) throw Error(path + " is not a file; choose another name");
-  if (!force) throw Error(path + " exists already; replace it with --force, or choose another name");
-}
-
-}  // namespace
-
 Command add_sheet(CLI::App& program, OutputOptions& output) {
   struct Arguments {
     std::string folder, image = "sheet.png";

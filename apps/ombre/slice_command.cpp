@@ -1,17 +1,15 @@
 // ombre slice: a printable slice stack from a design.
-#include <charconv>
 #include <filesystem>
 #include <memory>
 
 #include "base/error.h"
 #include "base/text.h"
-#include "compile/find_printer.h"
-#include "compile/load.h"
 #include "compile/slice.h"
 #include "ombre/arguments.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/interrupt.h"
+#include "ombre/job_arguments.h"
 #include "ombre/progress_line.h"
 #include "ombre/slice_report.h"
 
@@ -19,12 +17,10 @@ namespace ombre::cli {
 namespace {
 
 struct SliceArguments {
-  std::string design, folder, printer, voxel, dpi, layer_height, dither = "stochastic", image, place, materials, layers,
-                                                                 memory = "2G", emit, evaluator = "batch";
-  std::vector<std::string> definitions;
-  std::string seed = "0";
+  JobArguments job;
+  std::string folder, layers, memory = "2G", emit;
   int threads = 0;
-  bool tray = false, force = false, resume = false, dry_run = false, strict = false;
+  bool force = false, resume = false, dry_run = false, strict = false;
 };
 
 constexpr const char* footer =
@@ -39,37 +35,9 @@ constexpr const char* footer =
     "  ombre slice part.vcad -o part/ --resume              go on after an interruption\n";
 
 void add_arguments(CLI::App& app, SliceArguments& a) {
-  app.add_option("design", a.design, "The design, a .vcad file")->required()->type_name("FILE");
+  add_job_arguments(app, a.job);
   app.add_option("-o,--output", a.folder, "Folder for the layers (default: the design's name and _slices)")
       ->type_name("DIR");
-  app.add_option("--printer", a.printer, "Printer profile: a name, or the path of a .json file")->type_name("NAME");
-  CLI::Option* voxel = app.add_option("--voxel", a.voxel, "Voxel size: one length, or x,y,z; mm")->type_name("X,Y,Z");
-  app.add_option("--dpi", a.dpi, "Resolution in dots per inch: x and y alike, x,y or x,y,z")
-      ->type_name("X,Y")
-      ->excludes(voxel);
-  app.add_option("--layer-height", a.layer_height, "Voxel size along z; mm")->type_name("MM");
-  app.add_option("--dither", a.dither, "How a mixture becomes one material a voxel: stochastic (default) or threshold")
-      ->check(CLI::IsMember({"stochastic", "threshold"}))
-      ->type_name("MODE");
-  app.add_option("--evaluator", a.evaluator,
-                 "Who computes values: batch (default, floats, fast) or reference (double precision, slow)")
-      ->check(CLI::IsMember({"batch", "reference"}))
-      ->type_name("NAME");
-  app.add_option("--seed", a.seed, "Seed of the dithering (default 0); equal seeds give equal files")->type_name("N");
-  app.add_option("--format", a.image, "Image format: rgba or indexed (default: the printer's)")
-      ->check(CLI::IsMember({"rgba", "indexed"}))
-      ->type_name("FORMAT");
-  CLI::Option* place =
-      app.add_option("--place", a.place,
-                     "Images cover the design's own box, or the build plate with the part in its middle")
-          ->check(CLI::IsMember({"design", "center"}))
-          ->type_name("design|center");
-  app.add_flag("--tray", a.tray, "Images cover the printer's whole build box, the design where it stands")
-      ->excludes(place);
-  app.add_option("--materials", a.materials, "Materials file (see: ombre materials)")->type_name("FILE");
-  app.add_option("-D,--define", a.definitions, "Set a variable of the design; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("NAME=VALUE");
   app.add_option("--layers", a.layers, "Only these layers, a:b as in Python (b excluded), a:, :b or a")
       ->type_name("A:B");
   app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
@@ -88,31 +56,7 @@ void add_arguments(CLI::App& app, SliceArguments& a) {
 
 std::string output_folder(const SliceArguments& a) {
   if (!a.folder.empty()) return a.folder;
-  return std::filesystem::path(a.design).stem().string() + "_slices";
-}
-
-uint64_t parse_seed(const std::string& text) {
-  uint64_t seed = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (status == std::errc() && end == text.data() + text.size()) return seed;
-  throw WrongArgument("--seed " + text + " is not a whole number from 0 to 18446744073709551615");
-}
-
-compile::PlanOptions plan_options(const SliceArguments& a, voxel::Printer printer) {
-  compile::PlanOptions options;
-  options.program = "ombre " OMBRE_VERSION;
-  options.printer = std::move(printer);
-  options.printer_given = !a.printer.empty();
-  if (!a.voxel.empty()) options.pitch = parse_voxel(a.voxel);
-  if (!a.dpi.empty()) options.pitch = parse_dpi(a.dpi);
-  if (!a.layer_height.empty()) options.pitch[2] = parse_layer_height(a.layer_height);
-  options.dither = a.dither == "threshold" ? voxel::Dither::threshold : voxel::Dither::stochastic;
-  options.seed = parse_seed(a.seed);
-  if (a.evaluator == "reference") options.evaluator.evaluator = voxel::Evaluator::reference;
-  if (!a.image.empty()) options.image = a.image == "rgba" ? voxel::ImageFormat::rgba : voxel::ImageFormat::indexed;
-  if (!a.place.empty()) options.place = a.place == "center" ? voxel::Placement::center : voxel::Placement::design;
-  options.whole_tray = a.tray;
-  return options;
+  return std::filesystem::path(a.job.design).stem().string() + "_slices";
 }
 
 compile::SliceOptions slice_options(const SliceArguments& a, const compile::SliceRequest& request) {
@@ -164,22 +108,18 @@ int slice(const SliceArguments& a, Session& session) {
     session.console.diagnose(diagnostics);
     return diagnostics.has_errors() ? wrong_input : done;
   };
-  const auto printer = compile::find_printer(a.printer.empty() ? "generic" : a.printer, diagnostics);
-  if (!printer) return diagnosed();
-  const compile::PlanOptions wishes = plan_options(a, *printer);
+  const auto wishes = plan_options(a.job, diagnostics);
+  if (!wishes) return diagnosed();
   parse_memory(a.memory);  // a slip is better told before a long load
 
   const InterruptGuard interrupt;
-  compile::LoadOptions load{a.materials, a.definitions};
-  load.echo = [&](const std::string& text) { session.console.say(text); };
-  load.stop = &interrupt.flag();
-  const compile::LoadedPtr loaded = compile::load_design(a.design, load, diagnostics);
+  const compile::LoadedPtr loaded = load_design(a.job, session, interrupt.flag(), diagnostics);
   if (!loaded) return diagnosed();
   if (!a.emit.empty()) {
     session.console.print(compile::emit(*loaded, a.emit));
     return diagnosed();
   }
-  const std::optional<compile::Plan> plan = compile::plan_slice(loaded, wishes, diagnostics);
+  const std::optional<compile::Plan> plan = compile::plan_slice(loaded, *wishes, diagnostics);
   if (const int code = diagnosed(); !plan || code != done) return wrong_input;
 
   const compile::SliceOptions options = slice_options(a, plan->request);

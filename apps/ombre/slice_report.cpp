@@ -65,7 +65,7 @@ void tell_plan(const Console& console, const compile::SliceRequest& request, con
 void tell_estimate(const Console& console, const compile::SliceRequest& request,
                    const compile::SliceEstimate& estimate) {
   console.say("about " + duration_text(estimate.seconds) + ", " + bytes_text(static_cast<double>(estimate.bytes)) +
-              " of " + (request.format == formats::PngFormat::rgba ? "RGBA" : "indexed") + " images, at most " +
+              " of images (" + voxel::to_text(request.format) + "), at most " +
               bytes_text(static_cast<double>(estimate.memory_bytes)) +
               " of memory for layers in flight; nothing was written");
   console.event("estimate", {{"seconds", estimate.seconds},

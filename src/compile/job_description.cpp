@@ -33,7 +33,7 @@ Data sampling(const SliceRequest& request) {
                      {"voxels", voxels},
                      {"origin_mm", triple(lattice.origin)},
                      {"size_mm", triple(lattice.box().size())},
-                     {"dither", request.dither == voxel::Dither::stochastic ? "stochastic" : "threshold"},
+                     {"dither", std::string(voxel::name(request.dither))},
                      {"evaluator", request.evaluator == voxel::Evaluator::batch ? "batch" : "reference"},
                      {"seed", std::to_string(request.seed)}};  // text, since it may have 64 bits
 }
@@ -42,7 +42,7 @@ Data images(const SliceRequest& request) {
   DataList flip;
   if (request.flip_x) flip.emplace_back("x");
   if (request.flip_y) flip.emplace_back("y");
-  return DataMembers{{"format", request.format == formats::PngFormat::rgba ? "rgba" : "indexed"},
+  return DataMembers{{"format", voxel::to_text(request.format)},
                      {"files", request.files.text()},
                      {"first_index", number(request.first_index)},
                      {"empty_layers", request.drop_empty_layers ? "drop" : "keep"},
@@ -87,8 +87,8 @@ Data describe_totals(const SliceRequest& request, const std::vector<JournalEntry
   const JournalEntry *lowest = nullptr, *highest = nullptr;
   for (const JournalEntry& layer : layers) {
     for (size_t i = 0; i < voxels.size(); ++i) voxels[i] += layer.voxels[i];
-    files += layer.file.empty() ? 0 : 1;
-    bytes += layer.bytes;
+    files += layer.files.size();
+    for (const JournalFile& file : layer.files) bytes += file.bytes;
     if (layer.is_empty()) continue;
     if (!lowest) lowest = &layer;
     highest = &layer;

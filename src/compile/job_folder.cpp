@@ -1,4 +1,4 @@
-// The folder of a slice job: job.json, journal.jsonl and one file for each layer.
+// The folder of a slice job: job.json, journal.jsonl and the files of each layer.
 #include "compile/job_folder.h"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "base/assert.h"
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/json.h"
@@ -20,21 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using exporting::part_suffix;
-
-// Names that a job gives to its layers.
-struct LayerNames {
-  voxel::NamePattern files;
-  int64_t first_index = 0, layer_count = 0;
-
-  bool contains(std::string_view name) const {
-    const std::optional<int64_t> index = files.index(name);
-    return index && *index >= first_index && *index - first_index < layer_count;
-  }
-};
-
-LayerNames layer_names(const SliceRequest& request) {
-  return {request.files, request.first_index, request.lattice.count[2]};
-}
 
 // The name of a file that `name` is the part of, else `name`.
 std::string_view without_part(std::string_view name) {
@@ -54,8 +40,21 @@ bool is_slice_job(const Data& job) {
   return format && format->string() && format->string()->starts_with(job_format);
 }
 
+// The names of the job's materials, without void.
+std::optional<std::vector<std::string>> material_names(const Data* materials) {
+  if (!materials || !materials->list() || materials->list()->empty()) return std::nullopt;
+  std::vector<std::string> names;
+  for (const Data& material : *materials->list()) {
+    const Data* name = material.find("name");
+    if (!name || !name->string()) return std::nullopt;
+    names.push_back(*name->string());
+  }
+  names.erase(names.begin());
+  return names;
+}
+
 // The names that the job in a folder gives to its layers, as its job.json has it.
-std::optional<LayerNames> layer_names(const std::optional<Data>& job) {
+std::optional<LayerFiles> layer_files(const std::optional<Data>& job) {
   const Data* images = job ? job->find("images") : nullptr;
   const Data* sampling = job ? job->find("sampling") : nullptr;
   const Data* files = images ? images->find("files") : nullptr;
@@ -65,9 +64,10 @@ std::optional<LayerNames> layer_names(const std::optional<Data>& job) {
   if (!voxels || !voxels->list() || voxels->list()->size() != 3 || !voxels->list()->back().number())
     return std::nullopt;
   const auto pattern = voxel::NamePattern::parse(*files->string());
+  const auto materials = material_names(job->find("materials"));
   const double first_index = *first->number(), count = *voxels->list()->back().number();
-  if (!pattern || std::abs(first_index) > 1e9 || !(count >= 0 && count < 1e9)) return std::nullopt;
-  return LayerNames{*pattern, static_cast<int64_t>(first_index), static_cast<int64_t>(count)};
+  if (!pattern || !materials || std::abs(first_index) > 1e9 || !(count >= 0 && count < 1e9)) return std::nullopt;
+  return LayerFiles(*pattern, *materials, static_cast<int64_t>(first_index), static_cast<int64_t>(count));
 }
 
 void make_folder(const std::string& path) {
@@ -88,7 +88,7 @@ void remove_file(const std::string& path) {
 }  // namespace
 
 JobFolder::JobFolder(std::string path, const SliceRequest& request, FolderUse use, int threads)
-    : path_(std::move(path)), request_(request), threads_(threads) {
+    : path_(std::move(path)), request_(request), files_(request), threads_(threads) {
   make_folder(path_);
   lock_ = std::make_unique<FolderLock>(path_);
   switch (use) {
@@ -156,14 +156,13 @@ void JobFolder::remove_old_job() {
   // A damaged job.json is taken for ours where the journal beside it names layers.
   if (job ? !is_slice_job(*job) : ours.empty())
     throw Error(in_folder(job_file) + " was not written by Ombre; move it away, or choose another folder");
-  const std::optional<LayerNames> layers = layer_names(job);
+  const std::optional<LayerFiles> layers = layer_files(job);
   const auto is_ours = [&](std::string_view name) {
     return is_bookkeeping(name) || ours.count(name) > 0 || (layers && layers->contains(name));
   };
   // Before anything goes: what stays may not be in the new job's way.
-  const LayerNames coming = layer_names(request_);
   for (const std::string& name : names())
-    if (const std::string_view whole = without_part(name); coming.contains(whole) && !is_ours(whole))
+    if (const std::string_view whole = without_part(name); files_.contains(whole) && !is_ours(whole))
       refuse_collision(name);
 
   for (const std::string& name : names())
@@ -185,9 +184,8 @@ void JobFolder::refuse_foreign_files() const {
 
 // Whatever the user allowed, a file that Ombre did not write is not replaced by a layer.
 void JobFolder::refuse_collisions() const {
-  const LayerNames layers = layer_names(request_);
   for (const std::string& name : names())
-    if (name == journal_file || layers.contains(without_part(name))) refuse_collision(name);
+    if (name == journal_file || files_.contains(without_part(name))) refuse_collision(name);
 }
 
 void JobFolder::refuse_collision(const std::string& name) const {
@@ -196,10 +194,9 @@ void JobFolder::refuse_collision(const std::string& name) const {
 }
 
 void JobFolder::remove_parts() const {
-  const LayerNames layers = layer_names(request_);
   for (const std::string& name : names()) {
     const std::string_view whole = without_part(name);
-    if (whole.size() < name.size() && (is_bookkeeping(whole) || layers.contains(whole))) remove_file(in_folder(name));
+    if (whole.size() < name.size() && (is_bookkeeping(whole) || files_.contains(whole))) remove_file(in_folder(name));
   }
 }
 
@@ -212,20 +209,26 @@ void JobFolder::keep_proven(std::vector<JournalEntry> entries) {
 
 bool JobFolder::proven(const JournalEntry& entry) const {
   if (entry.layer >= request_.lattice.count[2]) return false;
-  if (entry.file.empty()) return request_.drop_empty_layers && entry.is_empty();
-  if (entry.file != expected_file(entry.layer)) return false;
-  const std::string path = in_folder(entry.file);
-  std::error_code error;
-  if (fs::file_size(path, error) != entry.bytes || error) return false;
-  return hash_bytes(formats::read_file(path)).hex() == entry.hash;
+  if (entry.files.empty() && entry.is_empty() && request_.drop_empty_layers) return true;
+  const std::vector<std::string> names = files_.names(entry.layer);
+  const auto is_named = [](const JournalFile& file, const std::string& name) { return file.name == name; };
+  return std::equal(entry.files.begin(), entry.files.end(), names.begin(), names.end(), is_named) &&
+         std::all_of(entry.files.begin(), entry.files.end(), [&](const JournalFile& file) { return holds(file); });
 }
 
-void JobFolder::add(JournalEntry entry, std::string_view bytes) {
-  if (!bytes.empty()) {
-    entry.file = expected_file(entry.layer);
-    entry.bytes = bytes.size();
-    entry.hash = hash_bytes(bytes).hex();
-    exporting::write_file(in_folder(entry.file), bytes);
+bool JobFolder::holds(const JournalFile& file) const {
+  const std::string path = in_folder(file.name);
+  std::error_code error;
+  if (fs::file_size(path, error) != file.bytes || error) return false;
+  return hash_bytes(formats::read_file(path)).hex() == file.hash;
+}
+
+void JobFolder::add(JournalEntry entry, const std::vector<std::string>& images) {
+  const std::vector<std::string> names = files_.names(entry.layer);
+  ASSERT(images.empty() || images.size() == names.size());
+  for (size_t i = 0; i < images.size(); ++i) {
+    exporting::write_file(in_folder(names[i]), images[i]);
+    entry.files.push_back({names[i], images[i].size(), hash_bytes(images[i]).hex()});
   }
   journal_->append(to_line(entry));
   finished_.insert_or_assign(entry.layer, std::move(entry));
@@ -246,8 +249,6 @@ bool JobFolder::holds(const char* name) const {
 }
 
 std::string JobFolder::in_folder(std::string_view name) const { return (fs::path(path_) / name).string(); }
-
-std::string JobFolder::expected_file(int64_t layer) const { return request_.files.name(request_.first_index + layer); }
 
 std::vector<std::string> JobFolder::names() const {
   std::vector<std::string> names;

@@ -1,9 +1,9 @@
-// The folder of a slice job: job.json, journal.jsonl and one file for each layer.
+// The folder of a slice job: job.json, journal.jsonl and the files of each layer.
 //
 // Order of events, so that a run can end at any moment and be resumed: job.json is there before the
-// first layer; a layer's file is written aside and renamed; then its line joins the journal; once all
-// layers are there, the journal is sorted and job.json gets the totals. A resumed run trusts a line
-// only if the file that it names has the size and the hash that it states.
+// first layer; each file of a layer is written aside and renamed; then the layer's line joins the journal;
+// once all layers are there, the journal is sorted and job.json gets the totals. A resumed run trusts a
+// line only if the files that it names are the layer's, with the sizes and the hashes that it states.
 #pragma once
 
 #include <map>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "compile/job_journal.h"
+#include "compile/layer_files.h"
 #include "compile/slice.h"
 #include "export/output_file.h"
 
@@ -35,9 +36,9 @@ class JobFolder {
   // By layer: what is finished, from earlier runs and this one.
   const std::map<int64_t, JournalEntry>& finished() const { return finished_; }
 
-  // Writes the file, then the journal. `entry` has its layer, voxels and checks; without bytes the
-  // layer has no file.
-  void add(JournalEntry entry, std::string_view bytes);
+  // Writes the layer's files, then the journal. `entry` has its layer, voxels and checks; without images the
+  // layer has no files.
+  void add(JournalEntry entry, const std::vector<std::string>& images);
 
   // Sorts the journal and, if no layer is missing, writes the totals. Returns whether none is.
   bool close();
@@ -60,10 +61,11 @@ class JobFolder {
   std::string job_text(bool complete) const;
   std::string journal_text() const;
   void update(const char* name, const std::string& text) const;
-  std::string expected_file(int64_t layer) const;
+  bool holds(const JournalFile& file) const;
 
   std::string path_;
   const SliceRequest& request_;
+  LayerFiles files_;
   int threads_;
   std::unique_ptr<FolderLock> lock_;
   std::map<int64_t, JournalEntry> finished_;

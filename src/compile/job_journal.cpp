@@ -20,8 +20,7 @@ uint64_t whole(const Data* data, bool& good) {
   return good ? static_cast<uint64_t>(*number) : 0;
 }
 
-std::string text_or_null(const Data* data, bool& good) {
-  if (data && data->is_null()) return "";
+std::string text(const Data* data, bool& good) {
   good = good && data && data->string();
   return good ? *data->string() : "";
 }
@@ -32,6 +31,15 @@ std::vector<uint64_t> wholes(const Data* data, bool& good) {
   if (!good) return values;
   for (const Data& element : *data->list()) values.push_back(whole(&element, good));
   return values;
+}
+
+std::vector<JournalFile> file_list(const Data* data, bool& good) {
+  std::vector<JournalFile> files;
+  good = good && data && data->list();
+  if (!good) return files;
+  for (const Data& file : *data->list())
+    files.push_back({text(file.find("file"), good), whole(file.find("bytes"), good), text(file.find("hash"), good)});
+  return files;
 }
 
 // Calls use(line) for each line; a last line without its end was torn.
@@ -56,8 +64,9 @@ bool JournalEntry::is_empty() const {
 
 std::string to_line(const JournalEntry& entry) {
   const auto number = [](auto value) { return Data(static_cast<double>(value)); };
-  const auto text_data = [](const std::string& text) { return text.empty() ? Data() : Data(text); };
-  DataList voxels, checks;
+  DataList files, voxels, checks;
+  for (const JournalFile& file : entry.files)
+    files.emplace_back(DataMembers{{"file", file.name}, {"bytes", number(file.bytes)}, {"hash", file.hash}});
   for (const uint64_t count : entry.voxels) voxels.push_back(number(count));
   for (size_t i = 0; i < entry.checks.size(); ++i) {
     const voxel::CheckHits& hits = entry.checks[i];
@@ -65,11 +74,7 @@ std::string to_line(const JournalEntry& entry) {
     checks.emplace_back(
         DataList{number(i), number(hits.count), number(hits.first[0]), number(hits.first[1]), number(hits.first[2])});
   }
-  DataMembers line{{"layer", number(entry.layer)},
-                   {"file", text_data(entry.file)},
-                   {"bytes", number(entry.bytes)},
-                   {"hash", text_data(entry.hash)},
-                   {"voxels", voxels}};
+  DataMembers line{{"layer", number(entry.layer)}, {"files", files}, {"voxels", voxels}};
   if (!checks.empty()) line.emplace_back("checks", checks);  // [check, voxels, i, j, k] of the first
   return print_json_line(line) + '\n';
 }
@@ -80,9 +85,7 @@ std::optional<JournalEntry> parse_entry(std::string_view line, size_t material_c
   bool good = true;
   JournalEntry entry;
   entry.layer = static_cast<int64_t>(whole(data->find("layer"), good));
-  entry.file = text_or_null(data->find("file"), good);
-  entry.bytes = whole(data->find("bytes"), good);
-  entry.hash = text_or_null(data->find("hash"), good);
+  entry.files = file_list(data->find("files"), good);
   entry.voxels = wholes(data->find("voxels"), good);
   entry.checks.resize(check_count);
   if (const Data* checks = data->find("checks"); checks && checks->list()) {
@@ -113,8 +116,9 @@ std::vector<std::string> journal_files(std::string_view text) {
   std::vector<std::string> files;
   for_each_line(text, [&](std::string_view line) {
     const std::optional<Data> data = parse_line(line);
-    const Data* file = data ? data->find("file") : nullptr;
-    if (file && file->string()) files.push_back(*file->string());
+    bool good = data.has_value();
+    if (!good) return;
+    for (JournalFile& file : file_list(data->find("files"), good)) files.push_back(std::move(file.name));
   });
   return files;
 }

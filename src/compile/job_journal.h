@@ -11,11 +11,15 @@
 
 namespace ombre::compile {
 
+struct JournalFile {
+  std::string name;
+  uint64_t bytes = 0;
+  std::string hash;  // of its bytes
+};
+
 struct JournalEntry {
   int64_t layer = 0;                     // counted from the lowest layer of the job
-  std::string file;                      // empty where an empty layer was dropped
-  uint64_t bytes = 0;                    // of the file
-  std::string hash;                      // of the file's bytes; empty without a file
+  std::vector<JournalFile> files;        // none where an empty layer was dropped
   std::vector<uint64_t> voxels;          // of each of the job's materials
   std::vector<voxel::CheckHits> checks;  // of each of the job's checks
 

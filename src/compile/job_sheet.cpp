@@ -10,6 +10,7 @@
 #include "base/json.h"
 #include "compile/job_folder.h"
 #include "export/contact_sheet.h"
+#include "export/material_stack.h"
 #include "export/output_file.h"
 #include "formats/file.h"
 
@@ -30,9 +31,26 @@ const Data* member(const Data* object, const char* name) { return object ? objec
 
 struct JobSummary {
   exporting::SheetStyle style;
+  voxel::ImageFormat format = voxel::ImageFormat::indexed;
+  std::vector<formats::Rgba> colours;  // of the materials, without void
   double origin_z_mm = 0, layer_mm = 0;
-  size_t material_count = 0, check_count = 0;
+  size_t check_count = 0;
 };
+
+formats::Rgba colour(const Data& material, const std::string& path) {
+  const std::vector<double> channels = numbers(member(&material, "rgba"), path);
+  if (channels.size() != 4) throw Error(path + " is not a slice job");
+  formats::Rgba rgba{};
+  for (size_t i = 0; i < 4; ++i) rgba[i] = static_cast<uint8_t>(std::clamp(channels[i], 0.0, 255.0));
+  return rgba;
+}
+
+voxel::ImageFormat format(const Data* images, const std::string& path) {
+  const Data* name = member(images, "format");
+  const auto format = name && name->string() ? voxel::image_format(*name->string()) : std::nullopt;
+  if (!format) throw Error(path + " is not a slice job");
+  return *format;
+}
 
 JobSummary read_summary(const std::string& path) {
   Diagnostics ignored;
@@ -45,19 +63,34 @@ JobSummary read_summary(const std::string& path) {
   if (pitch.size() != 3 || origin.size() != 3 || !materials || !materials->list() || materials->list()->empty() ||
       !checks || !checks->list())
     throw Error(path + " is not a slice job");
-  const std::vector<double> background = numbers(member(&materials->list()->front(), "rgba"), path);
-  if (background.size() != 4) throw Error(path + " is not a slice job");
 
   JobSummary summary;
   summary.style.pixel_width_mm = pitch[0];
   summary.style.pixel_height_mm = pitch[1];
-  for (size_t i = 0; i < 4; ++i)
-    summary.style.background[i] = static_cast<uint8_t>(std::clamp(background[i], 0.0, 255.0));
+  summary.format = format(member(&*job, "images"), path);
+  for (const Data& material : *materials->list()) summary.colours.push_back(colour(material, path));
+  const formats::Rgba background = summary.colours.front();
+  summary.colours.erase(summary.colours.begin());
+  const bool is_mask = summary.format == voxel::ImageFormat::mask;
+  summary.style.background = is_mask ? exporting::mask_off : exporting::shown(background, summary.format);
   summary.origin_z_mm = origin[2];
   summary.layer_mm = pitch[2];
-  summary.material_count = materials->list()->size() - 1;
   summary.check_count = checks->list()->size();
   return summary;
+}
+
+// Its files, with the materials' colours in the place of masks.
+exporting::SheetLayer sheet_layer(const JournalEntry& entry, const JobSummary& summary,
+                                  const std::filesystem::path& folder) {
+  exporting::SheetLayer layer;
+  layer.layer = entry.layer;
+  layer.z_mm = summary.origin_z_mm + (static_cast<double>(entry.layer) + 0.5) * summary.layer_mm;
+  for (size_t i = 0; i < entry.files.size(); ++i) {
+    layer.images.push_back({(folder / entry.files[i].name).string(), std::nullopt});
+    if (summary.format == voxel::ImageFormat::mask && i < summary.colours.size())
+      layer.images.back().ink = summary.colours[i];
+  }
+  return layer;
 }
 
 // Up to `most` elements, evenly spaced, each in the middle of its share.
@@ -76,11 +109,8 @@ void write_contact_sheet(const std::string& folder, const std::string& image_pat
   const JobSummary summary = read_summary((base / job_file).string());
   const std::string journal = formats::read_file((base / journal_file).string());
   std::vector<exporting::SheetLayer> layers;
-  for (const JournalEntry& entry : parse_journal(journal, summary.material_count, summary.check_count)) {
-    if (entry.is_empty() || entry.file.empty()) continue;
-    const double z_mm = summary.origin_z_mm + (static_cast<double>(entry.layer) + 0.5) * summary.layer_mm;
-    layers.push_back({(base / entry.file).string(), entry.layer, z_mm});
-  }
+  for (const JournalEntry& entry : parse_journal(journal, summary.colours.size(), summary.check_count))
+    if (!entry.is_empty() && !entry.files.empty()) layers.push_back(sheet_layer(entry, summary, base));
   if (layers.empty()) throw Error(folder + " has no layer with material to draw");
   layers = evenly_spaced(layers, static_cast<size_t>(std::max(1, layer_count)));
   const exporting::Picture sheet = exporting::draw_contact_sheet(layers, summary.style);

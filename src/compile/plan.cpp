@@ -1,9 +1,11 @@
 // Decides the lattice of a job and everything else that its bytes depend on.
 #include <cmath>
+#include <map>
 
 #include "base/text.h"
 #include "compile/build.h"
 #include "compile/load.h"
+#include "export/material_stack.h"
 
 namespace ombre::compile {
 namespace {
@@ -132,6 +134,23 @@ void warn_of_features(const voxel::Printer& printer, const Vec3 size, const Sour
                                    " mm");
 }
 
+// What looks alike in images of one channel.
+void warn_of_grays(const SliceRequest& request, const SourceRange& where, Diagnostics& diagnostics) {
+  if (request.format != voxel::ImageFormat::gray) return;
+  const auto gray = [&](formats::Rgba colour) { return static_cast<int>(exporting::shown(colour, request.format)[0]); };
+  std::map<int, std::string> names{{gray(request.background), "void"}};
+  // Each material has an image of its own, or all have one.
+  const bool alone = request.files.has_material();
+  for (const SliceMaterial& material : request.materials) {
+    const auto [same, is_new] = names.try_emplace(gray(material.rgba), material.name);
+    if (!is_new && (!alone || same->second == "void"))
+      diagnostics.warning(
+          where,
+          material.name + " and " + same->second + " are both gray " + std::to_string(same->first) + " in the images",
+          "give them colours of different brightness in a materials file");
+  }
+}
+
 }  // namespace
 
 std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& options, Diagnostics& diagnostics) {
@@ -158,6 +177,7 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
     const design::Material& material = design.materials.all()[id];
     request.materials.push_back({material.name, id, material.colour});
   }
+  warn_of_grays(request, {loaded->source, 0, 0}, diagnostics);
   for (const design::Check& check : built->checks) {
     request.check_texts.push_back(check.message);
     request.check_places.push_back(place_text(check.where));

@@ -75,7 +75,7 @@ class SliceRun {
   }
 
   void write(const std::vector<LayerRange>& slabs) {
-    const exporting::PngStack stack = png_stack(request_);
+    const exporting::MaterialStack stack = image_stack(request_);
     // Slabs not begun when the run is to stop come back empty; those in flight are still written.
     const auto produce = [&](size_t i) {
       if (failed_check_ || (stop_ && stop_->requested())) {
@@ -90,10 +90,10 @@ class SliceRun {
 
   void write_slab(Slab& slab) {
     for (EncodedLayer& layer : slab) {
-      ++(layer.bytes.empty() ? report_.layers_dropped : report_.layers_written);
-      report_.bytes_written += layer.bytes.size();
+      ++(layer.images.empty() ? report_.layers_dropped : report_.layers_written);
+      report_.bytes_written += layer.bytes();
       note_checks(layer.entry);
-      folder_.add(std::move(layer.entry), layer.bytes);
+      folder_.add(std::move(layer.entry), layer.images);
     }
     progress_.add_layers(slab.size());
   }

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "export/png_stack.h"
 #include "formats/png.h"
 #include "voxel/lattice.h"
 #include "voxel/layers.h"
@@ -33,7 +32,7 @@ struct SliceRequest {
   voxel::Evaluator evaluator = voxel::Evaluator::batch;
   uint64_t seed = 0;
   std::vector<SliceMaterial> materials;  // those used, by ascending id, without void
-  formats::PngFormat format = formats::PngFormat::indexed;
+  voxel::ImageFormat format = voxel::ImageFormat::indexed;
   formats::Rgba background{};
   bool flip_x = false, flip_y = false;
   voxel::NamePattern files;
@@ -43,7 +42,7 @@ struct SliceRequest {
   std::vector<std::string> check_places;  // and where in the design, "part.vcad:3:1"; decides no bytes
 };
 
-// The conventions of a profile; `image` overrides its image format.
+// The conventions of a profile; `image` overrides its image format. Masks are always one for each material.
 void use_printer(SliceRequest& request, const voxel::Printer& printer, std::optional<voxel::ImageFormat> image);
 
 // Layers [begin, end) of the whole job.
@@ -83,7 +82,7 @@ struct CheckReport {
 
 struct SliceReport {
   LayerRange layers;
-  int64_t layers_written = 0;             // files of this run
+  int64_t layers_written = 0;             // in this run
   int64_t layers_kept = 0;                // finished by an earlier run
   int64_t layers_dropped = 0;             // empty, and the printer wants no empty layers
   uint64_t voxels_inside = 0;             // in `layers`, as are the counts below

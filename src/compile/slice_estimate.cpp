@@ -30,7 +30,7 @@ SliceEstimate estimate_slice(const SliceRequest& request, const LayerProducer& p
   using Clock = std::chrono::steady_clock;
   const LayerRange range = options.layers.value_or(LayerRange{0, request.lattice.count[2]});
   const WorkSize size = size_work(request, options);
-  const exporting::PngStack stack = png_stack(request);
+  const exporting::MaterialStack stack = image_stack(request);
 
   SliceEstimate estimate;
   estimate.memory_bytes = size.memory_bytes;
@@ -39,9 +39,9 @@ SliceEstimate estimate_slice(const SliceRequest& request, const LayerProducer& p
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   for (const LayerRange& slab : sample_slabs(range, size.slab_layers)) {
     for (EncodedLayer& layer : make_slab(request, producer, stack, slab)) {
-      estimate.bytes += layer.bytes.size();
+      estimate.bytes += layer.bytes();
       sampled.push_back(std::move(layer));
-      sampled.back().bytes.clear();
+      sampled.back().images.clear();
     }
     if (elapsed() > most_seconds) break;
   }

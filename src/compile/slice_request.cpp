@@ -22,13 +22,12 @@ int64_t position(int64_t number, int64_t count) {
 }  // namespace
 
 void use_printer(SliceRequest& request, const voxel::Printer& printer, std::optional<voxel::ImageFormat> image) {
-  const bool rgba = image.value_or(printer.image) == voxel::ImageFormat::rgba;
   request.printer = printer.name;
-  request.format = rgba ? formats::PngFormat::rgba : formats::PngFormat::indexed;
+  request.format = image.value_or(printer.image);
   request.background = printer.background;
   request.flip_x = printer.flip_x;
   request.flip_y = printer.flip_y;
-  request.files = printer.files;
+  request.files = request.format == voxel::ImageFormat::mask ? printer.files.with_material() : printer.files;
   request.first_index = printer.first_index;
   request.drop_empty_layers = printer.drop_empty_layers;
 }

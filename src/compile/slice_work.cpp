@@ -15,7 +15,8 @@ double layer_bytes(const SliceRequest& request) {
   const auto& count = request.lattice.count;
   const double voxels = static_cast<double>(count[0]) * static_cast<double>(count[1]);
   const double run_bytes = 1.5 * sizeof(Run);  // vectors of runs grow ahead of their use
-  const double image_bytes = request.format == formats::PngFormat::rgba ? 4 : 1;
+  const double images = request.files.has_material() ? static_cast<double>(request.materials.size()) : 1;
+  const double image_bytes = images * (request.format == voxel::ImageFormat::rgba ? 4 : 1);
   return voxels * (run_bytes + image_bytes) + static_cast<double>(count[1]) * sizeof(std::vector<Run>);
 }
 
@@ -57,11 +58,18 @@ std::vector<LayerRange> missing_slabs(LayerRange range, const std::map<int64_t, 
   return slabs;
 }
 
-exporting::PngStack png_stack(const SliceRequest& request) {
-  exporting::PngStack stack;
-  stack.palette = formats::Palette(request.background);
-  for (const SliceMaterial& material : request.materials) stack.palette.add(material.id, material.rgba);
+uint64_t EncodedLayer::bytes() const {
+  uint64_t sum = 0;
+  for (const std::string& image : images) sum += image.size();
+  return sum;
+}
+
+exporting::MaterialStack image_stack(const SliceRequest& request) {
+  exporting::MaterialStack stack;
+  for (const SliceMaterial& material : request.materials) stack.materials.push_back({material.id, material.rgba});
+  stack.background = request.background;
   stack.format = request.format;
+  stack.one_for_each = request.files.has_material();
   stack.pitch_x = request.lattice.pitch[0];
   stack.pitch_y = request.lattice.pitch[1];
   stack.flip_x = request.flip_x;
@@ -70,7 +78,7 @@ exporting::PngStack png_stack(const SliceRequest& request) {
 }
 
 std::vector<EncodedLayer> make_slab(const SliceRequest& request, const LayerProducer& producer,
-                                    const exporting::PngStack& stack, LayerRange slab) {
+                                    const exporting::MaterialStack& stack, LayerRange slab) {
   std::vector<voxel::LayerResult> layers = producer(slab.begin, slab.end);
   ASSERT(static_cast<int64_t>(layers.size()) == slab.end - slab.begin);
   std::vector<EncodedLayer> encoded;
@@ -83,7 +91,7 @@ std::vector<EncodedLayer> make_slab(const SliceRequest& request, const LayerProd
       result.entry.voxels.push_back(layer.material_counts[material.id]);
     result.entry.checks = layer.checks;
     result.entry.checks.resize(request.check_texts.size());
-    if (!request.drop_empty_layers || !result.entry.is_empty()) result.bytes = stack.encode(layer.runs);
+    if (!request.drop_empty_layers || !result.entry.is_empty()) result.images = stack.encode(layer.runs);
     encoded.push_back(std::move(result));
   }
   return encoded;

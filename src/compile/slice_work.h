@@ -7,6 +7,7 @@
 
 #include "compile/job_journal.h"
 #include "compile/slice.h"
+#include "export/material_stack.h"
 
 namespace ombre::compile {
 
@@ -27,15 +28,17 @@ std::vector<LayerRange> missing_slabs(LayerRange range, const std::map<int64_t, 
                                       int64_t slab_layers);
 
 struct EncodedLayer {
-  JournalEntry entry;  // without the file's name, size and hash
-  std::string bytes;   // none where an empty layer is dropped
+  JournalEntry entry;               // without its files
+  std::vector<std::string> images;  // the bytes of its files; none where an empty layer is dropped
+
+  uint64_t bytes() const;
 };
 
-exporting::PngStack png_stack(const SliceRequest& request);
+exporting::MaterialStack image_stack(const SliceRequest& request);
 
 // Evaluates and encodes the layers of one slab. Called from several threads.
 std::vector<EncodedLayer> make_slab(const SliceRequest& request, const LayerProducer& producer,
-                                    const exporting::PngStack& stack, LayerRange slab);
+                                    const exporting::MaterialStack& stack, LayerRange slab);
 
 // Adds up, for each of the request's checks, the voxels that layers give; those that failed, with
 // the lowest voxel. Layers must come in order.

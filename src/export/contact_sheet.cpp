@@ -41,19 +41,45 @@ struct Grid {
   uint32_t top(uint32_t tile) const { return margin + tile / columns * cell_height(); }
 };
 
+void require_size(const formats::PngImage& image, const std::string& file, uint32_t width, uint32_t height) {
+  if (image.width != width || image.height != height) throw Error(file + " has another size than the layers before it");
+}
+
 formats::PngImage read(const std::string& path) { return formats::decode_png(formats::read_file(path), path); }
+
+void lay_over(Picture& picture, const SheetImage& sheet_image, const formats::PngImage& image,
+              const formats::Rgba& background) {
+  for (uint32_t row = 0; row < image.height; ++row)
+    for (uint32_t column = 0; column < image.width; ++column)
+      if (const formats::Rgba colour = image.colour(column, row); colour != background)
+        picture.set(column, row, sheet_image.ink.value_or(colour));
+}
+
+// Its images, one over the other.
+formats::PngImage read(const SheetLayer& layer, const SheetStyle& style) {
+  formats::PngImage first = read(layer.images.front().file);
+  if (layer.images.size() == 1 && !layer.images.front().ink) return first;
+  Picture picture(first.width, first.height, style.background);
+  for (const SheetImage& image : layer.images) {
+    const formats::PngImage next = &image == &layer.images.front() ? first : read(image.file);
+    require_size(next, image.file, picture.width, picture.height);
+    lay_over(picture, image, next, style.background);
+  }
+  first.format = formats::PngFormat::rgba;
+  first.pixels = std::move(picture.rgba);
+  return first;
+}
 
 Crop occupied(const std::vector<SheetLayer>& layers, const SheetStyle& style) {
   Crop crop;
   uint32_t width = 0, height = 0;
   for (const SheetLayer& layer : layers) {
-    const formats::PngImage image = read(layer.file);
+    const formats::PngImage image = read(layer, style);
     if (width == 0) {
       width = image.width;
       height = image.height;
     }
-    if (image.width != width || image.height != height)
-      throw Error(layer.file + " has another size than the layers before it");
+    require_size(image, layer.images.front().file, width, height);
     for (uint32_t row = 0; row < height; ++row)
       for (uint32_t column = 0; column < width; ++column)
         if (image.colour(column, row) != style.background) crop.include(column, row);
@@ -103,8 +129,8 @@ formats::Rgba mean(const formats::PngImage& image, std::pair<uint32_t, uint32_t>
   return {channel(0), channel(1), channel(2), 255};
 }
 
-void draw_tile(Picture& sheet, const Grid& grid, uint32_t tile, const SheetLayer& layer, const Crop& crop) {
-  const formats::PngImage image = read(layer.file);
+void draw_tile(Picture& sheet, const Grid& grid, uint32_t tile, const formats::PngImage& image, const SheetLayer& layer,
+               const Crop& crop) {
   for (uint32_t y = 0; y < grid.tile_height; ++y) {
     const auto rows = sources(y, grid.tile_height, crop.top, crop.height());
     for (uint32_t x = 0; x < grid.tile_width; ++x) {
@@ -140,7 +166,8 @@ Picture draw_contact_sheet(const std::vector<SheetLayer>& layers, const SheetSty
   const Grid grid = arrange(static_cast<uint32_t>(layers.size()), crop.width() * style.pixel_width_mm,
                             crop.height() * style.pixel_height_mm);
   Picture sheet(margin + grid.columns * (grid.tile_width + margin), grid.sheet_height(), paper);
-  for (uint32_t tile = 0; tile < layers.size(); ++tile) draw_tile(sheet, grid, tile, layers[tile], crop);
+  for (uint32_t tile = 0; tile < layers.size(); ++tile)
+    draw_tile(sheet, grid, tile, read(layers[tile], style), layers[tile], crop);
   return sheet;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +19,14 @@ struct Picture {
   void set(uint32_t column, uint32_t row, formats::Rgba colour);
 };
 
+struct SheetImage {
+  std::string file;                  // path of its PNG
+  std::optional<formats::Rgba> ink;  // drawn in place of what is not background; else its own colours
+};
+
 struct SheetLayer {
-  std::string file;   // path of its PNG
-  int64_t layer = 0;  // its number and height, for the label
+  std::vector<SheetImage> images;  // at least one; those after the first are laid over it
+  int64_t layer = 0;               // its number and height, for the label
   double z_mm = 0;
 };
 

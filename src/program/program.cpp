@@ -58,8 +58,8 @@ std::string describe(const Program& program, const Instruction& in, std::map<con
 
 // How often a value is computed that depends on these axes.
 std::string_view place(uint8_t mask) {
-  constexpr std::string_view places[] = {"once",       "each x",                "each y",   "each x and y",
-                                         "each layer", "each x of each layer", "each row", "each voxel"};
+  constexpr std::string_view places[] = {
+      "once", "each x", "each y", "each x and y", "each layer", "each x of each layer", "each row", "each voxel"};
   return places[mask];
 }
 

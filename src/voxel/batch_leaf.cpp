@@ -68,11 +68,21 @@ class BatchLeaf : public LeafEvaluator {
     thresholds_.clear();
     for (size_t t = 0; t < job_.selector.threshold_count; ++t) thresholds_.push_back(batch_.output(1 + t));
     MaterialId* out = voxels_->at(tile_.lo[0], j, k);
-    const ChoiceRow choice{inside,      thresholds_, job_.selector.materials, draws_of_row(job_.seed, j, k),
-                           tile_.lo[0], xs_.size()};
+    const Draws draws = draws_of_row(job_.dither, job_.seed, j, k);
+    const ChoiceRow choice{inside, thresholds_, job_.selector.materials, draws, tile_.lo[0], xs_.size()};
     choice_.choose(choice, out);
+    for (size_t t = 0; t < voxels_->kept_thresholds(); ++t) keep_threshold(t, j, k);
     for (size_t c = 0; c < job_.selector.check_count; ++c) count_check(c, inside, j, k);
     if (may_be_unknown_) redo_unknown(inside, j, k);
+  }
+
+  void keep_threshold(size_t t, int64_t j, int64_t k) {
+    float* to = voxels_->threshold(t, tile_.lo[0], j, k);
+    const eval::Values& from = thresholds_[t];
+    if (from.is_number)
+      std::fill_n(to, xs_.size(), *from.row);
+    else
+      std::copy_n(from.row, xs_.size(), to);
   }
 
   void count_check(size_t check, const eval::Values& inside, int64_t j, int64_t k) {

@@ -45,11 +45,15 @@ struct HashDraws {
 };
 
 struct TableDraws {
-  explicit TableDraws(const ChoiceRow& row)
-      : table(row.draws.table), first(static_cast<uint32_t>(row.i_begin) + row.draws.offset) {}
-  HWY_INLINE VU take(size_t n) const { return hn::LoadU(DU(), table + ((first + static_cast<uint32_t>(n)) & 63)); }
-  const uint32_t* table;
-  uint32_t first;
+  static constexpr size_t period = 64;
+  // Turned so that it begins with the row's first voxel.
+  explicit TableDraws(const ChoiceRow& row) {
+    const size_t first = (static_cast<uint32_t>(row.i_begin) + row.draws.offset) % period;
+    std::memcpy(table, row.draws.table + first, (period - first) * sizeof *table);
+    std::memcpy(table + period - first, row.draws.table, first * sizeof *table);
+  }
+  HWY_INLINE VU take(size_t n) const { return hn::Load(DU(), table + n % period); }
+  HWY_ALIGN uint32_t table[period];
 };
 
 HWY_INLINE V threshold(const eval::Values& values, size_t n) {

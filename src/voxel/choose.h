@@ -12,7 +12,7 @@ namespace ombre::voxel {
 // Where a row's draws come from: 24-bit whole numbers u, each standing for u / 2^24.
 struct Draws {
   uint32_t hash = 0;                // row_hash(seed, j, k); voxel i draws draw(hash, i)
-  const uint32_t* table = nullptr;  // or a row of a mask of period 64, repeated for another 64
+  const uint32_t* table = nullptr;  // or a row of a mask of period 64
   uint32_t offset = 0;              // voxel i draws table[(i + offset) % 64]
 };
 

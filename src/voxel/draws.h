@@ -1,17 +1,22 @@
 // The draw of each voxel, by which a mixture becomes one material.
 #pragma once
 
+#include "voxel/blue_noise.h"
 #include "voxel/choose.h"
-#include "voxel/quantise.h"
+#include "voxel/layers.h"
 
 namespace ombre::voxel {
 
-// The draws of row j of layer k.
-inline Draws draws_of_row(uint64_t seed, int64_t j, int64_t k) { return {row_hash(seed, j, k), nullptr, 0}; }
+// The draws of row j of layer k. Where fractions are 0 or 1, or errors are diffused, it does not matter which.
+inline Draws draws_of_row(Dither dither, uint64_t seed, int64_t j, int64_t k) {
+  if (dither != Dither::blue_noise) return {row_hash(seed, j, k), nullptr, 0};
+  const BlueNoiseRow row = blue_noise_row(seed, j, k);
+  return {0, row.draws, row.offset};
+}
 
 // A whole number below 2^24, for voxel i of the row.
 inline uint32_t draw(const Draws& row, int64_t i) {
-  if (row.table) return row.table[(static_cast<uint32_t>(i) + row.offset) & 63];
+  if (row.table) return row.table[(static_cast<uint32_t>(i) + row.offset) % blue_noise_width];
   return hashed_draw(row.hash, i);
 }
 

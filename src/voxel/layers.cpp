@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "program/passes/passes.h"
+#include "voxel/strip_diffusion.h"
 #include "voxel/walk.h"
 
 namespace ombre::voxel {
@@ -90,6 +91,7 @@ struct LayerEvaluator::Parts {
   VoxelJob job;
   EvaluatorOptions options;
   std::vector<std::unique_ptr<program::RowSampler>> samplers;  // by tag
+  std::vector<MaterialId> materials;
 
   bool is_batch() const { return options.evaluator == Evaluator::batch; }
   program::Precision precision() const {
@@ -129,11 +131,64 @@ struct LayerEvaluator::Parts {
   }
 };
 
+// Takes the rows of strips to the layers' runs, where errors are diffused by way of that.
+class RowSink {
+ public:
+  RowSink(const LayerEvaluator::Parts& parts, std::vector<LayerResult>& layers, int64_t begin) : layers_(layers) {
+    if (parts.job.dither != Dither::diffusion) return;
+    kept_thresholds_ = parts.job.selector.threshold_count;
+    for (size_t n = 0; n < layers.size(); ++n)
+      diffusions_.emplace_back(parts.job.lattice.count[0], parts.materials, parts.job.seed,
+                               begin + static_cast<int64_t>(n));
+  }
+
+  size_t kept_thresholds() const { return kept_thresholds_; }
+
+  void take(const TileBox& strip, StripVoxels& voxels) {
+    const std::vector<MaterialId> empty(voxels.touched() ? 0 : static_cast<size_t>(strip.size(0)), MaterialId{0});
+    for (int64_t k = strip.lo[2]; k < strip.hi[2]; ++k) {
+      for (int64_t j = strip.lo[1]; j < strip.hi[1]; ++j) {
+        const auto layer = static_cast<size_t>(k - strip.lo[2]);
+        const MaterialId* row = voxels.touched() ? voxels.at(0, j, k) : empty.data();
+        if (diffusions_.empty())
+          append(layer, row);
+        else
+          diffusions_[layer].add(row, thresholds(voxels, j, k), [&](const MaterialId* made) { append(layer, made); });
+      }
+    }
+  }
+
+  void finish() {
+    for (size_t layer = 0; layer < diffusions_.size(); ++layer)
+      diffusions_[layer].finish([&](const MaterialId* made) { append(layer, made); });
+  }
+
+ private:
+  void append(size_t layer, const MaterialId* row) {
+    RunLayer& runs = layers_[layer].runs;
+    append_runs(runs.rows.emplace_back(), row, runs.width);
+  }
+
+  std::vector<const float*> thresholds(StripVoxels& voxels, int64_t j, int64_t k) const {
+    std::vector<const float*> rows;
+    for (size_t t = 0; t < kept_thresholds_; ++t) rows.push_back(voxels.threshold(t, 0, j, k));
+    return rows;
+  }
+
+  std::vector<LayerResult>& layers_;
+  std::vector<LayerDiffusion> diffusions_;
+  size_t kept_thresholds_ = 0;
+};
+
 LayerEvaluator::LayerEvaluator(MaterialProgram program, const Lattice& lattice, Dither dither, uint64_t seed,
                                const EvaluatorOptions& options)
-    : parts_(std::make_unique<Parts>(Parts{{make_selector(program, dither), lattice, seed}, options, {}})) {
+    : parts_(std::make_unique<Parts>(Parts{{make_selector(program, dither), lattice, dither, seed}, options, {}, {}})) {
+  Selector& selector = parts_->job.selector;
+  parts_->materials = selector.materials;
+  // What is inside is marked with 1 until its errors are diffused.
+  if (dither == Dither::diffusion) selector.materials.assign(selector.materials.size(), MaterialId{1});
   parts_->place_sources();
-  if (parts_->is_batch()) make_batch(parts_->job.selector);
+  if (parts_->is_batch()) make_batch(selector);
 }
 
 LayerEvaluator::~LayerEvaluator() = default;
@@ -145,31 +200,21 @@ std::vector<LayerResult> LayerEvaluator::layers(int64_t begin, int64_t end) cons
   std::vector<std::vector<CheckHits>> checks(results.size(), std::vector<CheckHits>(check_count));
   for (LayerResult& layer : results) {
     layer.runs.width = static_cast<uint32_t>(count[0]);
-    layer.runs.rows.resize(static_cast<size_t>(count[1]));
     layer.material_counts.assign(256, 0);
   }
   const Remainder slab = parts_->remainder({{0, 0, begin}, {count[0], count[1], end}});
   const auto leaf = parts_->make_leaf();
   TileWalk walk(parts_->job, parts_->precision(), parts_->walk_options(), *leaf);
-  StripVoxels buffer;
+  RowSink sink(*parts_, results, begin);
+  StripVoxels voxels;
   for (int64_t j = 0; j < count[1]; j += strip_rows) {
     const TileBox strip{{0, j, begin}, {count[0], std::min(j + strip_rows, count[1]), end}};
     const StripSources sources(parts_->samplers, strip);
-    buffer.begin(strip, checks);
-    walk.run(slab.program, slab.ranges, strip, sources, buffer);
-    const bool touched = buffer.touched();
-    const MaterialId* voxels = buffer.ids().data();
-    for (LayerResult& layer : results) {
-      for (int64_t row = strip.lo[1]; row < strip.hi[1]; ++row) {
-        auto& runs = layer.runs.rows[static_cast<size_t>(row)];
-        if (touched)
-          append_runs(runs, voxels, count[0]);
-        else
-          append_run(runs, 0, static_cast<uint32_t>(count[0]));
-        voxels += touched ? count[0] : 0;
-      }
-    }
+    voxels.begin(strip, checks, sink.kept_thresholds());
+    walk.run(slab.program, slab.ranges, strip, sources, voxels);
+    sink.take(strip, voxels);
   }
+  sink.finish();
   for (size_t n = 0; n < results.size(); ++n) {
     results[n].checks = std::move(checks[n]);
     count_materials(results[n]);

@@ -13,7 +13,17 @@
 namespace ombre::voxel {
 
 // How a composition becomes one material. All are pure functions of (seed, i, j, k, composition).
-enum class Dither { stochastic, threshold };
+enum class Dither {
+  stochastic,  // white noise
+  blue_noise,  // a mask whose neighbours differ (blue_noise.h)
+  diffusion,   // of errors within a layer (diffusion.h); a pure function of the whole layer
+  threshold,   // the greatest fraction takes the voxel
+};
+
+const std::vector<std::string>& dither_names();
+std::string_view name(Dither dither);
+std::optional<Dither> dither(std::string_view name);
+
 
 // What the outputs of a program are. Output 0 is the truth value "inside".
 struct MaterialProgram {
@@ -58,8 +68,9 @@ class LayerEvaluator {
   // Layers [begin, end) of the lattice, lowest first. Works best on 4 to 16 at a time.
   std::vector<LayerResult> layers(int64_t begin, int64_t end) const;
 
- private:
   struct Parts;
+
+ private:
   std::unique_ptr<Parts> parts_;
 };
 

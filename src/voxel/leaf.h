@@ -13,6 +13,7 @@ namespace ombre::voxel {
 struct VoxelJob {
   Selector selector;
   Lattice lattice;
+  Dither dither = Dither::stochastic;
   uint64_t seed = 0;
 };
 

@@ -60,8 +60,7 @@ class ProfileReader {
     read_text(members.required("source"), printer.source);
     if (const Data* pitch = members.required("pitch")) read_pitches(*pitch, printer.pitch);
     if (const Data* build = members.optional("build_mm")) read_build(*build, printer.build_mm);
-    printer.image =
-        choice(members.required("image"), {"rgba", "indexed"}) == 1 ? ImageFormat::indexed : ImageFormat::rgba;
+    printer.image = static_cast<ImageFormat>(choice(members.required("image"), image_format_names()));
     printer.origin =
         choice(members.optional("origin"), {"design", "center"}) == 1 ? Placement::center : Placement::design;
     if (const Data* flip = members.optional("flip")) read_flip(*flip, printer);
@@ -189,7 +188,8 @@ class ProfileReader {
       files = *pattern;
     else
       diagnostics_.error(data.where, "this is not a pattern for file names: " + describe(data),
-                         R"(write for example "slice_{index:05}.png", which gives slice_00000.png)");
+                         R"(write for example "slice_{index:05}.png", which gives slice_00000.png, or )"
+                         R"("slice_{index:05}_{material}.png" for a file of each material)");
   }
 
   void read_feature(const Data& data, std::optional<SmallestFeature>& feature) {
@@ -219,11 +219,28 @@ class ProfileReader {
   Diagnostics& diagnostics_;
 };
 
+constexpr std::string_view material_place = "{material}";
+
 }  // namespace
 
+const std::vector<std::string>& image_format_names() {
+  static const std::vector<std::string> names{"rgba", "indexed", "gray", "mask"};
+  return names;
+}
+
+std::optional<ImageFormat> image_format(std::string_view name) {
+  const auto& names = image_format_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<ImageFormat>(found - names.begin());
+}
+
+const std::string& to_text(ImageFormat format) { return image_format_names()[static_cast<size_t>(format)]; }
+
 std::optional<NamePattern> NamePattern::parse(std::string_view text) {
-  const size_t open = text.find("{index"), close = text.find('}');
-  if (open == std::string_view::npos || close == std::string_view::npos || close < open) return std::nullopt;
+  const size_t open = text.find("{index");
+  const size_t close = open == std::string_view::npos ? open : text.find('}', open);
+  if (close == std::string_view::npos) return std::nullopt;
   NamePattern pattern;
   pattern.before_ = text.substr(0, open);
   pattern.after_ = text.substr(close + 1);
@@ -235,14 +252,47 @@ std::optional<NamePattern> NamePattern::parse(std::string_view text) {
   else
     return std::nullopt;
 
+  return pattern.is_sound() ? std::optional(pattern) : std::nullopt;
+}
+
+bool NamePattern::is_sound() const {
+  const std::string rest = of_material("").before_ + of_material("").after_;
   // Characters that every file system takes; no folders, nothing hidden.
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
            c == '.';
   };
-  const std::string rest = pattern.before_ + pattern.after_;
-  if (!std::all_of(rest.begin(), rest.end(), allowed) || rest.size() > 100) return std::nullopt;
-  if (pattern.before_.starts_with('.') || !pattern.after_.ends_with(".png")) return std::nullopt;
+  if (!std::all_of(rest.begin(), rest.end(), allowed) || rest.size() > 100) return false;
+  if (before_.starts_with('.') || !after_.ends_with(".png")) return false;
+
+  // What stands between number and material is more than digits, so that a name is of one layer only.
+  const size_t in_before = before_.find(material_place), in_after = after_.find(material_place);
+  const auto separates = [](std::string_view between) {
+    return between.find_first_not_of("0123456789") != std::string_view::npos;
+  };
+  if (in_before != std::string::npos)
+    return separates(std::string_view(before_).substr(in_before + material_place.size()));
+  return in_after == std::string::npos || separates(std::string_view(after_).substr(0, in_after));
+}
+
+bool NamePattern::has_material() const {
+  return before_.find(material_place) != std::string::npos || after_.find(material_place) != std::string::npos;
+}
+
+NamePattern NamePattern::with_material() const {
+  NamePattern pattern = *this;
+  if (!has_material()) pattern.after_.insert(after_.size() - std::string_view(".png").size(), "_{material}");
+  return pattern;
+}
+
+NamePattern NamePattern::of_material(std::string_view material) const {
+  NamePattern pattern = *this;
+  for (std::string* side : {&pattern.before_, &pattern.after_}) {
+    const size_t place = side->find(material_place);
+    if (place == std::string::npos) continue;
+    side->replace(place, material_place.size(), material);
+    break;
+  }
   return pattern;
 }
 

@@ -7,13 +7,17 @@
 //   pitch                 {"x": P, "y": P, "z": P}; P is a length in mm as exact text ("25.4/600",
 //                         "0.027"), a number of mm, or {"dpi": 600}. z is the layer height
 //   build_mm              [x, y, z], the largest part; absent where the machine sets no limit
-//   image                 "rgba" or "indexed", unless the job says otherwise
+//   image                 unless the job says otherwise: "rgba" or "indexed", the materials' colours;
+//                         "gray", 8 bits, the brightness of these colours; "mask", 1 bit, one file for each
+//                         material, white where it is
 //   origin                "design": images cover the design's own box (default);
 //                         "center": images cover the build plate, the part in its middle
 //   flip                  axes that images run backwards on: a list of "x", "y" (default: none).
 //                         Unflipped, x grows to the right and the top row has the greatest y
 //   background            [r, g, b, a] of void, 0 ... 255 (default: all 0, transparent)
-//   files                 file names with the layer's number, "slice_{index:05}.png": five digits or more
+//   files                 file names with the layer's number, "slice_{index:05}.png": five digits or more.
+//                         With {material} as well, "slice_{index:05}_{material}.png", each layer has one file
+//                         for each material, in which the others are void
 //   first_index           the number of the lowest layer (default 0)
 //   empty_layers          "keep" (default) or "drop"; a dropped layer leaves its number unused
 //   max_materials         the most materials in one job, void not counted, 1 ... 255
@@ -35,17 +39,30 @@
 
 namespace ombre::voxel {
 
-enum class ImageFormat { rgba, indexed };
+enum class ImageFormat { rgba, indexed, gray, mask };
 enum class Placement { design, center };
 
-// "slice_{index:05}.png": the names of the files of a stack.
+// As profiles and command lines write them, in the order of ImageFormat.
+const std::vector<std::string>& image_format_names();
+std::optional<ImageFormat> image_format(std::string_view name);
+const std::string& to_text(ImageFormat format);
+
+// "slice_{index:05}.png": the names of the files of a stack. "slice_{index:05}_{material}.png" names a file
+// for each material of each layer.
 class NamePattern {
  public:
   NamePattern() = default;
-  // Nothing unless the text holds "{index}" or "{index:0N}" once, ends in ".png" and names a file
-  // without a folder.
+  // Nothing unless the text holds "{index}" or "{index:0N}" once, "{material}" at most once and apart from
+  // it, ends in ".png" and names a file without a folder.
   static std::optional<NamePattern> parse(std::string_view text);
 
+  bool has_material() const;
+  // With "_{material}" before ".png" where there is no {material} yet.
+  NamePattern with_material() const;
+  // With this text in the place of {material}.
+  NamePattern of_material(std::string_view material) const;
+
+  // Of a pattern without {material}.
   std::string name(int64_t index) const;
   // The index whose name this is, if any.
   std::optional<int64_t> index(std::string_view name) const;
@@ -53,7 +70,9 @@ class NamePattern {
   bool operator==(const NamePattern&) const = default;
 
  private:
-  std::string before_ = "slice_", after_ = ".png";
+  bool is_sound() const;
+
+  std::string before_ = "slice_", after_ = ".png";  // one of them may hold "{material}"
   int digits_ = 5;
 };
 

@@ -134,8 +134,38 @@ TEST(NamePattern, NamesAndIndicesBelongTogether) {
        {"slice_7.png", "slice_0000a.png", "slice_.png", "slice_-0001.png", "slice_00007.png.part", "x"})
     EXPECT_FALSE(pattern->index(other)) << other;
   for (const char* wrong : {"a{index:5}.png", "a{index:00}.png", "{index}.tif", ".{index}.png", "a/{index}.png",
-                            "{index", "{index}{index}.png"})
+                            "{index", "{index}{index}.png", "{index}{material}.png", "{material}7{index}.png",
+                            "{index}_{material}_{material}.png", "{material}.png", "{material}/{index}.png"})
     EXPECT_FALSE(NamePattern::parse(wrong)) << wrong;
+}
+
+TEST(NamePattern, MaterialsHaveFilesOfTheirOwn) {
+  for (const char* text :
+       {"slice_{index:05}_{material}.png", "{material}-{index}.png", "a{material}_7_{index:02}.png"}) {
+    const auto pattern = NamePattern::parse(text);
+    ASSERT_TRUE(pattern) << text;
+    EXPECT_TRUE(pattern->has_material());
+    EXPECT_EQ(pattern->text(), text);
+    EXPECT_EQ(pattern->with_material(), *pattern);
+    // Of the name of one material and layer, only these can be read.
+    for (const char* material : {"red", "5", "05_5"}) {
+      const NamePattern own = pattern->of_material(material);
+      EXPECT_FALSE(own.has_material());
+      EXPECT_EQ(own.index(own.name(17)), 17);
+      for (const char* other : {"green", "55", "5_5"}) EXPECT_FALSE(pattern->of_material(other).index(own.name(17)));
+    }
+  }
+  const auto plain = NamePattern::parse("slice_{index:05}.png");
+  EXPECT_FALSE(plain->has_material());
+  EXPECT_EQ(plain->of_material("red"), *plain);
+  EXPECT_EQ(plain->with_material().text(), "slice_{index:05}_{material}.png");
+}
+
+TEST(ImageFormat, HaveNames) {
+  EXPECT_EQ(image_format("rgba"), ImageFormat::rgba);
+  EXPECT_EQ(image_format("mask"), ImageFormat::mask);
+  EXPECT_EQ(to_text(ImageFormat::gray), "gray");
+  EXPECT_FALSE(image_format("jpeg"));
 }
 
 }  // namespace ombre::voxel

@@ -36,7 +36,7 @@ class ReferenceLeaf : public LeafEvaluator {
     const auto inside = rows_.values(program.outputs[0]);
     if (std::all_of(inside.begin(), inside.end(), [](double v) { return v == 0; })) return;
     rows_.run(program, early, program.code.size(), source_row);
-    const Draws draws = draws_of_row(job_.seed, j, k);
+    const Draws draws = draws_of_row(job_.dither, job_.seed, j, k);
     MaterialId* out = voxels.at(tile.lo[0], j, k);
     for (size_t n = 0; n < inside.size(); ++n)
       if (inside[n] != 0) out[n] = choose(program, n, tile.lo[0] + static_cast<int64_t>(n), j, k, draws, voxels);
@@ -48,6 +48,8 @@ class ReferenceLeaf : public LeafEvaluator {
     thresholds_.clear();
     for (size_t t = 0; t < selector.threshold_count; ++t)
       thresholds_.push_back(rows_.values(program.outputs[1 + t])[n]);
+    for (size_t t = 0; t < voxels.kept_thresholds(); ++t)
+      *voxels.threshold(t, i, j, k) = static_cast<float>(thresholds_[t]);
     for (size_t c = 0; c < selector.check_count; ++c)
       if (rows_.values(program.outputs[1 + selector.threshold_count + c])[n] != 0) voxels.note_check(c, i, j, k);
     return selector.materials[first_above<double>(thresholds_, draw(draws, i) * 0x1p-24)];

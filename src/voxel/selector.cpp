@@ -40,7 +40,7 @@ std::optional<MaterialId> Selector::settled(const program::Program& program,
                                             const std::vector<Interval>& ranges) const {
   const Interval inside = ranges[program.outputs[0]];
   if (inside == Interval(0)) return MaterialId{0};
-  if (!(inside == Interval(1))) return std::nullopt;
+  if (settles_outside_only || !(inside == Interval(1))) return std::nullopt;
   size_t chosen = threshold_count;
   for (size_t t = threshold_count; t-- > 0;) {
     const Interval threshold = ranges[program.outputs[1 + t]];
@@ -72,6 +72,7 @@ Selector make_selector(const MaterialProgram& materials, Dither dither) {
   selector.materials = materials.materials;
   selector.threshold_count = thresholds.size();
   selector.check_count = materials.check_count;
+  selector.settles_outside_only = dither == Dither::diffusion;
   return selector;
 }
 

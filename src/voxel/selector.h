@@ -14,6 +14,8 @@ struct Selector {
   program::Program batch;  // for floats: without affine maps, with fused multiply-adds; see make_batch
   std::vector<MaterialId> materials;
   size_t threshold_count = 0, check_count = 0;
+  // For error diffusion, which needs all fractions: only what is outside counts as settled.
+  bool settles_outside_only = false;
 
   // The material that all voxels of a region get in which outputs are within these ranges; 0 where
   // nothing is inside, nothing where that is not settled.

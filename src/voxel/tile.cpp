@@ -43,18 +43,18 @@ program::SourceRanges StripSources::ranges(const TileBox& tile) const {
   };
 }
 
-void StripVoxels::begin(const TileBox& strip, std::vector<std::vector<CheckHits>>& checks) {
+void StripVoxels::begin(const TileBox& strip, std::vector<std::vector<CheckHits>>& checks, size_t kept_thresholds) {
   strip_ = strip;
   checks_ = &checks;
   touched_ = false;
+  thresholds_.resize(kept_thresholds);
+  for (auto& row : thresholds_) row.resize(static_cast<size_t>(strip.voxels()));
 }
 
-MaterialId* StripVoxels::at(int64_t i, int64_t j, int64_t k) {
-  if (!touched_) {
-    ids_.assign(static_cast<size_t>(strip_.voxels()), 0);
-    touched_ = true;
-  }
-  return ids_.data() + ((k - strip_.lo[2]) * strip_.size(1) + (j - strip_.lo[1])) * strip_.size(0) + (i - strip_.lo[0]);
+void StripVoxels::touch() {
+  if (touched_) return;
+  ids_.assign(static_cast<size_t>(strip_.voxels()), 0);
+  touched_ = true;
 }
 
 void StripVoxels::fill(const TileBox& tile, MaterialId material) {

@@ -52,20 +52,33 @@ class StripSources {
 };
 
 // The materials of a strip's voxels, x fastest, then y, then z. Nothing is written until a voxel is.
+// For error diffusion, which chooses later, also their thresholds.
 class StripVoxels {
  public:
   // Forgets what was there; `checks[layer][check]` outlives this.
-  void begin(const TileBox& strip, std::vector<std::vector<CheckHits>>& checks);
+  void begin(const TileBox& strip, std::vector<std::vector<CheckHits>>& checks, size_t kept_thresholds = 0);
   bool touched() const { return touched_; }  // else all of it is void
   const std::vector<MaterialId>& ids() const { return ids_; }
 
-  MaterialId* at(int64_t i, int64_t j, int64_t k);
+  MaterialId* at(int64_t i, int64_t j, int64_t k) {
+    touch();
+    return ids_.data() + offset(i, j, k);
+  }
+  size_t kept_thresholds() const { return thresholds_.size(); }
+  float* threshold(size_t t, int64_t i, int64_t j, int64_t k) { return thresholds_[t].data() + offset(i, j, k); }
   void fill(const TileBox& tile, MaterialId material);
   void note_check(size_t check, int64_t i, int64_t j, int64_t k);
 
  private:
+  void touch();
+  size_t offset(int64_t i, int64_t j, int64_t k) const {
+    return static_cast<size_t>(((k - strip_.lo[2]) * strip_.size(1) + (j - strip_.lo[1])) * strip_.size(0) +
+                               (i - strip_.lo[0]));
+  }
+
   TileBox strip_;
   bool touched_ = false;
+  std::vector<std::vector<float>> thresholds_;
   std::vector<MaterialId> ids_;
   std::vector<std::vector<CheckHits>>* checks_ = nullptr;
 };

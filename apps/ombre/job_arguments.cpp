@@ -1,0 +1,81 @@
+// What decides the pixels of a job: the arguments that slicing and its previews share.
+#include "ombre/job_arguments.h"
+
+#include <charconv>
+
+#include "compile/find_printer.h"
+#include "ombre/arguments.h"
+
+namespace ombre::cli {
+namespace {
+
+uint64_t parse_seed(const std::string& text) {
+  uint64_t seed = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (status == std::errc() && end == text.data() + text.size()) return seed;
+  throw WrongArgument("--seed " + text + " is not a whole number from 0 to 18446744073709551615");
+}
+
+}  // namespace
+
+void add_job_arguments(CLI::App& app, JobArguments& a) {
+  app.add_option("design", a.design, "The design, a .vcad file")->required()->type_name("FILE");
+  app.add_option("--printer", a.printer, "Printer profile: a name, or the path of a .json file")->type_name("NAME");
+  CLI::Option* voxel = app.add_option("--voxel", a.voxel, "Voxel size: one length, or x,y,z; mm")->type_name("X,Y,Z");
+  app.add_option("--dpi", a.dpi, "Resolution in dots per inch: x and y alike, x,y or x,y,z")
+      ->type_name("X,Y")
+      ->excludes(voxel);
+  app.add_option("--layer-height", a.layer_height, "Voxel size along z; mm")->type_name("MM");
+  app.add_option("--dither", a.dither,
+                 "How a mixture becomes one material a voxel: stochastic (default), blue-noise, diffusion or threshold")
+      ->check(CLI::IsMember(voxel::dither_names()))
+      ->type_name("MODE");
+  app.add_option("--evaluator", a.evaluator,
+                 "Who computes values: batch (default, floats, fast) or reference (double precision, slow)")
+      ->check(CLI::IsMember({"batch", "reference"}))
+      ->type_name("NAME");
+  app.add_option("--seed", a.seed, "Seed of the dithering (default 0); equal seeds give equal files")->type_name("N");
+  app.add_option("--format", a.image, "Image format: rgba, indexed, gray or mask (default: the printer's)")
+      ->check(CLI::IsMember(voxel::image_format_names()))
+      ->type_name("FORMAT");
+  CLI::Option* place =
+      app.add_option("--place", a.place,
+                     "Images cover the design's own box, or the build plate with the part in its middle")
+          ->check(CLI::IsMember({"design", "center"}))
+          ->type_name("design|center");
+  app.add_flag("--tray", a.tray, "Images cover the printer's whole build box, the design where it stands")
+      ->excludes(place);
+  app.add_option("--materials", a.materials, "Materials file (see: ombre materials)")->type_name("FILE");
+  app.add_option("-D,--define", a.definitions, "Set a variable of the design; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE");
+}
+
+std::optional<compile::PlanOptions> plan_options(const JobArguments& a, Diagnostics& diagnostics) {
+  const auto printer = compile::find_printer(a.printer.empty() ? "generic" : a.printer, diagnostics);
+  if (!printer) return std::nullopt;
+  compile::PlanOptions options;
+  options.program = "ombre " OMBRE_VERSION;
+  options.printer = *printer;
+  options.printer_given = !a.printer.empty();
+  if (!a.voxel.empty()) options.pitch = parse_voxel(a.voxel);
+  if (!a.dpi.empty()) options.pitch = parse_dpi(a.dpi);
+  if (!a.layer_height.empty()) options.pitch[2] = parse_layer_height(a.layer_height);
+  options.dither = voxel::dither(a.dither).value();
+  if (a.evaluator == "reference") options.evaluator.evaluator = voxel::Evaluator::reference;
+  options.seed = parse_seed(a.seed);
+  options.image = voxel::image_format(a.image);
+  if (!a.place.empty()) options.place = a.place == "center" ? voxel::Placement::center : voxel::Placement::design;
+  options.whole_tray = a.tray;
+  return options;
+}
+
+compile::LoadedPtr load_design(const JobArguments& a, Session& session, const StopFlag& stop,
+                               Diagnostics& diagnostics) {
+  compile::LoadOptions options{a.materials, a.definitions};
+  options.echo = [&](const std::string& text) { session.console.say(text); };
+  options.stop = &stop;
+  return compile::load_design(a.design, options, diagnostics);
+}
+
+}  // namespace ombre::cli

@@ -1,0 +1,31 @@
+// What decides the pixels of a job: the arguments that slicing and its previews share.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "compile/load.h"
+#include "ombre/commands.h"
+
+namespace ombre::cli {
+
+struct JobArguments {
+  std::string design, printer, voxel, dpi, layer_height, dither = "stochastic", evaluator = "batch", seed = "0", image, place, materials;
+  std::vector<std::string> definitions;
+  bool tray = false;
+};
+
+// Adds the design and the options to a command.
+void add_job_arguments(CLI::App& app, JobArguments& arguments);
+
+// Nothing, and diagnostics, when there is no such printer. Throws WrongArgument.
+std::optional<compile::PlanOptions> plan_options(const JobArguments& arguments, Diagnostics& diagnostics);
+
+// Null, and diagnostics, when the design is wrong.
+compile::LoadedPtr load_design(const JobArguments& arguments, Session& session, const StopFlag& stop,
+                               Diagnostics& diagnostics);
+
+}  // namespace ombre::cli

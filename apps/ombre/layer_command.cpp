@@ -1,0 +1,170 @@
+// ombre layer: one layer of a job, as slicing would write it.
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "base/text.h"
+#include "compile/layer.h"
+#include "compile/layer_files.h"
+#include "export/output_file.h"
+#include "ombre/command_line.h"
+#include "ombre/commands.h"
+#include "ombre/interrupt.h"
+#include "ombre/job_arguments.h"
+#include "ombre/overwrite.h"
+#include "ombre/slice_report.h"
+
+namespace ombre::cli {
+namespace {
+
+struct LayerArguments {
+  JobArguments job;
+  std::string output, z, index, box;
+  bool force = false;
+};
+
+constexpr const char* footer =
+    "Lengths are millimetres in the design's space.\n\n"
+    "Examples:\n"
+    "  ombre layer part.vcad --z 3.2 -o layer.png           the layer at that height\n"
+    "  ombre layer part.vcad --index 100 --printer j750     a layer of a printer's job, the lowest is 0\n"
+    "  ombre layer part.vcad --z 0 --box -5,-5,5,5 -o -     a part of it, to stdout\n";
+
+void add_arguments(CLI::App& app, LayerArguments& a) {
+  add_job_arguments(app, a.job);
+  app.add_option("-o,--output", a.output,
+                 "The image to write, - for stdout (default: the names of the design and of the layer's file)")
+      ->type_name("FILE");
+  CLI::Option* z = app.add_option("--z", a.z, "The layer at this height of the design; mm")->type_name("MM");
+  app.add_option("--index", a.index, "The layer of this number: 0 is the lowest, -1 the highest")
+      ->type_name("N")
+      ->excludes(z);
+  app.add_option("--box", a.box, "Only the pixels that touch this box; mm")->type_name("X0,Y0,X1,Y1");
+  app.add_flag("--force", a.force, "Replace the image if it is there");
+}
+
+std::string mm(double value) { return format_rounded(value, 6); }
+
+int64_t chosen_layer(const LayerArguments& a, const voxel::Lattice& lattice) {
+  const int64_t count = lattice.count[2];
+  if (!a.index.empty()) {
+    const auto range =
+        a.index.find(':') == std::string::npos ? compile::parse_layer_range(a.index, count) : std::nullopt;
+    if (range) return range->begin;
+    throw WrongArgument("--index " + a.index + " is none of the " +
+                        format_count(static_cast<unsigned long long>(count)) + " layers, which are 0 to " +
+                        std::to_string(count - 1));
+  }
+  const std::optional<double> z = parse_number(a.z);
+  if (!z) throw WrongArgument("--z " + a.z + " is not a height; write for example --z 3.2 (mm)");
+  if (const auto layer = compile::layer_at(lattice, *z)) return *layer;
+  const Box box = lattice.box();
+  throw WrongArgument("--z " + a.z + " is outside the part, which lies from " + mm(box.lo.z) + " to " + mm(box.hi.z) +
+                      " mm along z");
+}
+
+std::optional<compile::LayerWindow> chosen_window(const LayerArguments& a, const voxel::Lattice& lattice) {
+  if (a.box.empty()) return std::nullopt;
+  std::vector<double> corners;
+  for (const std::string_view part : split(a.box, ','))
+    if (const auto number = parse_number(trim(part)); number && std::isfinite(*number)) corners.push_back(*number);
+  if (corners.size() != 4 || split(a.box, ',').size() != 4 || corners[0] >= corners[2] || corners[1] >= corners[3])
+    throw WrongArgument("--box " + a.box + " is not a box x0,y0,x1,y1; write for example --box -5,-5,5,5 (mm)");
+  if (const auto window = compile::window_over(lattice, corners[0], corners[1], corners[2], corners[3])) return window;
+  const Box box = lattice.box();
+  throw WrongArgument("--box " + a.box + " is beside the images, which lie from " + mm(box.lo.x) + "," + mm(box.lo.y) +
+                      " to " + mm(box.hi.x) + "," + mm(box.hi.y) + " mm");
+}
+
+// part.vcad and slice_00012.png give part_slice_00012.png. Where each material has a file, -o layer.png gives
+// layer_red.png, layer_blue.png and so on.
+std::vector<std::string> output_files(const LayerArguments& a, const compile::SliceRequest& request, int64_t layer) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> files;
+  if (a.output.empty()) {
+    for (const std::string& name : compile::LayerFiles(request).names(layer))
+      files.push_back(fs::path(a.job.design).stem().string() + "_" + name);
+    return files;
+  }
+  if (!request.files.has_material()) return {a.output};
+  if (a.output == "-") throw WrongArgument("each material has an image, and stdout holds one; give -o a file name");
+  const fs::path path(a.output);
+  for (const std::string& word : compile::file_words(compile::material_names(request)))
+    files.push_back((path.parent_path() / (path.stem().string() + "_" + word + path.extension().string())).string());
+  return files;
+}
+
+void tell_layer(const Console& console, const compile::SliceRequest& request, int64_t layer,
+                const compile::LayerImages& images, const std::vector<std::string>& files) {
+  const auto face = [&](int64_t index) {
+    return request.lattice.origin.z + request.lattice.pitch[2].times(static_cast<double>(index));
+  };
+  console.say("layer " + std::to_string(layer) + ", " + mm(face(layer)) + " to " + mm(face(layer + 1)) +
+              " mm, written to " + join(files, ", "));
+  DataList materials, names;
+  for (size_t i = 0; i < request.materials.size(); ++i) {
+    console.say("  " + request.materials[i].name + ": " + format_count(images.voxels[i]) +
+                " voxels in the whole layer");
+    materials.emplace_back(
+        DataMembers{{"name", request.materials[i].name}, {"voxels", static_cast<double>(images.voxels[i])}});
+  }
+  for (const std::string& file : files) names.emplace_back(file);
+  console.event("done", {{"files", names},
+                         {"layer", static_cast<double>(layer)},
+                         {"z_mm", DataList{face(layer), face(layer + 1)}},
+                         {"materials", materials}});
+}
+
+int write_layer(const LayerArguments& a, const compile::Plan& plan, Session& session) {
+  const compile::SliceRequest& request = plan.request;
+  const int64_t layer = chosen_layer(a, request.lattice);
+  const auto window = chosen_window(a, request.lattice);
+  const std::vector<std::string> files = output_files(a, request, layer);
+  const bool to_stdout = a.output == "-";
+  if (!to_stdout)
+    for (const std::string& file : files) refuse_to_overwrite(file, a.force);
+
+  const compile::LayerImages images = compile::make_layer(request, plan.producer, layer, window);
+  if (to_stdout) {
+    session.console.print(images.bytes.front());
+  } else {
+    for (size_t i = 0; i < files.size(); ++i) exporting::write_file(files[i], images.bytes[i]);
+    tell_layer(session.console, request, layer, images, files);
+  }
+  tell_checks(session.console, images.checks);
+  return done;
+}
+
+// Ctrl-C stops the loading in good order; after it there is nothing to put in order.
+std::optional<compile::Plan> plan_job(const JobArguments& job, Session& session, Diagnostics& diagnostics) {
+  const auto wishes = plan_options(job, diagnostics);
+  if (!wishes) return std::nullopt;
+  const InterruptGuard interrupt;
+  const compile::LoadedPtr loaded = load_design(job, session, interrupt.flag(), diagnostics);
+  return loaded ? compile::plan_slice(loaded, *wishes, diagnostics) : std::nullopt;
+}
+
+int layer(const LayerArguments& a, Session& session) {
+  if (a.z.empty() && a.index.empty())
+    throw WrongArgument("which layer? write --z with a height in mm, or --index with a number");
+  if (a.output == "-" && session.console.voice() == Voice::programs)
+    throw WrongArgument("-o - writes the image to stdout, where --json writes events; give -o a file name");
+  Diagnostics diagnostics;
+  const auto plan = plan_job(a.job, session, diagnostics);
+  session.console.diagnose(diagnostics);
+  if (!plan || diagnostics.has_errors()) return wrong_input;
+  return write_layer(a, *plan, session);
+}
+
+}  // namespace
+
+Command add_layer(CLI::App& program, OutputOptions& output) {
+  CLI::App* app = program.add_subcommand("layer", "Write one layer, with the pixels that slicing would write");
+  auto arguments = std::make_shared<LayerArguments>();
+  add_arguments(*app, *arguments);
+  add_output_options(*app, output);
+  app->footer(footer);
+  return {app, [arguments](Session& session) { return layer(*arguments, session); }};
+}
+
+}  // namespace ombre::cli

@@ -1,0 +1,18 @@
+// Files that are there already.
+#include "ombre/overwrite.h"
+
+#include <filesystem>
+
+#include "base/error.h"
+
+namespace ombre::cli {
+
+void refuse_to_overwrite(const std::string& path, bool force) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (!std::filesystem::exists(status)) return;
+  if (!std::filesystem::is_regular_file(status)) throw Error(path + " is not a file; choose another name");
+  if (!force) throw Error(path + " exists already; replace it with --force, or choose another name");
+}
+
+}  // namespace ombre::cli

@@ -1,0 +1,107 @@
+#include "voxel/blue_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "voxel/test_spectrum.h"
+
+namespace ombre::voxel {
+namespace {
+
+constexpr int64_t width = blue_noise_width, height = blue_noise_height, depth = blue_noise_depth;
+constexpr int64_t tile = width * height * depth;
+
+double draw(int64_t i, int64_t j, int64_t k, uint64_t seed = 0) { return blue_noise_row(seed, j, k)[i] * 0x1p-24; }
+
+// Voxels whose draw lies in [from, to), in layer k.
+SquarePattern layer(int64_t k, double from, double to, uint64_t seed = 0) {
+  return {width, [=](int64_t i, int64_t j) { return draw(i, j, k, seed) >= from && draw(i, j, k, seed) < to; }};
+}
+
+std::vector<SquarePattern> layers(double from, double to) {
+  std::vector<SquarePattern> all;
+  for (int64_t k = 0; k < depth; ++k) all.push_back(layer(k, from, to));
+  return all;
+}
+
+std::vector<SquarePattern> white_layers(double fraction) {
+  std::vector<SquarePattern> all;
+  for (int64_t k = 0; k < depth; ++k)
+    all.emplace_back(width, [=](int64_t i, int64_t j) { return hashed_draw(row_hash(0, j, k), i) * 0x1p-24 < fraction; });
+  return all;
+}
+
+}  // namespace
+
+TEST(BlueNoise, EachRankIsThereOnce) {
+  std::set<uint32_t> draws;
+  for (int64_t k = 0; k < depth; ++k)
+    for (int64_t j = 0; j < height; ++j)
+      for (int64_t i = 0; i < width; ++i) draws.insert(blue_noise_row(5, j, k)[i]);
+  ASSERT_EQ(static_cast<int64_t>(draws.size()), tile);
+  EXPECT_EQ(*draws.begin(), 128U);
+  EXPECT_EQ(*draws.rbegin(), (1U << 24) - 128);
+}
+
+TEST(BlueNoise, WholeTilesKeepFractions) {
+  for (const double fraction : {0.0, 1e-5, 0.1, 1.0 / 3, 0.5, 0.77, 1.0}) {
+    double count = 0;
+    for (int64_t k = -3; k < depth - 3; ++k)
+      for (const double value : layer(k, 0, fraction, 9).values) count += value;
+    EXPECT_LE(std::abs(count - fraction * static_cast<double>(tile)), 0.5) << fraction;
+  }
+}
+
+TEST(BlueNoise, TilesRepeatAlsoBelowZero) {
+  for (const auto& [i, j, k] : {std::array<int64_t, 3>{0, 0, 0}, {17, 60, 13}, {11574, 4605, 7407}})
+    EXPECT_EQ(draw(i, j, k), draw(i - 3 * width, j - 7 * height, k - 500 * depth));
+}
+
+TEST(BlueNoise, SeedsShiftTheMask) {
+  // A share of 1/4 of the voxels is in two patterns at once with odds 1/16, if they have nothing to do
+  // with each other; the standard deviation of the share is below that of independent voxels, 0.004.
+  for (const uint64_t seed : {uint64_t{1}, uint64_t{2}, uint64_t{1} << 32}) {
+    const SquarePattern one = layer(0, 0, 0.25), other = layer(0, 0, 0.25, seed);
+    double both = 0;
+    for (size_t n = 0; n < one.values.size(); ++n) both += one.values[n] * other.values[n];
+    EXPECT_NEAR(both / static_cast<double>(one.values.size()), 1.0 / 16, 4 * 0.004) << seed;
+  }
+}
+
+TEST(BlueNoise, LayersAreBlue) {
+  for (const double fraction : {0.1, 0.25, 0.5, 0.75}) {
+    const double white = Spectrum(white_layers(fraction), fraction).low();
+    EXPECT_NEAR(white, 1, 0.1);
+    EXPECT_LT(Spectrum(layers(0, fraction), fraction).low(), 0.1 * white) << fraction;
+  }
+}
+
+TEST(BlueNoise, EveryMaterialOfAMixtureIsBlue) {
+  // The one in the middle of three has the draws between.
+  EXPECT_LT(Spectrum(layers(0.25, 0.5), 0.25).low(), 0.1);
+}
+
+TEST(BlueNoise, PatchesKeepFractions) {
+  for (const double fraction : {0.1, 0.25, 0.5}) {
+    double variance = 0;
+    for (const SquarePattern& pattern : layers(0, fraction)) variance += patch_variance(pattern, 16, fraction) / depth;
+    EXPECT_LT(variance, 0.125) << fraction;
+  }
+}
+
+TEST(BlueNoise, VoxelsAboveEachOtherDiffer) {
+  // Correlation of a material with itself one layer up. It cannot be below -f / (1 - f), where it never
+  // stands on itself; white noise has 0.
+  for (const double fraction : {0.1, 0.25, 0.5}) {
+    double sum = 0;
+    for (int64_t k = 0; k < depth; ++k) {
+      const SquarePattern one = layer(k, 0, fraction), above = layer(k + 1, 0, fraction);
+      for (size_t n = 0; n < one.values.size(); ++n) sum += (one.values[n] - fraction) * (above.values[n] - fraction);
+    }
+    const double correlation = sum / static_cast<double>(tile) / (fraction * (1 - fraction));
+    EXPECT_LT(correlation, -0.5 * fraction / (1 - fraction)) << fraction;
+  }
+}
+
+}  // namespace ombre::voxel
