@@ -9,10 +9,10 @@ SLABS = 8  # parts of a job that is too long to run whole
 
 
 class Limits:
-    """How long a row may take."""
+    """How often, and how long a run may take."""
 
-    def __init__(self, runs, row_seconds, baseline_seconds):
-        self.runs, self.row_seconds, self.baseline_seconds = runs, row_seconds, baseline_seconds
+    def __init__(self, runs, run_seconds, baseline_seconds):
+        self.runs, self.run_seconds, self.baseline_seconds = runs, run_seconds, baseline_seconds
 
 
 def _slabs(layers, share):
@@ -46,14 +46,14 @@ def _parts(ombre, design, arguments, layers, share, scratch):
 def ours(ombre, design, job, grid, threads, limits, scratch, further=()):
     """Several runs on so many threads, or one of a part where all of it would take too long."""
     arguments = ["--voxel", job.pitch(grid), "--threads", threads, *further]
-    if math.prod(grid) > 5e8:
+    if math.prod(grid) > 1e7:
         estimate = ombre.estimate(design, arguments)
-        share = limits.row_seconds / max(estimate["seconds"], 1e-3)
+        share = limits.run_seconds / max(estimate["seconds"], 1e-3)
         if share < 1:
             return _summary(threads, [_parts(ombre, design, arguments, grid[2], share, scratch)])
         programs.need_room(scratch, estimate["bytes"])
     runs = []
-    while len(runs) < limits.runs and sum(run["seconds"] for run in runs) < limits.row_seconds / 6:
+    while len(runs) < limits.runs and sum(run["seconds"] for run in runs) < limits.run_seconds / 2:
         runs.append(_whole(ombre, design, arguments, scratch))
     return _summary(threads, runs)
 

@@ -102,8 +102,8 @@ def arguments():
     parser.add_argument("--runs", type=int, help="runs of each row at most (default 3; 5 with --against)")
     parser.add_argument("--threads", default="1,2", help="counts of threads, the first for the ratio (default 1,2)")
     parser.add_argument("--full", action="store_true", help="also 100,000 and 1,000,000 struts")
-    parser.add_argument("--seconds", type=float, default=60, metavar="S",
-                        help="a row longer than this is measured in parts (default 60)")
+    parser.add_argument("--seconds", type=float, metavar="S",
+                        help="a run longer than this is measured in parts (default 15; 60 with --size paper)")
     parser.add_argument("--no-baseline", action="store_true", help="leave out the published method")
     parser.add_argument("--no-growth", action="store_true", help="leave out the growth laws")
     parser.add_argument("--against", metavar="COMMIT", help="compare with another commit instead")
@@ -111,6 +111,7 @@ def arguments():
     parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="also write all figures there")
     a = parser.parse_args()
     a.threads = [int(n) for n in a.threads.split(",")]
+    a.seconds = a.seconds or (60 if a.size == "paper" else 15)
     return a
 
 
