@@ -1,6 +1,5 @@
 """Two builds in one sitting: another commit is built beside this one, and both run in turns."""
 import contextlib
-import shutil
 import statistics
 import subprocess
 
@@ -10,7 +9,15 @@ from table import Table, seconds
 
 
 def _git(*arguments):
-    return subprocess.run(["git", "-C", programs.ROOT, *arguments], check=True, capture_output=True, text=True).stdout.strip()
+    done = subprocess.run(["git", "-C", programs.ROOT, *arguments], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise programs.Failed(f"git {arguments[0]}: {done.stderr.strip()}")
+    return done.stdout.strip()
+
+
+def _remove(tree):
+    if tree.exists():
+        _git("worktree", "remove", "--force", tree)
 
 
 @contextlib.contextmanager
@@ -18,16 +25,16 @@ def built(commit):
     """The release build of a commit, in a worktree under build/ that does not stay."""
     name = _git("rev-parse", "--short", commit + "^{commit}")
     tree = programs.ROOT / "build" / f"against-{name}"
-    _git("worktree", "add", "--force", "--detach", tree, name)
+    _remove(tree)
     try:
+        _git("worktree", "add", "--detach", tree, name)
         for command in (["cmake", "--preset", "release"], ["cmake", "--build", "build/release", "--target", "ombre"]):
             done = subprocess.run(command, cwd=tree, capture_output=True, text=True)
             if done.returncode != 0:
                 raise programs.Failed(f"{name} does not build:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
         yield name, programs.Ombre(tree / "build/release/apps/ombre/ombre", tree)
     finally:
-        shutil.rmtree(tree, ignore_errors=True)
-        _git("worktree", "prune")
+        _remove(tree)
 
 
 def _in_turns(builds, job, size, threads, runs, scratch):
