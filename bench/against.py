@@ -3,7 +3,6 @@ import contextlib
 import statistics
 import subprocess
 
-import measure
 import programs
 from table import Table, seconds
 
@@ -38,7 +37,7 @@ def built(commit):
 
 
 def _in_turns(builds, job, size, threads, runs, scratch):
-    """Seconds of each build; one run of each comes first and is not counted."""
+    """Seconds and processor seconds of each build; one run of each comes first and is not counted."""
     design = scratch / "design.vcad"
     job.write(design)
     grid = job.grid(size)
@@ -48,21 +47,31 @@ def _in_turns(builds, job, size, threads, runs, scratch):
         for build, times in zip(builds, taken):
             finished, _ = build.slice(design, arguments, scratch)
             if turn > 0:
-                times.append(finished.seconds)
+                times.append((finished.seconds, finished.cpu_seconds))
     return taken
 
 
+class Side:
+    """The runs of one build."""
+
+    def __init__(self, runs):
+        wall, cpu = zip(*runs)
+        self.wall, self.cpu = statistics.median(wall), statistics.median(cpu)
+        self.spread = (max(wall) - min(wall)) / self.wall
+
+
 def compare(commit, head, jobs, size, threads, runs, scratch):
-    with built(commit) as (name, base):
-        print(f"\nbase is {name}, head is this build; {runs} runs in turns on {threads} thread(s); "
-              "spread is (slowest - fastest)/median")
-        table = Table(("job", 16), ("base s", 9), ("spread", 7), ("head s", 9), ("spread", 7), ("base/head", 10))
+    """One row for each job. Where other work shares the machine, the ratio of processor time is the safer one."""
+    with built(commit) as (name, build):
+        print(f"base is {name}, head is this build; {runs} runs in turns on {threads} thread(s); "
+              "spread is (slowest - fastest)/median\n")
+        table = Table(("job", 16), ("base s", 9), ("spread", 7), ("head s", 9), ("spread", 7), ("base/head", 10),
+                      ("of processor time", 18))
         results = []
         for job in jobs:
-            taken = _in_turns((base, head), job, size, threads, runs, scratch)
-            medians = [statistics.median(times) for times in taken]
-            spreads = [(max(times) - min(times)) / median for times, median in zip(taken, medians)]
-            table.row(job.name, seconds(medians[0]), f"{spreads[0]:.0%}", seconds(medians[1]), f"{spreads[1]:.0%}",
-                      f"{medians[0] / medians[1]:.2f}")
+            taken = _in_turns((build, head), job, size, threads, runs, scratch)
+            base, ours = map(Side, taken)
+            table.row(job.name, seconds(base.wall), f"{base.spread:.0%}", seconds(ours.wall), f"{ours.spread:.0%}",
+                      f"{base.wall / ours.wall:.2f}", f"{base.cpu / ours.cpu:.2f}")
             results.append({"job": job.name, "base": taken[0], "head": taken[1]})
         return results

@@ -5,7 +5,7 @@ import statistics
 
 import programs
 
-SLABS = 8  # parts of a job that is too long to run whole
+SLABS = 5  # parts of a job that is too long to run whole
 
 
 class Limits:
@@ -25,8 +25,8 @@ def _slabs(layers, share):
 
 def _whole(ombre, design, arguments, scratch):
     finished, events = ombre.slice(design, arguments, scratch)
-    return {"seconds": finished.seconds, "peak_bytes": finished.peak_bytes, "bytes": events["done"]["bytes_written"],
-            "extrapolated": False, "done": events["done"]}
+    return {"seconds": finished.seconds, "cpu_seconds": finished.cpu_seconds, "peak_bytes": finished.peak_bytes, "extrapolated": False,
+            "bytes": events["done"]["bytes_written"], "done": events["done"]}
 
 
 def _parts(ombre, design, arguments, layers, share, scratch):

@@ -8,7 +8,10 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import threading
 import time
+
+GIVE_UP_SECONDS = 900  # no run is meant to take so long: longer ones are measured in parts
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -35,8 +38,10 @@ def scratch_folder(where=None):
 
 
 class Finished:
-    def __init__(self, output, seconds, peak_bytes):
-        self.output, self.seconds, self.peak_bytes = output, seconds, peak_bytes
+    def __init__(self, output, seconds, usage):
+        self.output, self.seconds = output, seconds
+        self.cpu_seconds = usage.ru_utime + usage.ru_stime
+        self.peak_bytes = usage.ru_maxrss * 1024
 
 
 def least_peak():
@@ -51,19 +56,26 @@ def run(command, data=ROOT):
         began = time.monotonic()
         process = subprocess.Popen([str(c) for c in command], stdin=subprocess.DEVNULL, stdout=output, stderr=errors,
                                    env=environment)
+        patience = threading.Timer(GIVE_UP_SECONDS, process.kill)
+        patience.start()
         try:
             _, status, usage = os.wait4(process.pid, 0)
         except BaseException:
             process.kill()
             process.wait()
             raise
+        finally:
+            patience.cancel()
         seconds = time.monotonic() - began
         process.returncode = os.waitstatus_to_exitcode(status)
         output.seek(0)
         errors.seek(0)
+        if seconds >= GIVE_UP_SECONDS:
+            raise Failed(f"{' '.join(map(str, command))}\nwas ended after {GIVE_UP_SECONDS} s")
         if process.returncode != 0:
-            raise Failed(f"{' '.join(map(str, command))}\nended with {process.returncode}\n{output.read()[-2000:]}{errors.read()[-2000:]}")
-        return Finished(output.read(), seconds, usage.ru_maxrss * 1024)
+            told = output.read()[-2000:] + errors.read()[-2000:]
+            raise Failed(f"{' '.join(map(str, command))}\nended with {process.returncode}\n{told}")
+        return Finished(output.read(), seconds, usage)
 
 
 def need_room(folder, wanted):

@@ -78,9 +78,9 @@ def megabytes(peak):
 def _beside(baseline):
     if baseline is None:
         return ["-"]
-    built = f" (grid {seconds(baseline['build_seconds'])})" if baseline["build_seconds"] > 0.5 else ""
+    prepared = f" (after {seconds(baseline['build_seconds'])})" if baseline["build_seconds"] > 0.5 else ""
     return [f"{seconds(baseline['evaluate_seconds'], baseline['extrapolated'])} + "
-            f"{seconds(baseline['write_seconds'], baseline['extrapolated'])}{built}"]
+            f"{seconds(baseline['write_seconds'], baseline['extrapolated'])}{prepared}"]
 
 
 def show_laws(programs_of, a, rows, limits, scratch):
@@ -121,8 +121,12 @@ def measure_all(a, programs_of, chosen, scratch):
     print(f"{a.size} size, {os.cpu_count()} cores; ~ marks what is extrapolated from a part\n")
     table = job_table(a.threads)
     for job in chosen:
-        results["rows"].append(measure.row(programs_of, job, a.size, a.threads, limits, scratch))
-        show(table, results["rows"][-1])
+        try:
+            results["rows"].append(measure.row(programs_of, job, a.size, a.threads, limits, scratch))
+            show(table, results["rows"][-1])
+        except programs.Failed as problem:
+            results.setdefault("failed", []).append(job.name)
+            print(f"{job.name} FAILED: {problem}", flush=True)
     if not a.only and not a.no_growth:
         results["growth"] = show_laws(programs_of, a, results["rows"], limits, scratch)
     print()
@@ -139,6 +143,8 @@ def main():
     data = programs.ROOT / "build" / "bench-data"
     meshes.make(data)
     chosen = [job for job in jobs.all_jobs(data, a.size, a.full) if not a.only or re.search(a.only, job.name)]
+    if not chosen:
+        raise programs.Failed(f"no row is named like {a.only}")
     with programs.scratch_folder(a.scratch) as scratch:
         if a.against:
             results = {"against": against.compare(a.against, programs_of.ombre, chosen, a.size, a.threads[0], a.runs or 5,
@@ -147,11 +153,12 @@ def main():
             results = measure_all(a, programs_of, chosen, scratch)
     if a.json:
         a.json.write_text(json.dumps(results, indent=1))
+    return 1 if results.get("failed") else 0
 
 
 if __name__ == "__main__":
     try:
-        main()
+        sys.exit(main())
     except KeyboardInterrupt:
         sys.exit(130)
     except programs.Failed as problem:
