@@ -107,7 +107,7 @@ def struts_job(count):
 
 def table_3(data):
     cube, screwdriver = centred((20, 20, 20)), centred((22, 144, 22))
-    gyroid = f'intersection() {{ translate(0, 0, 1) {{ rectprism((46, 10, 4), "red"); }} function("{GYROID}", "red"); }}'
+    gyroid = f'intersection() {{ translate(0, 0, 1) rectprism((46, 10, 4), "red"); function("{GYROID}", "red"); }}'
     return [
         Job("sphere", lambda: "sphere(10);", *cube, TABLE_3, (35, 248), "materials"),
         Job("cube", lambda: "cube(20);", *cube, TABLE_3, (44, 241), "materials"),
@@ -126,7 +126,8 @@ def table_4(data):
         Job("text", lambda: graded_text, *centred(text), printed(text), (21, 7)),
         Job("screwdriver", lambda: graded_screwdriver, *centred(screwdriver), printed(screwdriver), (97, 15)),
         # 4 x 4 x 6.3 mm as the paper prints it; Table 4 has it 12 times as large.
-        Job("actuator", lambda: ACTUATOR, (-2, -2, -3.1415), (2, 2, 3.1415), printed((48, 48, 75)), (251, 41), "materials"),
+        Job("actuator", lambda: ACTUATOR, (-2, -2, -3.1415), (2, 2, 3.1415), printed((48, 48, 75)), (251, 41),
+            "materials"),
         Job("mug", lambda: MUG, (-31.5, -31.5, 0), (64.5, 31.5, 90), printed(mug), (836, 120), "inside"),
     ]
 

@@ -25,8 +25,9 @@ def _slabs(layers, share):
 
 def _whole(ombre, design, arguments, scratch):
     finished, events = ombre.slice(design, arguments, scratch)
-    return {"seconds": finished.seconds, "cpu_seconds": finished.cpu_seconds, "peak_bytes": finished.peak_bytes, "extrapolated": False,
-            "bytes": events["done"]["bytes_written"], "done": events["done"]}
+    done = events["done"]
+    return {"seconds": finished.seconds, "cpu_seconds": finished.cpu_seconds, "peak_bytes": finished.peak_bytes,
+            "bytes": done["bytes_written"], "extrapolated": False, "done": done}
 
 
 def _parts(ombre, design, arguments, layers, share, scratch):
