@@ -1,0 +1,112 @@
+"""Runs the programs that the suite times, in folders that do not stay."""
+import contextlib
+import json
+import os
+import pathlib
+import resource
+import shutil
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+
+GIVE_UP_SECONDS = 900  # no run is meant to take so long: longer ones are measured in parts
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+class Failed(Exception):
+    """A program ended with an error, or there is no room."""
+
+
+def stop_on_signals():
+    """Ends as Ctrl-C does, so that folders are removed."""
+    def stop(*_):
+        raise KeyboardInterrupt
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, stop)
+
+
+@contextlib.contextmanager
+def scratch_folder(where=None):
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="ombre-bench-", dir=where))
+    try:
+        yield folder
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+class Finished:
+    def __init__(self, output, seconds, usage):
+        self.output, self.seconds = output, seconds
+        self.cpu_seconds = usage.ru_utime + usage.ru_stime
+        self.peak_bytes = usage.ru_maxrss * 1024
+
+
+def least_peak():
+    """The kernel's figure for a child starts with what this process had when it began the child."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+
+
+def run(command, data=ROOT):
+    """Runs a program to its end; its peak memory is the kernel's figure."""
+    with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
+        environment = dict(os.environ, OMBRE_DATA=str(data), NO_COLOR="1")
+        began = time.monotonic()
+        process = subprocess.Popen([str(c) for c in command], stdin=subprocess.DEVNULL, stdout=output, stderr=errors,
+                                   env=environment)
+        patience = threading.Timer(GIVE_UP_SECONDS, process.kill)
+        patience.start()
+        try:
+            _, status, usage = os.wait4(process.pid, 0)
+        except BaseException:
+            process.kill()
+            process.wait()
+            raise
+        finally:
+            patience.cancel()
+        seconds = time.monotonic() - began
+        process.returncode = os.waitstatus_to_exitcode(status)
+        output.seek(0)
+        errors.seek(0)
+        if seconds >= GIVE_UP_SECONDS:
+            raise Failed(f"{' '.join(map(str, command))}\nwas ended after {GIVE_UP_SECONDS} s")
+        if process.returncode != 0:
+            told = output.read()[-2000:] + errors.read()[-2000:]
+            raise Failed(f"{' '.join(map(str, command))}\nended with {process.returncode}\n{told}")
+        return Finished(output.read(), seconds, usage)
+
+
+def need_room(folder, wanted):
+    free = shutil.disk_usage(folder).free
+    if free < wanted * 1.2 + 2**30:
+        raise Failed(f"{folder} has {free / 1e9:.1f} GB free, the job writes about {wanted / 1e9:.1f} GB; "
+                     "name another folder with --scratch")
+
+
+def events_of(output):
+    return {event["event"]: event for event in map(json.loads, output.splitlines())}
+
+
+class Ombre:
+    """One build of the program, and where its data is."""
+
+    def __init__(self, path, data=ROOT):
+        self.path, self.data = path, data
+
+    def design_file(self, design):
+        return run([self.path, "slice", design, "--emit", "json"], self.data).output
+
+    def estimate(self, design, arguments):
+        events = events_of(run([self.path, "slice", design, *arguments, "--dry-run", "--json"], self.data).output)
+        return events["estimate"]
+
+    def slice(self, design, arguments, folder):
+        """Returns how the program finished and its events; what it wrote is removed."""
+        out = folder / "job"
+        try:
+            finished = run([self.path, "slice", design, "-o", out, "--force", "--json", *arguments], self.data)
+            return finished, events_of(finished.output)
+        finally:
+            shutil.rmtree(out, ignore_errors=True)
