@@ -47,7 +47,8 @@ Block by_draw(const Size& size, const Fraction& fraction,
 }
 
 Block white(const Size& size, const Fraction& fraction) {
-  return by_draw(size, fraction, [](int64_t i, int64_t j, int64_t k) { return hashed_draw(row_hash(0, j, k), i) * 0x1p-24; });
+  return by_draw(size, fraction,
+                 [](int64_t i, int64_t j, int64_t k) { return hashed_draw(row_hash(0, j, k), i) * 0x1p-24; });
 }
 
 Block blue(const Size& size, const Fraction& fraction) {

@@ -13,7 +13,8 @@
 namespace ombre::cli {
 
 struct JobArguments {
-  std::string design, printer, voxel, dpi, layer_height, dither = "stochastic", evaluator = "batch", seed = "0", image, place, materials;
+  std::string design, printer, voxel, dpi, layer_height, dither = "stochastic", evaluator = "batch", seed = "0", image,
+                                                         place, materials;
   std::vector<std::string> definitions;
   bool tray = false;
 };

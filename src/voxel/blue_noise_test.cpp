@@ -28,7 +28,8 @@ std::vector<SquarePattern> layers(double from, double to) {
 std::vector<SquarePattern> white_layers(double fraction) {
   std::vector<SquarePattern> all;
   for (int64_t k = 0; k < depth; ++k)
-    all.emplace_back(width, [=](int64_t i, int64_t j) { return hashed_draw(row_hash(0, j, k), i) * 0x1p-24 < fraction; });
+    all.emplace_back(width,
+                     [=](int64_t i, int64_t j) { return hashed_draw(row_hash(0, j, k), i) * 0x1p-24 < fraction; });
   return all;
 }
 

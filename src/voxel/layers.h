@@ -24,7 +24,6 @@ const std::vector<std::string>& dither_names();
 std::string_view name(Dither dither);
 std::optional<Dither> dither(std::string_view name);
 
-
 // What the outputs of a program are. Output 0 is the truth value "inside".
 struct MaterialProgram {
   program::Program program;           // without calls
