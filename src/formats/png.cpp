@@ -187,8 +187,8 @@ int Palette::bit_depth() const {
 
 std::string encode_png(const RunLayer& layer, const Palette& palette, const PngLayout& layout) {
   Header header;
-  header.width = layer.width;
-  header.height = static_cast<png_uint_32>(layer.rows.size());
+  header.width = layer.width();
+  header.height = layer.height();
   if (layout.format == PngFormat::indexed) set_palette(header, palette);
   header.dots_per_metre_x = whole_dots(layout.dots_per_metre_x);
   header.dots_per_metre_y = whole_dots(layout.dots_per_metre_y);
@@ -196,15 +196,15 @@ std::string encode_png(const RunLayer& layer, const Palette& palette, const PngL
 
   Writer writer;
   start(writer, header);
-  RowPacker packer(layer.width, palette, layout);
-  const std::vector<Run>* above = nullptr;
+  RowPacker packer(layer.width(), palette, layout);
+  RowView above;
   const uint8_t* bytes = nullptr;
-  for (size_t i = 0; i < layer.rows.size(); ++i) {
-    const std::vector<Run>& row = layer.rows[layout.flip_y ? i : layer.rows.size() - 1 - i];
-    if (!above || row != *above) bytes = packer.pack(row).data();
-    above = &row;
+  for (uint32_t i = 0; i < layer.height(); ++i) {
+    const RowView row = layer.row(layout.flip_y ? i : layer.height() - 1 - i);
+    if (!(row == above)) bytes = packer.pack(row).data();
+    above = row;
     // RGBA rows are longer than deflate's window, so smooth ones repay the difference to the row above.
-    const bool smooth = row.size() <= layer.width / 16;
+    const bool smooth = row.runs.size() + row.dense.size() <= layer.width() / 16;
     if (header.compare_rows && i > 0) require(set_filter(writer, smooth ? PNG_FILTER_UP : PNG_FILTER_NONE), writer);
     require(write_row(writer, bytes), writer);
   }

@@ -27,22 +27,25 @@ void merge(uint8_t& byte, unsigned value, unsigned mask) {
 }  // namespace
 
 RowPacker::RowPacker(uint32_t width, const Palette& palette, const PngLayout& layout)
-    : palette_(palette),
+    : width_(width),
+      palette_(palette),
       layout_(layout),
       bit_depth_(palette.bit_depth()),
       bytes_((width * bits_per_pixel(palette, layout) + 7) / 8) {}
 
-const std::vector<uint8_t>& RowPacker::pack(const std::vector<Run>& row) {
+const std::vector<uint8_t>& RowPacker::pack(const RowView& row) {
   if (layout_.format == PngFormat::indexed) bytes_.back() = 0;  // the spare bits of the last byte
-  uint64_t begin = 0;
+  uint64_t filled = 0;
   const auto put = [&](const Run& run) {
+    const uint64_t begin = layout_.flip_x ? width_ - filled - run.length : filled;
     layout_.format == PngFormat::rgba ? put_rgba(begin, run) : put_indexed(begin, run);
-    begin += run.length;
+    filled += run.length;
   };
-  if (layout_.flip_x)
-    std::for_each(row.rbegin(), row.rend(), put);
-  else
-    std::for_each(row.begin(), row.end(), put);
+  const MaterialId* loose = row.dense.data();
+  for (const Run& run : row.runs) {
+    if (!run.is_dense) put(run);
+    for (uint32_t i = 0; run.is_dense && i < run.length; ++i) put({*loose++, false, 1});
+  }
   return bytes_;
 }
 

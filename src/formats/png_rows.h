@@ -14,12 +14,13 @@ class RowPacker {
  public:
   RowPacker(uint32_t width, const Palette& palette, const PngLayout& layout);
 
-  const std::vector<uint8_t>& pack(const std::vector<Run>& row);
+  const std::vector<uint8_t>& pack(const RowView& row);
 
  private:
   void put_indexed(uint64_t begin, const Run& run);
   void put_rgba(uint64_t begin, const Run& run);
 
+  uint32_t width_;
   const Palette& palette_;
   const PngLayout& layout_;
   int bit_depth_;

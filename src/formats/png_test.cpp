@@ -12,28 +12,16 @@ namespace {
 // Runs of random length and material, 0 included.
 RunLayer random_layer(uint32_t width, uint32_t height, int materials, uint32_t longest, uint32_t seed) {
   std::mt19937 random(seed);
-  RunLayer layer;
-  layer.width = width;
+  RunLayer layer(width);
   for (uint32_t row = 0; row < height; ++row) {
-    std::vector<Run> runs;
     for (uint32_t filled = 0; filled < width;) {
       const uint32_t length = std::min<uint32_t>(width - filled, 1 + static_cast<uint32_t>(random() % longest));
-      append_run(runs, static_cast<MaterialId>(random() % static_cast<uint32_t>(materials + 1)), length);
+      layer.add_uniform(static_cast<MaterialId>(random() % static_cast<uint32_t>(materials + 1)), length);
       filled += length;
     }
-    layer.rows.push_back(runs);
+    layer.end_row();
   }
   return layer;
-}
-
-MaterialId material_at(const RunLayer& layer, uint32_t column, size_t row) {
-  uint32_t end = 0;
-  for (const Run& run : layer.rows[row]) {
-    end += run.length;
-    if (column < end) return run.material;
-  }
-  ADD_FAILURE() << "the row is too short";
-  return 0;
 }
 
 Rgba colour_of(MaterialId id) {
@@ -49,14 +37,14 @@ Palette palette_of(int materials) {
 
 void expect_same_voxels(const RunLayer& layer, const Palette& palette, const PngLayout& layout) {
   const PngImage image = decode_png(encode_png(layer, palette, layout), "test");
-  ASSERT_EQ(image.width, layer.width);
-  ASSERT_EQ(image.height, layer.rows.size());
+  ASSERT_EQ(image.width, layer.width());
+  ASSERT_EQ(image.height, layer.height());
   EXPECT_EQ(image.format, layout.format);
+  std::vector<MaterialId> voxels(image.width);
   for (uint32_t row = 0; row < image.height; ++row) {
+    layer.row(layout.flip_y ? row : image.height - 1 - row).unpack(voxels.data());
     for (uint32_t column = 0; column < image.width; ++column) {
-      const uint32_t i = layout.flip_x ? image.width - 1 - column : column;
-      const uint32_t j = layout.flip_y ? row : image.height - 1 - row;
-      const uint8_t entry = palette.entry(material_at(layer, i, j));
+      const uint8_t entry = palette.entry(voxels[layout.flip_x ? image.width - 1 - column : column]);
       ASSERT_EQ(image.colour(column, row), palette.colours()[entry]) << column << ' ' << row;
       if (layout.format == PngFormat::indexed) {
         ASSERT_EQ(image.pixels[size_t{row} * image.width + column], entry);
@@ -90,11 +78,13 @@ TEST(Png, KeepsEveryVoxelAtEveryDepthAndWidth) {
 }
 
 TEST(Png, SmoothRgbaLayersKeepEveryVoxel) {
-  RunLayer layer;
-  layer.width = 200;
+  RunLayer layer(200);
   for (uint32_t row = 0; row < 50; ++row) {
     const uint32_t half = 10 + row / 3;
-    layer.rows.push_back({{0, 100 - half}, {1, 2 * half}, {0, 100 - half}});
+    layer.add_uniform(0, 100 - half);
+    layer.add_uniform(1, 2 * half);
+    layer.add_uniform(0, 100 - half);
+    layer.end_row();
   }
   PngLayout layout;
   layout.format = PngFormat::rgba;
@@ -113,9 +103,8 @@ TEST(Png, IdsNeedNotBeDense) {
   palette.add(7, {1, 2, 3, 255});
   palette.add(200, {4, 5, 6, 255});
   EXPECT_EQ(palette.bit_depth(), 2);
-  RunLayer layer;
-  layer.width = 3;
-  layer.rows = {{{0, 1}, {7, 1}, {200, 1}}};
+  RunLayer layer(3);
+  layer.append_row(std::array<MaterialId, 3>{0, 7, 200}.data());
   expect_same_voxels(layer, palette, {});
 }
 

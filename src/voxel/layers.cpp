@@ -1,7 +1,6 @@
 #include "voxel/layers.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "program/passes/passes.h"
 #include "voxel/tile.h"
@@ -10,35 +9,6 @@ namespace ombre::voxel {
 namespace {
 
 constexpr int64_t strip_rows = 64;
-
-// The end of the stretch of equal bytes that begins at `from`.
-const MaterialId* stretch_end(const MaterialId* from, const MaterialId* end) {
-  uint64_t pattern;
-  std::memset(&pattern, *from, sizeof pattern);
-  const MaterialId* at = from;
-  for (; end - at >= 8; at += 8) {
-    uint64_t word;
-    std::memcpy(&word, at, sizeof word);
-    if (word != pattern) break;
-  }
-  while (at != end && *at == *from) ++at;
-  return at;
-}
-
-void append_runs(std::vector<Run>& row, const MaterialId* voxels, int64_t count) {
-  const MaterialId* const end = voxels + count;
-  for (const MaterialId* at = voxels; at != end;) {
-    const MaterialId* next = stretch_end(at, end);
-    append_run(row, *at, static_cast<uint32_t>(next - at));
-    at = next;
-  }
-}
-
-void count_materials(LayerResult& layer) {
-  for (const auto& row : layer.runs.rows)
-    for (const Run& run : row)
-      if (run.material != 0) layer.material_counts[run.material] += run.length;
-}
 
 // Index (i, j, k) of a voxel to its centre.
 Affine design_from_index(const Lattice& lattice) {
@@ -87,11 +57,7 @@ std::vector<LayerResult> LayerEvaluator::layers(int64_t begin, int64_t end) cons
   const auto& count = parts_->lattice.count;
   std::vector<LayerResult> results(static_cast<size_t>(end - begin));
   std::vector<std::vector<CheckHits>> checks(results.size(), std::vector<CheckHits>(parts_->materials.check_count));
-  for (LayerResult& layer : results) {
-    layer.runs.width = static_cast<uint32_t>(count[0]);
-    layer.runs.rows.resize(static_cast<size_t>(count[1]));
-    layer.material_counts.assign(256, 0);
-  }
+  for (LayerResult& layer : results) layer.runs = RunLayer(static_cast<uint32_t>(count[0]));
   const program::Program slab = parts_->program_for({{0, 0, begin}, {count[0], count[1], end}});
   StripEvaluator evaluator(parts_->materials, slab, parts_->lattice, parts_->dither, parts_->seed);
   std::vector<MaterialId> buffer;
@@ -102,18 +68,17 @@ std::vector<LayerResult> LayerEvaluator::layers(int64_t begin, int64_t end) cons
     const MaterialId* voxels = buffer.data();
     for (LayerResult& layer : results) {
       for (int64_t row = strip.lo[1]; row < strip.hi[1]; ++row) {
-        auto& runs = layer.runs.rows[static_cast<size_t>(row)];
         if (touched)
-          append_runs(runs, voxels, count[0]);
+          layer.runs.append_row(voxels);
         else
-          append_run(runs, 0, static_cast<uint32_t>(count[0]));
+          layer.runs.append_uniform_row(0);
         voxels += touched ? count[0] : 0;
       }
     }
   }
   for (size_t n = 0; n < results.size(); ++n) {
     results[n].checks = std::move(checks[n]);
-    count_materials(results[n]);
+    results[n].material_counts = count_materials(results[n].runs);
   }
   return results;
 }
