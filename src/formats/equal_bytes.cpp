@@ -1,0 +1,66 @@
+#include "formats/equal_bytes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace ombre::formats {
+namespace {
+
+// One bit for each of eight bytes, the first byte's lowest.
+uint64_t equal_bits(const uint8_t* a, const uint8_t* b) {
+  static_assert(std::endian::native == std::endian::little);
+  constexpr uint64_t low_bits = 0x7F7F7F7F7F7F7F7F, top_bits = ~low_bits;
+  uint64_t x, y;
+  std::memcpy(&x, a, sizeof x);
+  std::memcpy(&y, b, sizeof y);
+  const uint64_t differences = x ^ y;
+  const uint64_t is_different = ((differences & low_bits) + low_bits) | differences;  // in the top bit of each byte
+  // The product moves bit 8 i to bit 56 + i.
+  return ((~is_different & top_bits) >> 7) * 0x0102040810204080 >> 56;
+}
+
+}  // namespace
+
+void EqualBytes::compare(const uint8_t* a, const uint8_t* b, size_t count) {
+  size_ = count;
+  words_.resize(count / 64 + 2);
+  size_t i = 0, word = 0;
+  for (; i + 64 <= count; i += 64) {
+    uint64_t bits = 0;
+    for (size_t k = 0; k < 64; k += 8) bits |= equal_bits(a + i + k, b + i + k) << k;
+    words_[word++] = bits;
+  }
+  uint64_t rest = 0;
+  for (size_t k = 0; i + k < count; ++k) rest |= uint64_t{a[i + k] == b[i + k]} << k;
+  words_[word++] = rest;
+  words_[word] = 0;
+}
+
+size_t EqualBytes::equal_count() const {
+  size_t count = 0;
+  for (const uint64_t word : words_) count += static_cast<size_t>(std::popcount(word));
+  return count;
+}
+
+size_t EqualBytes::find_stretch(size_t position) const {
+  if (position >= size_) return size_;
+  uint64_t mask = ~uint64_t{0} << position % 64;
+  for (size_t word = position / 64; word + 1 < words_.size(); ++word) {
+    const uint64_t here = words_[word] & mask, next = words_[word + 1];
+    const uint64_t pairs = here & (here >> 1 | next << 63), next_pairs = next & next >> 1;
+    if (const uint64_t fours = pairs & (pairs >> 2 | next_pairs << 62))
+      return word * 64 + static_cast<size_t>(std::countr_zero(fours));
+    mask = ~uint64_t{0};
+  }
+  return size_;
+}
+
+size_t EqualBytes::stretch_end(size_t position) const {
+  size_t word = position / 64;
+  uint64_t unset = ~words_[word] >> position % 64 << position % 64;
+  while (unset == 0) unset = ~words_[++word];
+  return word * 64 + static_cast<size_t>(std::countr_zero(unset));
+}
+
+}  // namespace ombre::formats

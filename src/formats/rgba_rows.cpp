@@ -1,0 +1,133 @@
+#include "formats/rgba_rows.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace ombre::formats {
+namespace {
+
+constexpr uint8_t filter_none = 0, filter_up = 2;
+constexpr uint32_t fewest_pixels = 4;  // a match of less costs more than its pixels
+
+Rgba difference(Rgba a, Rgba b) {
+  Rgba result;
+  for (size_t i = 0; i < result.size(); ++i) result[i] = static_cast<uint8_t>(a[i] - b[i]);
+  return result;
+}
+
+// Steps through the runs of a row in the order of the image.
+class RunReader {
+ public:
+  RunReader(std::span<const Run> runs, bool flip) : runs_(runs), flip_(flip) { load(); }
+
+  MaterialId material() const { return current_.material; }
+  uint32_t left() const { return current_.length; }
+  void skip(uint32_t count) {
+    current_.length -= count;
+    if (current_.length == 0) load();
+  }
+
+ private:
+  void load() {
+    if (next_ == runs_.size()) return;
+    current_ = runs_[flip_ ? runs_.size() - 1 - next_ : next_];
+    ++next_;
+  }
+
+  std::span<const Run> runs_;
+  bool flip_;
+  size_t next_ = 0;
+  Run current_;
+};
+
+}  // namespace
+
+RgbaRows::RgbaRows(uint32_t width, const Palette& palette, bool flip_x, ZlibStream& out)
+    : width_(width), flip_x_(flip_x), out_(out), history_(width), voxels_(width), bytes_(size_t{4} * width) {
+  for (const MaterialId id : palette.ids()) colours_[id] = palette.colours()[palette.entry(id)];
+}
+
+void RgbaRows::put(const RowView& row) {
+  const bool has_smooth_above = !above_.runs.empty() && !above_.has_dense();
+  if (row.has_dense())
+    put_dense(row);
+  else if (has_smooth_above)
+    put_difference(row);
+  else
+    put_runs(row);
+  if (!row.has_dense()) history_.clear();
+  above_ = row;
+}
+
+void RgbaRows::put_difference(const RowView& row) {
+  put_filter(filter_up);
+  RunReader here(row.runs, flip_x_), above(above_.runs, flip_x_);
+  Rgba pixel{};
+  uint32_t count = 0;  // of equal differences so far
+  for (uint32_t column = 0; column < width_;) {
+    const uint32_t step = std::min(here.left(), above.left());
+    const Rgba next = difference(colours_[here.material()], colours_[above.material()]);
+    if (next != pixel) {
+      put_stretch(pixel, count);
+      pixel = next;
+      count = 0;
+    }
+    count += step;
+    column += step;
+    here.skip(step);
+    above.skip(step);
+  }
+  put_stretch(pixel, count);
+}
+
+void RgbaRows::put_runs(const RowView& row) {
+  put_filter(filter_none);
+  RunReader runs(row.runs, flip_x_);
+  for (uint32_t column = 0; column < width_;) {
+    const uint32_t count = runs.left();
+    put_stretch(colours_[runs.material()], count);
+    column += count;
+    runs.skip(count);
+  }
+}
+
+void RgbaRows::put_dense(const RowView& row) {
+  put_filter(filter_none);
+  row.unpack(voxels_.data());
+  if (flip_x_) std::reverse(voxels_.begin(), voxels_.end());
+  for (uint32_t i = 0; i < width_; ++i) std::memcpy(bytes_.data() + size_t{4} * i, &colours_[voxels_[i]], 4);
+  out_.sum.add(bytes_.data(), bytes_.size());
+
+  history_.add_row(voxels_.data());
+  uint32_t written = 0;
+  for (uint32_t column = 0; column < width_;) {
+    const PixelHistory::Match match = history_.find(column);
+    if (match.pixels < fewest_pixels) {
+      history_.learn(column, column + 1);
+      ++column;
+      continue;
+    }
+    out_.deflate.literals(bytes_.data() + size_t{4} * written, size_t{4} * (column - written));
+    out_.deflate.match(4 * match.pixels, match.distance);
+    written = column + match.pixels;
+    history_.learn(column, written);
+    column = written;
+  }
+  out_.deflate.literals(bytes_.data() + size_t{4} * written, size_t{4} * (width_ - written));
+}
+
+void RgbaRows::put_filter(uint8_t filter) {
+  out_.deflate.literals(&filter, 1);
+  out_.sum.add(&filter, 1);
+}
+
+void RgbaRows::put_stretch(Rgba pixel, uint32_t count) {
+  if (count == 0) return;
+  out_.sum.add_repeated(pixel, count);
+  const bool is_one_byte = pixel == Rgba{pixel[0], pixel[0], pixel[0], pixel[0]};
+  const uint32_t period = is_one_byte ? 1 : 4;
+  out_.deflate.literals(pixel.data(), period);
+  if (4 * count > period) out_.deflate.match(4 * count - period, period);
+}
+
+}  // namespace ombre::formats
