@@ -43,17 +43,21 @@ struct SymbolCounts {
   std::array<uint32_t, distance_symbol_count> distances{};
   uint64_t matches = 0;
 
-  void add_length(uint32_t length, uint32_t times) {
-    if (length > 0) literals[first_length_symbol + length_symbol(length).index] += times;
-  }
   void add_match(uint32_t length, uint32_t distance) {
-    const Pieces pieces(length);
-    add_length(longest_match, pieces.longest);
-    add_length(pieces.first, 1);
-    add_length(pieces.last, 1);
-    const uint32_t count = pieces.longest + (pieces.first > 0) + (pieces.last > 0);
+    uint32_t count = 1;
+    if (length <= longest_match)
+      ++literals[first_length_symbol + length_symbol(length).index];
+    else
+      count = add_pieces(length);
     distances[distance_symbol(distance).index] += count;
     matches += count;
+  }
+  uint32_t add_pieces(uint32_t length) {
+    const Pieces pieces(length);
+    literals[first_length_symbol + length_symbol(longest_match).index] += pieces.longest;
+    if (pieces.first > 0) ++literals[first_length_symbol + length_symbol(pieces.first).index];
+    if (pieces.last > 0) ++literals[first_length_symbol + length_symbol(pieces.last).index];
+    return pieces.longest + (pieces.first > 0) + (pieces.last > 0);
   }
   // Neighbouring literals are often equal, and counting one twice in a row waits for memory.
   void add_literals(std::span<const uint8_t> bytes) {
@@ -259,6 +263,7 @@ void DeflateWriter::write_match(const Step& step, const Codes& codes) {
     const Bits bits = codes.lengths[length];
     out_.put(bits.bits | uint64_t{distance.bits} << bits.count, bits.count + distance.count);
   };
+  if (step.length <= longest_match) return write(step.length);
   const Pieces pieces(step.length);
   for (uint32_t i = 0; i < pieces.longest; ++i) write(longest_match);
   if (pieces.first > 0) write(pieces.first);

@@ -1,4 +1,4 @@
-// The pixels of the last image rows, and where a few of them in a row stood last.
+// The pixels of the last image rows, and where a few of them in a row stood before.
 #pragma once
 
 #include <cstdint>
@@ -20,25 +20,36 @@ class PixelHistory {
     uint32_t pixels = 0;    // 0 if there is none
     uint32_t distance = 0;  // in bytes
   };
-  // What begins like the newest row at `column` and ends with the row at the latest.
-  Match find(uint32_t column) const;
-  // Makes pixels of the newest row known to later calls of `find`.
-  void learn(uint32_t begin, uint32_t end);
+  // What begins like the newest row at `column`, and does not go on behind the end of either row.
+  Match find(uint32_t column);
+
+  // How many pixels a match is found by, at most 8: the more, the longer matches are and the rarer.
+  void set_key_pixels(uint32_t count) { key_pixels_ = count; }
 
  private:
-  static constexpr uint32_t key_pixels = 8;
-  static constexpr unsigned table_bits = 13;
+  // The latest position of the pixels that have some hash, or 0.
+  struct Table {
+    explicit Table(unsigned bits) : shift(64 - bits), positions(size_t{1} << bits) {}
 
+    // Enters `count` neighbours from `position` on, and puts what stood there into `before`.
+    void exchange(const MaterialId* pixels, uint32_t count, uint32_t position, uint64_t mask, uint32_t* before);
+
+    unsigned shift;
+    std::vector<uint32_t> positions;
+  };
+
+  void restart();
+  Match match(uint32_t column, uint32_t there) const;
   const MaterialId* at(uint32_t position) const { return pixels_.data() + (position - first_); }
-  size_t slot(uint32_t position) const;
 
-  uint32_t width_, kept_rows_;
+  uint32_t width_, kept_rows_, key_pixels_ = 8;
   std::vector<MaterialId> pixels_;
   // Positions count pixels from 1 on.
-  uint32_t first_ = 1;               // of pixels_[0]
-  uint32_t oldest_ = 1;              // of the first pixel that may be repeated
-  uint32_t row_ = 1, end_ = 1;       // where the newest row begins and ends
-  std::vector<uint32_t> positions_;  // where pixels with some hash stood last, or 0
+  uint32_t first_ = 1;          // of pixels_[0]
+  uint32_t oldest_ = 1;         // of the first pixel that may be repeated
+  uint32_t row_ = 1, end_ = 1;  // where the newest row begins and ends
+  Table long_keys_, short_keys_;
+  std::vector<uint32_t> before_;  // by column of the newest row: where its next pixels stood before
 };
 
 }  // namespace ombre::formats

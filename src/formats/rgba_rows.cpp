@@ -3,11 +3,39 @@
 #include <algorithm>
 #include <cstring>
 
+#include "formats/equal_bytes.h"
+
 namespace ombre::formats {
 namespace {
 
 constexpr uint8_t filter_none = 0, filter_up = 2;
 constexpr uint32_t fewest_pixels = 4;  // a match of less costs more than its pixels
+constexpr uint64_t measured_rows = 64;
+
+void expand(std::span<const MaterialId> voxels, const std::array<Rgba, 256>& colours, std::span<uint8_t> bytes) {
+  uint8_t* out = bytes.data();
+  for (const MaterialId id : voxels) {
+    std::memcpy(out, colours[id].data(), sizeof(Rgba));
+    out += sizeof(Rgba);
+  }
+}
+
+// So many that as often as not another such stretch lies among the last 1024 or so pixels. Two pixels that
+// are independent agree with the probability with which neighbours do.
+uint32_t key_pixels(std::span<const MaterialId> dense) {
+  constexpr uint32_t fewest = 4, most = 8;
+  constexpr double rarest = 1.0 / 1024;
+  EqualBytes equal;
+  equal.compare(dense.data() + 1, dense.data(), dense.size() - 1);
+  const double agreeing = static_cast<double>(equal.equal_count()) / static_cast<double>(dense.size());
+  double probability = agreeing;
+  uint32_t count = 1;
+  while (count < most && probability > rarest) {
+    probability *= agreeing;
+    ++count;
+  }
+  return std::max(count, fewest);
+}
 
 Rgba difference(Rgba a, Rgba b) {
   Rgba result;
@@ -95,22 +123,21 @@ void RgbaRows::put_dense(const RowView& row) {
   put_filter(filter_none);
   row.unpack(voxels_.data());
   if (flip_x_) std::reverse(voxels_.begin(), voxels_.end());
-  for (uint32_t i = 0; i < width_; ++i) std::memcpy(bytes_.data() + size_t{4} * i, &colours_[voxels_[i]], 4);
+  expand(voxels_, colours_, bytes_);
   out_.sum.add(bytes_.data(), bytes_.size());
 
+  if (dense_rows_++ % measured_rows == 0) history_.set_key_pixels(key_pixels(row.dense));
   history_.add_row(voxels_.data());
   uint32_t written = 0;
   for (uint32_t column = 0; column < width_;) {
     const PixelHistory::Match match = history_.find(column);
     if (match.pixels < fewest_pixels) {
-      history_.learn(column, column + 1);
       ++column;
       continue;
     }
     out_.deflate.literals(bytes_.data() + size_t{4} * written, size_t{4} * (column - written));
     out_.deflate.match(4 * match.pixels, match.distance);
     written = column + match.pixels;
-    history_.learn(column, written);
     column = written;
   }
   out_.deflate.literals(bytes_.data() + size_t{4} * written, size_t{4} * (width_ - written));

@@ -33,6 +33,7 @@ class RgbaRows {
   std::array<Rgba, 256> colours_{};  // by id
   ZlibStream& out_;
   RowView above_;
+  uint64_t dense_rows_ = 0;
   PixelHistory history_;
   std::vector<MaterialId> voxels_;
   std::vector<uint8_t> bytes_;
