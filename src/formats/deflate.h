@@ -36,8 +36,6 @@ class DeflateWriter {
   void make_room();
   void end_block(bool is_last);
   void write_steps(const Codes& codes);
-  void write_literals(const uint8_t* at, const uint8_t* end, const Codes& codes);
-  void write_match(const Step& step, const Codes& codes);
 
   BitWriter out_;
   // The block so far: each step is some literals, then a match; literals after the last one follow.

@@ -82,17 +82,19 @@ void RowPacker::pack_voxels(uint8_t* out) const {
     default:
       break;
   }
-  for (size_t i = 0; i < width_; ++i) out[i] = samples_[voxels_[i]];
+  const std::array<uint8_t, 256> samples = samples_;
+  for (size_t i = 0, count = width_; i < count; ++i) out[i] = samples[voxels_[i]];
 }
 
 template <int bits>
 void RowPacker::pack_pairs(uint8_t* out) const {
   constexpr size_t pairs_in_byte = 4 / bits;
   const MaterialId* at = voxels_.data();
-  for (size_t i = 0; i < size(); ++i) {
+  const uint8_t* const pairs = pairs_.data();  // which no byte written can move
+  for (uint8_t* const end = out + size(); out != end; ++out) {
     unsigned byte = 0;
-    for (size_t k = 0; k < pairs_in_byte; ++k, at += 2) byte = byte << (2 * bits) | pairs_[pair_of(at[0], at[1])];
-    out[i] = static_cast<uint8_t>(byte);
+    for (size_t k = 0; k < pairs_in_byte; ++k, at += 2) byte = byte << (2 * bits) | pairs[pair_of(at[0], at[1])];
+    *out = static_cast<uint8_t>(byte);
   }
 }
 

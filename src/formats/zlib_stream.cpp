@@ -15,8 +15,8 @@ void Adler32::add_repeated(std::array<uint8_t, 4> pixel, uint32_t times) {
   // `low` sums the bytes, `high` sums `low` after each byte. One pixel adds `sum` to the first and
   // 4 low + `weighted` to the second.
   const uint64_t low = sum_ & 0xFFFF, high = sum_ >> 16, n = times;
-  const uint64_t sum = uint64_t{pixel[0]} + pixel[1] + pixel[2] + pixel[3];
-  const uint64_t weighted = sum + 3U * pixel[0] + 2U * pixel[1] + pixel[2];
+  const uint64_t p = pixel[0], q = pixel[1], r = pixel[2], s = pixel[3];
+  const uint64_t sum = p + q + r + s, weighted = 4 * p + 3 * q + 2 * r + s;
   const uint64_t pairs = n % 2 == 0 ? n / 2 % modulus * ((n - 1) % modulus) : n % modulus * ((n - 1) / 2 % modulus);
   const uint64_t new_low = (low + n % modulus * sum) % modulus;
   const uint64_t new_high = (high + n % modulus * (4 * low + weighted) + pairs % modulus * (4 * sum)) % modulus;
