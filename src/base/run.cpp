@@ -66,26 +66,65 @@ std::span<const MaterialId> find_run(const MaterialId* from, const MaterialId* e
   return {end, end};
 }
 
-// How often each value occurs. Neighbours are often equal, and one counter takes its time between two
-// additions: so there are several.
-class ByteCounter {
+size_t count_equal(std::span<const MaterialId> voxels, MaterialId material) {
+  constexpr size_t lanes = 64, most_blocks = 255;  // before a lane overflows
+  size_t total = 0, i = 0;
+  while (voxels.size() - i >= lanes) {
+    std::array<uint8_t, lanes> sums{};
+    const size_t blocks = std::min(most_blocks, (voxels.size() - i) / lanes);
+    for (size_t block = 0; block < blocks; ++block, i += lanes)
+      for (size_t lane = 0; lane < lanes; ++lane)
+        sums[lane] = static_cast<uint8_t>(sums[lane] + (voxels[i + lane] == material));
+    for (const uint8_t sum : sums) total += sum;
+  }
+  for (; i < voxels.size(); ++i) total += voxels[i] == material;
+  return total;
+}
+
+// How often each material occurs among loose voxels.
+class VoxelCounter {
  public:
   void count(std::span<const MaterialId> voxels) {
-    const MaterialId* at = voxels.data();
-    const MaterialId* const end = at + voxels.size();
-    for (; end - at >= 8; at += 8) {
-      const uint64_t word = word_at(at);
-      for (int i = 0; i < 8; ++i) ++counts_[i][word >> (8 * i) & 0xFF];
-    }
-    for (; at != end; ++at) ++counts_[0][*at];
+    if (!has_many_ && count_usual(voxels)) return;
+    count_any(voxels);
+    if (!has_many_) find_usual();
   }
-  uint64_t of(size_t value) const {
+  uint64_t of(MaterialId material) const {
     uint64_t sum = 0;
-    for (const auto& table : counts_) sum += table[value];
+    for (const auto& table : counts_) sum += table[material];
     return sum;
   }
 
  private:
+  static constexpr size_t most_usual = 6;  // comparing with more takes as long as looking each voxel up
+
+  // Counts nothing if there are others than the usual ones.
+  bool count_usual(std::span<const MaterialId> voxels) {
+    std::array<size_t, most_usual> counts{};
+    size_t left = voxels.size();
+    for (size_t n = 0; n < usual_.size(); ++n) left -= counts[n] = count_equal(voxels, usual_[n]);
+    if (left > 0) return false;
+    for (size_t n = 0; n < usual_.size(); ++n) counts_[0][usual_[n]] += counts[n];
+    return true;
+  }
+
+  // Neighbours are often equal, and one counter takes its time between two additions: so there are several.
+  void count_any(std::span<const MaterialId> voxels) {
+    size_t i = 0;
+    for (; i + 8 <= voxels.size(); i += 8)
+      for (size_t k = 0; k < 8; ++k) ++counts_[k][voxels[i + k]];
+    for (; i < voxels.size(); ++i) ++counts_[0][voxels[i]];
+  }
+
+  void find_usual() {
+    usual_.clear();
+    for (unsigned id = 0; id < 256; ++id)
+      if (of(static_cast<MaterialId>(id)) > 0) usual_.push_back(static_cast<MaterialId>(id));
+    has_many_ = usual_.size() > most_usual;
+  }
+
+  std::vector<MaterialId> usual_;
+  bool has_many_ = false;
   std::array<std::array<uint64_t, 256>, 8> counts_{};
 };
 
@@ -191,14 +230,14 @@ void RunLayer::grow_dense(uint32_t count) {
 
 std::array<uint64_t, 256> count_materials(const RunLayer& layer) {
   std::array<uint64_t, 256> counts{};
-  ByteCounter loose;
+  VoxelCounter loose;
   for (uint32_t j = 0; j < layer.height(); ++j) {
     const RowView row = layer.row(j);
     loose.count(row.dense);
     for (const Run& run : row.runs)
       if (!run.is_dense) counts[run.material] += run.length;
   }
-  for (size_t id = 0; id < counts.size(); ++id) counts[id] += loose.of(id);
+  for (size_t id = 0; id < counts.size(); ++id) counts[id] += loose.of(static_cast<MaterialId>(id));
   return counts;
 }
 

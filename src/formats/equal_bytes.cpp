@@ -1,24 +1,28 @@
 #include "formats/equal_bytes.h"
 
-#include <algorithm>
 #include <bit>
-#include <cstring>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 namespace ombre::formats {
 namespace {
 
-// One bit for each of eight bytes, the first byte's lowest.
+// One bit for each of 16 bytes, the first byte's lowest.
+#ifdef __SSE2__
 uint64_t equal_bits(const uint8_t* a, const uint8_t* b) {
-  static_assert(std::endian::native == std::endian::little);
-  constexpr uint64_t low_bits = 0x7F7F7F7F7F7F7F7F, top_bits = ~low_bits;
-  uint64_t x, y;
-  std::memcpy(&x, a, sizeof x);
-  std::memcpy(&y, b, sizeof y);
-  const uint64_t differences = x ^ y;
-  const uint64_t is_different = ((differences & low_bits) + low_bits) | differences;  // in the top bit of each byte
-  // The product moves bit 8 i to bit 56 + i.
-  return ((~is_different & top_bits) >> 7) * 0x0102040810204080 >> 56;
+  const __m128i x = _mm_loadu_si128(reinterpret_cast<const __m128i*>(a));
+  const __m128i y = _mm_loadu_si128(reinterpret_cast<const __m128i*>(b));
+  return static_cast<uint64_t>(_mm_movemask_epi8(_mm_cmpeq_epi8(x, y)));
 }
+#else
+uint64_t equal_bits(const uint8_t* a, const uint8_t* b) {
+  uint64_t bits = 0;
+  for (unsigned i = 0; i < 16; ++i) bits |= uint64_t{a[i] == b[i]} << i;
+  return bits;
+}
+#endif
 
 }  // namespace
 
@@ -28,7 +32,7 @@ void EqualBytes::compare(const uint8_t* a, const uint8_t* b, size_t count) {
   size_t i = 0, word = 0;
   for (; i + 64 <= count; i += 64) {
     uint64_t bits = 0;
-    for (size_t k = 0; k < 64; k += 8) bits |= equal_bits(a + i + k, b + i + k) << k;
+    for (size_t k = 0; k < 64; k += 16) bits |= equal_bits(a + i + k, b + i + k) << k;
     words_[word++] = bits;
   }
   uint64_t rest = 0;

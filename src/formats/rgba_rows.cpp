@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cstring>
 
-#include "formats/equal_bytes.h"
-
 namespace ombre::formats {
 namespace {
 
 constexpr uint8_t filter_none = 0, filter_up = 2;
 constexpr uint32_t fewest_pixels = 4;  // a match of less costs more than its pixels
 constexpr uint64_t measured_rows = 64;
+constexpr uint32_t smooth_pixels = 32;  // to a run, on average
 
 void expand(std::span<const MaterialId> voxels, const std::array<Rgba, 256>& colours, std::span<uint8_t> bytes) {
   uint8_t* out = bytes.data();
@@ -22,12 +21,9 @@ void expand(std::span<const MaterialId> voxels, const std::array<Rgba, 256>& col
 
 // So many that as often as not another such stretch lies among the last 1024 or so pixels. Two pixels that
 // are independent agree with the probability with which neighbours do.
-uint32_t key_pixels(std::span<const MaterialId> dense) {
+uint32_t key_pixels(double agreeing) {
   constexpr uint32_t fewest = 4, most = 8;
   constexpr double rarest = 1.0 / 1024;
-  EqualBytes equal;
-  equal.compare(dense.data() + 1, dense.data(), dense.size() - 1);
-  const double agreeing = static_cast<double>(equal.equal_count()) / static_cast<double>(dense.size());
   double probability = agreeing;
   uint32_t count = 1;
   while (count < most && probability > rarest) {
@@ -46,7 +42,7 @@ Rgba difference(Rgba a, Rgba b) {
 // Steps through the runs of a row in the order of the image.
 class RunReader {
  public:
-  RunReader(std::span<const Run> runs, bool flip) : runs_(runs), flip_(flip) { load(); }
+  RunReader(const std::vector<Run>& runs, bool flip) : runs_(runs), flip_(flip) { load(); }
 
   MaterialId material() const { return current_.material; }
   uint32_t left() const { return current_.length; }
@@ -62,7 +58,7 @@ class RunReader {
     ++next_;
   }
 
-  std::span<const Run> runs_;
+  const std::vector<Run>& runs_;
   bool flip_;
   size_t next_ = 0;
   Run current_;
@@ -76,20 +72,44 @@ RgbaRows::RgbaRows(uint32_t width, const Palette& palette, bool flip_x, ZlibStre
 }
 
 void RgbaRows::put(const RowView& row) {
-  const bool has_smooth_above = !above_.runs.empty() && !above_.has_dense();
-  if (row.has_dense())
-    put_dense(row);
-  else if (has_smooth_above)
-    put_difference(row);
+  if (row.has_dense()) equal_.compare(row.dense.data() + 1, row.dense.data(), row.dense.size() - 1);
+  const size_t alike = row.has_dense() ? equal_.equal_count() : 0;
+  if (row.runs.size() + row.dense.size() - alike > std::max<size_t>(width_ / smooth_pixels, row.runs.size())) {
+    runs_above_.clear();
+    put_dense(row, alike);
+    return;
+  }
+  set_runs(row);
+  if (runs_above_.empty())
+    put_runs();
   else
-    put_runs(row);
-  if (!row.has_dense()) history_.clear();
-  above_ = row;
+    put_difference();
+  runs_above_.swap(runs_);
+  history_.clear();
 }
 
-void RgbaRows::put_difference(const RowView& row) {
+// All of them, be they ever so short.
+void RgbaRows::set_runs(const RowView& row) {
+  runs_.clear();
+  const MaterialId* loose = row.dense.data();
+  for (const Run& run : row.runs) {
+    if (!run.is_dense) {
+      runs_.push_back(run);
+      continue;
+    }
+    for (const MaterialId* const end = loose + run.length; loose != end; ++loose) {
+      const bool continues = loose != end - run.length && loose[-1] == *loose;
+      if (continues)
+        ++runs_.back().length;
+      else
+        runs_.push_back({*loose, false, 1});
+    }
+  }
+}
+
+void RgbaRows::put_difference() {
   put_filter(filter_up);
-  RunReader here(row.runs, flip_x_), above(above_.runs, flip_x_);
+  RunReader here(runs_, flip_x_), above(runs_above_, flip_x_);
   Rgba pixel{};
   uint32_t count = 0;  // of equal differences so far
   for (uint32_t column = 0; column < width_;) {
@@ -108,9 +128,9 @@ void RgbaRows::put_difference(const RowView& row) {
   put_stretch(pixel, count);
 }
 
-void RgbaRows::put_runs(const RowView& row) {
+void RgbaRows::put_runs() {
   put_filter(filter_none);
-  RunReader runs(row.runs, flip_x_);
+  RunReader runs(runs_, flip_x_);
   for (uint32_t column = 0; column < width_;) {
     const uint32_t count = runs.left();
     put_stretch(colours_[runs.material()], count);
@@ -119,14 +139,17 @@ void RgbaRows::put_runs(const RowView& row) {
   }
 }
 
-void RgbaRows::put_dense(const RowView& row) {
+void RgbaRows::put_dense(const RowView& row, size_t alike) {
   put_filter(filter_none);
   row.unpack(voxels_.data());
   if (flip_x_) std::reverse(voxels_.begin(), voxels_.end());
   expand(voxels_, colours_, bytes_);
   out_.sum.add(bytes_.data(), bytes_.size());
 
-  if (dense_rows_++ % measured_rows == 0) history_.set_key_pixels(key_pixels(row.dense));
+  if (dense_rows_++ % measured_rows == 0) {
+    const auto voxels = static_cast<double>(row.dense.size());
+    history_.set_key_pixels(key_pixels(static_cast<double>(alike) / voxels));
+  }
   history_.add_row(voxels_.data());
   uint32_t written = 0;
   for (uint32_t column = 0; column < width_;) {

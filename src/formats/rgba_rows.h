@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/run.h"
+#include "formats/equal_bytes.h"
 #include "formats/palette.h"
 #include "formats/pixel_history.h"
 #include "formats/zlib_stream.h"
@@ -18,13 +19,14 @@ class RgbaRows {
  public:
   RgbaRows(uint32_t width, const Palette& palette, bool flip_x, ZlibStream& out);
 
-  // From the top. The layer outlives this.
+  // From the top.
   void put(const RowView& row);
 
  private:
-  void put_difference(const RowView& row);
-  void put_runs(const RowView& row);
-  void put_dense(const RowView& row);
+  void set_runs(const RowView& row);
+  void put_difference();
+  void put_runs();
+  void put_dense(const RowView& row, size_t alike);
   void put_filter(uint8_t filter);
   void put_stretch(Rgba pixel, uint32_t count);
 
@@ -32,7 +34,8 @@ class RgbaRows {
   bool flip_x_;
   std::array<Rgba, 256> colours_{};  // by id
   ZlibStream& out_;
-  RowView above_;
+  EqualBytes equal_;
+  std::vector<Run> runs_, runs_above_;  // of smooth rows
   uint64_t dense_rows_ = 0;
   PixelHistory history_;
   std::vector<MaterialId> voxels_;
