@@ -74,11 +74,15 @@ RgbaRows::RgbaRows(uint32_t width, const Palette& palette, bool flip_x, ZlibStre
 void RgbaRows::put(const RowView& row) {
   if (row.has_dense()) equal_.compare(row.dense.data() + 1, row.dense.data(), row.dense.size() - 1);
   const size_t alike = row.has_dense() ? equal_.equal_count() : 0;
-  if (row.runs.size() + row.dense.size() - alike > std::max<size_t>(width_ / smooth_pixels, row.runs.size())) {
-    runs_above_.clear();
+  const size_t stretches = row.runs.size() + row.dense.size() - alike;  // at most
+  const bool is_smooth = !row.has_dense() || stretches <= width_ / smooth_pixels;
+  if (is_smooth)
+    put_smooth(row);
+  else
     put_dense(row, alike);
-    return;
-  }
+}
+
+void RgbaRows::put_smooth(const RowView& row) {
   set_runs(row);
   if (runs_above_.empty())
     put_runs();
@@ -140,6 +144,7 @@ void RgbaRows::put_runs() {
 }
 
 void RgbaRows::put_dense(const RowView& row, size_t alike) {
+  runs_above_.clear();
   put_filter(filter_none);
   row.unpack(voxels_.data());
   if (flip_x_) std::reverse(voxels_.begin(), voxels_.end());

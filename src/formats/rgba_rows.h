@@ -23,6 +23,7 @@ class RgbaRows {
   void put(const RowView& row);
 
  private:
+  void put_smooth(const RowView& row);
   void set_runs(const RowView& row);
   void put_difference();
   void put_runs();
