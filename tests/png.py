@@ -1,8 +1,8 @@
-"""A small PNG decoder: indexed images of 1 to 8 bits and RGBA of 8, not interlaced."""
+"""A small PNG decoder: gray and indexed images of 1 to 8 bits and RGBA of 8, not interlaced."""
 import struct
 import zlib
 
-INDEXED, RGBA = 3, 6
+GRAY, INDEXED, RGBA = 0, 3, 6
 
 
 class Image:
@@ -32,6 +32,9 @@ class Image:
                 self.pixels_per_metre = (x, y) if unit == 1 else None
             elif kind == b"IDAT":
                 packed += body
+        if self.colour_type == GRAY:
+            most = (1 << self.depth) - 1
+            palette = [(255 * value // most,) * 3 for value in range(most + 1)]
         self.palette = [colour + (alpha[i] if i < len(alpha) else 255,) for i, colour in enumerate(palette)]
         self.rows = [self._colours(row) for row in self._unfiltered(zlib.decompress(packed))]
 

@@ -1,32 +1,83 @@
-// Rows of voxels as runs: one value, a length.
+// Layers of voxels as rows of runs, with stretches of loose voxels where materials alternate.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace ombre {
 
 using MaterialId = uint8_t;  // 0 is void
 
+// `length` voxels of one material, or, where it is dense, of a row's next `length` loose voxels.
 struct Run {
-  MaterialId material = 0;
+  MaterialId material = 0;  // 0 where dense
+  bool is_dense = false;
   uint32_t length = 0;
   bool operator==(const Run&) const = default;
 };
 
-// Appends to a row, joining runs of one material.
-inline void append_run(std::vector<Run>& row, MaterialId material, uint32_t length) {
-  if (length == 0) return;
-  if (!row.empty() && row.back().material == material)
-    row.back().length += length;
-  else
-    row.push_back({material, length});
-}
+// A row of a layer. Its runs add up to the width; loose voxels stand one behind the other.
+struct RowView {
+  std::span<const Run> runs;
+  std::span<const MaterialId> dense;
 
-// One layer: row j holds runs that add up to `width`. Row 0 has the least y.
-struct RunLayer {
-  uint32_t width = 0;
-  std::vector<std::vector<Run>> rows;
+  bool has_dense() const { return !dense.empty(); }
+  // The voxels one by one; `out` holds as many as the row is wide.
+  void unpack(MaterialId* out) const;
+  bool operator==(const RowView& other) const;
 };
+
+// One layer, row after row. Row 0 has the least y.
+//
+// Stretches of `shortest_run` equal voxels and more are runs, all between them is dense. So a layer depends
+// on its voxels alone, not on the pieces in which they were appended, and no voxel takes more than a byte.
+class RunLayer {
+ public:
+  static constexpr uint32_t shortest_run = 32;
+
+  explicit RunLayer(uint32_t width = 0) : width_(width) {}
+
+  uint32_t width() const { return width_; }
+  uint32_t height() const { return static_cast<uint32_t>(ends_.size()); }
+  RowView row(uint32_t j) const;
+
+  // The next piece of the row that is being appended; pieces may be empty.
+  void add_uniform(MaterialId material, uint32_t count);
+  void add(const MaterialId* voxels, uint32_t count);
+  // The pieces so far make up one row.
+  void end_row();
+
+  // Rows in one piece.
+  void append_row(const MaterialId* voxels);
+  void append_uniform_row(MaterialId material);
+
+  bool operator==(const RunLayer& other) const = default;
+
+ private:
+  struct RowEnd {
+    size_t runs = 0, dense = 0;
+    bool operator==(const RowEnd&) const = default;
+  };
+
+  RowEnd row_begin(size_t j) const { return j == 0 ? RowEnd{} : ends_[j - 1]; }
+  void put_run(MaterialId material, uint32_t count);
+  void put_dense(const MaterialId* voxels, uint32_t count);
+  void put_dense(MaterialId material, uint32_t count);
+  void grow_dense(uint32_t count);
+  void put_open();
+
+  uint32_t width_;
+  std::vector<Run> runs_;
+  std::vector<MaterialId> dense_;
+  std::vector<RowEnd> ends_;
+  Run open_;  // the last stretch of the row, which the next piece may lengthen
+  uint32_t filled_ = 0;
+};
+
+// Voxels of each material in the layer, void included.
+std::array<uint64_t, 256> count_materials(const RunLayer& layer);
 
 }  // namespace ombre

@@ -18,22 +18,13 @@ double in_voxels(const voxel::Lattice& lattice, size_t axis, double mm) {
   return std::clamp(voxels, -2.0, static_cast<double>(lattice.count[axis]) + 2);
 }
 
-std::vector<Run> cut(const std::vector<Run>& row, int64_t begin, int64_t end) {
-  std::vector<Run> part;
-  int64_t at = 0;
-  for (const Run& run : row) {
-    const int64_t from = std::max(at, begin), to = std::min(at + run.length, end);
-    if (from < to) append_run(part, run.material, static_cast<uint32_t>(to - from));
-    at += run.length;
-  }
-  return part;
-}
-
 RunLayer cut(const RunLayer& layer, const LayerWindow& window) {
-  RunLayer part;
-  part.width = static_cast<uint32_t>(window.hi[0] - window.lo[0]);
-  for (int64_t j = window.lo[1]; j < window.hi[1]; ++j)
-    part.rows.push_back(cut(layer.rows[static_cast<size_t>(j)], window.lo[0], window.hi[0]));
+  RunLayer part(static_cast<uint32_t>(window.hi[0] - window.lo[0]));
+  std::vector<MaterialId> row(layer.width());
+  for (int64_t j = window.lo[1]; j < window.hi[1]; ++j) {
+    layer.row(static_cast<uint32_t>(j)).unpack(row.data());
+    part.append_row(row.data() + window.lo[0]);
+  }
   return part;
 }
 

@@ -77,21 +77,19 @@ SliceRequest mask_request() {
 // centre fail the check.
 voxel::LayerResult ball_layer(const SliceRequest& request, int64_t k, bool with_checks) {
   voxel::LayerResult result;
-  result.material_counts.resize(256);
   result.checks.resize(request.check_texts.size());
   const auto& lattice = request.lattice;
-  result.runs.width = static_cast<uint32_t>(lattice.count[0]);
+  result.runs = RunLayer(static_cast<uint32_t>(lattice.count[0]));
   for (int64_t j = 0; j < lattice.count[1]; ++j) {
-    std::vector<Run> row;
     for (int64_t i = 0; i < lattice.count[0]; ++i) {
       const Vec3 p = lattice.center(i, j, k);
       const MaterialId id = length(p) > 1.7 ? 0 : p.x < 0.3 * p.z ? 1 : 5;
-      append_run(row, id, 1);
-      if (id) ++result.material_counts[id];
+      result.runs.add_uniform(id, 1);
+      ++result.material_counts[id];
       if (!with_checks || length(p) > 0.3) continue;
       if (result.checks[0].count++ == 0) result.checks[0].first = {i, j, k};
     }
-    result.runs.rows.push_back(std::move(row));
+    result.runs.end_row();
   }
   return result;
 }

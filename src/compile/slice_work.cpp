@@ -14,10 +14,10 @@ constexpr int64_t most_slab_layers = 8;  // what stays in the second-level cache
 double layer_bytes(const SliceRequest& request) {
   const auto& count = request.lattice.count;
   const double voxels = static_cast<double>(count[0]) * static_cast<double>(count[1]);
-  const double run_bytes = 1.5 * sizeof(Run);  // vectors of runs grow ahead of their use
+  const double run_bytes = 1.5;  // a byte at most, in vectors that grow ahead of their use
   const double images = request.files.has_material() ? static_cast<double>(request.materials.size()) : 1;
   const double image_bytes = images * (request.format == voxel::ImageFormat::rgba ? 4 : 1);
-  return voxels * (run_bytes + image_bytes) + static_cast<double>(count[1]) * sizeof(std::vector<Run>);
+  return voxels * (run_bytes + image_bytes);
 }
 
 }  // namespace

@@ -48,9 +48,12 @@ struct Voxels {
 
 inline std::vector<MaterialId> unpack(const std::vector<voxel::LayerResult>& layers) {
   std::vector<MaterialId> ids;
-  for (const auto& layer : layers)
-    for (const auto& row : layer.runs.rows)
-      for (const Run& run : row) ids.insert(ids.end(), run.length, run.material);
+  for (const auto& layer : layers) {
+    for (uint32_t j = 0; j < layer.runs.height(); ++j) {
+      ids.resize(ids.size() + layer.runs.width());
+      layer.runs.row(j).unpack(ids.data() + ids.size() - layer.runs.width());
+    }
+  }
   return ids;
 }
 

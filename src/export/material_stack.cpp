@@ -10,12 +10,13 @@ using voxel::ImageFormat;
 
 // The layer with all but one material taken for void.
 RunLayer only(const RunLayer& layer, MaterialId material) {
-  RunLayer result;
-  result.width = layer.width;
-  result.rows.resize(layer.rows.size());
-  for (size_t j = 0; j < layer.rows.size(); ++j)
-    for (const Run& run : layer.rows[j])
-      append_run(result.rows[j], run.material == material ? material : MaterialId{0}, run.length);
+  RunLayer result(layer.width());
+  std::vector<MaterialId> row(layer.width());
+  for (uint32_t j = 0; j < layer.height(); ++j) {
+    layer.row(j).unpack(row.data());
+    for (MaterialId& voxel : row) voxel = voxel == material ? material : MaterialId{0};
+    result.append_row(row.data());
+  }
   return result;
 }
 
@@ -25,17 +26,23 @@ formats::Palette palette(const MaterialStack& stack) {
   return palette;
 }
 
-formats::Palette mask_palette(MaterialId material) {
-  formats::Palette palette(mask_off);
-  palette.add(material, mask_on);
-  return palette;
+formats::PngFormat png_format(ImageFormat format) {
+  switch (format) {
+    case ImageFormat::rgba:
+      return formats::PngFormat::rgba;
+    case ImageFormat::gray:
+      return formats::PngFormat::gray;
+    case ImageFormat::mask:
+      return formats::PngFormat::mask;
+    default:
+      return formats::PngFormat::indexed;
+  }
 }
 
-PngStack png_stack(const MaterialStack& stack, formats::Palette palette) {
+PngStack png_stack(const MaterialStack& stack) {
   PngStack png;
-  png.palette = std::move(palette);
-  // Grey and black and white go through a palette of these.
-  png.format = stack.format == ImageFormat::rgba ? formats::PngFormat::rgba : formats::PngFormat::indexed;
+  png.palette = palette(stack);
+  png.format = png_format(stack.format);
   png.pitch_x = stack.pitch_x;
   png.pitch_y = stack.pitch_y;
   png.flip_x = stack.flip_x;
@@ -46,12 +53,12 @@ PngStack png_stack(const MaterialStack& stack, formats::Palette palette) {
 }  // namespace
 
 std::vector<std::string> MaterialStack::encode(const RunLayer& layer) const {
-  if (!one_for_each) return {png_stack(*this, palette(*this)).encode(layer)};
+  PngStack png = png_stack(*this);
+  if (!one_for_each) return {png.encode(layer)};
   std::vector<std::string> files;
   for (const StackMaterial& material : materials) {
-    const bool is_mask = format == ImageFormat::mask;
-    const PngStack png = png_stack(*this, is_mask ? mask_palette(material.id) : palette(*this));
-    files.push_back(png.encode(only(layer, material.id)));
+    png.mask_of = material.id;
+    files.push_back(png.encode(format == ImageFormat::mask ? layer : only(layer, material.id)));
   }
   return files;
 }

@@ -33,7 +33,7 @@ struct MaterialStack {
 // (ITU-R BT.601), else the colour itself.
 formats::Rgba shown(formats::Rgba colour, voxel::ImageFormat format);
 
-// Void and material of masks.
-inline constexpr formats::Rgba mask_off{0, 0, 0, 255}, mask_on{255, 255, 255, 255};
+// What is void in masks.
+inline constexpr formats::Rgba mask_off{0, 0, 0, 255};
 
 }  // namespace ombre::exporting

@@ -10,6 +10,7 @@ std::string PngStack::encode(const RunLayer& layer) const {
   layout.dots_per_metre_y = pitch_y.dots_per_metre();
   layout.flip_x = flip_x;
   layout.flip_y = flip_y;
+  layout.mask_of = mask_of;
   return formats::encode_png(layer, palette, layout);
 }
 

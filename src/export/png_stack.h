@@ -15,6 +15,7 @@ struct PngStack {
   formats::PngFormat format = formats::PngFormat::indexed;
   Pitch pitch_x, pitch_y;
   bool flip_x = false, flip_y = false;
+  MaterialId mask_of = 0;  // of masks
 
   // Throws Error when memory runs out.
   std::string encode(const RunLayer& layer) const;

@@ -1,11 +1,10 @@
-// PNG images through libpng.
+// Pictures to PNG and PNG images back, through libpng.
 #include "formats/png.h"
 
 #include <png.h>
 #include <zlib.h>
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <csetjmp>
 #include <cstring>
 #include <optional>
@@ -13,7 +12,6 @@
 
 #include "base/assert.h"
 #include "base/error.h"
-#include "formats/png_rows.h"
 
 // libpng leaves by longjmp, which runs no destructors. So everything that owns memory lives in a
 // Writer or a Reader, outside the functions that call libpng, and those hold plain values only.
@@ -24,14 +22,6 @@ namespace {
 constexpr uint64_t most_pixels = 1'000'000'000;
 constexpr png_uint_32 largest_side = 1'000'000;
 
-// Measured on dithered and on smooth layers of 4096 x 2048. Indexed pixels: run-length matching alone is
-// both the fastest and, since dithering leaves little else to match, the smallest. RGBA needs matches a
-// pixel apart; there level 4 saves a third of the bytes at two thirds of the speed.
-struct Compression {
-  int level, strategy;
-};
-constexpr Compression indexed_compression{4, Z_RLE}, rgba_compression{1, Z_DEFAULT_STRATEGY},
-    picture_compression{9, Z_DEFAULT_STRATEGY};
 constexpr size_t chunk_bytes = size_t{256} << 10;
 
 struct Failure {
@@ -86,9 +76,6 @@ struct Header {
   std::array<png_color, 256> colours{};
   std::array<png_byte, 256> alphas{};
   int colour_count = 0, alpha_count = 0;
-  png_uint_32 dots_per_metre_x = 0, dots_per_metre_y = 0;
-  bool compare_rows = false;
-  bool is_picture = false;  // small files matter more than speed
 };
 
 bool write_header(Writer& writer, const Header& header) {
@@ -99,21 +86,14 @@ bool write_header(Writer& writer, const Header& header) {
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   if (header.colour_count > 0) png_set_PLTE(writer.png, writer.info, header.colours.data(), header.colour_count);
   if (header.alpha_count > 0) png_set_tRNS(writer.png, writer.info, header.alphas.data(), header.alpha_count, nullptr);
-  if (header.dots_per_metre_x > 0 && header.dots_per_metre_y > 0)
-    png_set_pHYs(writer.png, writer.info, header.dots_per_metre_x, header.dots_per_metre_y, PNG_RESOLUTION_METER);
 
   // Everything that decides the bytes is stated, whatever the library's defaults.
-  const Compression& compression = header.is_picture                              ? picture_compression
-                                   : header.colour_type == PNG_COLOR_TYPE_PALETTE ? indexed_compression
-                                                                                  : rgba_compression;
-  png_set_compression_level(writer.png, compression.level);
-  png_set_compression_strategy(writer.png, compression.strategy);
+  png_set_compression_level(writer.png, 9);
+  png_set_compression_strategy(writer.png, Z_DEFAULT_STRATEGY);
   png_set_compression_mem_level(writer.png, 9);
   png_set_compression_window_bits(writer.png, 15);
   png_set_compression_buffer_size(writer.png, chunk_bytes);
-  // Naming a filter that looks at the row above makes libpng keep that row.
-  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE,
-                 header.compare_rows ? PNG_FILTER_NONE | PNG_FILTER_UP : PNG_FILTER_NONE);
+  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
   png_write_info(writer.png, writer.info);
   return true;
 }
@@ -121,13 +101,6 @@ bool write_header(Writer& writer, const Header& header) {
 bool write_row(Writer& writer, const uint8_t* bytes) {
   if (setjmp(png_jmpbuf(writer.png))) return false;
   png_write_row(writer.png, bytes);
-  return true;
-}
-
-// Only between rows: before the first, libpng would take it for all rows.
-bool set_filter(Writer& writer, int filter) {
-  if (setjmp(png_jmpbuf(writer.png))) return false;
-  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, filter);
   return true;
 }
 
@@ -147,72 +120,6 @@ void start(Writer& writer, const Header& header) {
   if (!writer.png || !writer.info) throw Error("not enough memory to encode an image; try fewer threads");
   require(write_header(writer, header), writer);
 }
-
-void set_palette(Header& header, const Palette& palette) {
-  header.bit_depth = palette.bit_depth();
-  header.colour_type = PNG_COLOR_TYPE_PALETTE;
-  for (const Rgba& colour : palette.colours()) {
-    header.colours[header.colour_count] = {colour[0], colour[1], colour[2]};
-    header.alphas[header.colour_count] = colour[3];
-    ++header.colour_count;
-    if (colour[3] != 255) header.alpha_count = header.colour_count;
-  }
-}
-
-png_uint_32 whole_dots(double dots_per_metre) {
-  return static_cast<png_uint_32>(std::clamp(std::round(dots_per_metre), 0.0, 2147483647.0));
-}
-
-}  // namespace
-
-Palette::Palette(Rgba background) : colours_{background} { known_[0] = true; }
-
-void Palette::add(MaterialId id, Rgba colour) {
-  ASSERT(!known_[id]);
-  known_[id] = true;
-  entries_[id] = static_cast<uint8_t>(colours_.size());
-  colours_.push_back(colour);
-}
-
-uint8_t Palette::entry(MaterialId id) const {
-  ASSERT(known_[id]);
-  return entries_[id];
-}
-
-int Palette::bit_depth() const {
-  int bits = 1;
-  while ((size_t{1} << bits) < colours_.size()) bits *= 2;
-  return bits;
-}
-
-std::string encode_png(const RunLayer& layer, const Palette& palette, const PngLayout& layout) {
-  Header header;
-  header.width = layer.width;
-  header.height = static_cast<png_uint_32>(layer.rows.size());
-  if (layout.format == PngFormat::indexed) set_palette(header, palette);
-  header.dots_per_metre_x = whole_dots(layout.dots_per_metre_x);
-  header.dots_per_metre_y = whole_dots(layout.dots_per_metre_y);
-  header.compare_rows = layout.format == PngFormat::rgba;
-
-  Writer writer;
-  start(writer, header);
-  RowPacker packer(layer.width, palette, layout);
-  const std::vector<Run>* above = nullptr;
-  const uint8_t* bytes = nullptr;
-  for (size_t i = 0; i < layer.rows.size(); ++i) {
-    const std::vector<Run>& row = layer.rows[layout.flip_y ? i : layer.rows.size() - 1 - i];
-    if (!above || row != *above) bytes = packer.pack(row).data();
-    above = &row;
-    // RGBA rows are longer than deflate's window, so smooth ones repay the difference to the row above.
-    const bool smooth = row.size() <= layer.width / 16;
-    if (header.compare_rows && i > 0) require(set_filter(writer, smooth ? PNG_FILTER_UP : PNG_FILTER_NONE), writer);
-    require(write_row(writer, bytes), writer);
-  }
-  require(write_end(writer), writer);
-  return std::move(writer.bytes);
-}
-
-namespace {
 
 // Pictures of at most 256 colours are indexed, which makes them several times smaller. Their palette is
 // in the order in which the colours come up.
@@ -236,7 +143,6 @@ std::optional<std::string> encode_few_colours(uint32_t width, uint32_t height, c
   header.height = height;
   header.colour_type = PNG_COLOR_TYPE_PALETTE;
   header.colour_count = header.alpha_count = static_cast<int>(entries.size());
-  header.is_picture = true;
   Writer writer;
   start(writer, header);
   for (size_t row = 0; row < height; ++row) require(write_row(writer, indices.data() + row * width), writer);

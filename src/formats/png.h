@@ -1,46 +1,25 @@
 // PNG images: layers of voxels as indexed or RGBA pixels, and plain pixels back again.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/run.h"
+#include "formats/palette.h"
 
 namespace ombre::formats {
 
-using Rgba = std::array<uint8_t, 4>;  // red, green, blue, alpha; not premultiplied
-
-enum class PngFormat { rgba, indexed };
-
-// The colours of a stack of layers. Entry 0 is void, then come the materials in the order added.
-// All layers of a job share one palette, and with it one bit depth.
-class Palette {
- public:
-  explicit Palette(Rgba background = {0, 0, 0, 0});
-
-  // Each id once, and not 0.
-  void add(MaterialId id, Rgba colour);
-
-  const std::vector<Rgba>& colours() const { return colours_; }
-  // The entry of a material that was added.
-  uint8_t entry(MaterialId id) const;
-  // The least of 1, 2, 4, 8 bits that holds every entry.
-  int bit_depth() const;
-
- private:
-  std::vector<Rgba> colours_;
-  std::array<uint8_t, 256> entries_{};
-  std::array<bool, 256> known_{};
-};
+// gray has the luminance of each material's colour. mask is white (1) where one material is, black elsewhere.
+enum class PngFormat { rgba, indexed, gray, mask };
 
 struct PngLayout {
   PngFormat format = PngFormat::indexed;
   double dots_per_metre_x = 0, dots_per_metre_y = 0;  // rounded to whole dots; 0 writes none
   // Unflipped, x grows to the right and image row 0 has the greatest y.
   bool flip_x = false, flip_y = false;
+  MaterialId mask_of = 0;  // of a mask
 };
 
 // The same layer gives the same bytes. Width and height must lie in 1 ... 1,000,000, and every
@@ -61,7 +40,7 @@ struct PngImage {
   Rgba colour(uint32_t column, uint32_t row) const;
 };
 
-// Palette images stay indexed; grey, RGB and 16-bit images become 8-bit RGBA. Throws Error, naming
+// Palette images stay indexed; gray, RGB and 16-bit images become 8-bit RGBA. Throws Error, naming
 // `name`, for what is not a whole PNG or has more than a milliard pixels.
 PngImage decode_png(std::string_view bytes, const std::string& name);
 

@@ -1,4 +1,3 @@
-// Rows of runs to the bytes of PNG rows.
 #include "formats/png_rows.h"
 
 #include <algorithm>
@@ -9,14 +8,13 @@
 namespace ombre::formats {
 namespace {
 
-uint64_t bits_per_pixel(const Palette& palette, const PngLayout& layout) {
-  return layout.format == PngFormat::rgba ? 32 : static_cast<uint64_t>(palette.bit_depth());
-}
+constexpr uint8_t filter_none = 0, filter_up = 2;
+constexpr size_t pixels_at = 2;  // in the buffers of PackedRows
 
-// `entry` in every pixel of a byte.
-uint8_t repeated(uint8_t entry, int bit_depth) {
-  unsigned byte = entry;
-  for (int filled = bit_depth; filled < 8; filled *= 2) byte |= byte << filled;
+// `sample` in every pixel of a byte.
+uint8_t repeated(uint8_t sample, unsigned bit_depth) {
+  unsigned byte = sample;
+  for (unsigned filled = bit_depth; filled < 8; filled *= 2) byte |= byte << filled;
   return static_cast<uint8_t>(byte);
 }
 
@@ -24,52 +22,135 @@ void merge(uint8_t& byte, unsigned value, unsigned mask) {
   byte = static_cast<uint8_t>((byte & ~mask) | (value & mask));
 }
 
+size_t pair_of(MaterialId first, MaterialId second) { return first | size_t{second} << 8; }
+
 }  // namespace
 
-RowPacker::RowPacker(uint32_t width, const Palette& palette, const PngLayout& layout)
-    : palette_(palette),
-      layout_(layout),
-      bit_depth_(palette.bit_depth()),
-      bytes_((width * bits_per_pixel(palette, layout) + 7) / 8) {}
-
-const std::vector<uint8_t>& RowPacker::pack(const std::vector<Run>& row) {
-  if (layout_.format == PngFormat::indexed) bytes_.back() = 0;  // the spare bits of the last byte
-  uint64_t begin = 0;
-  const auto put = [&](const Run& run) {
-    layout_.format == PngFormat::rgba ? put_rgba(begin, run) : put_indexed(begin, run);
-    begin += run.length;
-  };
-  if (layout_.flip_x)
-    std::for_each(row.rbegin(), row.rend(), put);
-  else
-    std::for_each(row.begin(), row.end(), put);
-  return bytes_;
+RowPacker::RowPacker(uint32_t width, const Samples& samples, bool flip_x)
+    : width_(width),
+      bit_depth_(static_cast<unsigned>(samples.bit_depth)),
+      flip_x_(flip_x),
+      samples_(samples.of),
+      voxels_(size_t{width} + 8) {
+  if (bit_depth_ == 8) return;
+  pairs_.resize(size_t{1} << 16);
+  for (const MaterialId a : samples.ids)
+    for (const MaterialId b : samples.ids)
+      pairs_[pair_of(a, b)] = static_cast<uint8_t>(samples_[a] << bit_depth_ | samples_[b]);
 }
 
-void RowPacker::put_rgba(uint64_t begin, const Run& run) {
-  const Rgba colour = palette_.colours()[palette_.entry(run.material)];
-  ASSERT((begin + run.length) * 4 <= bytes_.size());
-  uint8_t* out = bytes_.data() + begin * 4;
-  for (uint32_t i = 0; i < run.length; ++i) std::memcpy(out + size_t{4} * i, colour.data(), 4);
+void RowPacker::pack(const RowView& row, uint8_t* out) {
+  if (row.has_dense()) {
+    row.unpack(voxels_.data());
+    if (flip_x_) std::reverse(voxels_.begin(), voxels_.begin() + width_);
+    pack_voxels(out);
+  } else {
+    uint64_t filled = 0;
+    for (const Run& run : row.runs) {
+      put_run(flip_x_ ? width_ - filled - run.length : filled, run, out);
+      filled += run.length;
+    }
+  }
+  const size_t spare_bits = size() * 8 - size_t{width_} * bit_depth_;
+  merge(out[size() - 1], 0, (1U << spare_bits) - 1);
 }
 
-void RowPacker::put_indexed(uint64_t begin, const Run& run) {
-  const uint8_t value = repeated(palette_.entry(run.material), bit_depth_);
-  const uint64_t first_bit = begin * static_cast<uint64_t>(bit_depth_);
-  const uint64_t last_bit = (begin + run.length) * static_cast<uint64_t>(bit_depth_);
-  ASSERT(last_bit <= bytes_.size() * 8);
+void RowPacker::put_run(uint64_t begin, const Run& run, uint8_t* out) const {
+  const uint8_t value = repeated(samples_[run.material], bit_depth_);
+  const uint64_t first_bit = begin * bit_depth_, last_bit = (begin + run.length) * bit_depth_;
 
   // Pixels fill a byte from its high bits down.
   const size_t first = first_bit / 8, last = last_bit / 8;
   const unsigned from_first = 0xFFU >> (first_bit % 8), before_last = 0xFF00U >> (last_bit % 8) & 0xFFU;
   if (first == last) {
-    if (from_first & before_last) merge(bytes_[first], value, from_first & before_last);
+    if (from_first & before_last) merge(out[first], value, from_first & before_last);
     return;
   }
-  merge(bytes_[first], value, from_first);
-  std::fill(bytes_.begin() + static_cast<std::ptrdiff_t>(first) + 1, bytes_.begin() + static_cast<std::ptrdiff_t>(last),
-            value);
-  if (before_last) merge(bytes_[last], value, before_last);
+  merge(out[first], value, from_first);
+  std::memset(out + first + 1, value, last - first - 1);
+  if (before_last) merge(out[last], value, before_last);
+}
+
+void RowPacker::pack_voxels(uint8_t* out) const {
+  switch (bit_depth_) {
+    case 1:
+      return pack_pairs<1>(out);
+    case 2:
+      return pack_pairs<2>(out);
+    case 4:
+      return pack_pairs<4>(out);
+    default:
+      break;
+  }
+  const std::array<uint8_t, 256> samples = samples_;
+  for (size_t i = 0, count = width_; i < count; ++i) out[i] = samples[voxels_[i]];
+}
+
+template <int bits>
+void RowPacker::pack_pairs(uint8_t* out) const {
+  constexpr size_t pairs_in_byte = 4 / bits;
+  const MaterialId* at = voxels_.data();
+  const uint8_t* const pairs = pairs_.data();  // which no byte written can move
+  for (uint8_t* const end = out + size(); out != end; ++out) {
+    unsigned byte = 0;
+    for (size_t k = 0; k < pairs_in_byte; ++k, at += 2) byte = byte << (2 * bits) | pairs[pair_of(at[0], at[1])];
+    *out = static_cast<uint8_t>(byte);
+  }
+}
+
+PackedRows::PackedRows(uint32_t width, const Samples& samples, bool flip_x, ZlibStream& out)
+    : packer_(width, samples, flip_x),
+      out_(out),
+      row_(packer_.size() + pixels_at),
+      row_above_(row_.size()),
+      difference_(row_.size()) {}
+
+void PackedRows::put(const RowView& row) {
+  const bool is_first = above_.runs.empty();
+  const bool repeats = !is_first && row == above_;
+  above_ = row;
+  if (!repeats) {
+    row_.swap(row_above_);
+    packer_.pack(row, row_.data() + pixels_at);
+  }
+  compare_neighbours(row_, filter_none);
+  if (is_first || !pays_as_difference(repeats)) return write(row_);
+  if (repeats)
+    std::fill(difference_.begin(), difference_.end(), uint8_t{0});
+  else
+    for (size_t i = pixels_at; i < row_.size(); ++i) difference_[i] = static_cast<uint8_t>(row_[i] - row_above_[i]);
+  compare_neighbours(difference_, filter_up);
+  write(difference_);
+}
+
+void PackedRows::compare_neighbours(std::vector<uint8_t>& bytes, uint8_t filter) {
+  bytes[0] = last_byte_;
+  bytes[1] = filter;
+  equal_.compare(bytes.data() + 1, bytes.data(), bytes.size() - 1);
+}
+
+// Smooth shapes change little from row to row: there the difference is mostly zero. The difference of
+// dithered rows says more than the row. An edge is two changes along the row, of which one may have moved.
+bool PackedRows::pays_as_difference(bool repeats) {
+  const size_t changes = equal_.size() - equal_.equal_count();
+  if (repeats) return changes > 0;
+  equal_above_.compare(row_.data() + pixels_at, row_above_.data() + pixels_at, packer_.size());
+  return 2 * (packer_.size() - equal_above_.equal_count()) < changes;
+}
+
+// Stretches of one byte become matches.
+void PackedRows::write(const std::vector<uint8_t>& bytes) {
+  const uint8_t* const stream = bytes.data() + 1;
+  size_t written = 0;
+  while (written < equal_.size()) {
+    const size_t begin = equal_.find_stretch(written);
+    out_.deflate.literals(stream + written, begin - written);
+    if (begin == equal_.size()) break;
+    written = equal_.stretch_end(begin);
+    out_.deflate.match(static_cast<uint32_t>(written - begin), 1);
+  }
+  out_.sum.add(stream, equal_.size());
+  last_byte_ = bytes.back();
 }
 
 }  // namespace ombre::formats

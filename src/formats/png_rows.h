@@ -1,29 +1,65 @@
-// Rows of runs to the bytes of PNG rows.
+// Rows of voxels to the bytes of image rows that hold one small number a pixel.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "base/run.h"
-#include "formats/png.h"
+#include "formats/equal_bytes.h"
+#include "formats/zlib_stream.h"
 
 namespace ombre::formats {
 
-// Packs the rows of one layer, a row at a time, into a buffer of its own.
+// What a pixel of each material is.
+struct Samples {
+  int bit_depth = 8;  // 1, 2, 4 or 8
+  std::vector<MaterialId> ids;
+  std::array<uint8_t, 256> of{};  // by id
+};
+
+// Packs rows, the first pixel into the highest bits; spare bits are zero.
 class RowPacker {
  public:
-  RowPacker(uint32_t width, const Palette& palette, const PngLayout& layout);
+  RowPacker(uint32_t width, const Samples& samples, bool flip_x);
 
-  const std::vector<uint8_t>& pack(const std::vector<Run>& row);
+  size_t size() const { return (size_t{width_} * bit_depth_ + 7) / 8; }
+  void pack(const RowView& row, uint8_t* out);
 
  private:
-  void put_indexed(uint64_t begin, const Run& run);
-  void put_rgba(uint64_t begin, const Run& run);
+  void put_run(uint64_t begin, const Run& run, uint8_t* out) const;
+  void pack_voxels(uint8_t* out) const;
+  template <int bits>
+  void pack_pairs(uint8_t* out) const;
 
-  const Palette& palette_;
-  const PngLayout& layout_;
-  int bit_depth_;
-  std::vector<uint8_t> bytes_;
+  uint32_t width_;
+  unsigned bit_depth_;
+  bool flip_x_;
+  std::array<uint8_t, 256> samples_;
+  std::vector<uint8_t> pairs_;      // the samples of two neighbours, by their ids
+  std::vector<MaterialId> voxels_;  // of one row, and some void
+};
+
+// Writes packed rows, each as it is or as the difference to the row above.
+class PackedRows {
+ public:
+  PackedRows(uint32_t width, const Samples& samples, bool flip_x, ZlibStream& out);
+
+  // From the top. The layer outlives this.
+  void put(const RowView& row);
+
+ private:
+  void compare_neighbours(std::vector<uint8_t>& bytes, uint8_t filter);
+  bool pays_as_difference(bool repeats);
+  void write(const std::vector<uint8_t>& bytes);
+
+  RowPacker packer_;
+  ZlibStream& out_;
+  RowView above_;
+  // The last byte written before, the filter, then pixels.
+  std::vector<uint8_t> row_, row_above_, difference_;
+  EqualBytes equal_, equal_above_;  // to the byte before, to the byte above
+  uint8_t last_byte_ = 0xFF;        // not a filter, so nothing repeats it
 };
 
 }  // namespace ombre::formats

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "base/error.h"
@@ -12,28 +14,16 @@ namespace {
 // Runs of random length and material, 0 included.
 RunLayer random_layer(uint32_t width, uint32_t height, int materials, uint32_t longest, uint32_t seed) {
   std::mt19937 random(seed);
-  RunLayer layer;
-  layer.width = width;
+  RunLayer layer(width);
   for (uint32_t row = 0; row < height; ++row) {
-    std::vector<Run> runs;
     for (uint32_t filled = 0; filled < width;) {
       const uint32_t length = std::min<uint32_t>(width - filled, 1 + static_cast<uint32_t>(random() % longest));
-      append_run(runs, static_cast<MaterialId>(random() % static_cast<uint32_t>(materials + 1)), length);
+      layer.add_uniform(static_cast<MaterialId>(random() % static_cast<uint32_t>(materials + 1)), length);
       filled += length;
     }
-    layer.rows.push_back(runs);
+    layer.end_row();
   }
   return layer;
-}
-
-MaterialId material_at(const RunLayer& layer, uint32_t column, size_t row) {
-  uint32_t end = 0;
-  for (const Run& run : layer.rows[row]) {
-    end += run.length;
-    if (column < end) return run.material;
-  }
-  ADD_FAILURE() << "the row is too short";
-  return 0;
 }
 
 Rgba colour_of(MaterialId id) {
@@ -47,22 +37,63 @@ Palette palette_of(int materials) {
   return palette;
 }
 
+// What a reader should see of a material.
+Rgba seen(MaterialId id, const Palette& palette, const PngLayout& layout) {
+  const Rgba colour = palette.colours()[palette.entry(id)];
+  const uint8_t gray = layout.format == PngFormat::mask ? id == layout.mask_of ? 255 : 0 : luminance(colour);
+  const bool is_coloured = layout.format == PngFormat::rgba || layout.format == PngFormat::indexed;
+  return is_coloured ? colour : Rgba{gray, gray, gray, 255};
+}
+
 void expect_same_voxels(const RunLayer& layer, const Palette& palette, const PngLayout& layout) {
   const PngImage image = decode_png(encode_png(layer, palette, layout), "test");
-  ASSERT_EQ(image.width, layer.width);
-  ASSERT_EQ(image.height, layer.rows.size());
-  EXPECT_EQ(image.format, layout.format);
+  ASSERT_EQ(image.width, layer.width());
+  ASSERT_EQ(image.height, layer.height());
+  EXPECT_EQ(image.format == PngFormat::indexed, layout.format == PngFormat::indexed);
+  std::vector<MaterialId> voxels(image.width);
   for (uint32_t row = 0; row < image.height; ++row) {
+    layer.row(layout.flip_y ? row : image.height - 1 - row).unpack(voxels.data());
     for (uint32_t column = 0; column < image.width; ++column) {
-      const uint32_t i = layout.flip_x ? image.width - 1 - column : column;
-      const uint32_t j = layout.flip_y ? row : image.height - 1 - row;
-      const uint8_t entry = palette.entry(material_at(layer, i, j));
-      ASSERT_EQ(image.colour(column, row), palette.colours()[entry]) << column << ' ' << row;
+      const MaterialId id = voxels[layout.flip_x ? image.width - 1 - column : column];
+      ASSERT_EQ(image.colour(column, row), seen(id, palette, layout)) << column << ' ' << row;
       if (layout.format == PngFormat::indexed) {
-        ASSERT_EQ(image.pixels[size_t{row} * image.width + column], entry);
+        ASSERT_EQ(image.pixels[size_t{row} * image.width + column], palette.entry(id));
       }
     }
   }
+}
+
+// In every format and direction.
+void expect_same_voxels(const RunLayer& layer, const Palette& palette) {
+  for (const PngFormat format : {PngFormat::indexed, PngFormat::rgba, PngFormat::gray, PngFormat::mask}) {
+    for (const int flips : {0, 1, 2, 3}) {
+      PngLayout layout;
+      layout.format = format;
+      layout.flip_x = flips & 1;
+      layout.flip_y = flips & 2;
+      layout.mask_of = palette.ids().back();
+      expect_same_voxels(layer, palette, layout);
+    }
+  }
+}
+
+// Each row a material more, or less, or as the one before; some of it dithered.
+RunLayer mixed_layer(uint32_t width, uint32_t height, int materials, uint32_t seed) {
+  std::mt19937 random(seed);
+  std::vector<MaterialId> row(width);
+  RunLayer layer(width);
+  for (uint32_t j = 0; j < height; ++j) {
+    const uint32_t begin = static_cast<uint32_t>(random()) % width;
+    const uint32_t end = begin + static_cast<uint32_t>(random()) % (width - begin + 1);
+    const bool dithered = random() % 3 == 0;
+    const auto any = [&] { return static_cast<MaterialId>(random() % static_cast<uint32_t>(materials + 1)); };
+    const MaterialId one = any();
+    if (random() % 4 == 0) std::fill(row.begin(), row.end(), one);
+    if (random() % 4 != 0)
+      for (uint32_t i = begin; i < end; ++i) row[i] = dithered ? any() : one;
+    layer.append_row(row.data());
+  }
+  return layer;
 }
 
 }  // namespace
@@ -75,30 +106,45 @@ TEST(Png, KeepsEveryVoxelAtEveryDepthAndWidth) {
     for (const uint32_t width : {1U, 2U, 3U, 5U, 7U, 8U, 9U, 31U, 64U, 100U}) {
       for (const uint32_t longest : {1U, 3U, 40U}) {
         const RunLayer layer = random_layer(width, 9, materials, longest, width + longest);
-        for (const PngFormat format : {PngFormat::indexed, PngFormat::rgba}) {
-          PngLayout layout;
-          layout.format = format;
-          expect_same_voxels(layer, palette, layout);
-          layout.flip_x = true;
-          expect_same_voxels(layer, palette, layout);
-          layout.flip_y = true;
-          expect_same_voxels(layer, palette, layout);
-        }
+        expect_same_voxels(layer, palette);
       }
     }
   }
 }
 
-TEST(Png, SmoothRgbaLayersKeepEveryVoxel) {
-  RunLayer layer;
-  layer.width = 200;
+TEST(Png, KeepsEveryVoxelOfMixedLayers) {
+  const std::pair<uint32_t, uint32_t> sizes[] = {{1, 50}, {2, 9}, {7, 60}, {33, 100}, {64, 64}, {100, 300}, {333, 200}};
+  for (const auto& [width, height] : sizes)
+    for (const int materials : {1, 2, 5, 40})
+      expect_same_voxels(mixed_layer(width, height, materials, width + height), palette_of(materials));
+}
+
+TEST(Png, KeepsRowsThatAreLongerThanAMatchReaches) {
+  for (const uint32_t width : {8191U, 8192U, 8193U, 20000U})
+    expect_same_voxels(mixed_layer(width, 6, 2, width), palette_of(2));
+  expect_same_voxels(mixed_layer(270000, 3, 1, 1), palette_of(1));
+}
+
+TEST(Png, KeepsEmptyAndUniformLayers) {
+  for (const uint32_t width : {1U, 5U, 8U, 1000U}) {
+    for (const MaterialId id : {MaterialId{0}, MaterialId{1}, MaterialId{3}}) {
+      RunLayer layer(width);
+      for (int j = 0; j < 7; ++j) layer.append_uniform_row(id);
+      expect_same_voxels(layer, palette_of(3));
+    }
+  }
+}
+
+TEST(Png, KeepsEveryVoxelOfSmoothLayers) {
+  RunLayer layer(200);
   for (uint32_t row = 0; row < 50; ++row) {
     const uint32_t half = 10 + row / 3;
-    layer.rows.push_back({{0, 100 - half}, {1, 2 * half}, {0, 100 - half}});
+    layer.add_uniform(0, 100 - half);
+    layer.add_uniform(1, 2 * half);
+    layer.add_uniform(0, 100 - half);
+    layer.end_row();
   }
-  PngLayout layout;
-  layout.format = PngFormat::rgba;
-  expect_same_voxels(layer, palette_of(1), layout);
+  expect_same_voxels(layer, palette_of(1));
 }
 
 TEST(Png, StoresTheDepthOfTheWholeJob) {
@@ -113,9 +159,8 @@ TEST(Png, IdsNeedNotBeDense) {
   palette.add(7, {1, 2, 3, 255});
   palette.add(200, {4, 5, 6, 255});
   EXPECT_EQ(palette.bit_depth(), 2);
-  RunLayer layer;
-  layer.width = 3;
-  layer.rows = {{{0, 1}, {7, 1}, {200, 1}}};
+  RunLayer layer(3);
+  layer.append_row(std::array<MaterialId, 3>{0, 7, 200}.data());
   expect_same_voxels(layer, palette, {});
 }
 
@@ -137,6 +182,38 @@ TEST(Png, SaysTheResolutionOfEachAxis) {
   const PngImage image = decode_png(encode_png(random_layer(4, 4, 1, 2, 1), palette_of(1), layout), "test");
   EXPECT_EQ(image.dots_per_metre_x, 23622U);
   EXPECT_EQ(image.dots_per_metre_y, 11811U);
+}
+
+TEST(Png, DitheredLayersTakeLittleMoreThanTheirEntropy) {
+  constexpr uint32_t side = 1024;
+  for (const double share : {0.5, 0.3, 0.1}) {
+    std::mt19937 random(1);
+    std::bernoulli_distribution is_first(share);
+    RunLayer layer(side);
+    for (uint32_t n = 0; n < side * side; ++n) {
+      layer.add_uniform(is_first(random) ? 1 : 2, 1);
+      if (n % side == side - 1) layer.end_row();
+    }
+    const double entropy = -(share * std::log2(share) + (1 - share) * std::log2(1 - share)) * side * side / 8;
+    EXPECT_LT(static_cast<double>(encode_png(layer, palette_of(2), {}).size()), 1.2 * entropy) << share;
+    PngLayout rgba;
+    rgba.format = PngFormat::rgba;
+    EXPECT_LT(static_cast<double>(encode_png(layer, palette_of(2), rgba).size()), 2.6 * entropy) << share;
+  }
+}
+
+TEST(Png, GradedLayersTakeAtMostHalfMoreThanTheirEntropy) {
+  constexpr uint32_t side = 1024;
+  std::mt19937 random(1);
+  RunLayer layer(side);
+  double entropy = 0;
+  for (uint32_t n = 0; n < side * side; ++n) {
+    const double share = (n % side + 0.5) / side;
+    entropy -= (share * std::log2(share) + (1 - share) * std::log2(1 - share)) / 8;
+    layer.add_uniform(std::bernoulli_distribution(share)(random) ? 1 : 2, 1);
+    if (n % side == side - 1) layer.end_row();
+  }
+  EXPECT_LT(static_cast<double>(encode_png(layer, palette_of(2), {}).size()), 1.5 * entropy);
 }
 
 TEST(Png, SameLayerSameBytes) {

@@ -2,7 +2,7 @@
 //
 // Each voxel takes the material that is most wanting, and hands on what it took too much or too little
 // of to the voxels after it, with the weights of R. W. Floyd and L. Steinberg ("An adaptive algorithm for
-// spatial greyscale", Proc. SID 17, 1976), every other row backwards. With several materials the error is
+// spatial grayscale", Proc. SID 17, 1976), every other row backwards. With several materials the error is
 // a vector that sums to zero. A little noise moves the choice, so that layers of one composition do not
 // repeat each other, voxel above voxel, and no pattern sets in.
 #pragma once

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "base/assert.h"
 #include "program/passes/passes.h"
@@ -13,35 +12,6 @@ namespace ombre::voxel {
 namespace {
 
 constexpr int64_t strip_rows = 64;
-
-// The end of the stretch of equal bytes that begins at `from`.
-const MaterialId* stretch_end(const MaterialId* from, const MaterialId* end) {
-  uint64_t pattern;
-  std::memset(&pattern, *from, sizeof pattern);
-  const MaterialId* at = from;
-  for (; end - at >= 8; at += 8) {
-    uint64_t word;
-    std::memcpy(&word, at, sizeof word);
-    if (word != pattern) break;
-  }
-  while (at != end && *at == *from) ++at;
-  return at;
-}
-
-void append_runs(std::vector<Run>& row, const MaterialId* voxels, int64_t count) {
-  const MaterialId* const end = voxels + count;
-  for (const MaterialId* at = voxels; at != end;) {
-    const MaterialId* next = stretch_end(at, end);
-    append_run(row, *at, static_cast<uint32_t>(next - at));
-    at = next;
-  }
-}
-
-void count_materials(LayerResult& layer) {
-  for (const auto& row : layer.runs.rows)
-    for (const Run& run : row)
-      if (run.material != 0) layer.material_counts[run.material] += run.length;
-}
 
 // Index (i, j, k) of a voxel to its centre.
 Affine design_from_index(const Lattice& lattice) {
@@ -147,13 +117,15 @@ class RowSink {
   void take(const TileBox& strip, StripVoxels& voxels) {
     const std::vector<MaterialId> empty(voxels.touched() ? 0 : static_cast<size_t>(strip.size(0)), MaterialId{0});
     for (int64_t k = strip.lo[2]; k < strip.hi[2]; ++k) {
+      const auto layer = static_cast<size_t>(k - strip.lo[2]);
       for (int64_t j = strip.lo[1]; j < strip.hi[1]; ++j) {
-        const auto layer = static_cast<size_t>(k - strip.lo[2]);
         const MaterialId* row = voxels.touched() ? voxels.at(0, j, k) : empty.data();
-        if (diffusions_.empty())
+        if (!diffusions_.empty())
+          diffusions_[layer].add(row, thresholds(voxels, j, k), [&](const MaterialId* made) { append(layer, made); });
+        else if (voxels.touched())
           append(layer, row);
         else
-          diffusions_[layer].add(row, thresholds(voxels, j, k), [&](const MaterialId* made) { append(layer, made); });
+          layers_[layer].runs.append_uniform_row(0);
       }
     }
   }
@@ -164,10 +136,7 @@ class RowSink {
   }
 
  private:
-  void append(size_t layer, const MaterialId* row) {
-    RunLayer& runs = layers_[layer].runs;
-    append_runs(runs.rows.emplace_back(), row, runs.width);
-  }
+  void append(size_t layer, const MaterialId* row) { layers_[layer].runs.append_row(row); }
 
   std::vector<const float*> thresholds(StripVoxels& voxels, int64_t j, int64_t k) const {
     std::vector<const float*> rows;
@@ -198,10 +167,7 @@ std::vector<LayerResult> LayerEvaluator::layers(int64_t begin, int64_t end) cons
   std::vector<LayerResult> results(static_cast<size_t>(end - begin));
   const size_t check_count = parts_->job.selector.check_count;
   std::vector<std::vector<CheckHits>> checks(results.size(), std::vector<CheckHits>(check_count));
-  for (LayerResult& layer : results) {
-    layer.runs.width = static_cast<uint32_t>(count[0]);
-    layer.material_counts.assign(256, 0);
-  }
+  for (LayerResult& layer : results) layer.runs = RunLayer(static_cast<uint32_t>(count[0]));
   const Remainder slab = parts_->remainder({{0, 0, begin}, {count[0], count[1], end}});
   const auto leaf = parts_->make_leaf();
   TileWalk walk(parts_->job, parts_->precision(), parts_->walk_options(), *leaf);
@@ -217,7 +183,7 @@ std::vector<LayerResult> LayerEvaluator::layers(int64_t begin, int64_t end) cons
   sink.finish();
   for (size_t n = 0; n < results.size(); ++n) {
     results[n].checks = std::move(checks[n]);
-    count_materials(results[n]);
+    results[n].material_counts = count_materials(results[n].runs);
   }
   return results;
 }

@@ -1,6 +1,7 @@
 // Evaluates a program on a voxel lattice, slab by slab, to runs of materials.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,8 +38,8 @@ struct CheckHits {
 };
 
 struct LayerResult {
-  RunLayer runs;                          // of the whole width and height of the lattice
-  std::vector<uint64_t> material_counts;  // by MaterialId, 256 entries; void not counted
+  RunLayer runs;                                // of the whole width and height of the lattice
+  std::array<uint64_t, 256> material_counts{};  // by MaterialId
   std::vector<CheckHits> checks;
 };
 

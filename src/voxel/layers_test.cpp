@@ -53,8 +53,10 @@ Result evaluate(const MaterialProgram& program, const Lattice& lattice, const Ev
   Result result;
   for (int64_t k = 0; k < lattice.count[2]; k += slab) {
     for (const LayerResult& layer : evaluator.layers(k, std::min(k + slab, lattice.count[2]))) {
-      for (const auto& row : layer.runs.rows)
-        for (const Run& run : row) result.ids.insert(result.ids.end(), run.length, run.material);
+      for (uint32_t j = 0; j < layer.runs.height(); ++j) {
+        result.ids.resize(result.ids.size() + layer.runs.width());
+        layer.runs.row(j).unpack(result.ids.data() + result.ids.size() - layer.runs.width());
+      }
       result.checks.insert(result.checks.end(), layer.checks.begin(), layer.checks.end());
     }
   }
@@ -81,7 +83,7 @@ TEST(Layers, AreTheSameWhateverWayTheyAreEvaluated) {
   for (int n = 0; n < 60; ++n) {
     const MaterialProgram program = random_solid(random);
     const Lattice lattice = lattice_of(150 + static_cast<int64_t>(random() % 200), 100, 10);
-    const Dither dither = n % 3 == 0 ? Dither::threshold : Dither::stochastic;
+    const Dither dither = static_cast<Dither>(n % 4);
     EvaluatorOptions plain;
     const Result expected = evaluate(program, lattice, plain, 8, dither);
     for (const std::string& set : instruction_sets()) {

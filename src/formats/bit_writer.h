@@ -1,0 +1,72 @@
+// Bits into bytes, the lowest bit first, as deflate wants them.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace ombre::formats {
+
+// Writes into room made by others. Meant to live in a function, where it stays in registers.
+class BitCursor {
+ public:
+  explicit BitCursor(uint8_t* at, uint64_t bits = 0, unsigned bit_count = 0)
+      : at_(at), bits_(bits), bit_count_(bit_count) {}
+
+  // At most 56 bits; those above `count` are zero. Eight bytes may be overwritten.
+  void put(uint64_t bits, unsigned count) {
+    static_assert(std::endian::native == std::endian::little);
+    bits_ |= bits << bit_count_;
+    bit_count_ += count;
+    std::memcpy(at_, &bits_, sizeof bits_);
+    const unsigned whole_bytes = bit_count_ / 8;
+    at_ += whole_bytes;
+    bits_ >>= 8 * whole_bytes;
+    bit_count_ %= 8;
+  }
+
+  uint8_t* at() const { return at_; }
+  uint64_t bits() const { return bits_; }
+  unsigned bit_count() const { return bit_count_; }
+
+ private:
+  uint8_t* at_;
+  uint64_t bits_;
+  unsigned bit_count_;  // below 8 between calls
+};
+
+// Bits in memory of its own.
+class BitWriter {
+ public:
+  // Room for so many more bytes; writing does not look.
+  void reserve(size_t bytes) { bytes_.resize(size_ + bytes + sizeof bits_); }
+
+  void put(uint64_t bits, unsigned count) {
+    BitCursor cursor = begin();
+    cursor.put(bits, count);
+    end(cursor);
+  }
+  void fill_byte() { put(0, (8 - bit_count_) % 8); }
+
+  // For many bits at once: what is put in between is written when it ends.
+  BitCursor begin() { return BitCursor(bytes_.data() + size_, bits_, bit_count_); }
+  void end(const BitCursor& cursor) {
+    size_ = static_cast<size_t>(cursor.at() - bytes_.data());
+    bits_ = cursor.bits();
+    bit_count_ = cursor.bit_count();
+  }
+
+  // The whole bytes so far.
+  const uint8_t* data() const { return bytes_.data(); }
+  size_t size() const { return size_; }
+  void clear() { size_ = 0; }
+
+ private:
+  std::vector<uint8_t> bytes_;  // longer than `size_`
+  size_t size_ = 0;
+  uint64_t bits_ = 0;
+  unsigned bit_count_ = 0;
+};
+
+}  // namespace ombre::formats

@@ -1,0 +1,276 @@
+#include "formats/deflate.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "base/assert.h"
+#include "formats/deflate_symbols.h"
+#include "formats/huffman.h"
+
+namespace ombre::formats {
+namespace {
+
+// Codes of 14 bits let four literals be put at once; they cost next to nothing against 15.
+constexpr unsigned longest_literal_code = 14, longest_distance_code = 15, longest_header_code = 7;
+
+// Large enough to make headers cheap, small enough to follow a design from layer region to region.
+constexpr size_t most_literals = size_t{1} << 16, most_steps = size_t{1} << 14;
+constexpr uint64_t most_matched = uint64_t{1} << 24;  // so that a block's bits stay small too
+
+// Some bits to write.
+struct Bits {
+  uint32_t bits = 0;
+  uint32_t count = 0;
+};
+
+Bits joined(Bits a, Bits b) { return {a.bits | b.bits << a.count, a.count + b.count}; }
+
+// Steps of one length are cut into matches: as many of the longest as leave the last one long enough.
+struct Pieces {
+  uint32_t longest = 0, first = 0, last = 0;  // how many of the longest, and the lengths of the others, or 0
+
+  explicit Pieces(uint32_t length) : longest(length / longest_match), last(length % longest_match) {
+    if (last == 0 || last >= DeflateWriter::shortest_match) return;
+    if (longest > 0) --longest;
+    first = longest_match - DeflateWriter::shortest_match;
+    last += DeflateWriter::shortest_match;
+  }
+};
+
+struct SymbolCounts {
+  std::array<uint32_t, literal_symbol_count> literals{};
+  std::array<uint32_t, distance_symbol_count> distances{};
+  uint64_t matches = 0;
+
+  void add_match(uint32_t length, uint32_t distance) {
+    uint32_t count = 1;
+    if (length <= longest_match)
+      ++literals[first_length_symbol + length_symbol(length).index];
+    else
+      count = add_pieces(length);
+    distances[distance_symbol(distance).index] += count;
+    matches += count;
+  }
+  uint32_t add_pieces(uint32_t length) {
+    const Pieces pieces(length);
+    literals[first_length_symbol + length_symbol(longest_match).index] += pieces.longest;
+    if (pieces.first > 0) ++literals[first_length_symbol + length_symbol(pieces.first).index];
+    if (pieces.last > 0) ++literals[first_length_symbol + length_symbol(pieces.last).index];
+    return pieces.longest + (pieces.first > 0) + (pieces.last > 0);
+  }
+  // Neighbouring literals are often equal, and counting one twice in a row waits for memory.
+  void add_literals(std::span<const uint8_t> bytes) {
+    std::array<std::array<uint32_t, 256>, 4> tables{};
+    size_t i = 0;
+    for (; i + 4 <= bytes.size(); i += 4)
+      for (size_t k = 0; k < 4; ++k) ++tables[k][bytes[i + k]];
+    for (; i < bytes.size(); ++i) ++tables[0][bytes[i]];
+    for (size_t byte = 0; byte < 256; ++byte)
+      for (const auto& table : tables) literals[byte] += table[byte];
+  }
+};
+
+// --- the header of a block: its code lengths, run-length coded (RFC 1951, 3.2.7) ---
+
+constexpr unsigned header_symbol_count = 19;
+
+struct HeaderItem {
+  uint8_t symbol, extra, extra_count;
+};
+
+// `count` times the same length.
+void add_repeats(std::vector<HeaderItem>& items, uint8_t length, size_t count) {
+  if (length > 0) {
+    items.push_back({length, 0, 0});
+    --count;
+  }
+  while (count >= 3) {
+    const size_t most = length > 0 ? 6 : count <= 10 ? 10 : 138;
+    const size_t now = std::min(count, most);
+    if (length > 0)
+      items.push_back({16, static_cast<uint8_t>(now - 3), 2});
+    else if (most == 10)
+      items.push_back({17, static_cast<uint8_t>(now - 3), 3});
+    else
+      items.push_back({18, static_cast<uint8_t>(now - 11), 7});
+    count -= now;
+  }
+  items.insert(items.end(), count, {length, 0, 0});
+}
+
+std::vector<HeaderItem> header_items(std::span<const uint8_t> lengths) {
+  std::vector<HeaderItem> items;
+  for (size_t i = 0; i < lengths.size();) {
+    size_t end = i + 1;
+    while (end < lengths.size() && lengths[end] == lengths[i]) ++end;
+    add_repeats(items, lengths[i], end - i);
+    i = end;
+  }
+  return items;
+}
+
+size_t used(std::span<const uint8_t> lengths, size_t least) {
+  size_t count = lengths.size();
+  while (count > least && lengths[count - 1] == 0) --count;
+  return count;
+}
+
+void write_code_lengths(BitWriter& out, std::span<const uint8_t> literals, std::span<const uint8_t> distances) {
+  constexpr std::array<uint8_t, header_symbol_count> order = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
+                                                              11, 4,  12, 3, 13, 2, 14, 1, 15};
+  const size_t literal_count = used(literals, first_length_symbol), distance_count = used(distances, 1);
+  std::vector<uint8_t> all(literals.begin(), literals.begin() + static_cast<std::ptrdiff_t>(literal_count));
+  all.insert(all.end(), distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distance_count));
+  const std::vector<HeaderItem> items = header_items(all);
+
+  std::array<uint32_t, header_symbol_count> counts{};
+  for (const HeaderItem& item : items) ++counts[item.symbol];
+  std::array<uint8_t, header_symbol_count> lengths{};
+  std::array<uint16_t, header_symbol_count> codes{};
+  choose_code_lengths(counts, longest_header_code, lengths);
+  assign_codes(lengths, codes);
+  size_t kept = header_symbol_count;
+  while (kept > 4 && lengths[order[kept - 1]] == 0) --kept;
+
+  out.put(literal_count - first_length_symbol, 5);
+  out.put(distance_count - 1, 5);
+  out.put(kept - 4, 4);
+  for (size_t i = 0; i < kept; ++i) out.put(lengths[order[i]], 3);
+  for (const HeaderItem& item : items) {
+    out.put(codes[item.symbol], lengths[item.symbol]);
+    out.put(item.extra, item.extra_count);
+  }
+}
+
+}  // namespace
+
+struct DeflateWriter::Codes {
+  std::array<Bits, literal_symbol_count> literals{};
+  std::array<Bits, longest_match + 1> lengths{};  // with their extra bits
+  std::array<Bits, distance_symbol_count> distances{};
+
+  Codes(BitWriter& out, const SymbolCounts& counts) {
+    std::array<uint8_t, literal_symbol_count> literal_lengths{};
+    std::array<uint16_t, literal_symbol_count> literal_codes{};
+    choose_code_lengths(counts.literals, longest_literal_code, literal_lengths);
+    assign_codes(literal_lengths, literal_codes);
+    std::array<uint8_t, distance_symbol_count> distance_lengths{};
+    std::array<uint16_t, distance_symbol_count> distance_codes{};
+    choose_code_lengths(counts.distances, longest_distance_code, distance_lengths);
+    assign_codes(distance_lengths, distance_codes);
+    write_code_lengths(out, literal_lengths, distance_lengths);
+
+    for (size_t i = 0; i < literals.size(); ++i) literals[i] = {literal_codes[i], literal_lengths[i]};
+    for (size_t i = 0; i < distances.size(); ++i) distances[i] = {distance_codes[i], distance_lengths[i]};
+    for (uint32_t length = shortest_match; length <= longest_match; ++length) {
+      const Symbol symbol = length_symbol(length);
+      lengths[length] = joined(literals[first_length_symbol + symbol.index], {symbol.extra, symbol.extra_count});
+    }
+  }
+
+  Bits distance(uint32_t value) const {
+    const Symbol symbol = distance_symbol(value);
+    return joined(distances[symbol.index], {symbol.extra, symbol.extra_count});
+  }
+
+  // Inlined, the cursor stays in registers: that halves the time of streams of short matches.
+  [[gnu::always_inline]] void put_literals(BitCursor& out, const uint8_t* at, const uint8_t* end) const {
+    for (; end - at >= 4; at += 4) {
+      uint64_t bits = 0;
+      unsigned count = 0;
+      for (size_t i = 0; i < 4; ++i) {
+        const Bits literal = literals[at[i]];
+        bits |= uint64_t{literal.bits} << count;
+        count += literal.count;
+      }
+      out.put(bits, count);
+    }
+    for (; at != end; ++at) out.put(literals[*at].bits, literals[*at].count);
+  }
+
+  [[gnu::always_inline]] void put_match(BitCursor& out, const Step& step) const {
+    const Bits far = distance(step.distance);
+    const auto put = [&](uint32_t length) {
+      const Bits bits = lengths[length];
+      out.put(bits.bits | uint64_t{far.bits} << bits.count, bits.count + far.count);
+    };
+    if (step.length <= longest_match) return put(step.length);
+    const Pieces pieces(step.length);
+    for (uint32_t i = 0; i < pieces.longest; ++i) put(longest_match);
+    if (pieces.first > 0) put(pieces.first);
+    if (pieces.last > 0) put(pieces.last);
+  }
+};
+
+DeflateWriter::DeflateWriter() {
+  literals_.reserve(most_literals);
+  steps_.reserve(most_steps);
+}
+
+void DeflateWriter::literals(const uint8_t* bytes, size_t count) {
+  while (count > 0) {
+    make_room();
+    const size_t now = std::min(count, most_literals - literals_.size());
+    literals_.insert(literals_.end(), bytes, bytes + now);
+    bytes += now;
+    count -= now;
+  }
+}
+
+void DeflateWriter::match(uint32_t length, uint32_t distance) {
+  ASSERT(length >= shortest_match && distance >= 1 && distance <= window);
+  make_room();
+  matched_ += length;
+  const auto literal_count = static_cast<uint32_t>(literals_.size() - literals_in_steps_);
+  if (literal_count == 0 && !steps_.empty() && steps_.back().distance == distance) {
+    steps_.back().length += length;
+    return;
+  }
+  steps_.push_back({literal_count, length, distance});
+  literals_in_steps_ = literals_.size();
+}
+
+void DeflateWriter::finish() {
+  end_block(true);
+  out_.reserve(1);
+  out_.fill_byte();
+}
+
+// Ahead of what comes next, so that the last block is never an empty one.
+void DeflateWriter::make_room() {
+  if (literals_.size() == most_literals || steps_.size() == most_steps || matched_ >= most_matched) end_block(false);
+}
+
+void DeflateWriter::end_block(bool is_last) {
+  SymbolCounts counts;
+  counts.add_literals(literals_);
+  for (const Step& step : steps_) counts.add_match(step.length, step.distance);
+  counts.literals[end_of_block] = 1;
+
+  constexpr size_t largest_header = 512, largest_literal = 2, largest_match = 6;
+  out_.reserve(largest_header + literals_.size() * largest_literal + counts.matches * largest_match);
+  out_.put(is_last, 1);
+  out_.put(2, 2);  // codes of its own
+  const Codes codes(out_, counts);
+  write_steps(codes);
+  out_.put(codes.literals[end_of_block].bits, codes.literals[end_of_block].count);
+  literals_.clear();
+  steps_.clear();
+  literals_in_steps_ = 0;
+  matched_ = 0;
+}
+
+void DeflateWriter::write_steps(const Codes& codes) {
+  const uint8_t* literal = literals_.data();
+  BitCursor out = out_.begin();
+  for (const Step& step : steps_) {
+    codes.put_literals(out, literal, literal + step.literals);
+    literal += step.literals;
+    codes.put_match(out, step);
+  }
+  codes.put_literals(out, literal, literals_.data() + literals_.size());
+  out_.end(out);
+}
+
+}  // namespace ombre::formats

@@ -1,0 +1,32 @@
+#include "formats/palette.h"
+
+#include "base/assert.h"
+
+namespace ombre::formats {
+
+Palette::Palette(Rgba background) : colours_{background}, ids_{0} { known_[0] = true; }
+
+void Palette::add(MaterialId id, Rgba colour) {
+  ASSERT(!known_[id]);
+  known_[id] = true;
+  entries_[id] = static_cast<uint8_t>(colours_.size());
+  colours_.push_back(colour);
+  ids_.push_back(id);
+}
+
+uint8_t Palette::entry(MaterialId id) const {
+  ASSERT(known_[id]);
+  return entries_[id];
+}
+
+int Palette::bit_depth() const {
+  int bits = 1;
+  while ((size_t{1} << bits) < colours_.size()) bits *= 2;
+  return bits;
+}
+
+uint8_t luminance(Rgba colour) {
+  return static_cast<uint8_t>((299 * colour[0] + 587 * colour[1] + 114 * colour[2] + 500) / 1000);
+}
+
+}  // namespace ombre::formats

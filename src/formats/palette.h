@@ -1,0 +1,41 @@
+// The colours of a stack of layers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/run.h"
+
+namespace ombre::formats {
+
+using Rgba = std::array<uint8_t, 4>;  // red, green, blue, alpha; not premultiplied
+
+// Entry 0 is void, then come the materials in the order added. All layers of a job share one palette, and
+// with it one bit depth.
+class Palette {
+ public:
+  explicit Palette(Rgba background = {0, 0, 0, 0});
+
+  // Each id once, and not 0.
+  void add(MaterialId id, Rgba colour);
+
+  const std::vector<Rgba>& colours() const { return colours_; }
+  // By entry; void is 0.
+  const std::vector<MaterialId>& ids() const { return ids_; }
+  // The entry of a material that was added.
+  uint8_t entry(MaterialId id) const;
+  // The least of 1, 2, 4, 8 bits that holds every entry.
+  int bit_depth() const;
+
+ private:
+  std::vector<Rgba> colours_;
+  std::vector<MaterialId> ids_;
+  std::array<uint8_t, 256> entries_{};
+  std::array<bool, 256> known_{};
+};
+
+// How bright a colour looks (Rec. 601), alpha aside.
+uint8_t luminance(Rgba colour);
+
+}  // namespace ombre::formats

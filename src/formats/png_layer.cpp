@@ -1,0 +1,139 @@
+// Layers to PNG files. Compression is our own: libraries pick their code by processor, some with it their
+// bytes, and none sees runs.
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "base/error.h"
+#include "formats/png.h"
+#include "formats/png_chunks.h"
+#include "formats/png_rows.h"
+#include "formats/rgba_rows.h"
+#include "formats/zlib_stream.h"
+
+namespace ombre::formats {
+namespace {
+
+constexpr size_t data_chunk_bytes = size_t{1} << 18;
+
+enum class ColourType : uint8_t { gray = 0, indexed = 3, rgba = 6 };
+
+ColourType colour_type(PngFormat format) {
+  switch (format) {
+    case PngFormat::rgba:
+      return ColourType::rgba;
+    case PngFormat::indexed:
+      return ColourType::indexed;
+    default:
+      return ColourType::gray;
+  }
+}
+
+// What a pixel says of its material, where it is one number.
+Samples samples(const Palette& palette, const PngLayout& layout) {
+  Samples result;
+  result.ids = palette.ids();
+  if (layout.format == PngFormat::indexed) result.bit_depth = palette.bit_depth();
+  if (layout.format == PngFormat::mask) result.bit_depth = 1;
+  for (const MaterialId id : palette.ids()) {
+    const uint8_t entry = palette.entry(id);
+    switch (layout.format) {
+      case PngFormat::indexed:
+        result.of[id] = entry;
+        break;
+      case PngFormat::mask:
+        result.of[id] = id == layout.mask_of;
+        break;
+      default:
+        result.of[id] = luminance(palette.colours()[entry]);
+    }
+  }
+  return result;
+}
+
+void add_header(PngChunks& file, const RunLayer& layer, ColourType type, int bit_depth) {
+  const char rest[] = {static_cast<char>(bit_depth), static_cast<char>(type), 0, 0, 0};
+  file.add("IHDR", big_endian(layer.width()) + big_endian(layer.height()) + std::string(rest, sizeof rest));
+}
+
+void add_palette(PngChunks& file, const Palette& palette) {
+  std::string colours, alphas;
+  size_t alpha_count = 0;
+  for (const Rgba& colour : palette.colours()) {
+    for (size_t i = 0; i < 3; ++i) colours += static_cast<char>(colour[i]);
+    alphas += static_cast<char>(colour[3]);
+    if (colour[3] != 255) alpha_count = alphas.size();
+  }
+  file.add("PLTE", colours);
+  if (alpha_count > 0) file.add("tRNS", alphas.substr(0, alpha_count));
+}
+
+uint32_t whole_dots(double dots_per_metre) {
+  return static_cast<uint32_t>(std::clamp(std::round(dots_per_metre), 0.0, 2147483647.0));
+}
+
+void add_resolution(PngChunks& file, const PngLayout& layout) {
+  const uint32_t x = whole_dots(layout.dots_per_metre_x), y = whole_dots(layout.dots_per_metre_y);
+  const std::string per_metre(1, 1);
+  if (x > 0 && y > 0) file.add("pHYs", big_endian(x) + big_endian(y) + per_metre);
+}
+
+// The data of the image in chunks, as it comes.
+class DataChunks {
+ public:
+  explicit DataChunks(PngChunks& file) : file_(file) {}
+
+  void take(DeflateWriter& deflate, size_t least = data_chunk_bytes) {
+    if (deflate.size() < least) return;
+    data_.append(reinterpret_cast<const char*>(deflate.data()), deflate.size());
+    deflate.clear();
+    write();
+  }
+  void finish(ZlibStream& stream) {
+    stream.deflate.finish();
+    data_.append(reinterpret_cast<const char*>(stream.deflate.data()), stream.deflate.size());
+    data_ += big_endian(stream.sum.value());
+    write();
+  }
+
+ private:
+  void write() {
+    file_.add("IDAT", data_);
+    data_.clear();
+  }
+
+  PngChunks& file_;
+  std::string data_ = "\x78\x01";  // zlib's header: a window of 32 KiB
+};
+
+template <class Rows>
+void add_data(PngChunks& file, const RunLayer& layer, bool flip_y, Rows&& rows, ZlibStream& stream) {
+  DataChunks data(file);
+  for (uint32_t i = 0; i < layer.height(); ++i) {
+    rows.put(layer.row(flip_y ? i : layer.height() - 1 - i));
+    data.take(stream.deflate);
+  }
+  data.finish(stream);
+}
+
+}  // namespace
+
+std::string encode_png(const RunLayer& layer, const Palette& palette, const PngLayout& layout) try {
+  const ColourType type = colour_type(layout.format);
+  const Samples numbers = samples(palette, layout);
+  PngChunks file;
+  ZlibStream stream;
+  add_header(file, layer, type, numbers.bit_depth);
+  if (type == ColourType::indexed) add_palette(file, palette);
+  add_resolution(file, layout);
+  if (type == ColourType::rgba)
+    add_data(file, layer, layout.flip_y, RgbaRows(layer.width(), palette, layout.flip_x, stream), stream);
+  else
+    add_data(file, layer, layout.flip_y, PackedRows(layer.width(), numbers, layout.flip_x, stream), stream);
+  file.add("IEND", "");
+  return file.take();
+} catch (const std::bad_alloc&) {
+  throw Error("not enough memory to encode an image; try fewer threads");
+}
+
+}  // namespace ombre::formats
