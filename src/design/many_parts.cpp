@@ -1,6 +1,7 @@
 // Lowers the inputs of a node one by one into the rows of a table.
 #include "design/many_parts.h"
 
+#include <cmath>
 #include <map>
 
 #include "design/lowering.h"
@@ -16,6 +17,7 @@ using program::SlotKind;
 
 // With fewer inputs, writing them out costs less than looking them up.
 constexpr size_t least_parts = 32;
+constexpr size_t most_boxes = 16;  // of a part
 
 class PartsMaker {
  public:
@@ -28,10 +30,13 @@ class PartsMaker {
   }
 
   ManyParts make(const Node& node) {
+    // About half the distance from part to part.
+    const Vec3 size = node.bounds(design_space()).size();
+    finest_ = 0.5 * std::cbrt(size.x * size.y * size.z / static_cast<double>(node.inputs().size()));
     for (size_t i = 0; i < node.inputs().size(); ++i)
       if (!add(*node.inputs()[i])) made_.others.push_back(i);
-    set_->index.build(boxes_);
-    if (is_one_material_ && !boxes_.empty() && query_ != PartQuery::interior) made_.only = material_;
+    set_->index.build(entries_);
+    if (is_one_material_ && part_count_ > 0 && query_ != PartQuery::interior) made_.only = material_;
     made_.material_slots.assign(material_slots_.begin(), material_slots_.end());
     for (const auto& [type, check] : checks_) made_.check_slots.emplace_back(check);
     made_.set = std::move(set_);
@@ -61,8 +66,32 @@ class PartsMaker {
     if (!program.reads.empty() || program.has_parts()) return false;
     set_->reference.add(program, slots);
     set_->batch.add(fuse(sign_only(program)), slots);
-    boxes_.push_back(box);
+    add_boxes(builder.finish({outputs[0]}), box);
     return true;
+  }
+
+  // Boxes around a part, as small as intervals can tell. A strut that lies across its box fills little of it.
+  void add_boxes(const Program& inside, const Box& whole) {
+    std::vector<Box> open{whole}, kept;
+    std::vector<Interval> ranges;
+    const auto part = static_cast<uint32_t>(part_count_++);
+    while (!open.empty()) {
+      const Box box = open.back();
+      open.pop_back();
+      evaluate_intervals(inside, box, ranges);
+      if (ranges[inside.outputs[0]] == Interval(0)) continue;
+      const Vec3 size = box.size();
+      const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+      if (size[axis] <= finest_ || open.size() + kept.size() + 1 >= most_boxes) {
+        kept.push_back(box);
+        continue;
+      }
+      Box low = box, high = box;
+      low.hi[axis] = high.lo[axis] = 0.5 * (box.lo[axis] + box.hi[axis]);
+      // The widest box is cut first.
+      open.insert(open.begin(), {low, high});
+    }
+    for (const Box& box : kept) entries_.push_back({box, part});
   }
 
   void set_slot(std::vector<int>& slots, size_t slot, size_t output) {
@@ -81,7 +110,7 @@ class PartsMaker {
       outputs.emplace_back("fraction", term);
     }
     const bool one = composition_.fractions.size() == 1;
-    if (one && boxes_.empty()) material_ = composition_.fractions[0].first;
+    if (one && part_count_ == 0) material_ = composition_.fractions[0].first;
     is_one_material_ = is_one_material_ && one && composition_.fractions[0].first == material_;
   }
 
@@ -126,7 +155,9 @@ class PartsMaker {
   PartQuery query_;
   ManyParts made_;
   std::shared_ptr<program::PartSet> set_ = std::make_shared<program::PartSet>();
-  std::vector<Box> boxes_;
+  std::vector<program::PartIndex::Entry> entries_;
+  size_t part_count_ = 0;
+  double finest_ = 0;
   Composition composition_;
   std::map<MaterialId, size_t> material_slots_;
   std::map<const NodeType*, std::pair<uint32_t, size_t>> checks_;

@@ -77,20 +77,26 @@ bool PartIndex::Bounds::meets(const Box& box) const {
   return true;
 }
 
-void PartIndex::build(const std::vector<Box>& boxes) {
+void PartIndex::build(const std::vector<Entry>& entries) {
   constexpr float inf = std::numeric_limits<float>::infinity();
-  std::vector<Bounds> bounds(boxes.size());
-  order_.resize(boxes.size());
-  for (size_t n = 0; n < boxes.size(); ++n) {
+  std::vector<Bounds> bounds(entries.size());
+  order_.resize(entries.size());
+  for (size_t n = 0; n < entries.size(); ++n) {
     order_[n] = static_cast<uint32_t>(n);
     for (int axis = 0; axis < 3; ++axis) {
-      bounds[n].lo[axis] = std::nextafter(static_cast<float>(boxes[n].lo[axis]), -inf);
-      bounds[n].hi[axis] = std::nextafter(static_cast<float>(boxes[n].hi[axis]), inf);
+      bounds[n].lo[axis] = std::nextafter(static_cast<float>(entries[n].box.lo[axis]), -inf);
+      bounds[n].hi[axis] = std::nextafter(static_cast<float>(entries[n].box.hi[axis]), inf);
     }
   }
   knots_.clear();
-  if (!boxes.empty()) build(bounds, 0, static_cast<uint32_t>(boxes.size()));
-  for (const uint32_t part : order_) bounds_.push_back(bounds[part]);
+  bounds_.clear();
+  if (!entries.empty()) build(bounds, 0, static_cast<uint32_t>(entries.size()));
+  bounds_.reserve(entries.size());
+  for (uint32_t& entry : order_) {
+    bounds_.push_back(bounds[entry]);
+    entry = entries[entry].part;
+  }
+  knots_.shrink_to_fit();
 }
 
 // Halves at the median of the middles along the longest side.
@@ -145,12 +151,17 @@ void PartIndex::find(const Box& region, std::vector<uint32_t>& parts) const {
     return true;
   });
   std::sort(parts.begin(), parts.end());
+  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
 }
 
 size_t PartIndex::count(const Box& region, size_t most) const {
-  size_t found = 0;
-  visit(region, [&](uint32_t) { return ++found < most; });
-  return found;
+  std::array<uint32_t, 16> found;
+  size_t count = 0;
+  visit(region, [&](uint32_t part) {
+    if (std::find(found.begin(), found.begin() + count, part) == found.begin() + count) found[count++] = part;
+    return count < most;
+  });
+  return count;
 }
 
 size_t PartIndex::bytes() const {

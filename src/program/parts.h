@@ -54,13 +54,17 @@ class PartTable {
   std::vector<double> parameters_;
 };
 
-// A tree over boxes.
+// A tree over boxes. A part may have several, which together hold it.
 class PartIndex {
  public:
-  void build(const std::vector<Box>& boxes);
+  struct Entry {
+    Box box;
+    uint32_t part = 0;
+  };
+  void build(const std::vector<Entry>& entries);
   // The parts whose boxes meet the region, in ascending order.
   void find(const Box& region, std::vector<uint32_t>& parts) const;
-  // How many boxes meet the region, or `most` if it is more.
+  // How many parts have boxes that meet the region, or `most` if it is more; most <= 16.
   size_t count(const Box& region, size_t most) const;
   bool reaches(const Box& region) const { return count(region, 1) > 0; }
   size_t bytes() const;
@@ -81,7 +85,7 @@ class PartIndex {
   void visit(const Box& region, Visit visit) const;
 
   std::vector<Knot> knots_;
-  std::vector<uint32_t> order_;  // parts by leaf
+  std::vector<uint32_t> order_;  // entries by leaf; once built, their parts
   std::vector<Bounds> bounds_;   // theirs, in that order
 };
 
