@@ -17,7 +17,8 @@ using program::SlotKind;
 
 // With fewer inputs, writing them out costs less than looking them up.
 constexpr size_t least_parts = 32;
-constexpr size_t most_boxes = 16;  // of a part
+// Boxes of a part, and of all parts together.
+constexpr size_t most_boxes = 8, most_boxes_together = 4'000'000;
 
 class PartsMaker {
  public:
@@ -30,12 +31,15 @@ class PartsMaker {
   }
 
   ManyParts make(const Node& node) {
-    // About half the distance from part to part.
+    const auto parts = static_cast<double>(node.inputs().size());
+    most_boxes_ = std::clamp(most_boxes_together / node.inputs().size(), size_t{1}, most_boxes);
+    // Half the distance from part to part, about.
     const Vec3 size = node.bounds(design_space()).size();
-    finest_ = 0.5 * std::cbrt(size.x * size.y * size.z / static_cast<double>(node.inputs().size()));
+    finest_ = 0.5 * std::cbrt(size.x * size.y * size.z / parts);
     for (size_t i = 0; i < node.inputs().size(); ++i)
       if (!add(*node.inputs()[i])) made_.others.push_back(i);
     set_->index.build(entries_);
+    set_ranges(node.inputs().size());
     if (is_one_material_ && part_count_ > 0 && query_ != PartQuery::interior) made_.only = material_;
     made_.material_slots.assign(material_slots_.begin(), material_slots_.end());
     for (const auto& [type, check] : checks_) made_.check_slots.emplace_back(check);
@@ -65,9 +69,35 @@ class PartsMaker {
     const Program program = builder.finish(outputs);
     if (!program.reads.empty() || program.has_parts()) return false;
     set_->reference.add(program, slots);
-    set_->batch.add(fuse(sign_only(program)), slots);
+    const Program batch = fuse(sign_only(program));
+    set_->batch.add(batch, slots);
+    widen_ranges(batch, slots, box);
     add_boxes(builder.finish({outputs[0]}), box);
     return true;
+  }
+
+  // What the slots can be where the part is, in floats.
+  void widen_ranges(const Program& batch, const std::vector<int>& slots, const Box& box) {
+    std::vector<Interval> values;
+    evaluate_intervals(batch, box, values, nullptr, program::Precision::batch);
+    for (size_t slot = 0; slot < slots.size(); ++slot) {
+      if (slots[slot] < 0) continue;
+      if (reach_.size() <= slot) reach_.resize(slot + 1);
+      const Interval value = values[batch.outputs[static_cast<size_t>(slots[slot])]];
+      reach_[slot] = value.is_everything() || reach_[slot].is_everything() ? Interval::everything()
+                                                                           : hull(reach_[slot], value);
+    }
+  }
+
+  // reach_ holds 0, which is what a slot has where no part reaches.
+  void set_ranges(size_t parts) {
+    reach_.resize(set_->slots.size());
+    const auto most = static_cast<double>(parts);
+    for (size_t slot = 0; slot < reach_.size(); ++slot) {
+      const Interval one = reach_[slot];
+      const bool adds = set_->slots[slot] == SlotKind::sum && one.is_bounded();
+      set_->ranges.push_back(adds ? Interval(most * one.lo, most * one.hi) : one);
+    }
   }
 
   // Boxes around a part, as small as intervals can tell. A strut that lies across its box fills little of it.
@@ -82,7 +112,7 @@ class PartsMaker {
       if (ranges[inside.outputs[0]] == Interval(0)) continue;
       const Vec3 size = box.size();
       const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-      if (size[axis] <= finest_ || open.size() + kept.size() + 1 >= most_boxes) {
+      if (size[axis] <= finest_ || open.size() + kept.size() + 1 >= most_boxes_) {
         kept.push_back(box);
         continue;
       }
@@ -156,8 +186,10 @@ class PartsMaker {
   ManyParts made_;
   std::shared_ptr<program::PartSet> set_ = std::make_shared<program::PartSet>();
   std::vector<program::PartIndex::Entry> entries_;
+  std::vector<Interval> reach_;
   size_t part_count_ = 0;
   double finest_ = 0;
+  size_t most_boxes_ = most_boxes;
   Composition composition_;
   std::map<MaterialId, size_t> material_slots_;
   std::map<const NodeType*, std::pair<uint32_t, size_t>> checks_;

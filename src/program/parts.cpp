@@ -30,7 +30,13 @@ std::string structure(const Program& program, const std::vector<int>& slots) {
 void PartTable::add(const Program& program, const std::vector<int>& slots) {
   ASSERT(program.calls.empty() && program.reads.empty());
   const auto [it, is_new] = known_.try_emplace(structure(program, slots), static_cast<uint32_t>(bodies_.size()));
-  if (is_new) bodies_.push_back({program, slots});
+  if (is_new) {
+    const auto& code = program.code;
+    const auto is_input = [](const Instruction& in) { return in.op == Op::input; };
+    const auto inputs = static_cast<size_t>(std::find_if_not(code.begin(), code.end(), is_input) - code.begin());
+    ASSERT(std::none_of(code.begin() + static_cast<ptrdiff_t>(inputs), code.end(), is_input));
+    bodies_.push_back({program, slots, inputs});
+  }
   rows_.push_back({it->second, parameters_.size()});
   for (const Instruction& in : program.code) {
     if (in.op == Op::constant) parameters_.push_back(in.value);
@@ -39,34 +45,34 @@ void PartTable::add(const Program& program, const std::vector<int>& slots) {
   }
 }
 
-std::vector<ValueId> PartTable::append(uint32_t part, Program& to, const std::array<ValueId, 3>& inputs) const {
+void PartTable::append(uint32_t part, Program& to, const std::array<ValueId, 3>& inputs,
+                       std::vector<ValueId>& slots) const {
   const Row& row = rows_[part];
   const Body& body = bodies_[row.body];
   const double* parameter = parameters_.data() + row.first;
-  std::vector<ValueId> renamed;
-  renamed.reserve(body.code.code.size());
-  for (Instruction in : body.code.code) {
-    if (in.op == Op::input) {
-      renamed.push_back(inputs[static_cast<size_t>(in.value)]);
-      continue;
-    }
+  // A body begins with its inputs; whatever follows keeps its distance from there.
+  const size_t input_count = body.input_count;
+  const auto shift = static_cast<ValueId>(to.code.size() - input_count);
+  const auto renamed = [&](ValueId id) {
+    return id < input_count ? inputs[static_cast<size_t>(body.code.code[id].value)] : id + shift;
+  };
+  for (size_t n = input_count; n < body.code.code.size(); ++n) {
+    Instruction in = body.code.code[n];
     const int arity = info(in.op).arity;
-    if (arity > 0) in.a = renamed[in.a];
-    if (arity > 1) in.b = renamed[in.b];
-    if (arity > 2) in.c = renamed[in.c];
+    if (arity > 0) in.a = renamed(in.a);
+    if (arity > 1) in.b = renamed(in.b);
+    if (arity > 2) in.c = renamed(in.c);
     if (in.op == Op::constant) in.value = *parameter++;
     if (in.op == Op::affine) {
       in.aux = static_cast<uint32_t>(to.maps.size());
       to.maps.push_back({parameter[0], parameter[1], parameter[2], parameter[3]});
       parameter += 4;
     }
-    renamed.push_back(static_cast<ValueId>(to.code.size()));
     to.code.push_back(in);
   }
-  std::vector<ValueId> values;
+  slots.clear();
   for (const int slot : body.slots)
-    values.push_back(slot < 0 ? none : renamed[body.code.outputs[static_cast<size_t>(slot)]]);
-  return values;
+    slots.push_back(slot < 0 ? none : renamed(body.code.outputs[static_cast<size_t>(slot)]));
 }
 
 size_t PartTable::bytes() const { return rows_.capacity() * sizeof(Row) + parameters_.capacity() * sizeof(double); }
@@ -78,14 +84,14 @@ bool PartIndex::Bounds::meets(const Box& box) const {
 }
 
 void PartIndex::build(const std::vector<Entry>& entries) {
-  constexpr float inf = std::numeric_limits<float>::infinity();
+  // Rounded to nearest, so that boxes of one part go on sharing their faces.
   std::vector<Bounds> bounds(entries.size());
   order_.resize(entries.size());
   for (size_t n = 0; n < entries.size(); ++n) {
     order_[n] = static_cast<uint32_t>(n);
     for (int axis = 0; axis < 3; ++axis) {
-      bounds[n].lo[axis] = std::nextafter(static_cast<float>(entries[n].box.lo[axis]), -inf);
-      bounds[n].hi[axis] = std::nextafter(static_cast<float>(entries[n].box.hi[axis]), inf);
+      bounds[n].lo[axis] = static_cast<float>(entries[n].box.lo[axis]);
+      bounds[n].hi[axis] = static_cast<float>(entries[n].box.hi[axis]);
     }
   }
   knots_.clear();
@@ -140,13 +146,13 @@ void PartIndex::visit(const Box& region, Visit visit) const {
       continue;
     }
     for (uint32_t n = knot.begin; n < knot.end; ++n)
-      if (bounds_[n].meets(region) && !visit(order_[n])) return;
+      if (bounds_[n].meets(region) && !visit(order_[n], bounds_[n])) return;
   }
 }
 
 void PartIndex::find(const Box& region, std::vector<uint32_t>& parts) const {
   parts.clear();
-  visit(region, [&](uint32_t part) {
+  visit(region, [&](uint32_t part, const Bounds&) {
     parts.push_back(part);
     return true;
   });
@@ -154,10 +160,19 @@ void PartIndex::find(const Box& region, std::vector<uint32_t>& parts) const {
   parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
 }
 
+void PartIndex::find(const Box& region, std::vector<Entry>& entries) const {
+  entries.clear();
+  visit(region, [&](uint32_t part, const Bounds& bounds) {
+    entries.push_back({bounds.box(), part});
+    return true;
+  });
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.part < b.part; });
+}
+
 size_t PartIndex::count(const Box& region, size_t most) const {
   std::array<uint32_t, 16> found;
   size_t count = 0;
-  visit(region, [&](uint32_t part) {
+  visit(region, [&](uint32_t part, const Bounds&) {
     if (std::find(found.begin(), found.begin() + count, part) == found.begin() + count) found[count++] = part;
     return count < most;
   });

@@ -29,10 +29,10 @@ class PartTable {
  public:
   // `slots[s]` is the program's output for slot s, or -1. The program has neither calls nor sources.
   void add(const Program& program, const std::vector<int>& slots);
-  // Appends the code of a part to `to`; its inputs are the three given values. Returns the value of each
-  // slot, or none for those that it does not have.
+  // Appends the code of a part to `to`; its inputs are the three given values. `slots` gets the value of
+  // each slot, or none for those that it does not have; it may be shorter than the set's slots.
   static constexpr ValueId none = ~ValueId{0};
-  std::vector<ValueId> append(uint32_t part, Program& to, const std::array<ValueId, 3>& inputs) const;
+  void append(uint32_t part, Program& to, const std::array<ValueId, 3>& inputs, std::vector<ValueId>& slots) const;
   size_t size() const { return rows_.size(); }
   size_t body_count() const { return bodies_.size(); }
   const Program& body(size_t n) const { return bodies_[n].code; }
@@ -42,6 +42,7 @@ class PartTable {
   struct Body {
     Program code;  // its constants and maps are of no meaning
     std::vector<int> slots;
+    size_t input_count = 0;  // the first instructions
   };
   struct Row {
     uint32_t body = 0;
@@ -64,6 +65,8 @@ class PartIndex {
   void build(const std::vector<Entry>& entries);
   // The parts whose boxes meet the region, in ascending order.
   void find(const Box& region, std::vector<uint32_t>& parts) const;
+  // Their boxes, by part.
+  void find(const Box& region, std::vector<Entry>& entries) const;
   // How many parts have boxes that meet the region, or `most` if it is more; most <= 16.
   size_t count(const Box& region, size_t most) const;
   bool reaches(const Box& region) const { return count(region, 1) > 0; }
@@ -73,6 +76,7 @@ class PartIndex {
   struct Bounds {
     float lo[3], hi[3];
     bool meets(const Box& box) const;
+    Box box() const { return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}}; }
   };
   struct Knot {
     Bounds bounds;
@@ -93,6 +97,7 @@ struct PartSet {
   PartTable reference, batch;
   PartIndex index;
   std::vector<SlotKind> slots;  // slot 0 is "inside"
+  std::vector<Interval> ranges;  // of each slot, wherever parts reach
 
   const PartTable& table(Precision precision) const { return precision == Precision::batch ? batch : reference; }
 };

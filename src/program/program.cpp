@@ -135,7 +135,8 @@ void evaluate_intervals(const Program& program, const Box& box, std::vector<Inte
         break;
       case Op::parts: {
         const Box where{{a.lo, b.lo, c.lo}, {a.hi, b.hi, c.hi}};
-        values[i] = program.part_sets[in.aux]->index.reaches(where) ? Interval::everything() : Interval(0);
+        const PartSet& set = *program.part_sets[in.aux];
+        values[i] = set.index.reaches(where) ? set.ranges[static_cast<size_t>(in.value)] : Interval(0);
         break;
       }
       case Op::divide:

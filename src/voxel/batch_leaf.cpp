@@ -5,29 +5,38 @@
 #include "program/passes/passes.h"
 #include "voxel/choose.h"
 #include "voxel/draws.h"
+#include "voxel/layer_points.h"
 #include "voxel/leaf.h"
+#include "voxel/part_rows.h"
 
 namespace ombre::voxel {
 namespace {
 
 class TileRows : public eval::SourceRows {
  public:
-  TileRows(const StripSources& sources, const TileBox& tile) : sources_(sources), tile_(tile) {}
+  TileRows(const StripSources& sources, const TileBox& tile, const PartRows& parts)
+      : sources_(sources), tile_(tile), parts_(parts) {}
   bool has(const program::Read& read) const override { return sources_.has(read.tag); }
   void fill(const program::Read& read, size_t j, size_t k, std::span<float> values) const override {
     sources_.fill(read.tag, tile_.lo[0], tile_.lo[1] + static_cast<int64_t>(j), tile_.lo[2] + static_cast<int64_t>(k),
                   values);
   }
+  void fill_parts(uint32_t set, size_t slot, size_t j, size_t k, std::span<float> values) const override {
+    std::copy_n(parts_.row(set, slot, j, k), values.size(), values.data());
+  }
 
  private:
   const StripSources& sources_;
   const TileBox& tile_;
+  const PartRows& parts_;
 };
 
 class BatchLeaf : public LeafEvaluator {
  public:
   BatchLeaf(const VoxelJob& job, const eval::KernelSet& kernels)
-      : job_(job), choice_(choice_kernels(kernels.name)), batch_(kernels), reference_(reference_leaf(job)) {}
+      : job_(job), choice_(choice_kernels(kernels.name)), batch_(kernels), parts_(job, kernels), reference_(reference_leaf(job)) {}
+
+  bool takes_parts(const program::Program& program) const override { return PartRows::suits(program); }
 
   void evaluate(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile,
                 const StripSources& sources, StripVoxels& voxels) override {
@@ -37,17 +46,50 @@ class BatchLeaf : public LeafEvaluator {
     may_be_unknown_ = false;
     for (const program::ValueId id : program.outputs) may_be_unknown_ = may_be_unknown_ || ranges[id].is_everything();
     has_reference_ = false;
-    place(tile);
-    const TileRows rows(sources, tile_);
-    batch_.begin(program, ranges, {xs_, ys_, zs_}, rows);
-    for (size_t k = 0; k < zs_.size(); ++k) {
-      batch_.begin_layer(k);
-      for (size_t j = 0; j < ys_.size(); ++j)
-        evaluate_row(j, tile.lo[1] + static_cast<int64_t>(j), tile.lo[2] + static_cast<int64_t>(k));
-    }
+    if (program.has_parts()) parts_.begin(program, tile);
+    const TileRows rows(sources, tile_, parts_);
+    by_layers_ = tile.size(0) <= narrow;
+    if (by_layers_)
+      evaluate_layers(program, ranges, rows);
+    else
+      evaluate_rows(program, ranges, rows);
   }
 
  private:
+  // Tiles up to this width are evaluated a layer at a time.
+  static constexpr int64_t narrow = 64;
+
+  void evaluate_layers(const program::Program& program, const std::vector<Interval>& ranges, const TileRows& rows) {
+    points_.place(job_.lattice, tile_);
+    batch_.begin(program, ranges, points_.layers(), rows);
+    for (int64_t k = tile_.lo[2]; k < tile_.hi[2]; ++k) {
+      batch_.begin_layer(static_cast<size_t>(k - tile_.lo[2]));
+      batch_.begin_row(0);
+      const eval::Values inside = batch_.output(0);
+      if (inside.is_number ? *inside.row == 0 : !choice_.any(inside.row, points_.count())) continue;
+      batch_.finish_row();
+      for (int64_t j = tile_.lo[1]; j < tile_.hi[1]; ++j) {
+        row_ = static_cast<size_t>(j - tile_.lo[1]);
+        take_row(j, k);
+      }
+    }
+  }
+
+  void evaluate_rows(const program::Program& program, const std::vector<Interval>& ranges, const TileRows& rows) {
+    place(tile_);
+    batch_.begin(program, ranges, eval::BoxPoints{xs_, ys_, zs_}, rows);
+    for (int64_t k = tile_.lo[2]; k < tile_.hi[2]; ++k) {
+      batch_.begin_layer(static_cast<size_t>(k - tile_.lo[2]));
+      for (int64_t j = tile_.lo[1]; j < tile_.hi[1]; ++j) {
+        batch_.begin_row(static_cast<size_t>(j - tile_.lo[1]));
+        const eval::Values inside = batch_.output(0);
+        if (inside.is_number ? *inside.row == 0 : !choice_.any(inside.row, xs_.size())) continue;
+        batch_.finish_row();
+        take_row(j, k);
+      }
+    }
+  }
+
   void place(const TileBox& tile) {
     const Lattice& lattice = job_.lattice;
     const auto centers = [&](size_t axis, std::vector<float>& values) {
@@ -60,35 +102,43 @@ class BatchLeaf : public LeafEvaluator {
     centers(2, zs_);
   }
 
-  void evaluate_row(size_t row, int64_t j, int64_t k) {
-    batch_.begin_row(row);
-    const eval::Values inside = batch_.output(0);
-    if (inside.is_number ? *inside.row == 0 : !choice_.any(inside.row, xs_.size())) return;
-    batch_.finish_row();
+  // An output along the row at work.
+  eval::Values output(size_t n) const { return by_layers_ ? points_.row(batch_.output(n), row_) : batch_.output(n); }
+  size_t width() const { return static_cast<size_t>(tile_.size(0)); }
+
+  void take_row(int64_t j, int64_t k) {
+    const eval::Values inside = output(0);
+    if (by_layers_ && !inside.is_number && !choice_.any(inside.row, width())) return;
     thresholds_.clear();
-    for (size_t t = 0; t < job_.selector.threshold_count; ++t) thresholds_.push_back(batch_.output(1 + t));
+    for (size_t t = 0; t < job_.selector.threshold_count; ++t) thresholds_.push_back(output(1 + t));
     MaterialId* out = voxels_->at(tile_.lo[0], j, k);
     const Draws draws = draws_of_row(job_.dither, job_.seed, j, k);
-    const ChoiceRow choice{inside, thresholds_, job_.selector.materials, draws, tile_.lo[0], xs_.size()};
+    const ChoiceRow choice{inside, thresholds_, job_.selector.materials, draws, tile_.lo[0], width()};
     choice_.choose(choice, out);
     for (size_t t = 0; t < voxels_->kept_thresholds(); ++t) keep_threshold(t, j, k);
     for (size_t c = 0; c < job_.selector.check_count; ++c) count_check(c, inside, j, k);
-    if (may_be_unknown_) redo_unknown(inside, j, k);
+    if (may_be_unknown_ && has_unknown(inside)) redo_unknown(inside, j, k);
+  }
+
+  bool has_unknown(const eval::Values& inside) const {
+    for (size_t n = 0; n <= job_.selector.threshold_count + job_.selector.check_count; ++n)
+      if (choice_.unknown(inside, output(n), width())) return true;
+    return false;
   }
 
   void keep_threshold(size_t t, int64_t j, int64_t k) {
     float* to = voxels_->threshold(t, tile_.lo[0], j, k);
     const eval::Values& from = thresholds_[t];
     if (from.is_number)
-      std::fill_n(to, xs_.size(), *from.row);
+      std::fill_n(to, width(), *from.row);
     else
-      std::copy_n(from.row, xs_.size(), to);
+      std::copy_n(from.row, width(), to);
   }
 
   void count_check(size_t check, const eval::Values& inside, int64_t j, int64_t k) {
-    const eval::Values marks = batch_.output(1 + job_.selector.threshold_count + check);
+    const eval::Values marks = output(1 + job_.selector.threshold_count + check);
     if (marks.is_number && *marks.row == 0) return;
-    for (size_t n = 0; n < xs_.size(); ++n) {
+    for (size_t n = 0; n < width(); ++n) {
       const bool counts = inside[n] != 0 && marks[n] != 0 && !is_unknown(n, inside);
       if (counts) voxels_->note_check(check, tile_.lo[0] + static_cast<int64_t>(n), j, k);
     }
@@ -98,16 +148,16 @@ class BatchLeaf : public LeafEvaluator {
     if (!may_be_unknown_) return false;
     if (std::isnan(inside[n])) return true;
     if (inside[n] == 0) return false;
-    for (size_t output = 1; output <= job_.selector.threshold_count + job_.selector.check_count; ++output)
-      if (std::isnan(batch_.output(output)[n])) return true;
+    for (size_t o = 1; o <= job_.selector.threshold_count + job_.selector.check_count; ++o)
+      if (std::isnan(output(o)[n])) return true;
     return false;
   }
 
   // Stretches of voxels that ended as NaN.
   void redo_unknown(const eval::Values& inside, int64_t j, int64_t k) {
-    for (size_t n = 0; n < xs_.size();) {
+    for (size_t n = 0; n < width();) {
       size_t end = n;
-      while (end < xs_.size() && is_unknown(end, inside)) ++end;
+      while (end < width() && is_unknown(end, inside)) ++end;
       if (end > n)
         redo({{tile_.lo[0] + static_cast<int64_t>(n), j, k}, {tile_.lo[0] + static_cast<int64_t>(end), j + 1, k + 1}});
       n = end + 1;
@@ -135,12 +185,16 @@ class BatchLeaf : public LeafEvaluator {
   const VoxelJob& job_;
   ChoiceKernels choice_;
   eval::BatchEvaluator batch_;
+  PartRows parts_;
   std::unique_ptr<LeafEvaluator> reference_;
   TileBox tile_;
   const StripSources* sources_ = nullptr;
   StripVoxels* voxels_ = nullptr;
   bool may_be_unknown_ = false, has_reference_ = false;
   program::Program reference_program_;
+  bool by_layers_ = false;
+  size_t row_ = 0;  // of the tile, while layers are taken row by row
+  LayerPoints points_;
   std::vector<float> xs_, ys_, zs_;
   std::vector<eval::Values> thresholds_;
 };

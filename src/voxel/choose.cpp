@@ -56,7 +56,7 @@ struct TableDraws {
   HWY_ALIGN uint32_t table[period];
 };
 
-HWY_INLINE V threshold(const eval::Values& values, size_t n) {
+HWY_INLINE V values_at(const eval::Values& values, size_t n) {
   return values.is_number ? hn::Set(D(), *values.row) : hn::Load(D(), values.row + n);
 }
 
@@ -67,7 +67,7 @@ HWY_INLINE VU chosen(const ChoiceRow& row, Source& draws, size_t n) {
   if (!row.thresholds.empty()) {
     const V u = hn::Mul(hn::ConvertTo(D(), hn::BitCast(DI(), draws.take(n))), hn::Set(D(), 0x1p-24f));
     for (size_t t = 0; t < row.thresholds.size(); ++t) {
-      const auto beyond = hn::Ge(u, threshold(row.thresholds[t], n));
+      const auto beyond = hn::Ge(u, values_at(row.thresholds[t], n));
       id = hn::IfThenElse(hn::RebindMask(DU(), beyond), hn::Set(DU(), row.materials[t + 1]), id);
     }
   }
@@ -116,8 +116,55 @@ bool any(const float* values, size_t count) {
   return false;
 }
 
+bool unknown(const eval::Values& inside, const eval::Values& values, size_t count) {
+  const auto found = [&](size_t n) {
+    const V holds = values_at(inside, n);
+    const auto matters = hn::Not(hn::Eq(holds, hn::Zero(D())));
+    return hn::Or(hn::IsNaN(holds), hn::And(matters, hn::IsNaN(values_at(values, n))));
+  };
+  const size_t lanes = hn::Lanes(D());
+  size_t n = 0;
+  for (; n + lanes <= count; n += lanes)
+    if (!hn::AllFalse(D(), found(n))) return true;
+  return n < count && !hn::AllFalse(D(), hn::And(found(n), hn::FirstN(D(), count - n)));
+}
+
+template <class Merge>
+void merge(float* slot, size_t count, Merge merged) {
+  const D d;
+  const size_t lanes = hn::Lanes(d);
+  size_t n = 0;
+  for (; n + lanes <= count; n += lanes) hn::StoreU(merged(hn::LoadU(d, slot + n), n), d, slot + n);
+  if (n == count) return;
+  HWY_ALIGN float rest[hn::MaxLanes(d)] = {};
+  std::memcpy(rest, slot + n, (count - n) * sizeof *slot);
+  hn::Store(merged(hn::Load(d, rest), n), d, rest);
+  std::memcpy(slot + n, rest, (count - n) * sizeof *slot);
+}
+
+// Truth values; NaN where neither is 1 and one is NaN.
+void merge_any(const eval::Values& values, float* slot, size_t count) {
+  const V one = hn::Set(D(), 1.0F);
+  merge(slot, count, [&](V old, size_t n) {
+    const V value = values_at(values, n);
+    return hn::IfThenElse(hn::Or(hn::Eq(old, one), hn::Eq(value, one)), one, hn::Add(old, value));
+  });
+}
+
+void merge_sum(const eval::Values& values, float* slot, size_t count) {
+  merge(slot, count, [&](V old, size_t n) { return hn::Add(old, values_at(values, n)); });
+}
+
+void merge_where(const eval::Values& condition, const eval::Values& values, float* slot, size_t count) {
+  merge(slot, count, [&](V old, size_t n) {
+    const V holds = values_at(condition, n);
+    const V chosen = hn::IfThenElse(hn::Eq(holds, hn::Zero(D())), old, values_at(values, n));
+    return hn::IfThenElse(hn::IsNaN(holds), holds, chosen);
+  });
+}
+
 }  // namespace
-ChoiceKernels choice_kernels_here() { return {choose, any}; }
+ChoiceKernels choice_kernels_here() { return {choose, any, unknown, merge_any, merge_sum, merge_where}; }
 }  // namespace HWY_NAMESPACE
 }  // namespace ombre::voxel
 HWY_AFTER_NAMESPACE();

@@ -30,6 +30,13 @@ struct ChoiceKernels {
   void (*choose)(const ChoiceRow& row, MaterialId* voxels);
   // Is any of the values not 0?
   bool (*any)(const float* values, size_t count);
+  // Is inside[n] NaN somewhere, or values[n] where inside[n] is not 0?
+  bool (*unknown)(const eval::Values& inside, const eval::Values& values, size_t count);
+  // slot[n] becomes slot[n] or values[n]; their sum; values[n] where condition[n] is not 0. Slots need not
+  // be aligned.
+  void (*merge_any)(const eval::Values& values, float* slot, size_t count);
+  void (*merge_sum)(const eval::Values& values, float* slot, size_t count);
+  void (*merge_where)(const eval::Values& condition, const eval::Values& values, float* slot, size_t count);
 };
 
 // By the name of a set of eval::kernel_sets(); all give the same voxels.

@@ -75,6 +75,7 @@ struct LayerEvaluator::Parts {
   WalkOptions walk_options() const {
     WalkOptions walk;
     walk.prune = options.prune;
+    walk.write_parts_out = options.write_parts_out;
     if (options.leaf_width > 0) walk.leaf_width = walk.small_leaf_width = walk.widest = options.leaf_width;
     return walk;
   }

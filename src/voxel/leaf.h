@@ -21,6 +21,8 @@ struct VoxelJob {
 class LeafEvaluator {
  public:
   virtual ~LeafEvaluator() = default;
+  // Does it evaluate the program's many parts by itself? If not, they are written out before.
+  virtual bool takes_parts(const program::Program&) const { return false; }
   virtual void evaluate(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile,
                         const StripSources& sources, StripVoxels& voxels) = 0;
 };

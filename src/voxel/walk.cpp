@@ -67,8 +67,11 @@ void TileWalk::ask(const program::Program& program, const TileBox& tile) {
   std::vector<Interval> kept;
   const program::Program shorter = program::shorten(program, values, &kept);
   if (shorter.has_parts()) {
+    if (must_cut(tile)) return cut(shorter, kept, tile);
+    if (!options_.write_parts_out && leaf_.takes_parts(shorter))
+      return leaf_.evaluate(shorter, kept, tile, *sources_, *voxels_);
     const bool few = parts_in_reach(shorter, kept, options_.many_parts) < options_.many_parts;
-    if (must_cut(tile) || !(few || is_small(shorter, tile))) return cut(shorter, kept, tile);
+    if (!few && !is_small(shorter, tile)) return cut(shorter, kept, tile);
     return ask(program::expand_parts(shorter, kept, precision_), tile);
   }
   const double left = static_cast<double>(shorter.code.size()) / static_cast<double>(program.code.size());

@@ -34,10 +34,25 @@ void each_operand(const Instruction& in, F f) {
 
 void BatchEvaluator::begin(const program::Program& program, const std::vector<Interval>& ranges,
                            const BoxPoints& points, const SourceRows& sources) {
+  by_layers_ = false;
+  begin_box(program, ranges, points, sources);
+}
+
+void BatchEvaluator::begin(const program::Program& program, const std::vector<Interval>& ranges,
+                           const BoxLayers& points, const SourceRows& sources) {
+  ASSERT(points.xs.size() == points.ys.size() && points.xs.size() == padded(points.width) * points.rows);
+  by_layers_ = true;
+  box_width_ = points.width;
+  box_rows_ = points.rows;
+  begin_box(program, ranges, {points.xs, points.ys, points.zs}, sources);
+}
+
+void BatchEvaluator::begin_box(const program::Program& program, const std::vector<Interval>& ranges,
+                               const BoxPoints& points, const SourceRows& sources) {
   program_ = &program;
   sources_ = &sources;
   width_ = points.xs.size();
-  rows_ = points.ys.size();
+  rows_ = by_layers_ ? 1 : points.ys.size();
   layers_ = points.zs.size();
   classify();
   find_order();
@@ -77,7 +92,7 @@ Values BatchEvaluator::output(size_t n) const {
 // What an instruction reads; sources that know their rows need no operands.
 template <class F>
 void BatchEvaluator::each_read(const Instruction& in, F f) const {
-  if (in.op == Op::source && sources_->has(program_->reads[in.aux])) return;
+  if (in.op == Op::parts || (in.op == Op::source && sources_->has(program_->reads[in.aux]))) return;
   each_operand(in, f);
 }
 
@@ -87,9 +102,9 @@ void BatchEvaluator::classify() {
   for (size_t i = 0; i < facts_.size(); ++i) {
     const Instruction& in = program_->code[i];
     uint8_t& mask = facts_[i].mask;
-    if (in.op == Op::input) mask = static_cast<uint8_t>(1 << static_cast<int>(in.value));
+    if (in.op == Op::input) mask = by_layers_ && in.value == 1 ? axis_x : static_cast<uint8_t>(1 << static_cast<int>(in.value));
     each_operand(in, [&](ValueId id) { mask |= facts_[id].mask; });
-    if (in.op == Op::source && sources_->has(program_->reads[in.aux])) mask = all_axes;
+    if (in.op == Op::parts || (in.op == Op::source && sources_->has(program_->reads[in.aux]))) mask = all_axes;
   }
   for (const ValueId id : program_->outputs) facts_[id].needed = true;
   facts_[program_->outputs[0]].early = true;
@@ -212,7 +227,7 @@ void BatchEvaluator::place_constants_and_inputs(const BoxPoints& points) {
       std::fill_n(fact.base, length, static_cast<float>(in.value));
       continue;
     }
-    const std::span<const float> values = fact.mask == axis_x ? points.xs : fact.mask == axis_y ? points.ys : points.zs;
+    const std::span<const float> values = in.value == 0 ? points.xs : in.value == 1 ? points.ys : points.zs;
     std::copy(values.begin(), values.end(), fact.base);
     std::fill(fact.base + values.size(), fact.base + length, values.back());
   }
@@ -240,7 +255,10 @@ void BatchEvaluator::compile_one(ValueId id, const std::vector<Interval>& ranges
   each_read(in, [&](ValueId operand) { release(operand, id); });
 
   step.out = take(id);
-  if (in.op == Op::source) {
+  if (in.op == Op::parts) {
+    step.kind = Step::Kind::parts;
+    step.parts = &in;
+  } else if (in.op == Op::source) {
     step.read = &program_->reads[in.aux];
     step.kind = sources_->has(*step.read) ? Step::Kind::fill : Step::Kind::sample;
   } else if (fact.partner != none && !facts_[fact.partner].done) {
@@ -264,13 +282,25 @@ void BatchEvaluator::run(const std::vector<Step>& steps, size_t j, size_t count)
         kernels_.sine_cosine(step.a.at(j), step.out.at(j), step.second_out.at(j), count);
         break;
       case Step::Kind::fill:
-        sources_->fill(*step.read, j, k_, {step.out.at(j), count});
+        each_box_row(step, j, count, [&](size_t row, std::span<float> values) { sources_->fill(*step.read, row, k_, values); });
         break;
       case Step::Kind::sample:
         sample(step, j, count);
         break;
+      case Step::Kind::parts:
+        each_box_row(step, j, count, [&](size_t row, std::span<float> values) {
+          sources_->fill_parts(step.parts->aux, static_cast<size_t>(step.parts->value), row, k_, values);
+        });
+        break;
     }
   }
+}
+
+template <class F>
+void BatchEvaluator::each_box_row(const Step& step, size_t j, size_t count, F f) const {
+  float* out = step.out.at(j);
+  if (!by_layers_) return f(j, {out, count});
+  for (size_t row = 0; row < box_rows_; ++row) f(row, {out + row * padded(box_width_), box_width_});
 }
 
 void BatchEvaluator::sample(const Step& step, size_t j, size_t count) const {

@@ -75,7 +75,8 @@ class Expander {
     made.slots.assign(set->slots.size(), PartTable::none);
     const Interval &x = values_[in.a], &y = values_[in.b], &z = values_[in.c];
     set->index.find({{x.lo, y.lo, z.lo}, {x.hi, y.hi, z.hi}}, found_);
-    for (const uint32_t part : found_) made.values.push_back(set->table(precision_).append(part, to_, at));
+    for (const uint32_t part : found_)
+      set->table(precision_).append(part, to_, at, made.values.emplace_back());
     return made;
   }
 

@@ -1,0 +1,134 @@
+// Unions of many parts are tables; their voxels are those of the same parts written out.
+#include <random>
+
+#include "compile/test_designs.h"
+
+namespace ombre::compile {
+namespace {
+
+// Struts and balls of several materials, some graded, that overlap.
+std::vector<std::string> some_parts(int count) {
+  std::mt19937 random(5);
+  const auto number = [&](double lo, double hi) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3f", std::uniform_real_distribution<double>(lo, hi)(random));
+    return std::string(text);
+  };
+  const auto point = [&](double reach) {
+    return "(" + number(-reach, reach) + ", " + number(-reach, reach) + ", " + number(-reach, reach) + ")";
+  };
+  std::vector<std::string> parts;
+  for (int n = 0; n < count; ++n) {
+    const std::string material = n % 3 == 0 ? "\"red\"" : n % 3 == 1 ? "\"blue\"" : "\"cyan\"";
+    switch (random() % 4) {
+      case 0:
+        parts.push_back("strut(" + point(3) + ", " + point(3) + ", 0.3, " + material + ");");
+        break;
+      case 1:
+        parts.push_back("translate" + point(3) + " rotate(" + number(0, 90) + ", 20, 0) rectprism((0.6, 1.5, 0.4), " +
+                        material + ");");
+        break;
+      case 2:
+        parts.push_back("fgrade([\"0.5 + " + number(0.02, 0.1) + "*x\", \"0.4\"], [\"red\", \"cyan\"]) strut(" + point(3) +
+                        ", " + point(3) + ", 0.25);");
+        break;
+      default:
+        parts.push_back("translate" + point(3) + " sphere(" + number(0.2, 0.7) + ", " + material + ");");
+    }
+  }
+  return parts;
+}
+
+constexpr const char* box = "root((-4, -4, -4), (4, 4, 4), (0.05, 0.06, 0.07)) ";
+
+std::string flat(const std::vector<std::string>& parts, const std::string& options = "") {
+  std::string text = "union(" + options + ") {";
+  for (const std::string& part : parts) text += part + "\n";
+  return text + "}";
+}
+
+// In groups that are too small for tables; of no use where inputs of a union count as one.
+std::string balanced(const std::vector<std::string>& parts, const std::string& options) {
+  std::string text = "union(" + options + ") {";
+  for (size_t n = 0; n < parts.size(); n += 20) {
+    text += "union(" + options + ") {";
+    for (size_t m = n; m < std::min(n + 20, parts.size()); ++m) text += parts[m] + "\n";
+    text += "}";
+  }
+  return text + "}";
+}
+
+size_t differences(const Voxels& a, const Voxels& b) {
+  EXPECT_EQ(a.ids.size(), b.ids.size());
+  size_t count = 0;
+  for (size_t n = 0; n < std::min(a.ids.size(), b.ids.size()); ++n) count += a.ids[n] != b.ids[n];
+  return count;
+}
+
+Voxels slice_as(const std::string& body, voxel::EvaluatorOptions options) {
+  PlanOptions plan;
+  plan.evaluator = options;
+  return slice_text(box + ("{" + body + "}"), plan, 5);
+}
+
+void expect_one_result(const std::string& body) {
+  const Voxels batch = slice_as(body, {});
+  EXPECT_GT(batch.volume(), 1) << body;
+  voxel::EvaluatorOptions written_out;
+  written_out.write_parts_out = true;
+  EXPECT_EQ(differences(batch, slice_as(body, written_out)), 0u) << body;
+  voxel::EvaluatorOptions narrow;
+  narrow.leaf_width = 32;
+  EXPECT_EQ(differences(batch, slice_as(body, narrow)), 0u) << body;
+  voxel::EvaluatorOptions reference;
+  reference.evaluator = voxel::Evaluator::reference;
+  EXPECT_LT(differences(batch, slice_as(body, reference)), batch.ids.size() / 100'000) << body;
+}
+
+}  // namespace
+
+TEST(ManyParts, AreTheSameInTablesAndWrittenOut) {
+  const auto parts = some_parts(200);
+  expect_one_result(flat(parts));
+  expect_one_result(flat(parts, "materials=\"first\""));
+  expect_one_result(flat(parts, "materials=\"last\""));
+}
+
+TEST(ManyParts, FirstAndLastDoNotDependOnGroups) {
+  const auto parts = some_parts(200);
+  for (const std::string rule : {"materials=\"first\"", "materials=\"last\""})
+    EXPECT_EQ(differences(slice_as(flat(parts, rule), {}), slice_as(balanced(parts, rule), {})), 0u) << rule;
+}
+
+TEST(ManyParts, CanBeMovedCutAndCombined) {
+  const auto parts = some_parts(60);
+  const std::string many = flat(parts);
+  expect_one_result("translate(0.3, 0.2, 0.1) rotate(10, 20, 30) " + many);
+  expect_one_result("intersection() { sphere(3, \"red\"); " + many + "}");
+  expect_one_result("difference() { sphere(3.5, \"red\"); " + many + "}");
+  expect_one_result("fgrade([\"0.6\", \"0.4\"], [\"red\", \"blue\"]) " + many);
+  expect_one_result("module many() {" + many + "} many(); rotate(0, 0, 90) many();");
+}
+
+TEST(ManyParts, TakeMeshesAlong) {
+  auto parts = some_parts(60);
+  parts.push_back("scale(0.1, 0.1, 0.1) mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");");
+  expect_one_result(flat(parts));
+}
+
+TEST(ManyParts, TellOfFailedChecks) {
+  auto parts = some_parts(60);
+  parts.push_back("fgrade([\"x - 10\", \"-1\"], [\"red\", \"blue\"]) sphere(1, \"cyan\");");
+  Diagnostics diagnostics;
+  const LoadedPtr loaded = load_text(box + ("{" + flat(parts) + "}"), diagnostics);
+  const auto plan = plan_slice(loaded, {}, diagnostics);
+  ASSERT_TRUE(plan) << to_text(diagnostics);
+  ASSERT_EQ(plan->request.check_texts.size(), 1u);
+  uint64_t hits = 0;
+  for (const auto& layer : plan->producer(0, plan->request.lattice.count[2])) hits += layer.checks[0].count;
+  // The ball of radius 1.
+  const double voxel = 0.05 * 0.06 * 0.07;
+  EXPECT_NEAR(static_cast<double>(hits) * voxel, 4.18879, 0.05);
+}
+
+}  // namespace ombre::compile
