@@ -29,8 +29,8 @@ std::vector<std::string> some_parts(int count) {
                         material + ");");
         break;
       case 2:
-        parts.push_back("fgrade([\"0.5 + " + number(0.02, 0.1) + "*x\", \"0.4\"], [\"red\", \"cyan\"]) strut(" + point(3) +
-                        ", " + point(3) + ", 0.25);");
+        parts.push_back("fgrade([\"0.5 + " + number(0.02, 0.1) + "*x\", \"0.4\"], [\"red\", \"cyan\"]) strut(" +
+                        point(3) + ", " + point(3) + ", 0.25);");
         break;
       default:
         parts.push_back("translate" + point(3) + " sphere(" + number(0.2, 0.7) + ", " + material + ");");

@@ -197,9 +197,11 @@ uint32_t Lowering::add_check(const Node& node, const std::string& message) {
 
 std::optional<PartFields> Lowering::many_parts(const Node& node, PartQuery query, const Point& p) {
   if (stands_alone_) return std::nullopt;  // tables do not hold tables
-  const ManyParts* parts = context_.many_parts(node, query);
+  // The parts take the frame in, so that they are asked at the program's own inputs.
+  const auto map = p.from_inputs();
+  const ManyParts* parts = context_.many_parts(node, query, map.value_or(Affine{}));
   if (!parts) return std::nullopt;
-  return parts->at(p);
+  return parts->at(map ? Point::origin_frame(builder_) : p);
 }
 
 }  // namespace ombre::design

@@ -1,9 +1,11 @@
 // Lowering: asks nodes for fields at points and remembers the answers.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -29,8 +31,9 @@ class LoweringContext {
   const std::vector<Check>& checks() const { return checks_; }
   const std::vector<AttributeDeclaration>& attributes() const { return attributes_; }
   uint32_t register_check(const Node& node, const std::string& message);
-  // The node's inputs as a table; null if they are few, or most do not go into one.
-  const ManyParts* many_parts(const Node& node, PartQuery query);
+  // The node's inputs as a table, placed in the frame of the program that will hold it; null if they are
+  // few, or most do not go into one.
+  const ManyParts* many_parts(const Node& node, PartQuery query, const Affine& node_from_program);
   // Writes the code of the bodies into their programs; call it when nothing more will be lowered.
   void finish_bodies();
 
@@ -48,7 +51,8 @@ class LoweringContext {
   std::map<std::pair<const Node*, std::string>, bool> carries_;  // does a node have an attribute?
   std::unordered_map<const Node*, std::unique_ptr<Body>> bodies_;
   std::vector<Body*> body_order_;
-  std::map<std::pair<const Node*, PartQuery>, std::unique_ptr<ManyParts>> many_parts_;
+  using PartsKey = std::tuple<const Node*, PartQuery, std::array<double, 12>>;
+  std::map<PartsKey, std::unique_ptr<ManyParts>> many_parts_;
 };
 
 // Lowers nodes into one builder. A node that is used more than once becomes a body, a sub-program

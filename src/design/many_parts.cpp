@@ -22,7 +22,11 @@ constexpr size_t most_boxes = 8, most_boxes_together = 4'000'000;
 
 class PartsMaker {
  public:
-  PartsMaker(LoweringContext& context, PartQuery query) : context_(context), query_(query) {
+  PartsMaker(LoweringContext& context, PartQuery query, const Affine& node_from_program)
+      : context_(context),
+        query_(query),
+        node_from_program_(node_from_program),
+        program_from_node_(inverse(node_from_program)) {
     set_->slots.push_back(SlotKind::any);
     if (query == PartQuery::mix) {
       made_.count_slot = set_->slots.size();
@@ -34,7 +38,7 @@ class PartsMaker {
     const auto parts = static_cast<double>(node.inputs().size());
     most_boxes_ = std::clamp(most_boxes_together / node.inputs().size(), size_t{1}, most_boxes);
     // Half the distance from part to part, about.
-    const Vec3 size = node.bounds(design_space()).size();
+    const Vec3 size = image(program_from_node_, node.bounds(design_space())).size();
     finest_ = 0.5 * std::cbrt(size.x * size.y * size.z / parts);
     for (size_t i = 0; i < node.inputs().size(); ++i)
       if (!add(*node.inputs()[i])) made_.others.push_back(i);
@@ -53,12 +57,12 @@ class PartsMaker {
     const Box bounds = part.bounds(design_space());
     const Vec3 size = bounds.size();
     if (bounds.is_empty() || std::max({size.x, size.y, size.z}) >= design_limit_mm) return false;
-    const Box box = program::grown_for_rounding(bounds);
+    const Box box = program::grown_for_rounding(image(program_from_node_, bounds));
 
     Builder builder;
     Lowering lowering(context_, builder);
     lowering.write_bodies_out();
-    const Point p = Point::origin_frame(builder);
+    const Point p = Point::origin_frame(builder).mapped(node_from_program_);
     const Field mark = query_ == PartQuery::interior ? lowering.interior(part, p) : lowering.inside(part, p);
     std::vector<std::pair<std::string, Field>> outputs{{"inside", mark}};
     std::vector<int> slots{0};
@@ -84,8 +88,8 @@ class PartsMaker {
       if (slots[slot] < 0) continue;
       if (reach_.size() <= slot) reach_.resize(slot + 1);
       const Interval value = values[batch.outputs[static_cast<size_t>(slots[slot])]];
-      reach_[slot] = value.is_everything() || reach_[slot].is_everything() ? Interval::everything()
-                                                                           : hull(reach_[slot], value);
+      reach_[slot] =
+          value.is_everything() || reach_[slot].is_everything() ? Interval::everything() : hull(reach_[slot], value);
     }
   }
 
@@ -183,6 +187,7 @@ class PartsMaker {
 
   LoweringContext& context_;
   PartQuery query_;
+  Affine node_from_program_, program_from_node_;
   ManyParts made_;
   std::shared_ptr<program::PartSet> set_ = std::make_shared<program::PartSet>();
   std::vector<program::PartIndex::Entry> entries_;
@@ -211,10 +216,13 @@ PartFields ManyParts::at(const Point& p) const {
   return fields;
 }
 
-const ManyParts* LoweringContext::many_parts(const Node& node, PartQuery query) {
+const ManyParts* LoweringContext::many_parts(const Node& node, PartQuery query, const Affine& node_from_program) {
   if (node.inputs().size() < least_parts) return nullptr;
-  const auto [it, is_new] = many_parts_.try_emplace({&node, query});
-  if (is_new) it->second = std::make_unique<ManyParts>(PartsMaker(*this, query).make(node));
+  const auto& [rows, offset] = node_from_program;
+  const PartsKey key{&node, query, {rows[0].x, rows[0].y, rows[0].z, rows[1].x, rows[1].y, rows[1].z,  //
+                                    rows[2].x, rows[2].y, rows[2].z, offset.x,  offset.y,  offset.z}};
+  const auto [it, is_new] = many_parts_.try_emplace(key);
+  if (is_new) it->second = std::make_unique<ManyParts>(PartsMaker(*this, query, node_from_program).make(node));
   return it->second->others.size() + least_parts > node.inputs().size() ? nullptr : it->second.get();
 }
 

@@ -288,6 +288,11 @@ Point::Point(Field bx, Field by, Field bz, const Affine& map)
   z = row(2);
 }
 
+std::optional<Affine> Point::from_inputs() const {
+  if (base_x_.id != 0 || base_y_.id != 1 || base_z_.id != 2) return std::nullopt;  // the first three are the inputs
+  return here_from_base_;
+}
+
 Point Point::mapped(const Affine& map) const { return {base_x_, base_y_, base_z_, map * here_from_base_}; }
 
 }  // namespace ombre::program

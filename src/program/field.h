@@ -113,6 +113,8 @@ class Point {
   static Point origin_frame(Builder& builder);
   // The point that `map` takes this one to.
   Point mapped(const Affine& map) const;
+  // The map that takes the builder's inputs to this point, if an affine one does.
+  std::optional<Affine> from_inputs() const;
   Field constant(double value) const { return x.builder->constant(value); }
   Builder& builder() const { return *x.builder; }
   bool operator==(const Point&) const = default;

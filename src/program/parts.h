@@ -96,7 +96,7 @@ class PartIndex {
 struct PartSet {
   PartTable reference, batch;
   PartIndex index;
-  std::vector<SlotKind> slots;  // slot 0 is "inside"
+  std::vector<SlotKind> slots;   // slot 0 is "inside"
   std::vector<Interval> ranges;  // of each slot, wherever parts reach
 
   const PartTable& table(Precision precision) const { return precision == Precision::batch ? batch : reference; }

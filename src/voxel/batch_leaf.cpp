@@ -34,7 +34,11 @@ class TileRows : public eval::SourceRows {
 class BatchLeaf : public LeafEvaluator {
  public:
   BatchLeaf(const VoxelJob& job, const eval::KernelSet& kernels)
-      : job_(job), choice_(choice_kernels(kernels.name)), batch_(kernels), parts_(job, kernels), reference_(reference_leaf(job)) {}
+      : job_(job),
+        choice_(choice_kernels(kernels.name)),
+        batch_(kernels),
+        parts_(job, kernels),
+        reference_(reference_leaf(job)) {}
 
   bool takes_parts(const program::Program& program) const override { return PartRows::suits(program); }
 

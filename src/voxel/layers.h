@@ -50,10 +50,10 @@ enum class Evaluator { batch, reference };
 struct EvaluatorOptions {
   Evaluator evaluator = Evaluator::batch;
   // These decide no voxel, only speed:
-  std::string instruction_set;  // one of instruction_sets(); empty: the best
-  bool prune = true;            // ask intervals about tiles
-  bool write_parts_out = false; // many parts op by op, as the reference has them
-  int64_t leaf_width = 0;       // of tiles that are not cut further; 0: what suits
+  std::string instruction_set;   // one of instruction_sets(); empty: the best
+  bool prune = true;             // ask intervals about tiles
+  bool write_parts_out = false;  // many parts op by op, as the reference has them
+  int64_t leaf_width = 0;        // of tiles that are not cut further; 0: what suits
 };
 
 // The names of what batches can run on here, best first; none without hardware multiply-add.

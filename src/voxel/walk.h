@@ -14,8 +14,8 @@ struct WalkOptions {
   // more of them falls away.
   int64_t leaf_width = 64, leaf_height = 8;
   int64_t small_leaf_width = 16, small_leaf_height = 4;
-  size_t long_program = 100;  // instructions
-  size_t many_parts = 4;      // while so many reach a tile, it is cut before they are written out
+  size_t long_program = 100;     // instructions
+  size_t many_parts = 4;         // while so many reach a tile, it is cut before they are written out
   bool write_parts_out = false;  // also those that the leaf could evaluate by itself
   // Wider tiles are always cut.
   int64_t widest = 256, highest = 16;

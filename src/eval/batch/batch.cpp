@@ -102,7 +102,8 @@ void BatchEvaluator::classify() {
   for (size_t i = 0; i < facts_.size(); ++i) {
     const Instruction& in = program_->code[i];
     uint8_t& mask = facts_[i].mask;
-    if (in.op == Op::input) mask = by_layers_ && in.value == 1 ? axis_x : static_cast<uint8_t>(1 << static_cast<int>(in.value));
+    if (in.op == Op::input)
+      mask = by_layers_ && in.value == 1 ? axis_x : static_cast<uint8_t>(1 << static_cast<int>(in.value));
     each_operand(in, [&](ValueId id) { mask |= facts_[id].mask; });
     if (in.op == Op::parts || (in.op == Op::source && sources_->has(program_->reads[in.aux]))) mask = all_axes;
   }
@@ -282,7 +283,8 @@ void BatchEvaluator::run(const std::vector<Step>& steps, size_t j, size_t count)
         kernels_.sine_cosine(step.a.at(j), step.out.at(j), step.second_out.at(j), count);
         break;
       case Step::Kind::fill:
-        each_box_row(step, j, count, [&](size_t row, std::span<float> values) { sources_->fill(*step.read, row, k_, values); });
+        each_box_row(step, j, count,
+                     [&](size_t row, std::span<float> values) { sources_->fill(*step.read, row, k_, values); });
         break;
       case Step::Kind::sample:
         sample(step, j, count);

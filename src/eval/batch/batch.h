@@ -49,8 +49,8 @@ class BatchEvaluator {
  public:
   explicit BatchEvaluator(const KernelSet& kernels) : kernels_(kernels) {}
 
-  // `program` without calls and affine maps, parts only where `sources` has them; `ranges` are its values' over the box for batches, and
-  // decide nothing but speed. All arguments must outlive the evaluation.
+  // `program` without calls and affine maps, parts only where `sources` has them; `ranges` are its values' over the box
+  // for batches, and decide nothing but speed. All arguments must outlive the evaluation.
   void begin(const program::Program& program, const std::vector<Interval>& ranges, const BoxPoints& points,
              const SourceRows& sources);
   // The only row of a layer is row 0.

@@ -75,8 +75,7 @@ class Expander {
     made.slots.assign(set->slots.size(), PartTable::none);
     const Interval &x = values_[in.a], &y = values_[in.b], &z = values_[in.c];
     set->index.find({{x.lo, y.lo, z.lo}, {x.hi, y.hi, z.hi}}, found_);
-    for (const uint32_t part : found_)
-      set->table(precision_).append(part, to_, at, made.values.emplace_back());
+    for (const uint32_t part : found_) set->table(precision_).append(part, to_, at, made.values.emplace_back());
     return made;
   }
 
