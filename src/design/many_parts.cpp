@@ -18,7 +18,7 @@ using program::SlotKind;
 // With fewer inputs, writing them out costs less than looking them up.
 constexpr size_t least_parts = 32;
 // Boxes of a part, and of all parts together.
-constexpr size_t most_boxes = 8, most_boxes_together = 4'000'000;
+constexpr size_t most_boxes = 8, most_boxes_together = 2'000'000;
 
 class PartsMaker {
  public:
@@ -112,7 +112,7 @@ class PartsMaker {
     while (!open.empty()) {
       const Box box = open.back();
       open.pop_back();
-      evaluate_intervals(inside, box, ranges);
+      evaluate_intervals(inside, program::grown_for_rounding(box), ranges);
       if (ranges[inside.outputs[0]] == Interval(0)) continue;
       const Vec3 size = box.size();
       const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -219,8 +219,10 @@ PartFields ManyParts::at(const Point& p) const {
 const ManyParts* LoweringContext::many_parts(const Node& node, PartQuery query, const Affine& node_from_program) {
   if (node.inputs().size() < least_parts) return nullptr;
   const auto& [rows, offset] = node_from_program;
-  const PartsKey key{&node, query, {rows[0].x, rows[0].y, rows[0].z, rows[1].x, rows[1].y, rows[1].z,  //
-                                    rows[2].x, rows[2].y, rows[2].z, offset.x,  offset.y,  offset.z}};
+  const PartsKey key{&node,
+                     query,
+                     {rows[0].x, rows[0].y, rows[0].z, rows[1].x, rows[1].y, rows[1].z,  //
+                      rows[2].x, rows[2].y, rows[2].z, offset.x, offset.y, offset.z}};
   const auto [it, is_new] = many_parts_.try_emplace(key);
   if (is_new) it->second = std::make_unique<ManyParts>(PartsMaker(*this, query, node_from_program).make(node));
   return it->second->others.size() + least_parts > node.inputs().size() ? nullptr : it->second.get();

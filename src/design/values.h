@@ -22,17 +22,25 @@ inline Box design_space() { return Box::centered({design_limit_mm, design_limit_
 class Number {
  public:
   Number(double value = 0) : value_(value) {}           // NOLINT: a double is a Number
-  Number(expr::Expression e) : value_(std::move(e)) {}  // NOLINT
+  Number(expr::Expression e) : value_(std::make_shared<const expr::Expression>(std::move(e))) {}  // NOLINT
   program::Field operator()(const program::Point& p) const { return at(p, nullptr); }
   // With variables besides the coordinates.
   program::Field at(const program::Point& p, const expr::Variables& extra) const;
   Interval range(const Box& where) const;  // encloses its values there
   const double* constant() const { return std::get_if<double>(&value_); }
-  const expr::Expression* expression() const { return std::get_if<expr::Expression>(&value_); }
-  bool operator==(const Number&) const = default;
+  const expr::Expression* expression() const {
+    const auto* shared = std::get_if<ExpressionPtr>(&value_);
+    return shared ? shared->get() : nullptr;
+  }
+  bool operator==(const Number& other) const {
+    if (!expression() || !other.expression()) return value_ == other.value_;
+    return *expression() == *other.expression();
+  }
 
  private:
-  std::variant<double, expr::Expression> value_;
+  // Shared, which keeps numbers small: a design may hold millions.
+  using ExpressionPtr = std::shared_ptr<const expr::Expression>;
+  std::variant<double, ExpressionPtr> value_;
 };
 
 struct Numbers3 {

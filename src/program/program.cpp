@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/text.h"
 #include "program/parts.h"
+#include "program/quick_intervals.h"
 #include "program/passes/replay.h"
 #include "program/single.h"
 
@@ -96,6 +97,7 @@ std::string to_text(const Program& program) {
 namespace {
 
 Interval apply_reference(Op op, Interval a, Interval b, Interval c) {
+  if (const Interval quick = quick_interval(op, a, b, [](double v) { return v; }); !std::isnan(quick.lo)) return quick;
   const int arity = info(op).arity;
   const bool known = a.is_point() && (arity < 2 || b.is_point()) && (arity < 3 || c.is_point());
   if (!known) return apply(op, a, b, c);

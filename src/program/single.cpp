@@ -1,5 +1,7 @@
 #include "program/single.h"
 
+#include "program/quick_intervals.h"
+
 namespace ombre::program {
 namespace {
 
@@ -61,44 +63,6 @@ Interval elementary(Op op, Interval a, Interval b, Interval c) {
   return {not_negative ? std::max(0.0, wide.lo) : wide.lo, wide.hi};
 }
 
-// What most instructions are, without a call; NaN where the general way has to decide.
-inline Interval common(Op op, Interval a, Interval b) {
-  const Interval undecided(std::numeric_limits<double>::quiet_NaN());
-  const auto single = [](double lo, double hi) { return Interval(static_cast<float>(lo), static_cast<float>(hi)); };
-  if (!a.is_bounded()) return undecided;
-  switch (op) {
-    case Op::square: {
-      const double lo = a.lo > 0 ? a.lo : a.hi < 0 ? -a.hi : 0, hi = std::max(-a.lo, a.hi);
-      return single(lo * lo, hi * hi);
-    }
-    case Op::abs:
-      return {a.lo > 0 ? a.lo : a.hi < 0 ? -a.hi : 0, std::max(-a.lo, a.hi)};
-    case Op::negate:
-      return {-a.hi, -a.lo};
-    default:
-      break;
-  }
-  if (!b.is_bounded()) return undecided;
-  switch (op) {
-    case Op::add:
-      return single(a.lo + b.lo, a.hi + b.hi);
-    case Op::subtract:
-      return single(a.lo - b.hi, a.hi - b.lo);
-    case Op::multiply: {
-      const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
-      return single(std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s)));
-    }
-    case Op::min:
-      return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)};
-    case Op::max:
-      return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)};
-    case Op::less_equal:
-      return a.hi <= b.lo ? Interval(1) : a.lo > b.hi ? Interval(0) : Interval(0, 1);
-    default:
-      return undecided;
-  }
-}
-
 }  // namespace
 
 Interval to_single(Interval v) {
@@ -108,7 +72,8 @@ Interval to_single(Interval v) {
 Interval apply_single(Op op, Interval a, Interval b, Interval c) {
   if (op == Op::select) return select(a, b, c);
   if (op == Op::logical_and || op == Op::logical_or) return logical(op, a, b);
-  if (const Interval quick = common(op, a, b); !std::isnan(quick.lo)) return quick;
+  const auto single = [](double v) { return static_cast<double>(static_cast<float>(v)); };
+  if (const Interval quick = quick_interval(op, a, b, single); !std::isnan(quick.lo)) return quick;
   const int arity = info(op).arity;
   if (a.is_everything() || (arity > 1 && b.is_everything()) || (arity > 2 && c.is_everything()))
     return Interval::everything();

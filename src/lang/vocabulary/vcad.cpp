@@ -148,9 +148,7 @@ NodePtr VcadVocabulary::shared(NodePtr node) {
   for (size_t i = 0; i < node->type().parameters.size(); ++i)
     key += '|' + print_json_line(node->type().get(node->value(), i, false));
   for (const NodePtr& input : node->inputs()) key += '@' + std::to_string(reinterpret_cast<uintptr_t>(input.get()));
-  const Hash hash = hash_bytes(key);
-  std::string digest(reinterpret_cast<const char*>(&hash), sizeof hash);
-  return known_.try_emplace(std::move(digest), node).first->second;
+  return known_.try_emplace(hash_bytes(key), node).first->second;
 }
 
 NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnostics) {

@@ -1,9 +1,10 @@
 // The .vcad vocabulary: calls of a script -> nodes of a design, the forms of older files included.
 #pragma once
 
+#include <map>
 #include <optional>
-#include <unordered_map>
 
+#include "base/hash.h"
 #include "design/design.h"
 #include "lang/vocabulary.h"
 
@@ -35,7 +36,7 @@ class VcadVocabulary : public Vocabulary {
   const design::Registry& registry_;
   const design::MaterialTable& materials_;
   design::SourceLoader* loader_;
-  std::unordered_map<std::string, design::NodePtr> known_;  // equal nodes become one
+  std::map<Hash, design::NodePtr> known_;  // equal nodes become one
   std::optional<design::Sampling> sampling_;
   std::optional<SourceRange> root_where_;
   design::NodePtr root_;
