@@ -30,7 +30,7 @@ fgrade(["0.5 + z/10", "0.5 - z/10"], ["red", "blue"]) {
 }
 """
 SMALL = ["--voxel", "0.1"]
-LONG = ["--voxel", "0.03"]
+LONG = ["--voxel", "0.015"]
 
 
 class Job:
@@ -361,7 +361,7 @@ def killed_twice_resumes(job):
 def interrupted_jobs_resume(job):
     seconds = whole_long_job(job)
     process = job.start("interrupted", *LONG)
-    time.sleep(max(0.3, 0.4 * seconds))
+    time.sleep(max(0.1, 0.4 * seconds))
     process.send_signal(signal.SIGINT)
     status = process.wait(timeout=20)
     expect(status == 130, f"status {status} after an interrupt, expected 130")

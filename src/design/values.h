@@ -21,7 +21,7 @@ inline Box design_space() { return Box::centered({design_limit_mm, design_limit_
 // A constant, or a field over space given by an expression.
 class Number {
  public:
-  Number(double value = 0) : value_(value) {}           // NOLINT: a double is a Number
+  Number(double value = 0) : value_(value) {}  // NOLINT: a double is a Number
   Number(expr::Expression e) : value_(std::make_shared<const expr::Expression>(std::move(e))) {}  // NOLINT
   program::Field operator()(const program::Point& p) const { return at(p, nullptr); }
   // With variables besides the coordinates.

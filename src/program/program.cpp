@@ -6,8 +6,8 @@
 #include "base/assert.h"
 #include "base/text.h"
 #include "program/parts.h"
-#include "program/quick_intervals.h"
 #include "program/passes/replay.h"
+#include "program/quick_intervals.h"
 #include "program/single.h"
 
 namespace ombre::program {
