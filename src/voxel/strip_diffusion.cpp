@@ -10,7 +10,7 @@ LayerDiffusion::LayerDiffusion(int64_t width, std::vector<MaterialId> materials,
       chosen_(width_),
       fractions_(materials_.size(), std::vector<float>(width_)) {}
 
-void LayerDiffusion::add(const MaterialId* inside, std::vector<const float*> thresholds, const TakeRow& take) {
+void LayerDiffusion::add(const MaterialId* inside, const std::vector<const float*>& thresholds, const TakeRow& take) {
   if (has_row_) diffuse({inside, width_}, take);
   keep(inside, thresholds);
 }

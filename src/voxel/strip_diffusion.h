@@ -16,7 +16,7 @@ class LayerDiffusion {
 
   using TakeRow = std::function<void(const MaterialId* voxels)>;
   // A row's voxels: 1 where inside; `thresholds` as in selector.h, one row after the other.
-  void add(const MaterialId* inside, std::vector<const float*> thresholds, const TakeRow& take);
+  void add(const MaterialId* inside, const std::vector<const float*>& thresholds, const TakeRow& take);
   void finish(const TakeRow& take);
 
  private:
