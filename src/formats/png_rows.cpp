@@ -31,7 +31,7 @@ RowPacker::RowPacker(uint32_t width, const Samples& samples, bool flip_x)
       bit_depth_(static_cast<unsigned>(samples.bit_depth)),
       flip_x_(flip_x),
       samples_(samples.of),
-      voxels_(size_t{width} + 8) {
+      voxels_(size_t{width} + 8, samples.ids.front()) {
   if (bit_depth_ == 8) return;
   pairs_.resize(size_t{1} << 16);
   for (const MaterialId a : samples.ids)

@@ -13,8 +13,8 @@ namespace ombre::formats {
 
 // What a pixel of each material is.
 struct Samples {
-  int bit_depth = 8;  // 1, 2, 4 or 8
-  std::vector<MaterialId> ids;
+  int bit_depth = 8;              // 1, 2, 4 or 8
+  std::vector<MaterialId> ids;    // that occur, at least one
   std::array<uint8_t, 256> of{};  // by id
 };
 
@@ -37,7 +37,7 @@ class RowPacker {
   bool flip_x_;
   std::array<uint8_t, 256> samples_;
   std::vector<uint8_t> pairs_;      // the samples of two neighbours, by their ids
-  std::vector<MaterialId> voxels_;  // of one row, and some void
+  std::vector<MaterialId> voxels_;  // of one row, and some more
 };
 
 // Writes packed rows, each as it is or as the difference to the row above.
