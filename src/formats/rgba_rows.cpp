@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cstring>
 
+#include "formats/smooth_row.h"
+
 namespace ombre::formats {
 namespace {
 
 constexpr size_t spare_bytes = 8;  // of packed rows, for the history
 constexpr uint8_t filter_none = 0, filter_up = 2;
-constexpr size_t looked_at = 1024;      // of a row's loose voxels
-constexpr uint32_t smooth_pixels = 32;  // to a run, on average
 
 Rgba difference(Rgba a, Rgba b) {
   Rgba result;
@@ -62,18 +62,10 @@ RgbaRows::RgbaRows(uint32_t width, const Palette& palette, const Samples& number
 }
 
 void RgbaRows::put(const RowView& row) {
-  if (is_smooth(row))
+  if (is_smooth(row, width_))
     put_smooth(row);
   else
     put_dense(row);
-}
-
-bool RgbaRows::is_smooth(const RowView& row) {
-  if (!row.has_dense()) return true;
-  const size_t count = std::min(row.dense.size(), looked_at);
-  equal_.compare(row.dense.data() + 1, row.dense.data(), count - 1);
-  const size_t stretches = row.runs.size() + row.dense.size() * (count - equal_.equal_count()) / count;
-  return stretches <= width_ / smooth_pixels;
 }
 
 void RgbaRows::put_smooth(const RowView& row) {

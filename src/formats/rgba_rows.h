@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/run.h"
-#include "formats/equal_bytes.h"
 #include "formats/palette.h"
 #include "formats/pixel_history.h"
 #include "formats/png_rows.h"
@@ -25,7 +24,6 @@ class RgbaRows {
   void put(const RowView& row);
 
  private:
-  bool is_smooth(const RowView& row);
   void put_smooth(const RowView& row);
   void set_runs(const RowView& row);
   void put_difference();
@@ -42,7 +40,6 @@ class RgbaRows {
   bool flip_x_;
   std::array<Rgba, 256> colours_{};  // by id
   ZlibStream& out_;
-  EqualBytes equal_;
   std::vector<Run> runs_, runs_above_;  // of smooth rows
   // A dithered row in numbers and in colours.
   RowPacker packer_;
