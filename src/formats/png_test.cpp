@@ -153,7 +153,7 @@ TEST(Png, KeepsEveryVoxelOfDitheredLayers) {
 }
 
 TEST(Png, KeepsEveryVoxelWhereManyEdgesMove) {
-  constexpr uint32_t width = 3000, stripe = 80;
+  constexpr uint32_t width = 3200, stripe = 80;
   RunLayer layer(width);
   for (uint32_t row = 0; row < 100; ++row) {
     const uint32_t shift = row % 30 == 17 ? 1 : 1 + row * row / 50 % (stripe - 1);

@@ -153,9 +153,12 @@ void RgbaRows::expand() {
 
 template <size_t pixels_in_byte>
 void RgbaRows::expand_bytes() {
+  const Rgba* const pixels = pixels_of_byte_.data();  // which no byte written can move
   uint8_t* out = image_.data();
-  for (size_t i = 0; i < packer_.size(); ++i, out += 4 * pixels_in_byte)
-    std::memcpy(out, &pixels_of_byte_[packed_[i] * pixels_in_byte], 4 * pixels_in_byte);
+  for (const uint8_t byte : std::span(packed_).first(packer_.size())) {
+    std::memcpy(out, pixels + byte * pixels_in_byte, sizeof(Rgba) * pixels_in_byte);
+    out += sizeof(Rgba) * pixels_in_byte;
+  }
 }
 
 void RgbaRows::put_filter(uint8_t filter) {
