@@ -14,10 +14,6 @@ namespace {
 // Codes of 14 bits let four literals be put at once; they cost next to nothing against 15.
 constexpr unsigned longest_literal_code = 14, longest_distance_code = 15, longest_header_code = 7;
 
-// Large enough to make headers cheap, small enough to follow a design from layer region to region.
-constexpr size_t most_literals = size_t{1} << 16, most_steps = size_t{1} << 14;
-constexpr uint64_t most_matched = uint64_t{1} << 24;  // so that a block's bits stay small too
-
 // Some bits to write.
 struct Bits {
   uint32_t bits = 0;
@@ -38,28 +34,40 @@ struct Pieces {
   }
 };
 
+// Counting a value twice in a row waits for memory, and neighbours are often equal: so they take turns with
+// tables of their own.
+struct MatchCounts {
+  std::array<uint32_t, longest_match + 1> lengths{};
+  std::array<uint32_t, distance_symbol_count> distances{};
+
+  void add(uint32_t length, uint32_t distance) {
+    uint32_t& count = distances[distance_symbol(distance).index];
+    if (length <= longest_match) {
+      ++lengths[length];
+      ++count;
+      return;
+    }
+    const Pieces pieces(length);
+    lengths[longest_match] += pieces.longest;
+    ++lengths[pieces.first];
+    ++lengths[pieces.last];
+    count += pieces.longest + (pieces.first > 0) + (pieces.last > 0);
+  }
+};
+
 struct SymbolCounts {
   std::array<uint32_t, literal_symbol_count> literals{};
   std::array<uint32_t, distance_symbol_count> distances{};
   uint64_t matches = 0;
 
-  void add_match(uint32_t length, uint32_t distance) {
-    uint32_t count = 1;
-    if (length <= longest_match)
-      ++literals[first_length_symbol + length_symbol(length).index];
-    else
-      count = add_pieces(length);
-    distances[distance_symbol(distance).index] += count;
-    matches += count;
+  void add_matches(const MatchCounts& counts) {
+    for (uint32_t length = DeflateWriter::shortest_match; length <= longest_match; ++length)
+      literals[first_length_symbol + length_symbol(length).index] += counts.lengths[length];
+    for (size_t i = 0; i < distances.size(); ++i) {
+      distances[i] += counts.distances[i];
+      matches += counts.distances[i];
+    }
   }
-  uint32_t add_pieces(uint32_t length) {
-    const Pieces pieces(length);
-    literals[first_length_symbol + length_symbol(longest_match).index] += pieces.longest;
-    if (pieces.first > 0) ++literals[first_length_symbol + length_symbol(pieces.first).index];
-    if (pieces.last > 0) ++literals[first_length_symbol + length_symbol(pieces.last).index];
-    return pieces.longest + (pieces.first > 0) + (pieces.last > 0);
-  }
-  // Neighbouring literals are often equal, and counting one twice in a row waits for memory.
   void add_literals(std::span<const uint8_t> bytes) {
     std::array<std::array<uint32_t, 256>, 4> tables{};
     size_t i = 0;
@@ -203,10 +211,7 @@ struct DeflateWriter::Codes {
   }
 };
 
-DeflateWriter::DeflateWriter() {
-  literals_.reserve(most_literals);
-  steps_.reserve(most_steps);
-}
+DeflateWriter::DeflateWriter() : steps_(most_steps + 1) { literals_.reserve(most_literals); }
 
 void DeflateWriter::literals(const uint8_t* bytes, size_t count) {
   while (count > 0) {
@@ -218,34 +223,19 @@ void DeflateWriter::literals(const uint8_t* bytes, size_t count) {
   }
 }
 
-void DeflateWriter::match(uint32_t length, uint32_t distance) {
-  ASSERT(length >= shortest_match && distance >= 1 && distance <= window);
-  make_room();
-  matched_ += length;
-  const auto literal_count = static_cast<uint32_t>(literals_.size() - literals_in_steps_);
-  if (literal_count == 0 && !steps_.empty() && steps_.back().distance == distance) {
-    steps_.back().length += length;
-    return;
-  }
-  steps_.push_back({literal_count, length, distance});
-  literals_in_steps_ = literals_.size();
-}
-
 void DeflateWriter::finish() {
   end_block(true);
   out_.reserve(1);
   out_.fill_byte();
 }
 
-// Ahead of what comes next, so that the last block is never an empty one.
-void DeflateWriter::make_room() {
-  if (literals_.size() == most_literals || steps_.size() == most_steps || matched_ >= most_matched) end_block(false);
-}
-
 void DeflateWriter::end_block(bool is_last) {
   SymbolCounts counts;
   counts.add_literals(literals_);
-  for (const Step& step : steps_) counts.add_match(step.length, step.distance);
+  std::array<MatchCounts, 2> turns;
+  size_t turn = 0;
+  for (const Step& step : steps()) turns[turn++ % 2].add(step.length, step.distance);
+  for (const MatchCounts& matches : turns) counts.add_matches(matches);
   counts.literals[end_of_block] = 1;
 
   constexpr size_t largest_header = 512, largest_literal = 2, largest_match = 6;
@@ -256,7 +246,7 @@ void DeflateWriter::end_block(bool is_last) {
   write_steps(codes);
   out_.put(codes.literals[end_of_block].bits, codes.literals[end_of_block].count);
   literals_.clear();
-  steps_.clear();
+  step_count_ = 0;
   literals_in_steps_ = 0;
   matched_ = 0;
 }
@@ -264,7 +254,7 @@ void DeflateWriter::end_block(bool is_last) {
 void DeflateWriter::write_steps(const Codes& codes) {
   const uint8_t* literal = literals_.data();
   BitCursor out = out_.begin();
-  for (const Step& step : steps_) {
+  for (const Step& step : steps()) {
     codes.put_literals(out, literal, literal + step.literals);
     literal += step.literals;
     codes.put_match(out, step);

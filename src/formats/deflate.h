@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "base/assert.h"
 #include "formats/bit_writer.h"
 
 namespace ombre::formats {
@@ -19,7 +21,20 @@ class DeflateWriter {
   void literals(const uint8_t* bytes, size_t count);
   // The next `length` bytes repeat those `distance` back, which lie at most `window` behind; they may overlap.
   // Any length from the shortest match on.
-  void match(uint32_t length, uint32_t distance);
+  void match(uint32_t length, uint32_t distance) {
+    ASSERT(length >= shortest_match && distance - 1 < window);
+    make_room();
+    matched_ += length;
+    const auto literal_count = static_cast<uint32_t>(literals_.size() - literals_in_steps_);
+    Step* const last = &steps_[step_count_];
+    if (literal_count == 0 && last->distance == distance) {
+      last->length += length;
+      return;
+    }
+    last[1] = {literal_count, length, distance};
+    ++step_count_;
+    literals_in_steps_ = literals_.size();
+  }
   void finish();
 
   // Whole bytes of the stream; they grow with each block, and the caller clears what it has taken.
@@ -33,14 +48,23 @@ class DeflateWriter {
   };
   struct Codes;
 
-  void make_room();
+  // Large enough to make headers cheap, small enough to follow a design from layer region to region.
+  static constexpr size_t most_literals = size_t{1} << 16, most_steps = size_t{1} << 14;
+  static constexpr uint64_t most_matched = uint64_t{1} << 24;  // so that a block's bits stay small too
+
+  // Ahead of what comes next, so that the last block is never an empty one.
+  void make_room() {
+    if (step_count_ == most_steps || literals_.size() == most_literals || matched_ >= most_matched) end_block(false);
+  }
+  std::span<const Step> steps() const { return {&steps_[1], step_count_}; }
   void end_block(bool is_last);
   void write_steps(const Codes& codes);
 
   BitWriter out_;
   // The block so far: each step is some literals, then a match; literals after the last one follow.
   std::vector<uint8_t> literals_;
-  std::vector<Step> steps_;
+  std::vector<Step> steps_;  // behind one that is not meant
+  size_t step_count_ = 0;
   size_t literals_in_steps_ = 0;
   uint64_t matched_ = 0;  // bytes
 };

@@ -19,11 +19,13 @@ uint8_t Palette::entry(MaterialId id) const {
   return entries_[id];
 }
 
-int Palette::bit_depth() const {
+int bits_for(size_t count) {
   int bits = 1;
-  while ((size_t{1} << bits) < colours_.size()) bits *= 2;
+  while ((size_t{1} << bits) < count) bits *= 2;
   return bits;
 }
+
+int Palette::bit_depth() const { return bits_for(colours_.size()); }
 
 uint8_t luminance(Rgba colour) {
   return static_cast<uint8_t>((299 * colour[0] + 587 * colour[1] + 114 * colour[2] + 500) / 1000);

@@ -11,6 +11,9 @@ namespace ombre::formats {
 
 using Rgba = std::array<uint8_t, 4>;  // red, green, blue, alpha; not premultiplied
 
+// The least of 1, 2, 4, 8 bits that tells so many things apart.
+int bits_for(size_t count);
+
 // Entry 0 is void, then come the materials in the order added. All layers of a job share one palette, and
 // with it one bit depth.
 class Palette {
@@ -25,7 +28,7 @@ class Palette {
   const std::vector<MaterialId>& ids() const { return ids_; }
   // The entry of a material that was added.
   uint8_t entry(MaterialId id) const;
-  // The least of 1, 2, 4, 8 bits that holds every entry.
+  // That hold every entry.
   int bit_depth() const;
 
  private:

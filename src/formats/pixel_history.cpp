@@ -3,100 +3,180 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-
-#include "formats/deflate.h"
+#include <utility>
 
 namespace ombre::formats {
 namespace {
 
-constexpr uint32_t short_key_pixels = 4;
+constexpr uint32_t window = DeflateWriter::window;
+constexpr uint32_t first_position = 2 * window;        // out of reach from there: position 0
 constexpr uint32_t last_position = uint32_t{1} << 31;  // far enough from overflow
+constexpr size_t word_bytes = sizeof(uint64_t);
+constexpr unsigned sure_bits = 56;  // of a word, wherever it begins
 
-uint64_t word_at(const MaterialId* voxels) {
-  uint64_t word;
-  std::memcpy(&word, voxels, sizeof word);
-  return word;
+// How many pixels a match is found by. The window holds 8192, so stretches of 12 bits mostly stand in it.
+// Pixels of many bits seldom use them all.
+template <unsigned bits>
+struct Keys {
+  static constexpr uint32_t pixels = (bits <= 2 ? 12 : 24) / bits, short_pixels = pixels / 2;
+  // A match that goes on for so many bits is worth a length of its own.
+  static constexpr unsigned more_bits = std::max(4U, bits);
+};
+
+constexpr unsigned table_bits = 12, short_table_bits = 8;
+
+// The slot of the pixels in the high bits of a word; others may share it.
+template <unsigned key_bits, unsigned slot_bits>
+size_t slot(uint64_t word) {
+  const uint64_t key = word >> (64 - key_bits);
+  if constexpr (key_bits <= slot_bits) return key;
+  return key * 0x9E3779B97F4A7C15 >> (64 - slot_bits);
 }
 
-// In a word of memory.
-constexpr uint64_t first_bytes(uint32_t count) { return ~uint64_t{0} >> (64 - 8 * count); }
-
-// Where the table entry of the pixels under `mask` stands; others may share it.
-size_t slot(const MaterialId* pixels, uint64_t mask, unsigned shift) {
-  return (word_at(pixels) & mask) * 0x9E3779B97F4A7C15 >> shift;
-}
-
-// How many pixels from `a` and `b` on agree. Whole words may be read behind the last.
-uint32_t common_length(const MaterialId* a, const MaterialId* b, uint32_t most) {
+// The first byte is the highest.
+uint64_t load(const uint8_t* bytes) {
   static_assert(std::endian::native == std::endian::little);
-  for (uint32_t i = 0; i < most; i += 8)
-    if (const uint64_t differences = word_at(a + i) ^ word_at(b + i))
-      return std::min(most, i + static_cast<uint32_t>(std::countr_zero(differences)) / 8);
-  return most;
+  uint64_t word;
+  std::memcpy(&word, bytes, sizeof word);
+  return __builtin_bswap64(word);
 }
+
+void store_word(uint8_t* bytes, uint64_t word) {
+  word = __builtin_bswap64(word);
+  std::memcpy(bytes, &word, sizeof word);
+}
+
+uint64_t word_at(const uint8_t* bytes, size_t bit) { return load(bytes + bit / 8) << bit % 8; }
+
+// In how many columns a stretch of pixels can begin.
+uint32_t begin_count(uint32_t width, uint32_t pixels) { return width - std::min(width, pixels - 1); }
 
 }  // namespace
 
-PixelHistory::PixelHistory(uint32_t width)
+PixelHistory::PixelHistory(uint32_t width, unsigned bits)
     : width_(width),
-      kept_rows_(DeflateWriter::window / 4 / width + 1),
-      pixels_(size_t{2} * (kept_rows_ + 1) * width + 8),
-      long_keys_(13),
-      short_keys_(10),
-      before_(width) {}
-
-void PixelHistory::clear() { oldest_ = end_; }
-
-void PixelHistory::restart() {
-  first_ = oldest_ = row_ = end_ = 1;
-  std::fill(long_keys_.positions.begin(), long_keys_.positions.end(), 0);
-  std::fill(short_keys_.positions.begin(), short_keys_.positions.end(), 0);
+      bits_(bits),
+      pixels_((size_t{window} + 4 * size_t{width} + 1) * bits / 16 + 4 * word_bytes),
+      latest_(size_t{1} << table_bits),
+      latest_short_(size_t{1} << short_table_bits),
+      before_(width) {
+  clear();
 }
 
-void PixelHistory::add_row(const MaterialId* voxels) {
-  if (end_ > last_position) restart();
-  if (end_ + width_ > first_ + 2 * (kept_rows_ + 1) * width_) {
-    const uint32_t kept = kept_rows_ * width_;
-    std::memmove(pixels_.data(), at(end_ - kept), kept);
-    first_ = end_ - kept;
-    while (oldest_ < first_) oldest_ += width_;
+void PixelHistory::clear() {
+  if (next_row_ == first_position) return;
+  next_row_ = first_position;
+  first_bit_ = size_t{first_position} * bits_ >> 2;
+  std::fill(latest_.begin(), latest_.end(), 0);
+  std::fill(latest_short_.begin(), latest_short_.end(), 0);
+}
+
+void PixelHistory::put_row(const uint8_t* packed, const uint8_t* image, DeflateWriter& out) {
+  if (next_row_ > last_position) clear();
+  row_ = next_row_;
+  next_row_ += 4 * width_ + 1;
+  store(packed);
+  switch (bits_) {
+    case 1:
+      return put<1>(packed, image, out);
+    case 2:
+      return put<2>(packed, image, out);
+    case 4:
+      return put<4>(packed, image, out);
+    default:
+      return put<8>(packed, image, out);
   }
-  row_ = end_;
-  end_ += width_;
-  MaterialId* const pixels = pixels_.data() + (row_ - first_);
-  std::memcpy(pixels, voxels, width_);
-
-  const uint32_t count = width_ - std::min(width_, key_pixels_ - 1);
-  long_keys_.exchange(pixels, count, row_, first_bytes(key_pixels_), before_.data());
-  std::fill(before_.begin() + count, before_.end(), 0);
 }
 
-PixelHistory::Match PixelHistory::find(uint32_t column) {
-  uint32_t there = 0;
-  short_keys_.exchange(at(row_ + column), 1, row_ + column, first_bytes(short_key_pixels), &there);
-  const Match best = match(column, before_[column]);
-  return best.pixels >= short_key_pixels ? best : match(column, there);
+template <unsigned bits>
+void PixelHistory::put(const uint8_t* packed, const uint8_t* image, DeflateWriter& out) {
+  enter<bits>(packed);
+  cut<bits>(packed, image, out);
 }
 
-PixelHistory::Match PixelHistory::match(uint32_t column, uint32_t there) const {
-  if (there < oldest_) return {};
-  const uint32_t here = row_ + column;
-  const uint32_t rows = there >= row_ ? 0 : (row_ - there + width_ - 1) / width_;
-  const uint32_t distance = 4 * (here - there) + rows;
-  if (distance > DeflateWriter::window) return {};
-  const uint32_t left_here = width_ - column, left_there = end_ - rows * width_ - there;
-  return {common_length(at(there), at(here), std::min(left_here, left_there)), distance};
-}
-
-void PixelHistory::Table::exchange(const MaterialId* pixels, uint32_t count, uint32_t position, uint64_t mask,
-                                   uint32_t* before) {
-  uint32_t* const table = positions.data();  // which no store below can move
-  const unsigned by = shift;
-  for (uint32_t i = 0; i < count; ++i) {
-    uint32_t& latest = table[slot(pixels + i, mask, by)];
-    before[i] = latest;
-    latest = position + i;
+void PixelHistory::store(const uint8_t* packed) {
+  const size_t size = (size_t{width_} * bits_ + 7) / 8;
+  if (bit_at(row_) / 8 + size + 2 * word_bytes > pixels_.size()) {
+    const size_t begin = bit_at(row_ - window) / 8;
+    std::memmove(pixels_.data(), &pixels_[begin], bit_at(row_) / 8 + 1 - begin);
+    first_bit_ += 8 * begin;
   }
+  const size_t bit = bit_at(row_);
+  const unsigned offset = bit % 8;
+  uint8_t* out = &pixels_[bit / 8];
+  uint64_t carry = uint64_t{*out} >> (8 - offset) << (64 - offset) % 64;
+  for (size_t i = 0; i < size; i += word_bytes, out += word_bytes) {
+    const uint64_t word = load(packed + i);
+    store_word(out, carry | word >> offset);
+    carry = word << 1 << (63 - offset);
+  }
+  store_word(out, carry);
+}
+
+template <unsigned bits>
+void PixelHistory::enter(const uint8_t* packed) {
+  constexpr uint32_t key_pixels = Keys<bits>::pixels, pixels_in_byte = 8 / bits;
+  const uint32_t count = begin_count(width_, key_pixels);
+  uint32_t* const latest = latest_.data();  // which no store below can move
+  uint32_t* before = before_.data();
+  uint32_t position = row_;
+  const auto enter_pixel = [&](uint64_t word) {
+    *before++ = std::exchange(latest[slot<bits * key_pixels, table_bits>(word)], position);
+    position += sizeof(uint32_t);
+  };
+  uint32_t column = 0;
+  for (; column + pixels_in_byte <= count; column += pixels_in_byte) {
+    const uint64_t word = load(packed + column / pixels_in_byte);
+    for (unsigned k = 0; k < pixels_in_byte; ++k) enter_pixel(word << k * bits);
+  }
+  for (; column < count; ++column) enter_pixel(word_at(packed, size_t{column} * bits));
+}
+
+template <unsigned bits>
+void PixelHistory::cut(const uint8_t* packed, const uint8_t* image, DeflateWriter& out) {
+  constexpr uint32_t key_pixels = Keys<bits>::pixels, short_key_pixels = Keys<bits>::short_pixels;
+  const uint32_t row = row_, width = width_;
+  const uint32_t begins = begin_count(width, key_pixels), short_begins = begin_count(width, short_key_pixels);
+  const uint8_t* const history = pixels_.data();
+  const size_t first_bit = first_bit_;
+  uint32_t* const latest_short = latest_short_.data();
+  for (uint32_t column = 0, count = 0; column < width; column += count) {
+    const uint32_t here = row + 4 * column;
+    const uint64_t pixels = word_at(packed, size_t{column} * bits);
+    const auto agrees = [&](uint32_t there, unsigned in_bits) {
+      return here - there <= window &&
+             (pixels ^ word_at(history, (size_t{there} * bits >> 2) - first_bit)) >> (64 - in_bits) == 0;
+    };
+    uint32_t there = column < begins ? before_[column] : 0, there_short = 0;
+    if (column < short_begins)
+      there_short = std::exchange(latest_short[slot<bits * short_key_pixels, short_table_bits>(pixels)], here);
+    count = key_pixels;
+    if (!agrees(there, bits * key_pixels)) {
+      there = there_short;
+      count = short_key_pixels;
+      if (!agrees(there, bits * short_key_pixels)) {
+        count = 1;
+        out.literals(image + size_t{4} * column, 4);
+        continue;
+      }
+    }
+    if (agrees(there, bits * count + Keys<bits>::more_bits)) count = common_pixels<bits>(column, there);
+    out.match(4 * count, here - there);
+  }
+}
+
+template <unsigned bits>
+uint32_t PixelHistory::common_pixels(uint32_t column, uint32_t there) const {
+  const uint32_t column_there = (there - first_position) % (4 * width_ + 1) / 4;
+  const uint32_t most = width_ - std::max(column, column_there);
+  const size_t bit = bit_at(row_) + size_t{column} * bits, bit_there = bit_at(there);
+  for (uint32_t count = 0; count < most; count += sure_bits / bits) {
+    const size_t skipped = size_t{count} * bits;
+    const uint64_t differences = word_at(pixels_.data(), bit + skipped) ^ word_at(pixels_.data(), bit_there + skipped);
+    const auto equal = static_cast<uint32_t>(std::countl_zero(differences)) / bits;
+    if (equal < sure_bits / bits) return std::min(most, count + equal);
+  }
+  return most;
 }
 
 }  // namespace ombre::formats

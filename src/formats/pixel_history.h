@@ -1,55 +1,54 @@
 // The pixels of the last image rows, and where a few of them in a row stood before.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "base/run.h"
+#include "formats/deflate.h"
 
 namespace ombre::formats {
 
-// Rows of four-byte pixels, each behind a byte that says how the row is stored.
+// Deflates rows of four-byte pixels, each behind a byte that says how the row is stored. Here a pixel is a small
+// number of 1, 2, 4 or 8 bits, so that a word holds many: they are looked up and compared together.
+//
+// A dithered row says nothing new but which of the stretches seen before comes next. So it becomes matches of
+// a fixed number of pixels, each with the latest place where they stood. Most go no further, and the cutting
+// need not wait to see where a match ends. Matches of a length that is rare elsewhere cost more than the pixels
+// they would add.
 class PixelHistory {
  public:
-  explicit PixelHistory(uint32_t width);
+  PixelHistory(uint32_t width, unsigned bits);
 
+  // What follows repeats nothing that came before.
   void clear();
-  void add_row(const MaterialId* voxels);
-
-  struct Match {
-    uint32_t pixels = 0;    // 0 if there is none
-    uint32_t distance = 0;  // in bytes
-  };
-  // What begins like the newest row at `column`, and does not go on behind the end of either row.
-  Match find(uint32_t column);
-
-  // How many pixels a match is found by, at most 8: the more, the longer matches are and the rarer.
-  void set_key_pixels(uint32_t count) { key_pixels_ = count; }
+  // The next row: packed, the first pixel in the highest bits, with eight more bytes that can be read; and as
+  // in the image.
+  void put_row(const uint8_t* packed, const uint8_t* image, DeflateWriter& out);
 
  private:
-  // The latest position of the pixels that have some hash, or 0.
-  struct Table {
-    explicit Table(unsigned bits) : shift(64 - bits), positions(size_t{1} << bits) {}
+  template <unsigned bits>
+  void put(const uint8_t* packed, const uint8_t* image, DeflateWriter& out);
+  void store(const uint8_t* packed);
+  template <unsigned bits>
+  void enter(const uint8_t* packed);
+  template <unsigned bits>
+  void cut(const uint8_t* packed, const uint8_t* image, DeflateWriter& out);
+  template <unsigned bits>
+  uint32_t common_pixels(uint32_t column, uint32_t there) const;
+  // The bit of `pixels_` at which the pixel at a position begins.
+  size_t bit_at(uint32_t position) const { return (size_t{position} * bits_ >> 2) - first_bit_; }
 
-    // Enters `count` neighbours from `position` on, and puts what stood there into `before`.
-    void exchange(const MaterialId* pixels, uint32_t count, uint32_t position, uint64_t mask, uint32_t* before);
-
-    unsigned shift;
-    std::vector<uint32_t> positions;
-  };
-
-  void restart();
-  Match match(uint32_t column, uint32_t there) const;
-  const MaterialId* at(uint32_t position) const { return pixels_.data() + (position - first_); }
-
-  uint32_t width_, kept_rows_, key_pixels_ = 8;
-  std::vector<MaterialId> pixels_;
-  // Positions count pixels from 1 on.
-  uint32_t first_ = 1;          // of pixels_[0]
-  uint32_t oldest_ = 1;         // of the first pixel that may be repeated
-  uint32_t row_ = 1, end_ = 1;  // where the newest row begins and ends
-  Table long_keys_, short_keys_;
-  std::vector<uint32_t> before_;  // by column of the newest row: where its next pixels stood before
+  uint32_t width_;
+  unsigned bits_;
+  // Positions are bytes of the image data. Rows follow each other in these bits as they do there; the byte
+  // before a row takes a quarter of a pixel, rounded.
+  std::vector<uint8_t> pixels_;
+  size_t first_bit_ = 0;
+  uint32_t row_ = 0, next_row_ = 0;
+  // By their hash: where stretches of pixels began at last, or 0.
+  std::vector<uint32_t> latest_, latest_short_;
+  std::vector<uint32_t> before_;  // by column of the newest row: where its next pixels stood before, or 0
 };
 
 }  // namespace ombre::formats

@@ -51,6 +51,19 @@ Samples samples(const Palette& palette, const PngLayout& layout) {
   return result;
 }
 
+// Numbers for the materials that occur.
+Samples numbers_of(const RunLayer& layer, const Palette& palette) {
+  const auto counts = count_materials(layer);
+  Samples result;
+  for (const MaterialId id : palette.ids()) {
+    if (counts[id] == 0) continue;
+    result.of[id] = static_cast<uint8_t>(result.ids.size());
+    result.ids.push_back(id);
+  }
+  result.bit_depth = bits_for(result.ids.size());
+  return result;
+}
+
 void add_header(PngChunks& file, const RunLayer& layer, ColourType type, int bit_depth) {
   const char rest[] = {static_cast<char>(bit_depth), static_cast<char>(type), 0, 0, 0};
   file.add("IHDR", big_endian(layer.width()) + big_endian(layer.height()) + std::string(rest, sizeof rest));
@@ -127,7 +140,8 @@ std::string encode_png(const RunLayer& layer, const Palette& palette, const PngL
   if (type == ColourType::indexed) add_palette(file, palette);
   add_resolution(file, layout);
   if (type == ColourType::rgba)
-    add_data(file, layer, layout.flip_y, RgbaRows(layer.width(), palette, layout.flip_x, stream), stream);
+    add_data(file, layer, layout.flip_y,
+             RgbaRows(layer.width(), palette, numbers_of(layer, palette), layout.flip_x, stream), stream);
   else
     add_data(file, layer, layout.flip_y, PackedRows(layer.width(), numbers, layout.flip_x, stream), stream);
   file.add("IEND", "");

@@ -4,12 +4,14 @@
 #include <cstring>
 
 #include "base/assert.h"
+#include "formats/smooth_row.h"
 
 namespace ombre::formats {
 namespace {
 
 constexpr uint8_t filter_none = 0, filter_up = 2;
-constexpr size_t pixels_at = 2;  // in the buffers of PackedRows
+constexpr size_t fewest_changes = 16;  // of bytes, that a row with fewer has little to gain
+constexpr size_t pixels_at = 2;        // in the buffers of PackedRows
 
 // `sample` in every pixel of a byte.
 uint8_t repeated(uint8_t sample, unsigned bit_depth) {
@@ -31,7 +33,7 @@ RowPacker::RowPacker(uint32_t width, const Samples& samples, bool flip_x)
       bit_depth_(static_cast<unsigned>(samples.bit_depth)),
       flip_x_(flip_x),
       samples_(samples.of),
-      voxels_(size_t{width} + 8) {
+      voxels_(size_t{width} + 8, samples.ids.front()) {
   if (bit_depth_ == 8) return;
   pairs_.resize(size_t{1} << 16);
   for (const MaterialId a : samples.ids)
@@ -114,13 +116,24 @@ void PackedRows::put(const RowView& row) {
     packer_.pack(row, row_.data() + pixels_at);
   }
   compare_neighbours(row_, filter_none);
-  if (is_first || !pays_as_difference(repeats)) return write(row_);
+  const size_t changes = equal_.size() - equal_.equal_count();
+  if (!repeats && has_edges_to_follow(row, changes)) {
+    history_.put_row(row_.data() + 1, equal_.size(), out_.deflate);
+    return finish_row(row_);
+  }
+  history_.clear();
+  if (is_first || !pays_as_difference(repeats, changes)) return write(row_);
   if (repeats)
     std::fill(difference_.begin(), difference_.end(), uint8_t{0});
   else
     for (size_t i = pixels_at; i < row_.size(); ++i) difference_[i] = static_cast<uint8_t>(row_[i] - row_above_[i]);
   compare_neighbours(difference_, filter_up);
   write(difference_);
+}
+
+// Many edges, but far more between them.
+bool PackedRows::has_edges_to_follow(const RowView& row, size_t changes) const {
+  return changes >= fewest_changes && 4 * changes < equal_.size() && is_smooth(row, packer_.width());
 }
 
 void PackedRows::compare_neighbours(std::vector<uint8_t>& bytes, uint8_t filter) {
@@ -131,8 +144,7 @@ void PackedRows::compare_neighbours(std::vector<uint8_t>& bytes, uint8_t filter)
 
 // Smooth shapes change little from row to row: there the difference is mostly zero. The difference of
 // dithered rows says more than the row. An edge is two changes along the row, of which one may have moved.
-bool PackedRows::pays_as_difference(bool repeats) {
-  const size_t changes = equal_.size() - equal_.equal_count();
+bool PackedRows::pays_as_difference(bool repeats, size_t changes) {
   if (repeats) return changes > 0;
   equal_above_.compare(row_.data() + pixels_at, row_above_.data() + pixels_at, packer_.size());
   return 2 * (packer_.size() - equal_above_.equal_count()) < changes;
@@ -149,7 +161,11 @@ void PackedRows::write(const std::vector<uint8_t>& bytes) {
     written = equal_.stretch_end(begin);
     out_.deflate.match(static_cast<uint32_t>(written - begin), 1);
   }
-  out_.sum.add(stream, equal_.size());
+  finish_row(bytes);
+}
+
+void PackedRows::finish_row(const std::vector<uint8_t>& bytes) {
+  out_.sum.add(bytes.data() + 1, bytes.size() - 1);
   last_byte_ = bytes.back();
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/run.h"
+#include "formats/byte_history.h"
 #include "formats/equal_bytes.h"
 #include "formats/zlib_stream.h"
 
@@ -13,8 +14,8 @@ namespace ombre::formats {
 
 // What a pixel of each material is.
 struct Samples {
-  int bit_depth = 8;  // 1, 2, 4 or 8
-  std::vector<MaterialId> ids;
+  int bit_depth = 8;              // 1, 2, 4 or 8
+  std::vector<MaterialId> ids;    // that occur, at least one
   std::array<uint8_t, 256> of{};  // by id
 };
 
@@ -23,6 +24,7 @@ class RowPacker {
  public:
   RowPacker(uint32_t width, const Samples& samples, bool flip_x);
 
+  uint32_t width() const { return width_; }
   size_t size() const { return (size_t{width_} * bit_depth_ + 7) / 8; }
   void pack(const RowView& row, uint8_t* out);
 
@@ -37,7 +39,7 @@ class RowPacker {
   bool flip_x_;
   std::array<uint8_t, 256> samples_;
   std::vector<uint8_t> pairs_;      // the samples of two neighbours, by their ids
-  std::vector<MaterialId> voxels_;  // of one row, and some void
+  std::vector<MaterialId> voxels_;  // of one row, and some more
 };
 
 // Writes packed rows, each as it is or as the difference to the row above.
@@ -50,14 +52,17 @@ class PackedRows {
 
  private:
   void compare_neighbours(std::vector<uint8_t>& bytes, uint8_t filter);
-  bool pays_as_difference(bool repeats);
+  bool pays_as_difference(bool repeats, size_t changes);
+  bool has_edges_to_follow(const RowView& row, size_t changes) const;
   void write(const std::vector<uint8_t>& bytes);
+  void finish_row(const std::vector<uint8_t>& bytes);
 
   RowPacker packer_;
   ZlibStream& out_;
   RowView above_;
   // The last byte written before, the filter, then pixels.
   std::vector<uint8_t> row_, row_above_, difference_;
+  ByteHistory history_;             // of rows with such edges, while no other comes in between
   EqualBytes equal_, equal_above_;  // to the byte before, to the byte above
   uint8_t last_byte_ = 0xFF;        // not a filter, so nothing repeats it
 };

@@ -147,6 +147,25 @@ TEST(Png, KeepsEveryVoxelOfSmoothLayers) {
   expect_same_voxels(layer, palette_of(1));
 }
 
+TEST(Png, KeepsEveryVoxelOfDitheredLayers) {
+  for (const int materials : {1, 3, 5, 40})
+    expect_same_voxels(random_layer(500, 200, materials, 1, 1), palette_of(materials));
+}
+
+TEST(Png, KeepsEveryVoxelWhereManyEdgesMove) {
+  constexpr uint32_t width = 3200, stripe = 80;
+  RunLayer layer(width);
+  for (uint32_t row = 0; row < 100; ++row) {
+    const uint32_t shift = row % 30 == 17 ? 1 : 1 + row * row / 50 % (stripe - 1);
+    for (uint32_t begin = 0; begin < width; begin += stripe) {
+      layer.add_uniform(static_cast<MaterialId>(begin / stripe % 3), shift);
+      layer.add_uniform(static_cast<MaterialId>(begin / stripe % 2), stripe - shift);
+    }
+    layer.end_row();
+  }
+  expect_same_voxels(layer, palette_of(2));
+}
+
 TEST(Png, StoresTheDepthOfTheWholeJob) {
   const RunLayer layer = random_layer(10, 4, 1, 4, 1);  // one material here, twenty in the job
   const PngImage image = decode_png(encode_png(layer, palette_of(20), {}), "test");

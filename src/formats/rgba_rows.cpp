@@ -3,35 +3,13 @@
 #include <algorithm>
 #include <cstring>
 
+#include "formats/smooth_row.h"
+
 namespace ombre::formats {
 namespace {
 
+constexpr size_t spare_bytes = 8;  // of packed rows, for the history
 constexpr uint8_t filter_none = 0, filter_up = 2;
-constexpr uint32_t fewest_pixels = 4;  // a match of less costs more than its pixels
-constexpr uint64_t measured_rows = 64;
-constexpr uint32_t smooth_pixels = 32;  // to a run, on average
-
-void expand(std::span<const MaterialId> voxels, const std::array<Rgba, 256>& colours, std::span<uint8_t> bytes) {
-  uint8_t* out = bytes.data();
-  for (const MaterialId id : voxels) {
-    std::memcpy(out, colours[id].data(), sizeof(Rgba));
-    out += sizeof(Rgba);
-  }
-}
-
-// So many that as often as not another such stretch lies among the last 1024 or so pixels. Two pixels that
-// are independent agree with the probability with which neighbours do.
-uint32_t key_pixels(double agreeing) {
-  constexpr uint32_t fewest = 4, most = 8;
-  constexpr double rarest = 1.0 / 1024;
-  double probability = agreeing;
-  uint32_t count = 1;
-  while (count < most && probability > rarest) {
-    probability *= agreeing;
-    ++count;
-  }
-  return std::max(count, fewest);
-}
 
 Rgba difference(Rgba a, Rgba b) {
   Rgba result;
@@ -66,20 +44,28 @@ class RunReader {
 
 }  // namespace
 
-RgbaRows::RgbaRows(uint32_t width, const Palette& palette, bool flip_x, ZlibStream& out)
-    : width_(width), flip_x_(flip_x), out_(out), history_(width), voxels_(width), bytes_(size_t{4} * width) {
-  for (const MaterialId id : palette.ids()) colours_[id] = palette.colours()[palette.entry(id)];
+RgbaRows::RgbaRows(uint32_t width, const Palette& palette, const Samples& numbers, bool flip_x, ZlibStream& out)
+    : width_(width),
+      bits_(static_cast<unsigned>(numbers.bit_depth)),
+      flip_x_(flip_x),
+      out_(out),
+      packer_(width, numbers, flip_x),
+      packed_(packer_.size() + spare_bytes),
+      image_(packer_.size() * 8 / bits_ * sizeof(Rgba)),
+      history_(width, bits_) {
+  std::array<Rgba, 256> of_number{};
+  for (const MaterialId id : numbers.ids)
+    of_number[numbers.of[id]] = colours_[id] = palette.colours()[palette.entry(id)];
+  for (unsigned byte = 0; byte < 256; ++byte)
+    for (unsigned end = bits_; end <= 8; end += bits_)
+      pixels_of_byte_.push_back(of_number[byte >> (8 - end) & ((1U << bits_) - 1)]);
 }
 
 void RgbaRows::put(const RowView& row) {
-  if (row.has_dense()) equal_.compare(row.dense.data() + 1, row.dense.data(), row.dense.size() - 1);
-  const size_t alike = row.has_dense() ? equal_.equal_count() : 0;
-  const size_t stretches = row.runs.size() + row.dense.size() - alike;  // at most
-  const bool is_smooth = !row.has_dense() || stretches <= width_ / smooth_pixels;
-  if (is_smooth)
+  if (is_smooth(row, width_))
     put_smooth(row);
   else
-    put_dense(row, alike);
+    put_dense(row);
 }
 
 void RgbaRows::put_smooth(const RowView& row) {
@@ -143,32 +129,36 @@ void RgbaRows::put_runs() {
   }
 }
 
-void RgbaRows::put_dense(const RowView& row, size_t alike) {
+void RgbaRows::put_dense(const RowView& row) {
   runs_above_.clear();
   put_filter(filter_none);
-  row.unpack(voxels_.data());
-  if (flip_x_) std::reverse(voxels_.begin(), voxels_.end());
-  expand(voxels_, colours_, bytes_);
-  out_.sum.add(bytes_.data(), bytes_.size());
+  packer_.pack(row, packed_.data());
+  expand();
+  out_.sum.add(image_.data(), size_t{4} * width_);
+  history_.put_row(packed_.data(), image_.data(), out_.deflate);
+}
 
-  if (dense_rows_++ % measured_rows == 0) {
-    const auto voxels = static_cast<double>(row.dense.size());
-    history_.set_key_pixels(key_pixels(static_cast<double>(alike) / voxels));
+void RgbaRows::expand() {
+  switch (bits_) {
+    case 1:
+      return expand_bytes<8>();
+    case 2:
+      return expand_bytes<4>();
+    case 4:
+      return expand_bytes<2>();
+    default:
+      return expand_bytes<1>();
   }
-  history_.add_row(voxels_.data());
-  uint32_t written = 0;
-  for (uint32_t column = 0; column < width_;) {
-    const PixelHistory::Match match = history_.find(column);
-    if (match.pixels < fewest_pixels) {
-      ++column;
-      continue;
-    }
-    out_.deflate.literals(bytes_.data() + size_t{4} * written, size_t{4} * (column - written));
-    out_.deflate.match(4 * match.pixels, match.distance);
-    written = column + match.pixels;
-    column = written;
+}
+
+template <size_t pixels_in_byte>
+void RgbaRows::expand_bytes() {
+  const Rgba* const pixels = pixels_of_byte_.data();  // which no byte written can move
+  uint8_t* out = image_.data();
+  for (const uint8_t byte : std::span(packed_).first(packer_.size())) {
+    std::memcpy(out, pixels + byte * pixels_in_byte, sizeof(Rgba) * pixels_in_byte);
+    out += sizeof(Rgba) * pixels_in_byte;
   }
-  out_.deflate.literals(bytes_.data() + size_t{4} * written, size_t{4} * (width_ - written));
 }
 
 void RgbaRows::put_filter(uint8_t filter) {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/run.h"
-#include "formats/equal_bytes.h"
 #include "formats/palette.h"
 #include "formats/pixel_history.h"
+#include "formats/png_rows.h"
 #include "formats/zlib_stream.h"
 
 namespace ombre::formats {
@@ -17,7 +17,8 @@ namespace ombre::formats {
 // bytes. Dithered rows repeat what was written before wherever a few pixels agree.
 class RgbaRows {
  public:
-  RgbaRows(uint32_t width, const Palette& palette, bool flip_x, ZlibStream& out);
+  // `numbers` tells the materials apart that occur.
+  RgbaRows(uint32_t width, const Palette& palette, const Samples& numbers, bool flip_x, ZlibStream& out);
 
   // From the top.
   void put(const RowView& row);
@@ -27,20 +28,24 @@ class RgbaRows {
   void set_runs(const RowView& row);
   void put_difference();
   void put_runs();
-  void put_dense(const RowView& row, size_t alike);
+  void put_dense(const RowView& row);
+  void expand();
+  template <size_t pixels_in_byte>
+  void expand_bytes();
   void put_filter(uint8_t filter);
   void put_stretch(Rgba pixel, uint32_t count);
 
   uint32_t width_;
+  unsigned bits_;  // that tell materials apart
   bool flip_x_;
   std::array<Rgba, 256> colours_{};  // by id
   ZlibStream& out_;
-  EqualBytes equal_;
   std::vector<Run> runs_, runs_above_;  // of smooth rows
-  uint64_t dense_rows_ = 0;
+  // A dithered row in numbers and in colours.
+  RowPacker packer_;
+  std::vector<Rgba> pixels_of_byte_;  // of a byte of numbers
+  std::vector<uint8_t> packed_, image_;
   PixelHistory history_;
-  std::vector<MaterialId> voxels_;
-  std::vector<uint8_t> bytes_;
 };
 
 }  // namespace ombre::formats
