@@ -167,7 +167,8 @@ std::vector<LayerResult> LayerEvaluator::layers(int64_t begin, int64_t end) cons
   std::vector<LayerResult> results(static_cast<size_t>(end - begin));
   const size_t check_count = parts_->job.selector.check_count;
   std::vector<std::vector<CheckHits>> checks(results.size(), std::vector<CheckHits>(check_count));
-  for (LayerResult& layer : results) layer.runs = RunLayer(static_cast<uint32_t>(count[0]));
+  for (LayerResult& layer : results)
+    layer.runs = RunLayer(static_cast<uint32_t>(count[0]), static_cast<uint32_t>(count[1]));
   const Remainder slab = parts_->remainder({{0, 0, begin}, {count[0], count[1], end}});
   const auto leaf = parts_->make_leaf();
   TileWalk walk(parts_->job, parts_->precision(), parts_->walk_options(), *leaf);
