@@ -192,8 +192,8 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   voxel::EvaluatorOptions how = options.evaluator;
   if (how.evaluator == voxel::Evaluator::batch) how.evaluator = voxel::best_evaluator(*lattice);
   request.evaluator = how.evaluator;
-  auto evaluator = std::make_shared<const voxel::LayerEvaluator>(std::move(built->materials), *lattice, options.dither,
-                                                                 options.seed, how);
+  auto evaluator =
+      std::make_shared<const voxel::LayerEvaluator>(built->materials, *lattice, options.dither, options.seed, how);
   plan.producer = [loaded, evaluator](int64_t begin, int64_t end, const StopFlag* stop) {
     return evaluator->layers(begin, end, stop);
   };

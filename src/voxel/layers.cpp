@@ -150,7 +150,7 @@ class RowSink {
   size_t kept_thresholds_ = 0;
 };
 
-LayerEvaluator::LayerEvaluator(MaterialProgram program, const Lattice& lattice, Dither dither, uint64_t seed,
+LayerEvaluator::LayerEvaluator(const MaterialProgram& program, const Lattice& lattice, Dither dither, uint64_t seed,
                                const EvaluatorOptions& options)
     : parts_(std::make_unique<Parts>(Parts{{make_selector(program, dither), lattice, dither, seed}, options, {}, {}})) {
   Selector& selector = parts_->job.selector;

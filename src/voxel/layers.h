@@ -62,7 +62,7 @@ std::vector<std::string> instruction_sets();
 // Thread-safe; the result for a layer does not depend on how layers are grouped.
 class LayerEvaluator {
  public:
-  LayerEvaluator(MaterialProgram program, const Lattice& lattice, Dither dither, uint64_t seed,
+  LayerEvaluator(const MaterialProgram& program, const Lattice& lattice, Dither dither, uint64_t seed,
                  const EvaluatorOptions& options = {});
   ~LayerEvaluator();
 
