@@ -30,7 +30,7 @@ fgrade(["0.5 + z/10", "0.5 - z/10"], ["red", "blue"]) {
 }
 """
 SMALL = ["--voxel", "0.1"]
-LONG = ["--voxel", "0.015"]
+LONG = ["--voxel", "0.012"]
 
 
 class Job:
@@ -327,7 +327,9 @@ def whole_long_job(job):
     return time.monotonic() - began
 
 
-def resume_and_compare(job, out):
+def resume_and_compare(job, out, parts_may_lie=True):
+    parts = [p.name for p in (job.folder / out).glob("*.part")]
+    expect(parts_may_lie or not parts, f"unfinished files: {parts}")
     kept = job.slice(out, *LONG, "--resume", "--json")
     done = [json.loads(line) for line in kept.stdout.splitlines()][-1]
     expect_same(job.folder / "whole", job.folder / out)
@@ -365,7 +367,25 @@ def interrupted_jobs_resume(job):
     process.send_signal(signal.SIGINT)
     status = process.wait(timeout=20)
     expect(status == 130, f"status {status} after an interrupt, expected 130")
-    resume_and_compare(job, "interrupted")
+    resume_and_compare(job, "interrupted", parts_may_lie=False)
+
+
+def large_layers_stop_and_resume(job):
+    """A whole tray in one piece. Stopped within its first layers; those that are made later are the same."""
+    job.design = job.write("tray.vcad", """fgrade(["0.5 + x/480", "0.5 - x/480"], ["red", "blue"]) {
+                           ellipsoid((240, 190, 97), "red"); }""")
+    tray = ["--printer", "j750", "--format", "indexed"]
+    process = job.start("out", *tray)
+    while not (job.folder / "out" / "journal.jsonl").exists() and process.poll() is None:
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    status = process.wait(timeout=60)
+    expect(status == 130, f"status {status} after an interrupt, expected 130")
+    names = sorted(p.name for p in (job.folder / "out").iterdir())
+    expect(not [name for name in names if name.endswith(".part")], f"unfinished files: {names}")
+    job.slice("out", *tray, "--layers", "30:32", "--memory", "200M", "--resume")
+    ombre_layer(job, *tray, "--index", "31", "-o", "one.png")
+    expect((job.folder / "out" / "slice_00031.png").read_bytes() == (job.folder / "one.png").read_bytes(), "other bytes")
 
 
 def resume_refuses_another_job(job):
@@ -455,6 +475,8 @@ def full_disk(job):
     try:
         job.slice("whole", *SMALL)
         (disk / "filler").write_bytes(bytes((1 << 20) - 64 * 1024))
+        told = job.slice("disk/out", *SMALL, "--dry-run").stderr
+        expect("KiB left" in told and not (disk / "out").exists(), f"no word about the disk: {told}")
         result = job.slice("disk/out", *SMALL, status=2)
         expect(str(disk / "out") in result.stderr, f"it does not name the path: {result.stderr}")
         for path in layers(disk / "out"):
@@ -504,7 +526,7 @@ QUICK = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make_
          wrong_layers_are_explained, resume_refuses_another_job, damaged_layers_are_made_again, foreign_files_are_left_alone,
          finished_jobs_are_not_overwritten, force_removes_the_old_layers, output_that_is_a_file,
          folder_that_may_not_be_written, full_disk, reference_is_up_to_date, examples_of_nodes_slice]
-SLOW = [killed_jobs_resume, killed_twice_resumes, interrupted_jobs_resume]
+SLOW = [killed_jobs_resume, killed_twice_resumes, interrupted_jobs_resume, large_layers_stop_and_resume]
 
 
 def in_scratch(function, ombre):

@@ -49,13 +49,13 @@ std::string progress_bar(const Pace& pace) {
   return '[' + bar + "] " + progress_text(pace);
 }
 
-void ProgressLine::update(uint64_t done, uint64_t total) {
+void ProgressLine::update(const HowFar& how_far) {
   const std::scoped_lock lock(mutex_);
   const auto now = Clock::now();
   if (!started_) {
     started_ = true;
     start_ = shown_ = now;
-    done_at_start_ = done;  // what an earlier run finished tells nothing about the pace of this one
+    done_at_start_ = how_far.done;  // what an earlier run finished tells nothing about the pace of this one
     return;
   }
   const bool programs = console_.voice() == Voice::programs;
@@ -64,15 +64,14 @@ void ProgressLine::update(uint64_t done, uint64_t total) {
   shown_ = now;
 
   Pace pace;
-  pace.share = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1;
+  const auto done = static_cast<double>(how_far.done), total = static_cast<double>(how_far.total);
+  pace.share = total > 0 ? done / total : 1;
+  pace.seconds_left = how_far.seconds_left;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  if (done > done_at_start_ && elapsed > 0) {
-    pace.voxels_per_second = static_cast<double>(done - done_at_start_) / elapsed;
-    pace.seconds_left = static_cast<double>(total - done) / pace.voxels_per_second;
-  }
+  if (elapsed > 0) pace.voxels_per_second = (done - static_cast<double>(done_at_start_)) / elapsed;
   if (programs) {
-    console_.event("progress", {{"voxels_done", static_cast<double>(done)},
-                                {"voxels_total", static_cast<double>(total)},
+    console_.event("progress", {{"voxels_done", done},
+                                {"voxels_total", total},
                                 {"voxels_per_second", std::round(pace.voxels_per_second)},
                                 {"seconds_left", std::round(pace.seconds_left)}});
     return;

@@ -30,7 +30,7 @@ class ProgressLine : public Progress {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  void update(uint64_t done, uint64_t total) override;
+  void update(const HowFar& how_far) override;
   // Clears the bar, so that other text can follow.
   void finish();
 

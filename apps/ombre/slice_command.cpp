@@ -8,6 +8,7 @@
 #include "ombre/arguments.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
+#include "ombre/free_space.h"
 #include "ombre/interrupt.h"
 #include "ombre/job_arguments.h"
 #include "ombre/progress_line.h"
@@ -43,7 +44,9 @@ void add_arguments(CLI::App& app, SliceArguments& a) {
   app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
-  app.add_option("--memory", a.memory, "Most memory for layers in flight (default 2G)")->type_name("SIZE");
+  app.add_option("--memory", a.memory,
+                 "Most memory for layers in flight, with their images and what evaluating them takes (default 2G)")
+      ->type_name("SIZE");
   CLI::Option* force =
       app.add_flag("--force", a.force, "Replace the job in the folder, or write beside other files; those stay");
   app.add_flag("--resume", a.resume, "Continue the job in the folder")->excludes(force);
@@ -77,16 +80,46 @@ compile::SliceOptions slice_options(const SliceArguments& a, const compile::Slic
   return options;
 }
 
-int dry_run(const compile::Plan& plan, const compile::SliceOptions& options, Session& session) {
-  const compile::SliceEstimate estimate = compile::estimate_slice(plan.request, plan.producer, options);
+// The line for people, and a warning as soon as the layers to come are known to be too many for the disk.
+class SliceProgress : public Progress {
+ public:
+  SliceProgress(const Console& console, std::string folder)
+      : console_(console), folder_(std::move(folder)), line_(console) {}
+
+  void update(const HowFar& how_far) override {
+    line_.update(how_far);
+    const std::string warning = warned_ ? "" : space_warning(folder_, how_far.bytes_left);
+    if (warning.empty()) return;
+    line_.finish();
+    console_.warn(warning);
+    warned_ = true;
+  }
+  void finish() { line_.finish(); }
+
+ private:
+  const Console& console_;
+  std::string folder_;
+  ProgressLine line_;
+  bool warned_ = false;
+};
+
+int dry_run(const compile::Plan& plan, const compile::SliceOptions& options, Session& session, const StopFlag& stop) {
+  compile::SliceEstimate estimate;
+  try {
+    estimate = compile::estimate_slice(plan.request, plan.producer, options, &stop);
+  } catch (const Cancelled&) {
+    return interrupted;
+  }
   tell_estimate(session.console, plan.request, estimate);
+  const std::string warning = space_warning(options.folder, static_cast<double>(estimate.bytes));
+  if (!warning.empty()) session.console.warn(warning);
   tell_checks(session.console, estimate.checks);
   return options.strict && !estimate.checks.empty() ? check_failed : done;
 }
 
 int write_slices(const compile::Plan& plan, const compile::SliceOptions& options, Session& session,
                  const StopFlag& stop) {
-  ProgressLine progress(session.console);
+  SliceProgress progress(session.console, options.folder);
   try {
     const compile::SliceReport report = compile::slice(plan.request, plan.producer, options, &progress, &stop);
     progress.finish();
@@ -124,7 +157,8 @@ int slice(const SliceArguments& a, Session& session) {
 
   const compile::SliceOptions options = slice_options(a, plan->request);
   tell_plan(session.console, plan->request, options);
-  return a.dry_run ? dry_run(*plan, options, session) : write_slices(*plan, options, session, interrupt.flag());
+  const StopFlag& stop = interrupt.flag();
+  return a.dry_run ? dry_run(*plan, options, session, stop) : write_slices(*plan, options, session, stop);
 }
 
 }  // namespace

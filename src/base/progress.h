@@ -6,15 +6,20 @@
 
 namespace ombre {
 
+// How far a long job is, and what is still to come, below 0 while unknown.
+struct HowFar {
+  uint64_t done = 0, total = 0;  // units of work
+  double seconds_left = -1, bytes_left = -1;
+};
+
 // Passed down into long work. Called from several threads; implementations synchronise.
 class Progress {
  public:
   virtual ~Progress() = default;
-  // `done` of `total` units of the current step are finished.
-  virtual void update(uint64_t done, uint64_t total) = 0;
+  virtual void update(const HowFar& how_far) = 0;
 };
 
-// Set from a signal handler or another thread; work checks it between slabs and throws Cancelled.
+// Set from a signal handler or another thread; work looks at it every tenth of a second or so and throws Cancelled.
 class StopFlag {
  public:
   void request() { flag_.store(true, std::memory_order_relaxed); }

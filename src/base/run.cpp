@@ -148,6 +148,11 @@ bool RowView::operator==(const RowView& other) const {
          std::equal(dense.begin(), dense.end(), other.dense.begin(), other.dense.end());
 }
 
+RunLayer::RunLayer(uint32_t width, uint32_t height) : width_(width) {
+  dense_.reserve(size_t{width} * height);
+  ends_.reserve(height);
+}
+
 RowView RunLayer::row(uint32_t j) const {
   const RowEnd begin = row_begin(j), end = ends_[j];
   return {{runs_.data() + begin.runs, end.runs - begin.runs}, {dense_.data() + begin.dense, end.dense - begin.dense}};

@@ -38,7 +38,8 @@ class RunLayer {
  public:
   static constexpr uint32_t shortest_run = 32;
 
-  explicit RunLayer(uint32_t width = 0) : width_(width) {}
+  // With the height known, room for all voxels is set aside; it takes memory only where it is written to.
+  explicit RunLayer(uint32_t width = 0, uint32_t height = 0);
 
   uint32_t width() const { return width_; }
   uint32_t height() const { return static_cast<uint32_t>(ends_.size()); }

@@ -29,7 +29,7 @@ std::vector<MaterialId> slice_example(const LoadedPtr& loaded, voxel::Evaluator 
     options.pitch[axis] = Pitch::from_mm(std::ceil(plan->request.lattice.pitch[axis].mm() * finer * 1e4) / 1e4);
   plan = plan_slice(loaded, options, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << to_text(diagnostics);
-  return plan ? unpack(plan->producer(0, plan->request.lattice.count[2])) : std::vector<MaterialId>();
+  return plan ? unpack(plan->producer(0, plan->request.lattice.count[2], nullptr)) : std::vector<MaterialId>();
 }
 
 class EveryExample : public testing::TestWithParam<std::string> {};

@@ -87,8 +87,8 @@ void remove_file(const std::string& path) {
 
 }  // namespace
 
-JobFolder::JobFolder(std::string path, const SliceRequest& request, FolderUse use, int threads)
-    : path_(std::move(path)), request_(request), files_(request), threads_(threads) {
+JobFolder::JobFolder(std::string path, const SliceRequest& request, FolderUse use, int threads, const StopFlag* stop)
+    : path_(std::move(path)), request_(request), files_(request), threads_(threads), stop_(stop) {
   make_folder(path_);
   lock_ = std::make_unique<FolderLock>(path_);
   switch (use) {
@@ -202,7 +202,10 @@ void JobFolder::remove_parts() const {
 
 void JobFolder::keep_proven(std::vector<JournalEntry> entries) {
   std::vector<char> good(entries.size());  // not vector<bool>: written from several threads
-  run_parallel(entries.size(), threads_, [&](size_t i) { good[i] = proven(entries[i]); });
+  run_parallel(entries.size(), threads_, [&](size_t i) {
+    if (stop_ && stop_->requested()) throw Cancelled();
+    good[i] = proven(entries[i]);
+  });
   for (size_t i = 0; i < entries.size(); ++i)
     if (good[i]) finished_.emplace(entries[i].layer, std::move(entries[i]));
 }

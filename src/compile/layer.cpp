@@ -54,8 +54,8 @@ LayerImages make_layer(const SliceRequest& request, const LayerProducer& produce
                        const std::optional<LayerWindow>& window) {
   SliceRequest kept = request;
   kept.drop_empty_layers = false;
-  const LayerProducer cutting = [&](int64_t begin, int64_t end) {
-    std::vector<voxel::LayerResult> layers = producer(begin, end);
+  const LayerProducer cutting = [&](int64_t begin, int64_t end, const StopFlag* stop) {
+    std::vector<voxel::LayerResult> layers = producer(begin, end, stop);
     for (voxel::LayerResult& result : layers) result.runs = cut(result.runs, *window);
     return layers;
   };

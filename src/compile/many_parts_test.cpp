@@ -125,7 +125,7 @@ TEST(ManyParts, TellOfFailedChecks) {
   ASSERT_TRUE(plan) << to_text(diagnostics);
   ASSERT_EQ(plan->request.check_texts.size(), 1u);
   uint64_t hits = 0;
-  for (const auto& layer : plan->producer(0, plan->request.lattice.count[2])) hits += layer.checks[0].count;
+  for (const auto& layer : plan->producer(0, plan->request.lattice.count[2], nullptr)) hits += layer.checks[0].count;
   // The ball of radius 1.
   const double voxel = 0.05 * 0.06 * 0.07;
   EXPECT_NEAR(static_cast<double>(hits) * voxel, 4.18879, 0.05);

@@ -194,7 +194,9 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   request.evaluator = how.evaluator;
   auto evaluator =
       std::make_shared<const voxel::LayerEvaluator>(built->materials, *lattice, options.dither, options.seed, how);
-  plan.producer = [loaded, evaluator](int64_t begin, int64_t end) { return evaluator->layers(begin, end); };
+  plan.producer = [loaded, evaluator](int64_t begin, int64_t end, const StopFlag* stop) {
+    return evaluator->layers(begin, end, stop);
+  };
   return plan;
 }
 

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 
+#include "base/assert.h"
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "base/tasks.h"
+#include "compile/forecast.h"
 #include "compile/job_folder.h"
 #include "compile/slice_work.h"
 
@@ -19,7 +21,7 @@ LayerRange layers_asked_for(const SliceRequest& request, const SliceOptions& opt
   return {std::clamp(asked.begin, whole.begin, whole.end), std::clamp(asked.end, whole.begin, whole.end)};
 }
 
-// Tells how many voxels of the layers asked for are done.
+// Tells how many voxels of the layers asked for are done, and what is left.
 class VoxelProgress {
  public:
   VoxelProgress(Progress* progress, const SliceRequest& request, LayerRange layers)
@@ -28,9 +30,17 @@ class VoxelProgress {
                       static_cast<uint64_t>(request.lattice.count[1])),
         total_(static_cast<uint64_t>(layers.end - layers.begin)) {}
 
-  void add_layers(size_t count) {
+  bool is_watched() const { return progress_ != nullptr; }
+
+  void add_layers(size_t count, const Forecast& forecast) {
     done_ += count;
-    if (progress_) progress_->update(done_ * layer_voxels_, total_ * layer_voxels_);
+    if (!progress_) return;
+    HowFar how_far{done_ * layer_voxels_, total_ * layer_voxels_};
+    if (const auto left = forecast.left()) {
+      how_far.seconds_left = left->seconds;
+      how_far.bytes_left = left->bytes;
+    }
+    progress_->update(how_far);
   }
 
  private:
@@ -48,14 +58,15 @@ class SliceRun {
         options_(options),
         stop_(stop),
         size_(size_work(request, options)),
-        folder_(options.folder, request, options.use, size_.threads),
+        folder_(options.folder, request, options.use, size_.threads, stop),
         layers_(layers_asked_for(request, options)),
+        slabs_(missing_slabs(layers_, folder_.finished(), size_.slab_layers)),
+        forecast_(slabs_, size_.threads),
         progress_(progress, request, layers_) {}
 
   SliceReport run() {
-    const std::vector<LayerRange> slabs = missing_slabs(layers_, folder_.finished(), size_.slab_layers);
     count_finished();
-    if (!failed_check_) write(slabs);
+    if (!failed_check_) write();
     report_.whole_job_finished = folder_.close();
     if (skipped_ && !failed_check_) throw Cancelled();
     finish_report();
@@ -63,7 +74,10 @@ class SliceRun {
   }
 
  private:
-  using Slab = std::vector<EncodedLayer>;
+  struct Slab {
+    std::vector<EncodedLayer> layers;
+    LayerCost cost;
+  };
 
   void count_finished() {
     for (const auto& [layer, entry] : folder_.finished()) {
@@ -71,31 +85,59 @@ class SliceRun {
       ++report_.layers_kept;
       note_checks(entry);
     }
-    progress_.add_layers(static_cast<size_t>(report_.layers_kept));
+    progress_.add_layers(static_cast<size_t>(report_.layers_kept), forecast_);
   }
 
-  void write(const std::vector<LayerRange>& slabs) {
-    const exporting::MaterialStack stack = image_stack(request_);
-    // Slabs not begun when the run is to stop come back empty; those in flight are still written.
+  void write() {
     const auto produce = [&](size_t i) {
-      if (failed_check_ || (stop_ && stop_->requested())) {
-        skipped_ = true;
-        return Slab();
-      }
-      return make_slab(request_, producer_, stack, slabs[i]);
+      look_ahead();
+      return make(slabs_[i]);
     };
-    const auto consume = [&](size_t, Slab& slab) { write_slab(slab); };
-    run_ordered<Slab>(slabs.size(), size_.threads, size_.window, produce, consume);
+    const auto consume = [&](size_t i, Slab& slab) { write_slab(slabs_[i], slab); };
+    run_ordered<Slab>(slabs_.size(), size_.threads, size_.window, produce, consume);
   }
 
-  void write_slab(Slab& slab) {
-    for (EncodedLayer& layer : slab) {
+  bool is_stopping() const { return failed_check_ || (stop_ && stop_->requested()); }
+
+  // When the run is to stop, with fewer layers or none: those that are encoded are still written.
+  Slab make(LayerRange range) {
+    Slab slab;
+    const Stopwatch watch;
+    try {
+      if (!is_stopping()) slab.layers = make_slab(request_, producer_, stack_, range, stop_);
+    } catch (const Cancelled&) {
+      ASSERT(slab.layers.empty());
+    }
+    slab.cost.seconds = watch.seconds();
+    for (const EncodedLayer& layer : slab.layers) slab.cost.bytes += static_cast<double>(layer.bytes());
+    return slab;
+  }
+
+  static bool is_whole(LayerRange range, const Slab& slab) {
+    return slab.layers.size() == static_cast<size_t>(range.end - range.begin);
+  }
+
+  void look_ahead() {
+    if (!progress_.is_watched() || is_stopping()) return;
+    const std::optional<LayerRange> range = forecast_.look_ahead();
+    if (!range) return;
+    const Slab slab = make(*range);
+    if (is_whole(*range, slab)) forecast_.add_sample(*range, slab.cost);
+  }
+
+  void write_slab(LayerRange range, Slab& slab) {
+    const Stopwatch watch;
+    for (EncodedLayer& layer : slab.layers) {
       ++(layer.images.empty() ? report_.layers_dropped : report_.layers_written);
       report_.bytes_written += layer.bytes();
       note_checks(layer.entry);
       folder_.add(std::move(layer.entry), layer.images);
     }
-    progress_.add_layers(slab.size());
+    if (is_whole(range, slab))
+      forecast_.add_written(slab.cost, watch.seconds());
+    else
+      skipped_ = true;
+    progress_.add_layers(slab.layers.size(), forecast_);
   }
 
   void note_checks(const JournalEntry& entry) {
@@ -124,18 +166,22 @@ class SliceRun {
   WorkSize size_;
   JobFolder folder_;
   LayerRange layers_;
+  const std::vector<LayerRange> slabs_;  // that are missing
+  Forecast forecast_;
   VoxelProgress progress_;
+  const exporting::MaterialStack stack_ = image_stack(request_);
   SliceReport report_;
-  std::atomic<bool> skipped_{false}, failed_check_{false};
+  bool skipped_ = false;
+  std::atomic<bool> failed_check_{false};
 };
 
 }  // namespace
 
 SliceReport slice(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options,
                   Progress* progress, const StopFlag* stop) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   SliceReport report = SliceRun(request, producer, options, progress, stop).run();
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.seconds = watch.seconds();
   return report;
 }
 

@@ -55,8 +55,8 @@ struct LayerRange {
 // Nothing when the text is none of these or selects no layer.
 std::optional<LayerRange> parse_layer_range(std::string_view text, int64_t layer_count);
 
-// Layers [begin, end), lowest first. Called from several threads.
-using LayerProducer = std::function<std::vector<voxel::LayerResult>(int64_t begin, int64_t end)>;
+// Layers [begin, end), lowest first. Called from several threads. Throws Cancelled when asked to stop.
+using LayerProducer = std::function<std::vector<voxel::LayerResult>(int64_t begin, int64_t end, const StopFlag* stop)>;
 
 enum class FolderUse {
   fresh,    // the folder must be empty or missing
@@ -70,7 +70,7 @@ struct SliceOptions {
   FolderUse use = FolderUse::fresh;
   std::optional<LayerRange> layers;       // a part of the job, with the names and bytes it has in the whole
   int threads = 0;                        // 0: all cores
-  size_t memory_bytes = size_t{2} << 30;  // for layers in flight; one layer is always allowed
+  size_t memory_bytes = size_t{2} << 30;  // for layers in flight; one at a time is always allowed
   bool strict = false;                    // stop at the first slab in which a check fails
 };
 
@@ -96,8 +96,8 @@ struct SliceReport {
 
 // Progress counts voxels of the lattice. The same request gives the same bytes in the folder, however
 // many threads, interruptions and parts it takes. Throws Error when a file or the folder fails, when the
-// folder holds something else, or another job to resume; Cancelled when asked to stop, once the slabs
-// in flight are written. In both cases the folder can be resumed.
+// folder holds something else, or another job to resume; Cancelled when asked to stop, once the layers that
+// are encoded are written. In both cases the folder can be resumed.
 SliceReport slice(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options,
                   Progress* progress = nullptr, const StopFlag* stop = nullptr);
 
@@ -108,7 +108,9 @@ struct SliceEstimate {
   std::vector<CheckReport> checks;  // that failed in the layers looked at
 };
 
-// Evaluates and encodes a few layers, for two seconds or so, and extrapolates. Writes nothing.
-SliceEstimate estimate_slice(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options);
+// Evaluates and encodes layers here and there, for two seconds or so and as many at once as slicing does, and
+// extrapolates. Writes nothing: the time to write files is a guess for a disk that is not busy.
+SliceEstimate estimate_slice(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options,
+                             const StopFlag* stop = nullptr);
 
 }  // namespace ombre::compile

@@ -95,7 +95,7 @@ voxel::LayerResult ball_layer(const SliceRequest& request, int64_t k, bool with_
 }
 
 LayerProducer ball(const SliceRequest& request, bool with_checks = true) {
-  return [request, with_checks](int64_t begin, int64_t end) {
+  return [request, with_checks](int64_t begin, int64_t end, const StopFlag*) {
     std::vector<voxel::LayerResult> layers;
     for (int64_t k = begin; k < end; ++k) layers.push_back(ball_layer(request, k, with_checks));
     return layers;
@@ -165,9 +165,9 @@ void expect_same(const Contents& a, const Contents& b) {
 // Asks to stop once `after` slabs have begun.
 LayerProducer stopping(const LayerProducer& producer, StopFlag& stop, int after) {
   auto begun = std::make_shared<std::atomic<int>>(0);
-  return [=, &stop](int64_t begin, int64_t end) {
+  return [=, &stop](int64_t begin, int64_t end, const StopFlag*) {
     if (++*begun > after) stop.request();
-    return producer(begin, end);
+    return producer(begin, end, nullptr);
   };
 }
 
@@ -274,7 +274,7 @@ TEST_F(Slice, StoppedRunsResumeToTheSameBytes) {
   for (const int after : {0, 1, 2, 3}) {
     StopFlag stop;
     const SliceRequest request = ball_request();
-    EXPECT_THROW(slice(request, stopping(ball(request), stop, after), options(FolderUse::replace), nullptr, &stop),
+    EXPECT_THROW(slice(request, stopping(ball(request), stop, after), options(FolderUse::replace, 1), nullptr, &stop),
                  Cancelled);
     const Contents partial = contents(folder());
     EXPECT_LT(partial.size(), reference.size());
@@ -285,9 +285,35 @@ TEST_F(Slice, StoppedRunsResumeToTheSameBytes) {
     }
     EXPECT_EQ(*job_json(folder()).find("status")->string(), "unfinished");
     const SliceReport report = run(request, options(FolderUse::resume));
-    EXPECT_GT(report.layers_kept, 0);
+    EXPECT_EQ(report.layers_kept, 8 * after);
     expect_same(reference, contents(folder()));
   }
+}
+
+TEST_F(Slice, StopsWhileASlabIsMade) {
+  const SliceRequest request = ball_request();
+  StopFlag stop;
+  const LayerProducer cancelling = [&](int64_t begin, int64_t end, const StopFlag* asked) {
+    EXPECT_EQ(asked, &stop);
+    if (begin == 16) {
+      stop.request();
+      throw Cancelled();
+    }
+    return ball(request)(begin, end, asked);
+  };
+  EXPECT_THROW(slice(request, cancelling, options(FolderUse::fresh, 1), nullptr, &stop), Cancelled);
+  EXPECT_EQ(contents(folder()).size(), 16U + 2);
+  expect_same(expected(request, root_), (run(request, options(FolderUse::resume)), contents(folder())));
+}
+
+TEST_F(Slice, StopsWhileFinishedLayersAreRead) {
+  run(ball_request(), options());
+  const Contents whole = contents(folder());
+  StopFlag stop;
+  stop.request();
+  const SliceRequest request = ball_request();
+  EXPECT_THROW(slice(request, ball(request), options(FolderUse::resume), nullptr, &stop), Cancelled);
+  expect_same(whole, contents(folder()));
 }
 
 TEST_F(Slice, KilledRunsResumeToTheSameBytes) {
@@ -298,9 +324,9 @@ TEST_F(Slice, KilledRunsResumeToTheSameBytes) {
       const pid_t child = ::fork();
       if (child == 0) {
         try {
-          const LayerProducer slow = [producer = ball(request)](int64_t begin, int64_t end) {
+          const LayerProducer slow = [producer = ball(request)](int64_t begin, int64_t end, const StopFlag*) {
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
-            return producer(begin, end);
+            return producer(begin, end, nullptr);
           };
           slice(request, slow, options(round % 2 ? FolderUse::resume : FolderUse::replace, 1));
         } catch (...) {
@@ -447,12 +473,12 @@ TEST_F(Slice, AFullDiskLeavesAResumableJob) {
 TEST_F(Slice, TwoRunsDoNotShareAFolder) {
   const SliceRequest request = ball_request();
   std::atomic<bool> refused{false};
-  const LayerProducer intruding = [&](int64_t begin, int64_t end) {
+  const LayerProducer intruding = [&](int64_t begin, int64_t end, const StopFlag*) {
     if (begin == 0) {
       expect_error([&] { run(request, options(FolderUse::resume)); }, "another run is writing");
       refused = true;
     }
-    return ball(request)(begin, end);
+    return ball(request)(begin, end, nullptr);
   };
   slice(request, intruding, options());
   EXPECT_TRUE(refused);
@@ -460,9 +486,9 @@ TEST_F(Slice, TwoRunsDoNotShareAFolder) {
 
 TEST_F(Slice, ErrorsOfTheProducerReachTheCallerAndTheJobResumes) {
   const SliceRequest request = ball_request();
-  const LayerProducer failing = [&](int64_t begin, int64_t end) {
+  const LayerProducer failing = [&](int64_t begin, int64_t end, const StopFlag*) {
     if (begin >= 24) throw Error("the mesh is gone");
-    return ball(request)(begin, end);
+    return ball(request)(begin, end, nullptr);
   };
   expect_error([&] { slice(request, failing, options()); }, "the mesh is gone");
   run(request, options(FolderUse::resume));
@@ -472,7 +498,7 @@ TEST_F(Slice, ErrorsOfTheProducerReachTheCallerAndTheJobResumes) {
 TEST_F(Slice, ProgressGrowsToTheTotal) {
   struct Recorder : Progress {
     std::vector<std::pair<uint64_t, uint64_t>> seen;
-    void update(uint64_t done, uint64_t total) override { seen.emplace_back(done, total); }
+    void update(const HowFar& how_far) override { seen.emplace_back(how_far.done, how_far.total); }
   } recorder;
   const SliceRequest request = ball_request();
   slice(request, ball(request), options(), &recorder);
@@ -491,6 +517,16 @@ TEST_F(Slice, MemoryBoundsWhatIsInFlight) {
     some.memory_bytes = memory;
     EXPECT_LE(size_work(request, some).memory_bytes, memory);
   }
+  some.threads = 1;
+  size_t before = 0;  // what is kept for error diffusion, and larger images, take memory
+  for (const auto& [dither, format] : {std::pair{voxel::Dither::stochastic, voxel::ImageFormat::indexed},
+                                       std::pair{voxel::Dither::diffusion, voxel::ImageFormat::indexed},
+                                       std::pair{voxel::Dither::diffusion, voxel::ImageFormat::rgba}}) {
+    request.dither = dither;
+    request.format = format;
+    EXPECT_GT(size_work(request, some).memory_bytes, before);
+    before = size_work(request, some).memory_bytes;
+  }
   some.memory_bytes = 1;
   EXPECT_EQ(size_work(request, some).window, 1U);
   EXPECT_EQ(size_work(request, some).slab_layers, 1);
@@ -503,6 +539,16 @@ TEST_F(Slice, EstimatesWriteNothing) {
   EXPECT_GT(estimate.bytes, 4000U * 60);
   EXPECT_GT(estimate.seconds, 0);
   EXPECT_FALSE(fs::exists(folder()));
+}
+
+TEST_F(Slice, EstimatesFollowTheShape) {
+  SliceRequest request = ball_request();
+  const auto bytes = [&] { return estimate_slice(request, ball(request), options()).bytes; };
+  EXPECT_EQ(bytes(), run(request, options()).bytes_written);  // it looks at all of a small job
+  request.lattice.pitch[2] = Pitch{1, 500};
+  request.lattice.count[2] = 2000;
+  const auto whole = static_cast<double>(run(request, options(FolderUse::replace)).bytes_written);
+  EXPECT_NEAR(static_cast<double>(bytes()) / whole, 1, 0.1);
 }
 
 TEST_F(Slice, ContactSheetsKeepTrueProportions) {

@@ -2,6 +2,7 @@
 #include "compile/slice_work.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/assert.h"
 #include "base/tasks.h"
@@ -11,22 +12,48 @@ namespace {
 
 constexpr int64_t most_slab_layers = 8;  // what stays in the second-level cache at common sizes
 
-double layer_bytes(const SliceRequest& request) {
-  const auto& count = request.lattice.count;
-  const double voxels = static_cast<double>(count[0]) * static_cast<double>(count[1]);
-  const double run_bytes = 1.5;  // a byte at most, in vectors that grow ahead of their use
-  const double images = request.files.has_material() ? static_cast<double>(request.materials.size()) : 1;
-  const double image_bytes = images * (request.format == voxel::ImageFormat::rgba ? 4 : 1);
-  return voxels * (run_bytes + image_bytes);
+// The most bits that a pixel takes in a file, where layers are noise.
+double pixel_bits(const SliceRequest& request) {
+  if (request.format == voxel::ImageFormat::mask) return 1;
+  const double information = std::log2(static_cast<double>(request.materials.size() + 1));
+  // Four bytes for each pixel, coded one by one where no match is found.
+  if (request.format == voxel::ImageFormat::rgba) return std::min(32.0, 4 * information);
+  return std::min(8.0, information + 0.5);
 }
+
+// What layers take on their way.
+class LayerMemory {
+ public:
+  explicit LayerMemory(const SliceRequest& request) : request_(request) {
+    const auto& count = request.lattice.count;
+    const double voxels = static_cast<double>(count[0]) * static_cast<double>(count[1]);
+    const double images = request.files.has_material() ? static_cast<double>(request.materials.size()) : 1;
+    runs_ = voxels;  // a byte at most
+    images_ = images * voxels * pixel_bits(request) / 8;
+  }
+
+  // Runs go as images come. The image that is being made is copied as it grows, some formats need a copy of its runs.
+  double being_made(int64_t layers) const {
+    const auto evaluation = voxel::working_bytes(request_.lattice, layers, request_.dither, request_.materials.size());
+    return static_cast<double>(layers) * std::max(runs_, images_) + runs_ + images_ + static_cast<double>(evaluation);
+  }
+  double waiting(int64_t layers) const { return static_cast<double>(layers) * images_; }
+
+ private:
+  const SliceRequest& request_;
+  double runs_, images_;
+};
 
 }  // namespace
 
 WorkSize size_work(const SliceRequest& request, const SliceOptions& options) {
   const size_t threads = static_cast<size_t>(options.threads > 0 ? options.threads : core_count());
-  const double one_layer = layer_bytes(request), allowed = static_cast<double>(options.memory_bytes);
+  const LayerMemory memory(request);
+  const auto allowed = static_cast<double>(options.memory_bytes);
   const auto needed = [&](size_t slabs, int64_t layers) {
-    return static_cast<double>(slabs) * static_cast<double>(layers) * one_layer;
+    const size_t made = std::min(slabs, threads);
+    return static_cast<double>(made) * memory.being_made(layers) +
+           static_cast<double>(slabs - made) * memory.waiting(layers);
   };
 
   // Twice the threads, so that none waits for the order of the files; then smaller slabs; then fewer threads.
@@ -58,6 +85,23 @@ std::vector<LayerRange> missing_slabs(LayerRange range, const std::map<int64_t, 
   return slabs;
 }
 
+std::vector<LayerRange> spread(const std::vector<LayerRange>& slabs, size_t most) {
+  const size_t count = std::min(most, slabs.size());
+  // Multiples of the golden ratio, modulo one, are spread evenly wherever one stops.
+  constexpr double golden = 0.6180339887498949;
+  std::vector<LayerRange> chosen;
+  std::vector<char> is_chosen(slabs.size());
+  double place = 0.5;
+  while (chosen.size() < count) {
+    const auto n = std::min(slabs.size() - 1, static_cast<size_t>(place * static_cast<double>(slabs.size())));
+    if (!is_chosen[n]) chosen.push_back(slabs[n]);
+    is_chosen[n] = 1;
+    place += golden;
+    place -= std::floor(place);
+  }
+  return chosen;
+}
+
 uint64_t EncodedLayer::bytes() const {
   uint64_t sum = 0;
   for (const std::string& image : images) sum += image.size();
@@ -78,11 +122,11 @@ exporting::MaterialStack image_stack(const SliceRequest& request) {
 }
 
 std::vector<EncodedLayer> make_slab(const SliceRequest& request, const LayerProducer& producer,
-                                    const exporting::MaterialStack& stack, LayerRange slab) {
-  std::vector<voxel::LayerResult> layers = producer(slab.begin, slab.end);
+                                    const exporting::MaterialStack& stack, LayerRange slab, const StopFlag* stop) {
+  std::vector<voxel::LayerResult> layers = producer(slab.begin, slab.end, stop);
   ASSERT(static_cast<int64_t>(layers.size()) == slab.end - slab.begin);
   std::vector<EncodedLayer> encoded;
-  for (size_t i = 0; i < layers.size(); ++i) {
+  for (size_t i = 0; i < layers.size() && !(stop && stop->requested()); ++i) {
     // Its runs go when the layer is encoded.
     const voxel::LayerResult layer = std::move(layers[i]);
     EncodedLayer result;

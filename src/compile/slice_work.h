@@ -19,13 +19,16 @@ struct WorkSize {
   size_t memory_bytes = 0;  // the most that these slabs can take
 };
 
-// Fits the worst case, where each voxel is a run of its own, into the memory allowed; at the least,
-// one layer at a time.
+// Fits the worst case, where no two neighbours are of one material, into the memory allowed; at the least, one
+// layer at a time.
 WorkSize size_work(const SliceRequest& request, const SliceOptions& options);
 
 // The stretches of `range` that are not finished, cut at multiples of slab_layers.
 std::vector<LayerRange> missing_slabs(LayerRange range, const std::map<int64_t, JournalEntry>& finished,
                                       int64_t slab_layers);
+
+// Up to `most` of the slabs, in an order in which the first few, however many, are spread over all of them.
+std::vector<LayerRange> spread(const std::vector<LayerRange>& slabs, size_t most);
 
 struct EncodedLayer {
   JournalEntry entry;               // without its files
@@ -36,9 +39,11 @@ struct EncodedLayer {
 
 exporting::MaterialStack image_stack(const SliceRequest& request);
 
-// Evaluates and encodes the layers of one slab. Called from several threads.
+// Evaluates and encodes the layers of one slab. When asked to stop it throws Cancelled, or gives the layers that
+// are encoded. Called from several threads.
 std::vector<EncodedLayer> make_slab(const SliceRequest& request, const LayerProducer& producer,
-                                    const exporting::MaterialStack& stack, LayerRange slab);
+                                    const exporting::MaterialStack& stack, LayerRange slab,
+                                    const StopFlag* stop = nullptr);
 
 // Adds up, for each of the request's checks, the voxels that layers give; those that failed, with
 // the lowest voxel. Layers must come in order.

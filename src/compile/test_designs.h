@@ -65,7 +65,7 @@ inline Voxels slice_text(const std::string& text, const PlanOptions& options = {
   if (!plan) return {};
   Voxels voxels{plan->request.lattice, {}, plan->request.materials};
   for (int64_t k = 0; k < voxels.lattice.count[2]; k += slab) {
-    const auto part = unpack(plan->producer(k, std::min(k + slab, voxels.lattice.count[2])));
+    const auto part = unpack(plan->producer(k, std::min(k + slab, voxels.lattice.count[2]), nullptr));
     voxels.ids.insert(voxels.ids.end(), part.begin(), part.end());
   }
   return voxels;

@@ -165,10 +165,11 @@ TEST(Layers, MayBeAskedBySeveralThreadsAtOnce) {
   const int64_t count = std::min<int64_t>(16, plan->request.lattice.count[2]);
   std::vector<std::vector<MaterialId>> together(static_cast<size_t>(count));
   run_parallel(together.size(), 4, [&](size_t k) {
-    together[k] = unpack(plan->producer(static_cast<int64_t>(k), static_cast<int64_t>(k) + 1));
+    together[k] = unpack(plan->producer(static_cast<int64_t>(k), static_cast<int64_t>(k) + 1, nullptr));
   });
   for (size_t k = 0; k < together.size(); ++k)
-    EXPECT_TRUE(together[k] == unpack(plan->producer(static_cast<int64_t>(k), static_cast<int64_t>(k) + 1))) << k;
+    EXPECT_TRUE(together[k] == unpack(plan->producer(static_cast<int64_t>(k), static_cast<int64_t>(k) + 1, nullptr)))
+        << k;
 }
 
 // Tiles, row spans and shortened programs give what the reference gives at every voxel.

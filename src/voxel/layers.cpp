@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/assert.h"
+#include "base/error.h"
 #include "program/passes/passes.h"
 #include "voxel/strip_diffusion.h"
 #include "voxel/walk.h"
@@ -163,18 +164,26 @@ LayerEvaluator::LayerEvaluator(const MaterialProgram& program, const Lattice& la
 
 LayerEvaluator::~LayerEvaluator() = default;
 
-std::vector<LayerResult> LayerEvaluator::layers(int64_t begin, int64_t end) const {
+size_t working_bytes(const Lattice& lattice, int64_t slab_layers, Dither dither, size_t material_count) {
+  const size_t thresholds = dither == Dither::diffusion && material_count > 1 ? material_count - 1 : 0;
+  const auto voxels = static_cast<size_t>(lattice.count[0] * std::min(strip_rows, lattice.count[1]) * slab_layers);
+  return voxels * (sizeof(MaterialId) + thresholds * sizeof(float));
+}
+
+std::vector<LayerResult> LayerEvaluator::layers(int64_t begin, int64_t end, const StopFlag* stop) const {
   const auto& count = parts_->job.lattice.count;
   std::vector<LayerResult> results(static_cast<size_t>(end - begin));
   const size_t check_count = parts_->job.selector.check_count;
   std::vector<std::vector<CheckHits>> checks(results.size(), std::vector<CheckHits>(check_count));
-  for (LayerResult& layer : results) layer.runs = RunLayer(static_cast<uint32_t>(count[0]));
+  for (LayerResult& layer : results)
+    layer.runs = RunLayer(static_cast<uint32_t>(count[0]), static_cast<uint32_t>(count[1]));
   const Remainder slab = parts_->remainder({{0, 0, begin}, {count[0], count[1], end}});
   const auto leaf = parts_->make_leaf();
   TileWalk walk(parts_->job, parts_->precision(), parts_->walk_options(), *leaf);
   RowSink sink(*parts_, results, begin);
   StripVoxels voxels;
   for (int64_t j = 0; j < count[1]; j += strip_rows) {
+    if (stop && stop->requested()) throw Cancelled();
     const TileBox strip{{0, j, begin}, {count[0], std::min(j + strip_rows, count[1]), end}};
     const StripSources sources(parts_->samplers, strip);
     voxels.begin(strip, checks, sink.kept_thresholds());

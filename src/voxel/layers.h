@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "base/run.h"
 #include "program/program.h"
 #include "voxel/lattice.h"
@@ -66,14 +67,18 @@ class LayerEvaluator {
                  const EvaluatorOptions& options = {});
   ~LayerEvaluator();
 
-  // Layers [begin, end) of the lattice, lowest first. Works best on 4 to 16 at a time.
-  std::vector<LayerResult> layers(int64_t begin, int64_t end) const;
+  // Layers [begin, end) of the lattice, lowest first. Works best on 4 to 16 at a time. Throws Cancelled soon
+  // after it is asked to stop.
+  std::vector<LayerResult> layers(int64_t begin, int64_t end, const StopFlag* stop = nullptr) const;
 
   struct Parts;
 
  private:
   std::unique_ptr<Parts> parts_;
 };
+
+// The most that working on a slab takes beside its results.
+size_t working_bytes(const Lattice& lattice, int64_t slab_layers, Dither dither, size_t material_count);
 
 // Batches, unless this machine has no hardware multiply-add or floats cannot tell the lattice's voxels apart.
 Evaluator best_evaluator(const Lattice& lattice);

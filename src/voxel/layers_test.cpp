@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "base/error.h"
 #include "program/field.h"
 #include "voxel/layers.h"
 
@@ -128,6 +129,17 @@ TEST(Layers, BatchesFollowTheReference) {
   EXPECT_GT(static_cast<double>(inside), 0.1 * static_cast<double>(voxels));
   RecordProperty("different_voxels_per_million",
                  static_cast<int>(1e6 * static_cast<double>(different) / static_cast<double>(voxels)));
+}
+
+TEST(Layers, StopBetweenStrips) {
+  Builder b;
+  const MaterialProgram ball{
+      b.finish({{"inside", length(b.input(0), b.input(1), b.input(2)) <= 4.0}, {"m", b.constant(1)}}), {1}, 0};
+  const LayerEvaluator evaluator(ball, lattice_of(80, 80, 6), Dither::stochastic, 7);
+  StopFlag stop;
+  EXPECT_EQ(evaluator.layers(0, 6, &stop).size(), 6U);
+  stop.request();
+  EXPECT_THROW(evaluator.layers(0, 6, &stop), Cancelled);
 }
 
 }  // namespace ombre::voxel

@@ -1,0 +1,33 @@
+// Words about disks that are too small for what is still to be written.
+#include "ombre/free_space.h"
+
+#include <filesystem>
+#include <optional>
+
+#include "ombre/slice_report.h"
+
+namespace ombre::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Nothing where the system does not tell.
+std::optional<double> free_bytes(const std::string& folder) {
+  std::error_code error;
+  fs::path path = fs::absolute(folder, error);
+  while (!error && !fs::exists(path, error) && path.has_relative_path()) path = path.parent_path();
+  const fs::space_info space = fs::space(path, error);
+  if (error) return std::nullopt;
+  return static_cast<double>(space.available);
+}
+
+}  // namespace
+
+std::string space_warning(const std::string& folder, double bytes) {
+  const std::optional<double> free = free_bytes(folder);
+  if (!free || bytes <= *free) return "";
+  return "the layers to come take about " + bytes_text(bytes) + ", and the disk of " + folder + " has " +
+         bytes_text(*free) + " left; free some space there, or choose another folder";
+}
+
+}  // namespace ombre::cli
