@@ -19,9 +19,9 @@ constexpr unsigned sure_bits = 56;  // of a word, wherever it begins
 template <unsigned bits>
 struct Keys {
   static constexpr uint32_t pixels = (bits <= 2 ? 12 : 24) / bits, short_pixels = pixels / 2;
-  // A match that goes on for so many bits is worth a length of its own.
-  static constexpr unsigned more_bits = std::max(4U, bits);
 };
+
+constexpr unsigned more_bits = 8;  // a match that goes on for so long is worth a length of its own
 
 constexpr unsigned table_bits = 12, short_table_bits = 8;
 
@@ -160,7 +160,7 @@ void PixelHistory::cut(const uint8_t* packed, const uint8_t* image, DeflateWrite
         continue;
       }
     }
-    if (agrees(there, bits * count + Keys<bits>::more_bits)) count = common_pixels<bits>(column, there);
+    if (agrees(there, bits * count + more_bits)) count = common_pixels<bits>(column, there);
     out.match(4 * count, here - there);
   }
 }

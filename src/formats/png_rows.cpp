@@ -11,6 +11,7 @@ namespace {
 
 constexpr uint8_t filter_none = 0, filter_up = 2;
 constexpr size_t fewest_changes = 16;  // of bytes, that a row with fewer has little to gain
+constexpr size_t fewest_repeats = 8;   // in a match
 constexpr size_t pixels_at = 2;        // in the buffers of PackedRows
 
 // `sample` in every pixel of a byte.
@@ -150,17 +151,20 @@ bool PackedRows::pays_as_difference(bool repeats, size_t changes) {
   return 2 * (packer_.size() - equal_above_.equal_count()) < changes;
 }
 
-// Stretches of one byte become matches.
+// Long stretches of one byte become matches; in shorter ones a byte is often but one bit.
 void PackedRows::write(const std::vector<uint8_t>& bytes) {
   const uint8_t* const stream = bytes.data() + 1;
   size_t written = 0;
-  while (written < equal_.size()) {
-    const size_t begin = equal_.find_stretch(written);
-    out_.deflate.literals(stream + written, begin - written);
-    if (begin == equal_.size()) break;
-    written = equal_.stretch_end(begin);
-    out_.deflate.match(static_cast<uint32_t>(written - begin), 1);
+  for (size_t begin = equal_.find_stretch(0); begin < equal_.size();) {
+    const size_t end = equal_.stretch_end(begin);
+    if (end - begin >= fewest_repeats) {
+      out_.deflate.literals(stream + written, begin - written);
+      out_.deflate.match(static_cast<uint32_t>(end - begin), 1);
+      written = end;
+    }
+    begin = equal_.find_stretch(end);
   }
+  out_.deflate.literals(stream + written, equal_.size() - written);
   finish_row(bytes);
 }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "formats/equal_bytes.h"
-
 namespace ombre::formats {
 namespace {
 
@@ -15,9 +13,12 @@ constexpr size_t smooth_voxels = 32;
 bool is_smooth(const RowView& row, uint32_t width) {
   if (!row.has_dense()) return true;
   const size_t count = std::min(row.dense.size(), looked_at);
-  EqualBytes equal;
-  equal.compare(row.dense.data() + 1, row.dense.data(), count - 1);
-  const size_t changes = count - equal.equal_count();
+  size_t changes = 1;
+  for (size_t i = 1; i < count;) {
+    uint8_t some = 0;  // few enough for a byte, of which the processor adds many at once
+    for (const size_t end = std::min(count, i + 128); i < end; ++i) some += row.dense[i] != row.dense[i - 1];
+    changes += some;
+  }
   return row.runs.size() + row.dense.size() * changes / count <= width / smooth_voxels;
 }
 
