@@ -21,7 +21,7 @@ struct Keys {
   static constexpr uint32_t pixels = (bits <= 2 ? 12 : 24) / bits, short_pixels = pixels / 2;
 };
 
-constexpr unsigned more_bits = 8;  // a match that goes on for so long is worth a length of its own
+constexpr unsigned more_bits = 8;  // a match that goes on for so long is followed to its end
 
 constexpr unsigned table_bits = 12, short_table_bits = 8;
 
