@@ -28,6 +28,13 @@ def stop_on_signals():
         signal.signal(number, stop)
 
 
+def memory_disk():
+    """A disk in memory with room for the largest job, or nothing. File systems take their time over files that
+    follow others just removed."""
+    where = pathlib.Path("/dev/shm")
+    return where if where.is_dir() and shutil.disk_usage(where).free > 4e9 else None
+
+
 @contextlib.contextmanager
 def scratch_folder(where=None):
     folder = pathlib.Path(tempfile.mkdtemp(prefix="ombre-bench-", dir=where))

@@ -108,7 +108,8 @@ def arguments():
     parser.add_argument("--no-baseline", action="store_true", help="leave out the published method")
     parser.add_argument("--no-growth", action="store_true", help="leave out the growth laws")
     parser.add_argument("--against", metavar="COMMIT", help="compare with another commit instead")
-    parser.add_argument("--scratch", metavar="DIR", help="where jobs are written and removed (default: the system's)")
+    parser.add_argument("--scratch", metavar="DIR", default=programs.memory_disk(),
+                        help="where jobs are written and removed (default: /dev/shm if there is room, so that no disk is timed)")
     parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="also write all figures there")
     a = parser.parse_args()
     a.threads = [int(n) for n in a.threads.split(",")]

@@ -117,11 +117,24 @@ class BatchLeaf : public LeafEvaluator {
     for (size_t t = 0; t < job_.selector.threshold_count; ++t) thresholds_.push_back(output(1 + t));
     MaterialId* out = voxels_->at(tile_.lo[0], j, k);
     const Draws draws = draws_of_row(job_.dither, job_.seed, j, k);
-    const ChoiceRow choice{inside, thresholds_, job_.selector.materials, draws, tile_.lo[0], width()};
-    choice_.choose(choice, out);
+    choice_.choose(present({inside, thresholds_, job_.selector.materials, draws, tile_.lo[0], width()}), out);
     for (size_t t = 0; t < voxels_->kept_thresholds(); ++t) keep_threshold(t, j, k);
     for (size_t c = 0; c < job_.selector.check_count; ++c) count_check(c, inside, j, k);
     if (may_be_unknown_ && has_unknown(inside)) redo_unknown(inside, j, k);
+  }
+
+  // Only the materials that draws can fall to here: those between the last threshold 0 and the first 1.
+  static ChoiceRow present(ChoiceRow row) {
+    const auto is = [&](size_t t, float value) {
+      return row.thresholds[t].is_number && *row.thresholds[t].row == value;
+    };
+    size_t end = 0, begin = 0;
+    while (end < row.thresholds.size() && !is(end, 1)) ++end;
+    for (size_t t = 0; t < end; ++t)
+      if (is(t, 0)) begin = t + 1;
+    row.thresholds = row.thresholds.subspan(begin, end - begin);
+    row.materials = row.materials.subspan(begin, end - begin + 1);
+    return row;
   }
 
   bool has_unknown(const eval::Values& inside) const {
