@@ -47,8 +47,9 @@ class BatchLeaf : public LeafEvaluator {
     tile_ = tile;
     sources_ = &sources;
     voxels_ = &voxels;
-    may_be_unknown_ = false;
-    for (const program::ValueId id : program.outputs) may_be_unknown_ = may_be_unknown_ || ranges[id].is_everything();
+    unknown_outputs_.clear();
+    for (size_t n = 0; n < program.outputs.size(); ++n)
+      if (ranges[program.outputs[n]].is_everything()) unknown_outputs_.push_back(n);
     has_reference_ = false;
     if (program.has_parts()) parts_.begin(program, tile);
     const TileRows rows(sources, tile_, parts_);
@@ -120,7 +121,7 @@ class BatchLeaf : public LeafEvaluator {
     choice_.choose(present({inside, thresholds_, job_.selector.materials, draws, tile_.lo[0], width()}), out);
     for (size_t t = 0; t < voxels_->kept_thresholds(); ++t) keep_threshold(t, j, k);
     for (size_t c = 0; c < job_.selector.check_count; ++c) count_check(c, inside, j, k);
-    if (may_be_unknown_ && has_unknown(inside)) redo_unknown(inside, j, k);
+    if (has_unknown(inside)) redo_unknown(inside, j, k);
   }
 
   // Only the materials that draws can fall to here: those between the last threshold 0 and the first 1.
@@ -138,7 +139,7 @@ class BatchLeaf : public LeafEvaluator {
   }
 
   bool has_unknown(const eval::Values& inside) const {
-    for (size_t n = 0; n <= job_.selector.threshold_count + job_.selector.check_count; ++n)
+    for (const size_t n : unknown_outputs_)
       if (choice_.unknown(inside, output(n), width())) return true;
     return false;
   }
@@ -162,10 +163,10 @@ class BatchLeaf : public LeafEvaluator {
   }
 
   bool is_unknown(size_t n, const eval::Values& inside) const {
-    if (!may_be_unknown_) return false;
+    if (unknown_outputs_.empty()) return false;
     if (std::isnan(inside[n])) return true;
     if (inside[n] == 0) return false;
-    for (size_t o = 1; o <= job_.selector.threshold_count + job_.selector.check_count; ++o)
+    for (const size_t o : unknown_outputs_)
       if (std::isnan(output(o)[n])) return true;
     return false;
   }
@@ -207,7 +208,8 @@ class BatchLeaf : public LeafEvaluator {
   TileBox tile_;
   const StripSources* sources_ = nullptr;
   StripVoxels* voxels_ = nullptr;
-  bool may_be_unknown_ = false, has_reference_ = false;
+  std::vector<size_t> unknown_outputs_;  // that may be NaN in the tile
+  bool has_reference_ = false;
   program::Program reference_program_;
   bool by_layers_ = false;
   size_t row_ = 0;  // of the tile, while layers are taken row by row

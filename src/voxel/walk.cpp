@@ -1,15 +1,17 @@
 #include "voxel/walk.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "program/passes/passes.h"
+#include "program/passes/replay.h"
 
 namespace ombre::voxel {
 namespace {
 
-// Costs relative to one op on one voxel in a batch: of starting an op on a row, of an op on intervals
-// and of copying it to a shorter program.
-constexpr double row_cost = 60, question_cost = 500;
+// Costs relative to one op on one voxel in a batch: of starting an op on a row, of an op on intervals and
+// copying it to a shorter program, of choosing among one more material.
+constexpr double row_cost = 60, question_cost = 500, choice_cost = 3;
 // A level at which questions do not pay is tried again now and then.
 constexpr uint32_t patience = 32;
 constexpr double memory = 0.9;  // of the average gain
@@ -33,15 +35,22 @@ bool TileWalk::is_small(const program::Program& program, const TileBox& tile) co
          tile.size(1) <= (is_long ? options_.small_leaf_height : options_.leaf_height);
 }
 
+// What is computed for each voxel. The rest is computed for rows and columns, and costs little.
+size_t TileWalk::voxel_ops(const program::Program& program) {
+  const std::vector<uint8_t> masks = program::axis_masks(program);
+  return static_cast<size_t>(std::count(masks.begin(), masks.end(), uint8_t{7}));
+}
+
 // Will asking about the tile spare more than it costs?
 bool TileWalk::pays(const program::Program& program, const TileBox& tile) {
   if (!options_.prune) return false;
   if (must_cut(tile)) return true;
   Gain& gain = gains_[level_of(tile)];
-  const auto ops = static_cast<double>(program.code.size());
+  const double choices = choice_cost * static_cast<double>(program.outputs.size());
+  const double ops = static_cast<double>(voxel_ops(program)) + choices;
   const double rows = static_cast<double>(tile.size(1) * tile.size(2));
   const double work = ops * (static_cast<double>(tile.voxels()) + rows * row_cost);
-  if (gain.share * work > ops * question_cost || ++gain.skipped >= patience) {
+  if (gain.share * work > static_cast<double>(program.code.size()) * question_cost || ++gain.skipped >= patience) {
     gain.skipped = 0;
     return true;
   }

@@ -14,7 +14,7 @@ struct WalkOptions {
   // more of them falls away.
   int64_t leaf_width = 64, leaf_height = 8;
   int64_t small_leaf_width = 16, small_leaf_height = 4;
-  size_t long_program = 100;     // instructions
+  size_t long_program = 60;      // instructions for each voxel
   size_t many_parts = 4;         // while so many reach a tile, it is cut before they are written out
   bool write_parts_out = false;  // also those that the leaf could evaluate by itself
   // Wider tiles are always cut.
@@ -42,8 +42,9 @@ class TileWalk {
   void ask(const program::Program& program, const TileBox& tile);
   void cut(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile);
   bool is_long_program(const program::Program& program) const {
-    return program.has_parts() || program.code.size() >= options_.long_program;
+    return program.has_parts() || voxel_ops(program) >= options_.long_program;
   }
+  static size_t voxel_ops(const program::Program& program);
   bool is_small(const program::Program& program, const TileBox& tile) const;
   bool must_cut(const TileBox& tile) const { return tile.size(0) > options_.widest || tile.size(1) > options_.highest; }
   bool pays(const program::Program& program, const TileBox& tile);
