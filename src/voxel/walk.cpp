@@ -10,8 +10,8 @@ namespace ombre::voxel {
 namespace {
 
 // Costs relative to one op on one voxel in a batch: of starting an op on a row, of an op on intervals and
-// copying it to a shorter program, of choosing among one more material.
-constexpr double row_cost = 60, question_cost = 500, choice_cost = 3;
+// copying it to a shorter program, of drawing, and of choosing among one more material.
+constexpr double row_cost = 60, question_cost = 500, draw_cost = 12, choice_cost = 3;
 // A level at which questions do not pay is tried again now and then.
 constexpr uint32_t patience = 32;
 constexpr double memory = 0.9;  // of the average gain
@@ -46,7 +46,7 @@ bool TileWalk::pays(const program::Program& program, const TileBox& tile) {
   if (!options_.prune) return false;
   if (must_cut(tile)) return true;
   Gain& gain = gains_[level_of(tile)];
-  const double choices = choice_cost * static_cast<double>(program.outputs.size());
+  const double choices = draw_cost + choice_cost * static_cast<double>(program.outputs.size());
   const double ops = static_cast<double>(voxel_ops(program)) + choices;
   const double rows = static_cast<double>(tile.size(1) * tile.size(2));
   const double work = ops * (static_cast<double>(tile.voxels()) + rows * row_cost);
