@@ -5,13 +5,15 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 namespace ombre {
 
 struct Hash {
   uint64_t high = 0, low = 0;
 
-  auto operator<=>(const Hash&) const = default;
+  friend bool operator==(const Hash&, const Hash&) = default;
+  friend bool operator<(const Hash& a, const Hash& b) { return std::tie(a.high, a.low) < std::tie(b.high, b.low); }
   std::string hex() const;  // 32 digits
 };
 

@@ -1,6 +1,7 @@
 // What nodes lower to.
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,23 @@ struct Composition {
 // Where a value will be used. Outside of a solid its composition matters only if something above
 // (a blend, a complement) makes points inside that were outside.
 enum class Demand : uint8_t { inside, everywhere };
+
+// What is asked of the parts besides "inside".
+enum class PartQuery : uint8_t {
+  interior,  // only whether a point is inside and not on the surface; nothing else
+  mix,       // of the composition: sums over the parts that hold the point, and their number
+  first,     // the composition of the first part that holds the point
+  last,
+};
+
+// Parts at a point, as fields.
+struct PartFields {
+  Field inside;                    // or interior
+  Field count;                     // of mix: how many hold the point
+  Composition composition;         // of mix: sums of fractions; checks where they are 1
+  std::vector<size_t> others;      // inputs that are not among the parts
+  std::optional<MaterialId> only;  // all parts are of this one material, and nothing can be wrong
+};
 
 // What is known of a solid's g: an exact distance; a bound of it that changes at most `lipschitz` times
 // as fast as the point moves; or a value of which only the sign is meant.

@@ -1,6 +1,7 @@
 #include "design/lowering.h"
 
 #include "base/assert.h"
+#include "design/many_parts.h"
 #include "design/registry.h"
 
 namespace ombre::design {

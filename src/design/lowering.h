@@ -10,7 +10,6 @@
 #include <unordered_set>
 #include <vector>
 
-#include "design/many_parts.h"
 #include "design/node.h"
 
 namespace ombre::design {
@@ -20,6 +19,8 @@ struct Check {
   SourceRange where;
   std::string message;
 };
+
+struct ManyParts;
 
 // State that all lowerings of one design share: checks and bodies.
 class LoweringContext {

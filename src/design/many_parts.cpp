@@ -75,19 +75,21 @@ class PartsMaker {
     set_->reference.add(program, slots);
     const Program batch = fuse(sign_only(program));
     set_->batch.add(batch, slots);
-    widen_ranges(batch, slots, box);
+    widen_ranges(batch, slots, box, program::Precision::batch);
+    widen_ranges(program, slots, box, program::Precision::reference);
     add_boxes(builder.finish({outputs[0]}), box);
     return true;
   }
 
-  // What the slots can be where the part is, in floats.
-  void widen_ranges(const Program& batch, const std::vector<int>& slots, const Box& box) {
+  // What the slots can be where the part is, whoever evaluates it.
+  void widen_ranges(const Program& program, const std::vector<int>& slots, const Box& box,
+                    program::Precision precision) {
     std::vector<Interval> values;
-    evaluate_intervals(batch, box, values, nullptr, program::Precision::batch);
+    evaluate_intervals(program, box, values, nullptr, precision);
     for (size_t slot = 0; slot < slots.size(); ++slot) {
       if (slots[slot] < 0) continue;
       if (reach_.size() <= slot) reach_.resize(slot + 1);
-      const Interval value = values[batch.outputs[static_cast<size_t>(slots[slot])]];
+      const Interval value = values[program.outputs[static_cast<size_t>(slots[slot])]];
       reach_[slot] =
           value.is_everything() || reach_[slot].is_everything() ? Interval::everything() : hull(reach_[slot], value);
     }

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "design/lowered.h"
-#include "design/many_parts.h"
 #include "design/values.h"
 
 namespace ombre::design {

@@ -75,8 +75,6 @@ void PartTable::append(uint32_t part, Program& to, const std::array<ValueId, 3>&
     slots.push_back(slot < 0 ? none : renamed(body.code.outputs[static_cast<size_t>(slot)]));
 }
 
-size_t PartTable::bytes() const { return rows_.capacity() * sizeof(Row) + parameters_.capacity() * sizeof(double); }
-
 bool PartIndex::Bounds::meets(const Box& box) const {
   for (int axis = 0; axis < 3; ++axis)
     if (static_cast<double>(lo[axis]) > box.hi[axis] || static_cast<double>(hi[axis]) < box.lo[axis]) return false;
@@ -177,10 +175,6 @@ size_t PartIndex::count(const Box& region, size_t most) const {
     return count < most;
   });
   return count;
-}
-
-size_t PartIndex::bytes() const {
-  return knots_.capacity() * sizeof(Knot) + bounds_.capacity() * sizeof(Bounds) + order_.capacity() * sizeof(uint32_t);
 }
 
 Box grown_for_rounding(const Box& box) {

@@ -35,8 +35,6 @@ class PartTable {
   void append(uint32_t part, Program& to, const std::array<ValueId, 3>& inputs, std::vector<ValueId>& slots) const;
   size_t size() const { return rows_.size(); }
   size_t body_count() const { return bodies_.size(); }
-  const Program& body(size_t n) const { return bodies_[n].code; }
-  size_t bytes() const;
 
  private:
   struct Body {
@@ -70,7 +68,6 @@ class PartIndex {
   // How many parts have boxes that meet the region, or `most` if it is more; most <= 16.
   size_t count(const Box& region, size_t most) const;
   bool reaches(const Box& region) const { return count(region, 1) > 0; }
-  size_t bytes() const;
 
  private:
   struct Bounds {

@@ -3,11 +3,11 @@
 
 #include "eval/batch/batch.h"
 #include "program/passes/passes.h"
-#include "voxel/choose.h"
 #include "voxel/draws.h"
 #include "voxel/layer_points.h"
 #include "voxel/leaf.h"
 #include "voxel/part_rows.h"
+#include "voxel/row_kernels.h"
 
 namespace ombre::voxel {
 namespace {
@@ -35,7 +35,7 @@ class BatchLeaf : public LeafEvaluator {
  public:
   BatchLeaf(const VoxelJob& job, const eval::KernelSet& kernels)
       : job_(job),
-        choice_(choice_kernels(kernels.name)),
+        kernels_(row_kernels(kernels.name)),
         batch_(kernels),
         parts_(job, kernels),
         reference_(reference_leaf(job)) {}
@@ -66,18 +66,10 @@ class BatchLeaf : public LeafEvaluator {
 
   void evaluate_layers(const program::Program& program, const std::vector<Interval>& ranges, const TileRows& rows) {
     points_.place(job_.lattice, tile_);
-    batch_.begin(program, ranges, points_.layers(), rows);
-    for (int64_t k = tile_.lo[2]; k < tile_.hi[2]; ++k) {
-      batch_.begin_layer(static_cast<size_t>(k - tile_.lo[2]));
-      batch_.begin_row(0);
-      const eval::Values inside = batch_.output(0);
-      if (inside.is_number ? *inside.row == 0 : !choice_.any(inside.row, points_.count())) continue;
-      batch_.finish_row();
-      for (int64_t j = tile_.lo[1]; j < tile_.hi[1]; ++j) {
-        row_ = static_cast<size_t>(j - tile_.lo[1]);
-        take_row(j, k);
-      }
-    }
+    points_.evaluate(batch_, kernels_, program, ranges, rows, [&](int64_t k) {
+      for (row_ = 0; row_ < static_cast<size_t>(tile_.size(1)); ++row_)
+        take_row(tile_.lo[1] + static_cast<int64_t>(row_), tile_.lo[2] + k);
+    });
   }
 
   void evaluate_rows(const program::Program& program, const std::vector<Interval>& ranges, const TileRows& rows) {
@@ -87,8 +79,7 @@ class BatchLeaf : public LeafEvaluator {
       batch_.begin_layer(static_cast<size_t>(k - tile_.lo[2]));
       for (int64_t j = tile_.lo[1]; j < tile_.hi[1]; ++j) {
         batch_.begin_row(static_cast<size_t>(j - tile_.lo[1]));
-        const eval::Values inside = batch_.output(0);
-        if (inside.is_number ? *inside.row == 0 : !choice_.any(inside.row, xs_.size())) continue;
+        if (!kernels_.any(batch_.output(0), xs_.size())) continue;
         batch_.finish_row();
         take_row(j, k);
       }
@@ -113,12 +104,12 @@ class BatchLeaf : public LeafEvaluator {
 
   void take_row(int64_t j, int64_t k) {
     const eval::Values inside = output(0);
-    if (by_layers_ && !inside.is_number && !choice_.any(inside.row, width())) return;
+    if (by_layers_ && !kernels_.any(inside, width())) return;
     thresholds_.clear();
     for (size_t t = 0; t < job_.selector.threshold_count; ++t) thresholds_.push_back(output(1 + t));
     MaterialId* out = voxels_->at(tile_.lo[0], j, k);
     const Draws draws = draws_of_row(job_.dither, job_.seed, j, k);
-    choice_.choose(present({inside, thresholds_, job_.selector.materials, draws, tile_.lo[0], width()}), out);
+    kernels_.choose(present({inside, thresholds_, job_.selector.materials, draws, tile_.lo[0], width()}), out);
     for (size_t t = 0; t < voxels_->kept_thresholds(); ++t) keep_threshold(t, j, k);
     for (size_t c = 0; c < job_.selector.check_count; ++c) count_check(c, inside, j, k);
     if (has_unknown(inside)) redo_unknown(inside, j, k);
@@ -140,7 +131,7 @@ class BatchLeaf : public LeafEvaluator {
 
   bool has_unknown(const eval::Values& inside) const {
     for (const size_t n : unknown_outputs_)
-      if (choice_.unknown(inside, output(n), width())) return true;
+      if (kernels_.unknown(inside, output(n), width())) return true;
     return false;
   }
 
@@ -201,7 +192,7 @@ class BatchLeaf : public LeafEvaluator {
   }
 
   const VoxelJob& job_;
-  ChoiceKernels choice_;
+  RowKernels kernels_;
   eval::BatchEvaluator batch_;
   PartRows parts_;
   std::unique_ptr<LeafEvaluator> reference_;

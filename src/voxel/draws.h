@@ -2,8 +2,8 @@
 #pragma once
 
 #include "voxel/blue_noise.h"
-#include "voxel/choose.h"
 #include "voxel/layers.h"
+#include "voxel/row_kernels.h"
 
 namespace ombre::voxel {
 

@@ -41,9 +41,11 @@ bool floats_resolve(const Lattice& lattice) {
 const eval::KernelSet& kernels_named(const std::string& name) {
   const auto& sets = eval::kernel_sets();
   ASSERT(!sets.empty() && "best_evaluator gives the reference then");
-  for (const eval::KernelSet& set : sets)
-    if (set.name == name) return set;
-  return sets.front();
+  if (name.empty()) return sets.front();
+  const auto named =
+      std::find_if(sets.begin(), sets.end(), [&](const eval::KernelSet& set) { return set.name == name; });
+  ASSERT(named != sets.end() && "one of instruction_sets()");
+  return *named;
 }
 
 }  // namespace

@@ -134,15 +134,9 @@ void PartRows::descend(const program::PartSet& set, const TileBox& box) {
 void PartRows::evaluate(const program::PartSet& set, const TileBox& box) {
   points_.place(job_.lattice, box);
   const NoSources none;
-  batch_.begin(body_, ranges_, points_.layers(), none);
-  for (int64_t k = box.lo[2]; k < box.hi[2]; ++k) {
-    batch_.begin_layer(static_cast<size_t>(k - box.lo[2]));
-    batch_.begin_row(0);
-    const eval::Values inside = batch_.output(0);
-    if (inside.is_number ? *inside.row == 0 : !merge_.any(inside.row, points_.count())) continue;
-    batch_.finish_row();
-    for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) merge_row(set, box, j, k);
-  }
+  points_.evaluate(batch_, kernels_, body_, ranges_, none, [&](int64_t k) {
+    for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) merge_row(set, box, j, box.lo[2] + k);
+  });
 }
 
 void PartRows::merge_row(const program::PartSet& set, const TileBox& box, int64_t j, int64_t k) {
@@ -156,14 +150,14 @@ void PartRows::merge_row(const program::PartSet& set, const TileBox& box, int64_
     const eval::Values values = has ? points_.row(batch_.output(body_output_[n]), row) : eval::Values{&zero, true};
     switch (set.slots[wanted_[n]->slot]) {
       case SlotKind::any:
-        if (has) merge_.merge_any(values, slot, width);
+        if (has) kernels_.merge_any(values, slot, width);
         break;
       case SlotKind::sum:
-        if (has) merge_.merge_sum(values, slot, width);
+        if (has) kernels_.merge_sum(values, slot, width);
         break;
       case SlotKind::first:
       case SlotKind::last:
-        merge_.merge_where(inside, values, slot, width);
+        kernels_.merge_where(inside, values, slot, width);
         break;
     }
   }

@@ -5,9 +5,9 @@
 
 #include "eval/batch/batch.h"
 #include "program/parts.h"
-#include "voxel/choose.h"
 #include "voxel/layer_points.h"
 #include "voxel/leaf.h"
+#include "voxel/row_kernels.h"
 
 namespace ombre::voxel {
 
@@ -15,7 +15,7 @@ namespace ombre::voxel {
 class PartRows {
  public:
   PartRows(const VoxelJob& job, const eval::KernelSet& kernels)
-      : job_(job), merge_(choice_kernels(kernels.name)), batch_(kernels) {}
+      : job_(job), kernels_(row_kernels(kernels.name)), batch_(kernels) {}
 
   // Parts that are asked anywhere but at (x, y, z) itself are not for this.
   static bool suits(const program::Program& program);
@@ -39,7 +39,7 @@ class PartRows {
   float* at(SlotRows& rows, int64_t i, int64_t j, int64_t k) const;
 
   const VoxelJob& job_;
-  ChoiceKernels merge_;
+  RowKernels kernels_;
   eval::BatchEvaluator batch_;
   TileBox tile_;
   size_t stride_ = 0;

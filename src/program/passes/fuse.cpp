@@ -68,12 +68,6 @@ class Fuser {
 
 }  // namespace
 
-Program fuse(const Program& program) {
-  return rewritten(program, [&](Builder& builder) -> Rewrite {
-    return [pass = Fuser(program, builder)](ValueId id, const std::vector<Field>& done) mutable {
-      return pass.rewrite(id, done);
-    };
-  });
-}
+Program fuse(const Program& program) { return rewritten_by<Fuser>(program); }
 
 }  // namespace ombre::program

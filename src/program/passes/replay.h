@@ -18,6 +18,16 @@ std::vector<Field> replay(Builder& builder, const Program& program, const std::a
 // The program with some instructions replaced, without what nothing needs any more.
 Program rewritten(const Program& program, const std::function<Rewrite(Builder&)>& rewrite);
 
+// The same by a class with a constructor from program and builder, and a method `rewrite` as above.
+template <class Pass>
+Program rewritten_by(const Program& program) {
+  return rewritten(program, [&](Builder& builder) -> Rewrite {
+    return [pass = Pass(program, builder)](ValueId id, const std::vector<Field>& done) mutable {
+      return pass.rewrite(id, done);
+    };
+  });
+}
+
 // Which of x, y, z (bits 1, 2, 4) each instruction depends on.
 std::vector<uint8_t> axis_masks(const Program& program);
 

@@ -58,7 +58,10 @@ class Shortener {
   }
 
  private:
-  bool is_known(ValueId i) const { return values_[i].is_point() && std::isfinite(values_[i].lo); }
+  // Inputs stay what they are, also where the region is one point wide: others look for them.
+  bool is_known(ValueId i) const {
+    return from_.code[i].op != Op::input && values_[i].is_point() && std::isfinite(values_[i].lo);
+  }
 
   // An `or` with a side that is surely false is its other side, and the like.
   ValueId logical_target(ValueId i) const {

@@ -89,12 +89,6 @@ class SignOnly {
 
 }  // namespace
 
-Program sign_only(const Program& program) {
-  return rewritten(program, [&](Builder& builder) -> Rewrite {
-    return [pass = SignOnly(program, builder)](ValueId id, const std::vector<Field>& done) mutable {
-      return pass.rewrite(id, done);
-    };
-  });
-}
+Program sign_only(const Program& program) { return rewritten_by<SignOnly>(program); }
 
 }  // namespace ombre::program

@@ -1,9 +1,9 @@
-#include "voxel/choose.h"
+#include "voxel/row_kernels.h"
 
 #include <cstring>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "voxel/choose.cpp"
+#define HWY_TARGET_INCLUDE "voxel/row_kernels.cpp"
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 //
@@ -106,7 +106,9 @@ void choose(const ChoiceRow& row, MaterialId* voxels) {
   }
 }
 
-bool any(const float* values, size_t count) {
+bool any(const eval::Values& all, size_t count) {
+  if (all.is_number) return *all.row != 0;
+  const float* values = all.row;
   size_t n = 0;
   const size_t lanes = hn::Lanes(D());
   for (; n + lanes <= count; n += lanes)
@@ -164,7 +166,7 @@ void merge_where(const eval::Values& condition, const eval::Values& values, floa
 }
 
 }  // namespace
-ChoiceKernels choice_kernels_here() { return {choose, any, unknown, merge_any, merge_sum, merge_where}; }
+RowKernels row_kernels_here() { return {choose, any, unknown, merge_any, merge_sum, merge_where}; }
 }  // namespace HWY_NAMESPACE
 }  // namespace ombre::voxel
 HWY_AFTER_NAMESPACE();
@@ -172,12 +174,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace ombre::voxel {
 
-ChoiceKernels choice_kernels([[maybe_unused]] std::string_view instruction_set) {
+RowKernels row_kernels([[maybe_unused]] std::string_view instruction_set) {
 #if HWY_ARCH_X86
-  if (instruction_set == "avx512") return N_AVX3::choice_kernels_here();
-  if (instruction_set == "avx2") return N_AVX2::choice_kernels_here();
+  if (instruction_set == "avx512") return N_AVX3::row_kernels_here();
+  if (instruction_set == "avx2") return N_AVX2::row_kernels_here();
 #endif
-  return HWY_STATIC_DISPATCH(choice_kernels_here)();
+  return HWY_STATIC_DISPATCH(row_kernels_here)();
 }
 
 }  // namespace ombre::voxel

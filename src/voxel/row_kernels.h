@@ -1,4 +1,4 @@
-// Chooses the materials of a row of voxels from thresholds and draws, in SIMD.
+// What happens to rows of computed values, in SIMD: choosing materials by draws, merging parts.
 #pragma once
 
 #include <span>
@@ -26,10 +26,10 @@ struct ChoiceRow {
 };
 
 // Rows of floats are padded as batches are. NaN counts as outside.
-struct ChoiceKernels {
+struct RowKernels {
   void (*choose)(const ChoiceRow& row, MaterialId* voxels);
   // Is any of the values not 0?
-  bool (*any)(const float* values, size_t count);
+  bool (*any)(const eval::Values& values, size_t count);
   // Is inside[n] NaN somewhere, or values[n] where inside[n] is not 0?
   bool (*unknown)(const eval::Values& inside, const eval::Values& values, size_t count);
   // slot[n] becomes slot[n] or values[n]; their sum; values[n] where condition[n] is not 0. Slots need not
@@ -40,6 +40,6 @@ struct ChoiceKernels {
 };
 
 // By the name of a set of eval::kernel_sets(); all give the same voxels.
-ChoiceKernels choice_kernels(std::string_view instruction_set);
+RowKernels row_kernels(std::string_view instruction_set);
 
 }  // namespace ombre::voxel
