@@ -72,20 +72,23 @@ class PartsMaker {
     }
     const Program program = builder.finish(outputs);
     if (!program.reads.empty() || program.has_parts()) return false;
-    set_->reference.add(program, slots);
-    const Program batch = fuse(sign_only(program));
-    set_->batch.add(batch, slots);
-    widen_ranges(batch, slots, box, program::Precision::batch);
-    widen_ranges(program, slots, box, program::Precision::reference);
-    add_boxes(builder.finish({outputs[0]}), box);
+    add_to(set_->reference, program, slots, box, program::Precision::reference);
+    add_to(set_->batch, fuse(sign_only(program)), slots, box, program::Precision::batch);
+    add_boxes(part, builder.finish({outputs[0]}), box);
     return true;
   }
 
-  // What the slots can be where the part is, whoever evaluates it.
-  void widen_ranges(const Program& program, const std::vector<int>& slots, const Box& box,
-                    program::Precision precision) {
+  void add_to(program::PartTable& table, const Program& program, const std::vector<int>& slots, const Box& box,
+              program::Precision precision) {
     std::vector<Interval> values;
     evaluate_intervals(program, box, values, nullptr, precision);
+    const auto is_everything = [](const Interval& value) { return value.is_everything(); };
+    table.add(program, slots, std::any_of(values.begin(), values.end(), is_everything));
+    widen_ranges(program, slots, values);
+  }
+
+  // What the slots can be where the part is, whoever evaluates it.
+  void widen_ranges(const Program& program, const std::vector<int>& slots, const std::vector<Interval>& values) {
     for (size_t slot = 0; slot < slots.size(); ++slot) {
       if (slots[slot] < 0) continue;
       if (reach_.size() <= slot) reach_.resize(slot + 1);
@@ -106,19 +109,54 @@ class PartsMaker {
     }
   }
 
-  // Boxes around a part, as small as intervals can tell. A strut that lies across its box fills little of it.
-  void add_boxes(const Program& inside, const Box& whole) {
+  // Boxes around a part that share no inside. A strut that lies across its box fills little of it.
+  void add_boxes(const Node& part, const Program& inside, const Box& whole) {
+    std::vector<Box> boxes = slices(part, whole);
+    if (volume(boxes) > 0.5 * volume({whole})) boxes = pieces(inside, whole);
+    const auto number = static_cast<uint32_t>(part_count_++);
+    for (const Box& box : boxes) entries_.push_back({box, number});
+  }
+
+  static double volume(const std::vector<Box>& boxes) {
+    double sum = 0;
+    for (const Box& box : boxes) sum += box.size().x * box.size().y * box.size().z;
+    return sum;
+  }
+
+  static int longest_axis(const Box& box) {
+    const Vec3 size = box.size();
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  }
+
+  // Slices across the longest side, as small as the node knows.
+  std::vector<Box> slices(const Node& part, const Box& whole) const {
+    const int axis = longest_axis(whole);
+    const double length = whole.size()[axis];
+    const auto count = std::clamp(std::ceil(length / finest_), 1.0, static_cast<double>(most_boxes_));
+    std::vector<Box> boxes;
+    for (double n = 0; n < count; ++n) {
+      Box slice = whole;
+      slice.lo[axis] = whole.lo[axis] + length * n / count;
+      slice.hi[axis] = n + 1 < count ? whole.lo[axis] + length * (n + 1) / count : whole.hi[axis];
+      const Box wide = program::grown_for_rounding(slice);
+      const Box tight = image(program_from_node_, part.bounds(image(node_from_program_, wide)));
+      const Box box = intersect(program::grown_for_rounding(tight), slice);
+      if (!box.is_empty()) boxes.push_back(box);
+    }
+    return boxes;
+  }
+
+  // Halves, quarters and so on, without those where intervals see nothing of the part.
+  std::vector<Box> pieces(const Program& inside, const Box& whole) const {
     std::vector<Box> open{whole}, kept;
     std::vector<Interval> ranges;
-    const auto part = static_cast<uint32_t>(part_count_++);
     while (!open.empty()) {
       const Box box = open.back();
       open.pop_back();
       evaluate_intervals(inside, program::grown_for_rounding(box), ranges);
       if (ranges[inside.outputs[0]] == Interval(0)) continue;
-      const Vec3 size = box.size();
-      const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-      if (size[axis] <= finest_ || open.size() + kept.size() + 1 >= most_boxes_) {
+      const int axis = longest_axis(box);
+      if (box.size()[axis] <= finest_ || open.size() + kept.size() + 1 >= most_boxes_) {
         kept.push_back(box);
         continue;
       }
@@ -127,7 +165,7 @@ class PartsMaker {
       // The widest box is cut first.
       open.insert(open.begin(), {low, high});
     }
-    for (const Box& box : kept) entries_.push_back({box, part});
+    return kept;
   }
 
   void set_slot(std::vector<int>& slots, size_t slot, size_t output) {

@@ -69,9 +69,11 @@ class NodeValueOf final : public NodeValue {
     if constexpr (requires { data.reach(in, where, margin); }) return intersect(data.reach(in, where, margin), where);
     // A leaf's g is at least the distance to its shape.
     else if constexpr (requires { data.bounds(where); }) {
+      const auto within = [&](const Box& box) {
+        return intersect(data.bounds(box.expanded(margin)).expanded(margin), box);
+      };
       // Fields are bounded better within the first answer: what is looked for lies there.
-      const Box first = intersect(data.bounds(where).expanded(margin), where);
-      return intersect(data.bounds(first).expanded(margin), first);
+      return within(within(where));
     } else
       return in.count() > 0 ? in.reach(0, where, margin) : where;
   }

@@ -204,6 +204,27 @@ TEST_P(EveryNode, BoundsHoldWhatIsInside) {
   }
 }
 
+TEST_P(EveryNode, BoundsWithinABoxHoldWhatIsInsideOfBoth) {
+  for (unsigned seed = 0; seed < rounds; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.node(type(), 2);
+    ASSERT_TRUE(node) << random.last_message;
+    const auto lowered = lower(node, random.materials, Demand::inside);
+    for (int i = 0; i < 30; ++i) {
+      const Vec3 lo{random.number(-12, 8), random.number(-12, 8), random.number(-12, 8)};
+      const Vec3 size{random.number(0, 8), random.number(0, 8), random.number(0, 8)};
+      const Box bounds = node->bounds({lo, lo + size}).expanded(1e-9);
+      for (int j = 0; j < 20; ++j) {
+        const Vec3 p{lo.x + size.x * random.number(0, 1), lo.y + size.y * random.number(0, 1),
+                     lo.z + size.z * random.number(0, 1)};
+        if (at(lowered.program, p)[0] == 0) continue;
+        EXPECT_TRUE(bounds.contains(p)) << print_json(round_trip(node, random.materials)) << p.x << " " << p.y << " "
+                                        << p.z;
+      }
+    }
+  }
+}
+
 TEST_P(EveryNode, IntervalsHoldPoints) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
     RandomDesign random(seed);

@@ -177,14 +177,11 @@ struct Strut {
 
   Box bounds(const Box& where) const {
     const double r = radius.range(where).hi;
-    const Box axis = hull(Box{start, start}, Box{end, end});
-    if (caps == "round") return axis.expanded(r);
-    const Vec3 u = direction();
-    const auto side = [r](double cosine) {
-      const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-      return sine == 0 ? 0 : r * sine * (1 + 1e-12);
-    };
-    const Vec3 margin{side(u.x), side(u.y), side(u.z)};
+    const Vec3 u = direction(), margin = margins(u, r);
+    const Interval part = reached(where, margin);
+    if (part.lo > part.hi) return Box::empty();
+    const Vec3 along = end - start, from = start + part.lo * along, to = start + part.hi * along;
+    const Box axis = hull(Box{from, from}, Box{to, to});
     return {axis.lo - margin, axis.hi + margin};
   }
 
@@ -203,6 +200,34 @@ struct Strut {
 
  private:
   Vec3 direction() const { return (1 / length(end - start)) * (end - start); }
+
+  // How far the surface is from the nearest point of the axis, along x, y, z, at most.
+  Vec3 margins(Vec3 u, double r) const {
+    if (caps == "round") return {r, r, r};
+    const auto side = [r](double cosine) {
+      const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+      return sine == 0 ? 0 : r * sine * (1 + 1e-12);
+    };
+    return {side(u.x), side(u.y), side(u.z)};
+  }
+
+  // The shares of the axis, from 0 at its start to 1, near which the strut may reach into the box. Empty: lo > hi.
+  Interval reached(const Box& where, Vec3 margin) const {
+    Interval shares{0, 1};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double rounding = 1e-12 * (1 + std::abs(start[axis]) + std::abs(end[axis]));
+      const double lo = where.lo[axis] - margin[axis] - rounding - start[axis];
+      const double hi = where.hi[axis] + margin[axis] + rounding - start[axis];
+      const double along = end[axis] - start[axis];
+      if (along == 0) {
+        if (lo > 0 || hi < 0) return {1, 0};
+        continue;
+      }
+      shares.lo = std::max(shares.lo, std::min(lo / along, hi / along));
+      shares.hi = std::min(shares.hi, std::max(lo / along, hi / along));
+    }
+    return shares;
+  }
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ std::string structure(const Program& program, const std::vector<int>& slots) {
 
 }  // namespace
 
-void PartTable::add(const Program& program, const std::vector<int>& slots) {
+void PartTable::add(const Program& program, const std::vector<int>& slots, bool may_be_unknown) {
   ASSERT(program.calls.empty() && program.reads.empty());
   const auto [it, is_new] = known_.try_emplace(structure(program, slots), static_cast<uint32_t>(bodies_.size()));
   if (is_new) {
@@ -37,7 +37,7 @@ void PartTable::add(const Program& program, const std::vector<int>& slots) {
     ASSERT(std::none_of(code.begin() + static_cast<ptrdiff_t>(inputs), code.end(), is_input));
     bodies_.push_back({program, slots, inputs});
   }
-  rows_.push_back({it->second, parameters_.size()});
+  rows_.push_back({it->second, may_be_unknown, parameters_.size()});
   for (const Instruction& in : program.code) {
     if (in.op == Op::constant) parameters_.push_back(in.value);
     if (in.op == Op::affine)
@@ -47,9 +47,8 @@ void PartTable::add(const Program& program, const std::vector<int>& slots) {
 
 void PartTable::append(uint32_t part, Program& to, const std::array<ValueId, 3>& inputs,
                        std::vector<ValueId>& slots) const {
-  const Row& row = rows_[part];
-  const Body& body = bodies_[row.body];
-  const double* parameter = parameters_.data() + row.first;
+  const Body& body = bodies_[body_of(part)];
+  const double* parameter = parameters(part);
   // A body begins with its inputs; whatever follows keeps its distance from there.
   const size_t input_count = body.input_count;
   const auto shift = static_cast<ValueId>(to.code.size() - input_count);

@@ -27,24 +27,33 @@ enum class SlotKind : uint8_t {
 // Rows of one form of the programs.
 class PartTable {
  public:
+  // A program without the values of its constants.
+  struct Body {
+    Program code;            // its constants and maps are of no meaning
+    std::vector<int> slots;  // as in `add`
+    size_t input_count = 0;  // the first instructions
+  };
+
   // `slots[s]` is the program's output for slot s, or -1. The program has neither calls nor sources.
-  void add(const Program& program, const std::vector<int>& slots);
+  // `may_be_unknown`: can any of its values be NaN where the part is?
+  void add(const Program& program, const std::vector<int>& slots, bool may_be_unknown);
   // Appends the code of a part to `to`; its inputs are the three given values. `slots` gets the value of
   // each slot, or none for those that it does not have; it may be shorter than the set's slots.
   static constexpr ValueId none = ~ValueId{0};
   void append(uint32_t part, Program& to, const std::array<ValueId, 3>& inputs, std::vector<ValueId>& slots) const;
   size_t size() const { return rows_.size(); }
   size_t body_count() const { return bodies_.size(); }
+  const Body& body(uint32_t number) const { return bodies_[number]; }
+  uint32_t body_of(uint32_t part) const { return rows_[part].body; }
+  bool may_be_unknown(uint32_t part) const { return rows_[part].may_be_unknown; }
+  // Constants and rows of maps, in the order of the body's code.
+  const double* parameters(uint32_t part) const { return parameters_.data() + rows_[part].first; }
 
  private:
-  struct Body {
-    Program code;  // its constants and maps are of no meaning
-    std::vector<int> slots;
-    size_t input_count = 0;  // the first instructions
-  };
   struct Row {
     uint32_t body = 0;
-    uint64_t first = 0;  // of its parameters: constants and rows of maps, in the order of the code
+    bool may_be_unknown = false;
+    uint64_t first = 0;  // of its parameters
   };
 
   std::vector<Body> bodies_;

@@ -1,35 +1,45 @@
 // Tiles in float batches.
+#include <bit>
 #include <cmath>
 
 #include "eval/batch/batch.h"
 #include "program/passes/passes.h"
 #include "voxel/draws.h"
-#include "voxel/layer_points.h"
 #include "voxel/leaf.h"
 #include "voxel/part_rows.h"
 #include "voxel/row_kernels.h"
+#include "voxel/tile_points.h"
 
 namespace ombre::voxel {
 namespace {
 
-class TileRows : public eval::SourceRows {
+// What sources and parts say along the rows at work.
+class RowsAtWork : public eval::SourceRows {
  public:
-  TileRows(const StripSources& sources, const TileBox& tile, const PartRows& parts)
-      : sources_(sources), tile_(tile), parts_(parts) {}
-  bool has(const program::Read& read) const override { return sources_.has(read.tag); }
-  void fill(const program::Read& read, size_t j, size_t k, std::span<float> values) const override {
-    sources_.fill(read.tag, tile_.lo[0], tile_.lo[1] + static_cast<int64_t>(j), tile_.lo[2] + static_cast<int64_t>(k),
-                  values);
+  explicit RowsAtWork(const PartRows& parts) : parts_(parts) {}
+  bool has(const program::Read& read) const override { return sources->has(read.tag); }
+  void fill(const program::Read& read, size_t row, size_t k, std::span<float> values) const override {
+    sources->fill(read.tag, places[row].i, places[row].j, layer + static_cast<int64_t>(k), values);
   }
-  void fill_parts(uint32_t set, size_t slot, size_t j, size_t k, std::span<float> values) const override {
-    std::copy_n(parts_.row(set, slot, j, k), values.size(), values.data());
+  void fill_parts(uint32_t set, size_t slot, size_t row, size_t k, std::span<float> values) const override {
+    const RowPlace at = places[row];
+    std::copy_n(parts_.row(set, slot, at.i, at.j, layer + static_cast<int64_t>(k)), values.size(), values.data());
   }
 
+  const StripSources* sources = nullptr;
+  std::vector<RowPlace> places;  // where they begin
+  int64_t layer = 0;             // from which layers are counted
+
  private:
-  const StripSources& sources_;
-  const TileBox& tile_;
   const PartRows& parts_;
 };
+
+// What is left where no part reaches.
+program::Program without_parts(program::Program program) {
+  for (program::Instruction& in : program.code)
+    if (in.op == program::Op::parts) in = program::Instruction{};
+  return program;
+}
 
 class BatchLeaf : public LeafEvaluator {
  public:
@@ -38,6 +48,7 @@ class BatchLeaf : public LeafEvaluator {
         kernels_(row_kernels(kernels.name)),
         batch_(kernels),
         parts_(job, kernels),
+        rows_(parts_),
         reference_(reference_leaf(job)) {}
 
   bool takes_parts(const program::Program& program) const override { return PartRows::suits(program); }
@@ -45,74 +56,133 @@ class BatchLeaf : public LeafEvaluator {
   void evaluate(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile,
                 const StripSources& sources, StripVoxels& voxels) override {
     tile_ = tile;
-    sources_ = &sources;
+    rows_.sources = &sources;
+    rows_.layer = tile.lo[2];
     voxels_ = &voxels;
     unknown_outputs_.clear();
     for (size_t n = 0; n < program.outputs.size(); ++n)
       if (ranges[program.outputs[n]].is_everything()) unknown_outputs_.push_back(n);
     has_reference_ = false;
-    if (program.has_parts()) parts_.begin(program, tile);
-    const TileRows rows(sources, tile_, parts_);
-    by_layers_ = tile.size(0) <= narrow;
-    if (by_layers_)
-      evaluate_layers(program, ranges, rows);
+    points_.place(job_.lattice, tile);
+    if (program.has_parts()) {
+      parts_.begin(program, tile, points_);
+      if (is_empty_without_parts(program)) return evaluate_touched(program, ranges);
+      parts_.touch_all();
+    }
+    place_rows();
+    if (tile.size(0) <= narrow)
+      evaluate_layers(program, ranges);
     else
-      evaluate_rows(program, ranges, rows);
+      evaluate_rows(program, ranges);
   }
 
  private:
+  // Voxels along a row, and where the values of the first one lie in evaluated rows.
+  struct Stretch {
+    RowPlace at;
+    int64_t k = 0;
+    size_t width = 0, lane = 0;
+  };
+
+  static constexpr size_t block = eval::batch_lanes;
   // Tiles up to this width are evaluated a layer at a time.
   static constexpr int64_t narrow = 64;
+  static constexpr size_t most_blocks = 64;  // that are evaluated at once
 
-  void evaluate_layers(const program::Program& program, const std::vector<Interval>& ranges, const TileRows& rows) {
-    points_.place(job_.lattice, tile_);
-    points_.evaluate(batch_, kernels_, program, ranges, rows, [&](int64_t k) {
-      for (row_ = 0; row_ < static_cast<size_t>(tile_.size(1)); ++row_)
-        take_row(tile_.lo[1] + static_cast<int64_t>(row_), tile_.lo[2] + k);
-    });
+  bool is_empty_without_parts(const program::Program& program) const {
+    std::vector<Interval> values;
+    evaluate_intervals(without_parts(program), centers(job_.lattice, tile_), values, rows_.sources->ranges(tile_),
+                       program::Precision::batch);
+    return values[program.outputs[0]] == Interval(0);
   }
 
-  void evaluate_rows(const program::Program& program, const std::vector<Interval>& ranges, const TileRows& rows) {
-    place(tile_);
-    batch_.begin(program, ranges, eval::BoxPoints{xs_, ys_, zs_}, rows);
+  // Only blocks that some part touched.
+  void evaluate_touched(const program::Program& program, const std::vector<Interval>& ranges) {
+    batch_.compile(program, ranges, most_blocks * block, 1, rows_);
+    for (int64_t k = tile_.lo[2]; k < tile_.hi[2]; ++k) {
+      rows_.places.clear();
+      for (int64_t j = tile_.lo[1]; j < tile_.hi[1]; ++j)
+        for (uint64_t left = parts_.touched(j, k); left != 0; left &= left - 1) {
+          rows_.places.push_back({tile_.lo[0] + static_cast<int64_t>(std::countr_zero(left) * block), j});
+          if (rows_.places.size() == most_blocks) evaluate_blocks(k);
+        }
+      if (!rows_.places.empty()) evaluate_blocks(k);
+    }
+  }
+
+  void evaluate_blocks(int64_t k) {
+    rows_.layer = k;
+    place_points(block, k, k + 1);
+    evaluate_layer(k, block);
+    rows_.places.clear();
+  }
+
+  void place_rows() {
+    rows_.places.clear();
+    for (int64_t j = tile_.lo[1]; j < tile_.hi[1]; ++j) rows_.places.push_back({tile_.lo[0], j});
+  }
+
+  void place_points(size_t width, int64_t begin, int64_t end) {
+    point_rows_.clear();
+    for (const RowPlace at : rows_.places) point_rows_.push_back(points_.row(at));
+    batch_.place({point_rows_, points_.layers(begin, end), width});
+  }
+
+  void evaluate_layers(const program::Program& program, const std::vector<Interval>& ranges) {
+    const size_t width = (tile_width() + block - 1) / block * block;
+    batch_.compile(program, ranges, width * rows_.places.size(), static_cast<size_t>(tile_.size(2)), rows_);
+    place_points(width, tile_.lo[2], tile_.hi[2]);
+    for (int64_t k = tile_.lo[2]; k < tile_.hi[2]; ++k) evaluate_layer(k, width);
+  }
+
+  // The rows at work, each of a width that is a multiple of a block.
+  void evaluate_layer(int64_t k, size_t width) {
+    const std::vector<RowPlace>& places = rows_.places;
+    batch_.begin_layer(static_cast<size_t>(k - rows_.layer));
+    batch_.begin_row(0);
+    if (!kernels_.any(batch_.output(0), width * places.size())) return;
+    batch_.finish_row();
+    for (size_t first = 0, end = 0; first < places.size(); first = end) {
+      const RowPlace at = places[first];
+      const auto follows = [&](size_t n) {
+        return places[n].j == at.j && places[n].i == at.i + static_cast<int64_t>((n - first) * width);
+      };
+      for (end = first + 1; end < places.size() && follows(end);) ++end;
+      const size_t most = static_cast<size_t>(tile_.hi[0] - at.i);
+      take({at, k, std::min((end - first) * width, most), first * width});
+    }
+  }
+
+  void evaluate_rows(const program::Program& program, const std::vector<Interval>& ranges) {
+    batch_.begin(program, ranges, points_.all(), rows_);
     for (int64_t k = tile_.lo[2]; k < tile_.hi[2]; ++k) {
       batch_.begin_layer(static_cast<size_t>(k - tile_.lo[2]));
-      for (int64_t j = tile_.lo[1]; j < tile_.hi[1]; ++j) {
-        batch_.begin_row(static_cast<size_t>(j - tile_.lo[1]));
-        if (!kernels_.any(batch_.output(0), xs_.size())) continue;
+      for (size_t row = 0; row < rows_.places.size(); ++row) {
+        batch_.begin_row(row);
+        if (!kernels_.any(batch_.output(0), tile_width())) continue;
         batch_.finish_row();
-        take_row(j, k);
+        take({rows_.places[row], k, tile_width(), 0});
       }
     }
   }
 
-  void place(const TileBox& tile) {
-    const Lattice& lattice = job_.lattice;
-    const auto centers = [&](size_t axis, std::vector<float>& values) {
-      values.clear();
-      for (int64_t n = tile.lo[axis]; n < tile.hi[axis]; ++n)
-        values.push_back(static_cast<float>(lattice.center(n, n, n)[static_cast<int>(axis)]));
-    };
-    centers(0, xs_);
-    centers(1, ys_);
-    centers(2, zs_);
-  }
+  size_t tile_width() const { return static_cast<size_t>(tile_.size(0)); }
+  // An output along the stretch at work.
+  eval::Values output(size_t n) const { return batch_.output(n).from(stretch_.lane); }
 
-  // An output along the row at work.
-  eval::Values output(size_t n) const { return by_layers_ ? points_.row(batch_.output(n), row_) : batch_.output(n); }
-  size_t width() const { return static_cast<size_t>(tile_.size(0)); }
-
-  void take_row(int64_t j, int64_t k) {
+  void take(const Stretch& stretch) {
+    stretch_ = stretch;
+    const auto& [at, k, width, lane] = stretch;
     const eval::Values inside = output(0);
-    if (by_layers_ && !kernels_.any(inside, width())) return;
+    if (!kernels_.any(inside, width)) return;
     thresholds_.clear();
     for (size_t t = 0; t < job_.selector.threshold_count; ++t) thresholds_.push_back(output(1 + t));
-    MaterialId* out = voxels_->at(tile_.lo[0], j, k);
-    const Draws draws = draws_of_row(job_.dither, job_.seed, j, k);
-    kernels_.choose(present({inside, thresholds_, job_.selector.materials, draws, tile_.lo[0], width()}), out);
-    for (size_t t = 0; t < voxels_->kept_thresholds(); ++t) keep_threshold(t, j, k);
-    for (size_t c = 0; c < job_.selector.check_count; ++c) count_check(c, inside, j, k);
-    if (has_unknown(inside)) redo_unknown(inside, j, k);
+    MaterialId* out = voxels_->at(at.i, at.j, k);
+    const Draws draws = draws_of_row(job_.dither, job_.seed, at.j, k);
+    kernels_.choose(present({inside, thresholds_, job_.selector.materials, draws, at.i, width}), out);
+    for (size_t t = 0; t < voxels_->kept_thresholds(); ++t) keep_threshold(t);
+    for (size_t c = 0; c < job_.selector.check_count; ++c) count_check(c, inside);
+    if (has_unknown(inside)) redo_unknown(inside);
   }
 
   // Only the materials that draws can fall to here: those between the last threshold 0 and the first 1.
@@ -131,25 +201,25 @@ class BatchLeaf : public LeafEvaluator {
 
   bool has_unknown(const eval::Values& inside) const {
     for (const size_t n : unknown_outputs_)
-      if (kernels_.unknown(inside, output(n), width())) return true;
+      if (kernels_.unknown(inside, output(n), stretch_.width)) return true;
     return false;
   }
 
-  void keep_threshold(size_t t, int64_t j, int64_t k) {
-    float* to = voxels_->threshold(t, tile_.lo[0], j, k);
+  void keep_threshold(size_t t) {
+    float* to = voxels_->threshold(t, stretch_.at.i, stretch_.at.j, stretch_.k);
     const eval::Values& from = thresholds_[t];
     if (from.is_number)
-      std::fill_n(to, width(), *from.row);
+      std::fill_n(to, stretch_.width, *from.row);
     else
-      std::copy_n(from.row, width(), to);
+      std::copy_n(from.row, stretch_.width, to);
   }
 
-  void count_check(size_t check, const eval::Values& inside, int64_t j, int64_t k) {
+  void count_check(size_t check, const eval::Values& inside) {
     const eval::Values marks = output(1 + job_.selector.threshold_count + check);
     if (marks.is_number && *marks.row == 0) return;
-    for (size_t n = 0; n < width(); ++n) {
+    for (size_t n = 0; n < stretch_.width; ++n) {
       const bool counts = inside[n] != 0 && marks[n] != 0 && !is_unknown(n, inside);
-      if (counts) voxels_->note_check(check, tile_.lo[0] + static_cast<int64_t>(n), j, k);
+      if (counts) voxels_->note_check(check, stretch_.at.i + static_cast<int64_t>(n), stretch_.at.j, stretch_.k);
     }
   }
 
@@ -162,13 +232,14 @@ class BatchLeaf : public LeafEvaluator {
     return false;
   }
 
-  // Stretches of voxels that ended as NaN.
-  void redo_unknown(const eval::Values& inside, int64_t j, int64_t k) {
-    for (size_t n = 0; n < width();) {
+  // Voxels that ended as NaN.
+  void redo_unknown(const eval::Values& inside) {
+    const auto& [at, k, width, lane] = stretch_;
+    for (size_t n = 0; n < width;) {
       size_t end = n;
-      while (end < width() && is_unknown(end, inside)) ++end;
+      while (end < width && is_unknown(end, inside)) ++end;
       if (end > n)
-        redo({{tile_.lo[0] + static_cast<int64_t>(n), j, k}, {tile_.lo[0] + static_cast<int64_t>(end), j + 1, k + 1}});
+        redo({{at.i + static_cast<int64_t>(n), at.j, k}, {at.i + static_cast<int64_t>(end), at.j + 1, k + 1}});
       n = end + 1;
     }
   }
@@ -179,12 +250,12 @@ class BatchLeaf : public LeafEvaluator {
       has_reference_ = true;
     }
     std::fill_n(voxels_->at(stretch.lo[0], stretch.lo[1], stretch.lo[2]), stretch.size(0), MaterialId{0});
-    reference_->evaluate(reference_program_, {}, stretch, *sources_, *voxels_);
+    reference_->evaluate(reference_program_, {}, stretch, *rows_.sources, *voxels_);
   }
 
   void shorten_reference() {
     std::vector<Interval> ranges;
-    evaluate_intervals(job_.selector.reference, centers(job_.lattice, tile_), ranges, sources_->ranges(tile_));
+    evaluate_intervals(job_.selector.reference, centers(job_.lattice, tile_), ranges, rows_.sources->ranges(tile_));
     std::vector<Interval> kept;
     reference_program_ = program::shorten(job_.selector.reference, ranges, &kept);
     if (reference_program_.has_parts())
@@ -195,17 +266,16 @@ class BatchLeaf : public LeafEvaluator {
   RowKernels kernels_;
   eval::BatchEvaluator batch_;
   PartRows parts_;
+  RowsAtWork rows_;
   std::unique_ptr<LeafEvaluator> reference_;
   TileBox tile_;
-  const StripSources* sources_ = nullptr;
+  TilePoints points_;
+  std::vector<eval::PointRow> point_rows_;
+  Stretch stretch_;
   StripVoxels* voxels_ = nullptr;
   std::vector<size_t> unknown_outputs_;  // that may be NaN in the tile
   bool has_reference_ = false;
   program::Program reference_program_;
-  bool by_layers_ = false;
-  size_t row_ = 0;  // of the tile, while layers are taken row by row
-  LayerPoints points_;
-  std::vector<float> xs_, ys_, zs_;
   std::vector<eval::Values> thresholds_;
 };
 

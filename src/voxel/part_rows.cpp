@@ -1,5 +1,7 @@
 #include "voxel/part_rows.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/assert.h"
@@ -14,13 +16,68 @@ using program::ValueId;
 
 namespace {
 
+// What is evaluated at once: enough to make starting an op cheap, few enough for the first-level cache.
+constexpr int64_t most_points = 512, most_layers = 16;
+// Smaller boxes are evaluated without asking intervals whether the part is there.
+constexpr int64_t least_asked = 2048;
+constexpr size_t most_bodies = 64;
+
+constexpr auto block = static_cast<int64_t>(eval::batch_lanes);
+
+int64_t padded(int64_t width) { return (width + block - 1) / block * block; }
+
 class NoSources : public eval::SourceRows {
  public:
   bool has(const program::Read&) const override { return false; }
   void fill(const program::Read&, size_t, size_t, std::span<float>) const override {}
 };
+const NoSources no_sources;
 
 }  // namespace
+
+PartBody::PartBody(const PartTable& table, uint32_t body, const std::vector<size_t>& slots,
+                   const eval::KernelSet& kernels)
+    : program_(table.body(body).code), batch_(kernels) {
+  const std::vector<int>& outputs = table.body(body).slots;
+  const std::vector<ValueId> ids = std::move(program_.outputs);
+  const auto id_of = [&](size_t slot) { return ids[static_cast<size_t>(outputs[slot])]; };
+  program_.outputs = {id_of(0)};
+  for (const size_t slot : slots) {
+    const bool has = slot < outputs.size() && outputs[slot] >= 0;
+    output_.push_back(has ? program_.outputs.size() : none);
+    if (has) program_.outputs.push_back(id_of(slot));
+  }
+  for (ValueId id = 0; id < program_.code.size(); ++id)
+    if (program_.code[id].op == Op::constant) constants_.push_back(id);
+}
+
+void PartBody::take(const PartTable& table, uint32_t part) {
+  const double* parameter = table.parameters(part);
+  for (const ValueId id : constants_) program_.code[id].value = *parameter++;
+  if (!is_compiled_ || may_be_unknown_ != table.may_be_unknown(part)) compile(table.may_be_unknown(part));
+  for (const ValueId id : constants_) batch_.set_constant(id, static_cast<float>(program_.code[id].value));
+}
+
+void PartBody::compile(bool may_be_unknown) {
+  const std::vector<Interval> ranges(program_.code.size(), may_be_unknown ? Interval::everything() : Interval(0));
+  batch_.compile(program_, ranges, most_points, most_layers, no_sources);
+  is_compiled_ = true;
+  may_be_unknown_ = may_be_unknown;
+}
+
+PartRows::PartRows(const VoxelJob& job, const eval::KernelSet& kernels)
+    : job_(job), batch_kernels_(kernels), kernels_(row_kernels(kernels.name)) {
+  const program::Program& program = job.selector.batch;
+  for (const Instruction& in : program.code) {
+    if (in.op != Op::parts) continue;
+    const program::PartSet* parts = program.part_sets[in.aux].get();
+    const auto known = std::find_if(sets_.begin(), sets_.end(), [&](const Set& set) { return set.parts == parts; });
+    Set& set = known == sets_.end() ? sets_.emplace_back() : *known;
+    set.parts = parts;
+    const auto slot = static_cast<size_t>(in.value);
+    if (std::find(set.slots.begin(), set.slots.end(), slot) == set.slots.end()) set.slots.push_back(slot);
+  }
+}
 
 bool PartRows::suits(const program::Program& program) {
   const auto is_input = [&](ValueId id, int axis) {
@@ -31,53 +88,54 @@ bool PartRows::suits(const program::Program& program) {
   return true;
 }
 
-void PartRows::begin(const program::Program& program, const TileBox& tile) {
+void PartRows::begin(const program::Program& program, const TileBox& tile, const TilePoints& points) {
   tile_ = tile;
-  stride_ = (static_cast<size_t>(tile.size(0)) + eval::batch_lanes - 1) / eval::batch_lanes * eval::batch_lanes;
-  first_set_.clear();
-  for (const auto& set : program.part_sets) {
-    const auto known = std::find(program.part_sets.begin(), program.part_sets.end(), set);
-    first_set_.push_back(static_cast<uint32_t>(known - program.part_sets.begin()));
-  }
-  size_t used = 0;
-  for (const Instruction& in : program.code) {
-    if (in.op != Op::parts) continue;
-    if (slots_.size() == used) slots_.emplace_back();
-    SlotRows& rows = slots_[used++];
-    rows.set = first_set_[in.aux];
-    rows.slot = static_cast<size_t>(in.value);
-    rows.values.assign(stride_ * static_cast<size_t>(tile.size(1) * tile.size(2)), 0.0F);
-  }
-  slots_.resize(used);
-
+  points_ = &points;
+  stride_ = static_cast<size_t>(padded(tile.size(0)));
+  ASSERT(stride_ / eval::batch_lanes <= 64);
+  touched_.assign(static_cast<size_t>(tile.size(1) * tile.size(2)), 0);
+  place_sets(program);
   const Box region = centers(job_.lattice, tile);
-  for (uint32_t n = 0; n < program.part_sets.size(); ++n) {
-    if (first_set_[n] != n) continue;
-    const program::PartSet& set = *program.part_sets[n];
-    wanted_.clear();
-    for (SlotRows& rows : slots_)
-      if (rows.set == n) wanted_.push_back(&rows);
-    set.index.find(region, found_);
+  for (Set* set : read_) {
+    set->parts->index.find(region, found_);
     // What is set first stands: the first part comes last.
-    if (set.slots.back() == SlotKind::first) std::reverse(found_.begin(), found_.end());
+    if (set->parts->slots.back() == SlotKind::first) std::reverse(found_.begin(), found_.end());
     for (const auto& entry : found_) {
       const TileBox box = voxels_in(entry.box);
-      if (box.size(0) > 0 && box.size(1) > 0 && box.size(2) > 0) add_part(set, entry.part, box);
+      if (box.voxels() > 0) add_part(*set, entry.part, box);
     }
   }
 }
 
-const float* PartRows::row(uint32_t set, size_t slot, size_t j, size_t k) const {
-  for (const SlotRows& rows : slots_)
-    if (rows.set == first_set_[set] && rows.slot == slot)
-      return rows.values.data() + (k * static_cast<size_t>(tile_.size(1)) + j) * stride_;
-  ASSERT(false && "the program's slots are known");
-  return nullptr;
+// Each slot of the sets that the program reads gets a plane of values.
+void PartRows::place_sets(const program::Program& program) {
+  read_.clear();
+  by_number_.clear();
+  plane_count_ = 0;
+  for (const auto& parts : program.part_sets) {
+    const auto found = std::find_if(sets_.begin(), sets_.end(), [&](const Set& s) { return s.parts == parts.get(); });
+    ASSERT(found != sets_.end() && "programs of tiles come from the job's");
+    by_number_.push_back(&*found);
+    if (std::find(read_.begin(), read_.end(), &*found) != read_.end()) continue;
+    read_.push_back(&*found);
+    found->first_plane = plane_count_;
+    plane_count_ += found->slots.size();
+  }
+  const size_t floats = plane_count_ * plane_floats() + eval::batch_lanes;
+  if (values_.size() < floats) values_.resize(floats);
 }
 
-float* PartRows::at(SlotRows& rows, int64_t i, int64_t j, int64_t k) const {
-  const int64_t row = (k - tile_.lo[2]) * tile_.size(1) + (j - tile_.lo[1]);
-  return rows.values.data() + static_cast<size_t>(row) * stride_ + (i - tile_.lo[0]);
+void PartRows::touch_all() {
+  const auto blocks = static_cast<unsigned>(stride_ / eval::batch_lanes);
+  const uint64_t all = ~uint64_t{0} >> (64 - blocks);
+  for (size_t row = 0; row < touched_.size(); ++row) touch(row, all);
+}
+
+const float* PartRows::row(uint32_t set, size_t slot, int64_t i, int64_t j, int64_t k) const {
+  const Set& read = *by_number_[set];
+  const auto at = std::find(read.slots.begin(), read.slots.end(), slot);
+  ASSERT(at != read.slots.end() && "the program's slots are known");
+  return values_.data() + offset(read.first_plane + static_cast<size_t>(at - read.slots.begin()), i, j, k);
 }
 
 // The tile's voxels with centres in [lo, hi): boxes of one part that share a face share no voxel.
@@ -91,75 +149,93 @@ TileBox PartRows::voxels_in(const Box& box) const {
       return static_cast<int64_t>(std::clamp(index, -1e15, 1e15));
     };
     voxels.lo[axis] = std::max(voxels.lo[axis], first(box.lo[a]));
-    voxels.hi[axis] = std::min(voxels.hi[axis], first(box.hi[a]));
+    voxels.hi[axis] = std::max(voxels.lo[axis], std::min(voxels.hi[axis], first(box.hi[a])));
   }
   return voxels;
 }
 
-void PartRows::add_part(const program::PartSet& set, uint32_t part, const TileBox& box) {
-  body_.code.clear();
-  body_.outputs.clear();
-  for (int axis = 0; axis < 3; ++axis) {
-    Instruction in;
-    in.op = Op::input;
-    in.value = axis;
-    body_.code.push_back(in);
-  }
-  set.batch.append(part, body_, {0, 1, 2}, body_slots_);
-  body_.outputs.push_back(body_slots_[0]);
-  body_output_.clear();
-  for (const SlotRows* rows : wanted_) {
-    const bool has = rows->slot < body_slots_.size() && body_slots_[rows->slot] != PartTable::none;
-    body_output_.push_back(has ? body_.outputs.size() : 0);
-    if (has) body_.outputs.push_back(body_slots_[rows->slot]);
-  }
-  descend(set, box);
+void PartRows::add_part(Set& set, uint32_t part, const TileBox& box) {
+  const PartTable& table = set.parts->batch;
+  const uint32_t number = table.body_of(part);
+  set.bodies.resize(std::min(table.body_count(), most_bodies));
+  KeptBody& kept = set.bodies[number % most_bodies];
+  if (!kept.body || kept.number != number)
+    kept = {number, std::make_unique<PartBody>(table, number, set.slots, batch_kernels_)};
+  kept.body->take(table, part);
+  descend(set, *kept.body, box, true);
 }
 
-// Halves boxes until the part fills a good share of what is left.
-void PartRows::descend(const program::PartSet& set, const TileBox& box) {
-  constexpr int64_t widest = 32, highest = 12;
-  evaluate_intervals(body_, centers(job_.lattice, box), ranges_, nullptr, program::Precision::batch);
-  const Interval inside = ranges_[body_.outputs[0]];
-  if (inside == Interval(0)) return;
-  const bool is_small = box.size(0) <= widest && box.size(1) <= highest;
-  if (is_small || inside == Interval(1)) return evaluate(set, box);
-  const size_t axis = box.size(0) * highest > box.size(1) * widest ? 0 : 1;
+// Halves boxes until they are small, and drops those where the part is not.
+void PartRows::descend(const Set& set, PartBody& body, const TileBox& box, bool ask) {
+  if (ask && box.voxels() >= least_asked) {
+    evaluate_intervals(body.program(), centers(job_.lattice, box), ranges_, nullptr, program::Precision::batch);
+    const Interval inside = ranges_[body.program().outputs[0]];
+    if (inside == Interval(0)) return;
+    ask = inside != Interval(1);
+  }
+  const int64_t width = padded(box.size(0)), height = box.size(1), depth = box.size(2);
+  if (width * height <= most_points && depth <= most_layers) return evaluate(set, body, box);
+  const size_t axis = depth > most_layers && depth >= std::max(width, height) ? 2 : width > 2 * height ? 0 : 1;
   TileBox low = box, high = box;
   low.hi[axis] = high.lo[axis] = (box.lo[axis] + box.hi[axis]) / 2;
-  descend(set, low);
-  descend(set, high);
+  descend(set, body, low, ask);
+  descend(set, body, high, ask);
 }
 
-void PartRows::evaluate(const program::PartSet& set, const TileBox& box) {
-  points_.place(job_.lattice, box);
-  const NoSources none;
-  points_.evaluate(batch_, kernels_, body_, ranges_, none, [&](int64_t k) {
-    for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) merge_row(set, box, j, box.lo[2] + k);
-  });
-}
-
-void PartRows::merge_row(const program::PartSet& set, const TileBox& box, int64_t j, int64_t k) {
-  static constexpr float zero = 0;
-  const auto row = static_cast<size_t>(j - box.lo[1]);
+void PartRows::evaluate(const Set& set, PartBody& body, const TileBox& box) {
   const auto width = static_cast<size_t>(box.size(0));
-  const eval::Values inside = points_.row(batch_.output(0), row);
-  for (size_t n = 0; n < wanted_.size(); ++n) {
-    float* slot = at(*wanted_[n], box.lo[0], j, k);
-    const bool has = body_output_[n] > 0;
-    const eval::Values values = has ? points_.row(batch_.output(body_output_[n]), row) : eval::Values{&zero, true};
-    switch (set.slots[wanted_[n]->slot]) {
+  rows_.clear();
+  for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) rows_.push_back(points_->row({box.lo[0], j}));
+  eval::BatchEvaluator& batch = body.batch();
+  batch.place({rows_, points_->layers(box.lo[2], box.hi[2]), width});
+  const size_t row_floats = static_cast<size_t>(padded(box.size(0)));
+  for (int64_t k = box.lo[2]; k < box.hi[2]; ++k) {
+    batch.begin_layer(static_cast<size_t>(k - box.lo[2]));
+    batch.begin_row(0);
+    if (!kernels_.any(batch.output(0), row_floats * rows_.size())) continue;
+    batch.finish_row();
+    for (size_t row = 0; row < rows_.size(); ++row)
+      merge_row(set, body, row * row_floats, {box.lo[0], box.lo[1] + static_cast<int64_t>(row)}, k, width);
+  }
+}
+
+void PartRows::merge_row(const Set& set, const PartBody& body, size_t lane, RowPlace at, int64_t k, size_t width) {
+  const RowSpan span = kernels_.nonzero(body.inside().from(lane), width);
+  if (span.begin == span.end) return;
+  const auto first = static_cast<size_t>(at.i - tile_.lo[0]) + span.begin, last = first + (span.end - span.begin) - 1;
+  const uint64_t up_to_last = ~uint64_t{0} >> (63 - last / eval::batch_lanes);
+  touch(row_number(at.j, k), up_to_last & ~uint64_t{0} << (first / eval::batch_lanes));
+
+  static constexpr float zero = 0;
+  const eval::Values inside = body.inside().from(lane + span.begin);
+  const size_t count = span.end - span.begin;
+  for (size_t n = 0; n < set.slots.size(); ++n) {
+    float* slot = values_.data() + offset(set.first_plane + n, at.i + static_cast<int64_t>(span.begin), at.j, k);
+    const bool has = body.has(n);
+    const eval::Values values = has ? body.output(n).from(lane + span.begin) : eval::Values{&zero, true};
+    switch (set.parts->slots[set.slots[n]]) {
       case SlotKind::any:
-        if (has) kernels_.merge_any(values, slot, width);
+        if (has) kernels_.merge_any(values, slot, count);
         break;
       case SlotKind::sum:
-        if (has) kernels_.merge_sum(values, slot, width);
+        if (has) kernels_.merge_sum(values, slot, count);
         break;
       case SlotKind::first:
       case SlotKind::last:
-        kernels_.merge_where(inside, values, slot, width);
+        kernels_.merge_where(inside, values, slot, count);
         break;
     }
+  }
+}
+
+// Blocks hold nothing until they are touched.
+void PartRows::touch(size_t row, uint64_t blocks) {
+  uint64_t fresh = blocks & ~touched_[row];
+  touched_[row] |= blocks;
+  for (; fresh != 0; fresh &= fresh - 1) {
+    const size_t first = row * stride_ + static_cast<size_t>(std::countr_zero(fresh)) * eval::batch_lanes;
+    for (size_t plane = 0; plane < plane_count_; ++plane)
+      std::fill_n(values_.data() + plane * plane_floats() + first, eval::batch_lanes, 0.0F);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "voxel/row_kernels.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstring>
 
 #undef HWY_TARGET_INCLUDE
@@ -131,42 +133,62 @@ bool unknown(const eval::Values& inside, const eval::Values& values, size_t coun
   return n < count && !hn::AllFalse(D(), hn::And(found(n), hn::FirstN(D(), count - n)));
 }
 
+RowSpan nonzero(const eval::Values& all, size_t count) {
+  if (all.is_number) return {0, *all.row != 0 ? count : 0};
+  const float* values = all.row;
+  RowSpan span{count, 0};
+  for (size_t n = 0; n < count; n += hn::Lanes(D())) {
+    const auto is = hn::And(hn::Not(hn::Eq(hn::Load(D(), values + n), hn::Zero(D()))), hn::FirstN(D(), count - n));
+    if (hn::AllFalse(D(), is)) continue;
+    HWY_ALIGN uint8_t bits[8] = {};
+    hn::StoreMaskBits(D(), is, bits);
+    uint64_t set = 0;
+    std::memcpy(&set, bits, sizeof set);
+    span.begin = std::min(span.begin, n + static_cast<size_t>(std::countr_zero(set)));
+    span.end = n + static_cast<size_t>(std::bit_width(set));
+  }
+  return span.end == 0 ? RowSpan{} : span;
+}
+
+HWY_INLINE V anywhere(const eval::Values& values, size_t n) {
+  return values.is_number ? hn::Set(D(), *values.row) : hn::LoadU(D(), values.row + n);
+}
+
 template <class Merge>
 void merge(float* slot, size_t count, Merge merged) {
   const D d;
-  const size_t lanes = hn::Lanes(d);
-  size_t n = 0;
-  for (; n + lanes <= count; n += lanes) hn::StoreU(merged(hn::LoadU(d, slot + n), n), d, slot + n);
-  if (n == count) return;
-  HWY_ALIGN float rest[hn::MaxLanes(d)] = {};
-  std::memcpy(rest, slot + n, (count - n) * sizeof *slot);
-  hn::Store(merged(hn::Load(d, rest), n), d, rest);
-  std::memcpy(slot + n, rest, (count - n) * sizeof *slot);
+  for (size_t n = 0; n < count; n += hn::Lanes(d)) {
+    const V values = merged(hn::LoadU(d, slot + n), n);
+    if (n + hn::Lanes(d) <= count)
+      hn::StoreU(values, d, slot + n);
+    else
+      hn::BlendedStore(values, hn::FirstN(d, count - n), d, slot + n);
+  }
 }
 
 // Truth values; NaN where neither is 1 and one is NaN.
 void merge_any(const eval::Values& values, float* slot, size_t count) {
   const V one = hn::Set(D(), 1.0F);
   merge(slot, count, [&](V old, size_t n) {
-    const V value = values_at(values, n);
+    const V value = anywhere(values, n);
     return hn::IfThenElse(hn::Or(hn::Eq(old, one), hn::Eq(value, one)), one, hn::Add(old, value));
   });
 }
 
 void merge_sum(const eval::Values& values, float* slot, size_t count) {
-  merge(slot, count, [&](V old, size_t n) { return hn::Add(old, values_at(values, n)); });
+  merge(slot, count, [&](V old, size_t n) { return hn::Add(old, anywhere(values, n)); });
 }
 
 void merge_where(const eval::Values& condition, const eval::Values& values, float* slot, size_t count) {
   merge(slot, count, [&](V old, size_t n) {
-    const V holds = values_at(condition, n);
-    const V chosen = hn::IfThenElse(hn::Eq(holds, hn::Zero(D())), old, values_at(values, n));
+    const V holds = anywhere(condition, n);
+    const V chosen = hn::IfThenElse(hn::Eq(holds, hn::Zero(D())), old, anywhere(values, n));
     return hn::IfThenElse(hn::IsNaN(holds), holds, chosen);
   });
 }
 
 }  // namespace
-RowKernels row_kernels_here() { return {choose, any, unknown, merge_any, merge_sum, merge_where}; }
+RowKernels row_kernels_here() { return {choose, any, unknown, nonzero, merge_any, merge_sum, merge_where}; }
 }  // namespace HWY_NAMESPACE
 }  // namespace ombre::voxel
 HWY_AFTER_NAMESPACE();

@@ -25,6 +25,10 @@ struct ChoiceRow {
   size_t count = 0;
 };
 
+struct RowSpan {
+  size_t begin = 0, end = 0;  // equal: empty
+};
+
 // Rows of floats are padded as batches are. NaN counts as outside.
 struct RowKernels {
   void (*choose)(const ChoiceRow& row, MaterialId* voxels);
@@ -32,8 +36,10 @@ struct RowKernels {
   bool (*any)(const eval::Values& values, size_t count);
   // Is inside[n] NaN somewhere, or values[n] where inside[n] is not 0?
   bool (*unknown)(const eval::Values& inside, const eval::Values& values, size_t count);
-  // slot[n] becomes slot[n] or values[n]; their sum; values[n] where condition[n] is not 0. Slots need not
-  // be aligned.
+  // The least stretch that holds all values that are not 0.
+  RowSpan (*nonzero)(const eval::Values& values, size_t count);
+  // slot[n] becomes slot[n] or values[n]; their sum; values[n] where condition[n] is not 0. Nothing need be
+  // aligned; batch_lanes values and slots behind the last may be read.
   void (*merge_any)(const eval::Values& values, float* slot, size_t count);
   void (*merge_sum)(const eval::Values& values, float* slot, size_t count);
   void (*merge_where)(const eval::Values& condition, const eval::Values& values, float* slot, size_t count);

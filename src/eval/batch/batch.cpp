@@ -34,34 +34,73 @@ void each_operand(const Instruction& in, F f) {
 
 void BatchEvaluator::begin(const program::Program& program, const std::vector<Interval>& ranges,
                            const BoxPoints& points, const SourceRows& sources) {
-  by_layers_ = false;
-  begin_box(program, ranges, points, sources);
+  compile(program, ranges, Shape{false, {points.xs.size(), points.ys.size(), points.zs.size()}}, sources);
+  width_ = points.xs.size();
+  rows_ = points.ys.size();
+  layers_ = points.zs.size();
+  place_input(0, points.xs);
+  place_input(1, points.ys);
+  place_input(2, points.zs);
+  run_before_layers();
 }
 
 void BatchEvaluator::begin(const program::Program& program, const std::vector<Interval>& ranges,
                            const BoxLayers& points, const SourceRows& sources) {
-  ASSERT(points.xs.size() == points.ys.size() && points.xs.size() == padded(points.width) * points.rows);
-  by_layers_ = true;
-  box_width_ = points.width;
-  box_rows_ = points.rows;
-  begin_box(program, ranges, {points.xs, points.ys, points.zs}, sources);
+  compile(program, ranges, padded(points.width) * points.rows.size(), points.zs.size(), sources);
+  place(points);
 }
 
-void BatchEvaluator::begin_box(const program::Program& program, const std::vector<Interval>& ranges,
-                               const BoxPoints& points, const SourceRows& sources) {
+void BatchEvaluator::compile(const program::Program& program, const std::vector<Interval>& ranges, size_t most_points,
+                             size_t most_layers, const SourceRows& sources) {
+  compile(program, ranges, Shape{true, {most_points, 1, most_layers}}, sources);
+}
+
+void BatchEvaluator::compile(const program::Program& program, const std::vector<Interval>& ranges, const Shape& shape,
+                             const SourceRows& sources) {
   program_ = &program;
   sources_ = &sources;
-  width_ = points.xs.size();
-  rows_ = by_layers_ ? 1 : points.ys.size();
-  layers_ = points.zs.size();
+  shape_ = shape;
   classify();
   find_order();
   pair_sines();
   reserve();
-  place_constants_and_inputs(points);
-  compile(ranges);
+  take_constants_and_inputs();
+  for (const ValueId id : order_)
+    if (!facts_[id].done) compile_one(id, ranges);
+}
 
-  // What does not change from layer to layer.
+void BatchEvaluator::set_constant(ValueId constant, float value) {
+  if (facts_[constant].needed) std::fill_n(facts_[constant].base, row_length(0), value);
+}
+
+void BatchEvaluator::place(const BoxLayers& points) {
+  box_width_ = points.width;
+  box_rows_ = points.rows.size();
+  width_ = padded(box_width_) * box_rows_;
+  rows_ = 1;
+  layers_ = points.zs.size();
+  ASSERT(width_ <= shape_.most[0] && layers_ <= shape_.most[2]);
+  for (const ValueId id : inputs_[0]) {
+    float* to = facts_[id].base;
+    for (const PointRow& row : points.rows) to = std::copy_n(row.xs, padded(box_width_), to);
+  }
+  for (const ValueId id : inputs_[1]) {
+    float* to = facts_[id].base;
+    for (const PointRow& row : points.rows) to = std::fill_n(to, padded(box_width_), row.y);
+  }
+  place_input(2, points.zs);
+  run_before_layers();
+}
+
+void BatchEvaluator::place_input(size_t axis, std::span<const float> values) {
+  for (const ValueId id : inputs_[axis]) {
+    float* const end = std::copy(values.begin(), values.end(), facts_[id].base);
+    std::fill(end, facts_[id].base + padded(values.size()), values.back());
+  }
+}
+
+// What does not change from layer to layer.
+void BatchEvaluator::run_before_layers() {
   run(steps_[0], 0, 1);
   run(steps_[axis_y], 0, rows_);
   run(steps_[axis_z], 0, layers_);
@@ -103,7 +142,7 @@ void BatchEvaluator::classify() {
     const Instruction& in = program_->code[i];
     uint8_t& mask = facts_[i].mask;
     if (in.op == Op::input)
-      mask = by_layers_ && in.value == 1 ? axis_x : static_cast<uint8_t>(1 << static_cast<int>(in.value));
+      mask = shape_.by_layers && in.value == 1 ? axis_x : static_cast<uint8_t>(1 << static_cast<int>(in.value));
     each_operand(in, [&](ValueId id) { mask |= facts_[id].mask; });
     if (in.op == Op::parts || (in.op == Op::source && sources_->has(program_->reads[in.aux]))) mask = all_axes;
   }
@@ -147,18 +186,17 @@ void BatchEvaluator::pair_sines() {
   }
 }
 
-size_t BatchEvaluator::row_length(uint8_t mask) const { return padded(point_count(mask)); }
-
-size_t BatchEvaluator::point_count(uint8_t mask) const {
+// Of the largest box.
+size_t BatchEvaluator::row_length(uint8_t mask) const {
   switch (row_axis(mask)) {
     case axis_x:
-      return width_;
+      return padded(shape_.most[0]);
     case axis_y:
-      return rows_;
+      return padded(shape_.most[1]);
     case axis_z:
-      return layers_;
+      return padded(shape_.most[2]);
     default:
-      return 1;
+      return padded(1);
   }
 }
 
@@ -167,7 +205,7 @@ void BatchEvaluator::reserve() {
   size_t floats = 2 * batch_lanes;
   for (const Fact& fact : facts_) {
     const bool each_row = fact.mask == (axis_x | axis_y) && fact.outlives;
-    floats += (each_row ? rows_ : 1) * row_length(fact.mask) + batch_lanes;
+    floats += (each_row ? shape_.most[1] : 1) * row_length(fact.mask) + batch_lanes;
   }
   if (memory_.size() < floats) memory_.resize(floats);
   const auto address = reinterpret_cast<uintptr_t>(memory_.data());
@@ -190,7 +228,7 @@ BatchEvaluator::Place BatchEvaluator::take(ValueId id) {
   const bool each_row = fact.mask == (axis_x | axis_y) && fact.outlives;
   const size_t length = row_length(fact.mask);
   fact.base = next_;
-  next_ += (each_row ? rows_ : 1) * length;
+  next_ += (each_row ? shape_.most[1] : 1) * length;
   if (fact.mask == axis_z) next_ += batch_lanes;
   if (fact.mask == axis_z && fact.outlives) layer_numbers_.emplace_back(fact.base, fact.base + length);
   return {fact.base, each_row ? static_cast<ptrdiff_t>(length) : 0};
@@ -215,28 +253,19 @@ BatchEvaluator::Place BatchEvaluator::place_for(ValueId id, uint8_t consumer) co
   return {fact.base + row_length(fact.mask), 0};
 }
 
-void BatchEvaluator::place_constants_and_inputs(const BoxPoints& points) {
+void BatchEvaluator::take_constants_and_inputs() {
+  for (auto& ids : inputs_) ids.clear();
   for (ValueId id = 0; id < facts_.size(); ++id) {
     const Instruction& in = program_->code[id];
     if (!facts_[id].needed || (in.op != Op::constant && in.op != Op::input)) continue;
-    Fact& fact = facts_[id];
-    fact.outlives = true;
-    fact.done = true;
-    const size_t length = row_length(fact.mask);
+    facts_[id].outlives = true;
+    facts_[id].done = true;
     take(id);
-    if (in.op == Op::constant) {
-      std::fill_n(fact.base, length, static_cast<float>(in.value));
-      continue;
-    }
-    const std::span<const float> values = in.value == 0 ? points.xs : in.value == 1 ? points.ys : points.zs;
-    std::copy(values.begin(), values.end(), fact.base);
-    std::fill(fact.base + values.size(), fact.base + length, values.back());
+    if (in.op == Op::constant)
+      set_constant(id, static_cast<float>(in.value));
+    else
+      inputs_[static_cast<size_t>(in.value)].push_back(id);
   }
-}
-
-void BatchEvaluator::compile(const std::vector<Interval>& ranges) {
-  for (const ValueId id : order_)
-    if (!facts_[id].done) compile_one(id, ranges);
 }
 
 void BatchEvaluator::compile_one(ValueId id, const std::vector<Interval>& ranges) {
@@ -301,7 +330,7 @@ void BatchEvaluator::run(const std::vector<Step>& steps, size_t j, size_t count)
 template <class F>
 void BatchEvaluator::each_box_row(const Step& step, size_t j, size_t count, F f) const {
   float* out = step.out.at(j);
-  if (!by_layers_) return f(j, {out, count});
+  if (!shape_.by_layers) return f(j, {out, count});
   for (size_t row = 0; row < box_rows_; ++row) f(row, {out + row * padded(box_width_), box_width_});
 }
 

@@ -20,6 +20,7 @@ struct Values {
   const float* row = nullptr;
   bool is_number = false;
   float operator[](size_t n) const { return row[is_number ? 0 : n]; }
+  Values from(size_t n) const { return is_number ? *this : Values{row + n, false}; }
 };
 
 // Sources that know their rows: what they say along row (j, k) of the box.
@@ -37,25 +38,37 @@ struct BoxPoints {
   std::span<const float> xs, ys, zs;
 };
 
-// Narrow boxes have short rows, and starting an op on a row costs as much as some dozens of points. So all
-// points of a layer can make up one row: `xs` and `ys` are those of its points then, each row of the box
-// padded to a multiple of batch_lanes.
+// Narrow boxes have short rows, and starting an op on a row costs as much as some dozens of points. So the
+// rows of a layer can make up one: they are padded to a multiple of batch_lanes, and need not be neighbours.
+struct PointRow {
+  const float* xs = nullptr;  // padded width
+  float y = 0;
+};
 struct BoxLayers {
-  std::span<const float> xs, ys, zs;
-  size_t width = 0, rows = 0;  // of the box
+  std::span<const PointRow> rows;
+  std::span<const float> zs;
+  size_t width = 0;
 };
 
 class BatchEvaluator {
  public:
   explicit BatchEvaluator(const KernelSet& kernels) : kernels_(kernels) {}
 
-  // `program` without calls and affine maps, parts only where `sources` has them; `ranges` are its values' over the box
-  // for batches, and decide nothing but speed. All arguments must outlive the evaluation.
+  // `program` without calls and affine maps, parts only where `sources` has them; `ranges` are its values' over
+  // the box for batches, and decide nothing but speed. All arguments must outlive the evaluation.
   void begin(const program::Program& program, const std::vector<Interval>& ranges, const BoxPoints& points,
              const SourceRows& sources);
   // The only row of a layer is row 0.
   void begin(const program::Program& program, const std::vector<Interval>& ranges, const BoxLayers& points,
              const SourceRows& sources);
+
+  // The same in steps: what is compiled once can be placed on many boxes of at most so many points a layer
+  // (padding included) and layers, whose constants may differ.
+  void compile(const program::Program& program, const std::vector<Interval>& ranges, size_t most_points,
+               size_t most_layers, const SourceRows& sources);
+  void set_constant(program::ValueId constant, float value);
+  void place(const BoxLayers& points);
+
   void begin_layer(size_t k);
   // Computes output 0 along row j of the layer; finish_row then the other outputs.
   void begin_row(size_t j);
@@ -88,22 +101,26 @@ class BatchEvaluator {
     float* base = nullptr;
   };
 
-  void begin_box(const program::Program& program, const std::vector<Interval>& ranges, const BoxPoints& points,
-                 const SourceRows& sources);
+  struct Shape {
+    bool by_layers = false;
+    std::array<size_t, 3> most{};  // points along each axis
+  };
+  void compile(const program::Program& program, const std::vector<Interval>& ranges, const Shape& shape,
+               const SourceRows& sources);
+  void run_before_layers();
   template <class F>
   void each_read(const program::Instruction& in, F f) const;
   void classify();
   void find_order();
   void pair_sines();
   void reserve();
-  void compile(const std::vector<Interval>& ranges);
   void compile_one(program::ValueId id, const std::vector<Interval>& ranges);
-  void place_constants_and_inputs(const BoxPoints& points);
+  void take_constants_and_inputs();
+  void place_input(size_t axis, std::span<const float> values);
   Place place_for(program::ValueId id, uint8_t consumer) const;
   Place take(program::ValueId id);
   void release(program::ValueId id, program::ValueId user);
   size_t row_length(uint8_t mask) const;
-  size_t point_count(uint8_t mask) const;
   void run(const std::vector<Step>& steps, size_t j, size_t count);
   void sample(const Step& step, size_t j, size_t count) const;
   // Calls f(j, values) for each row of the box that the row at work stands for.
@@ -113,9 +130,10 @@ class BatchEvaluator {
   const KernelSet& kernels_;
   const program::Program* program_ = nullptr;
   const SourceRows* sources_ = nullptr;
+  Shape shape_;
   size_t width_ = 0, rows_ = 0, layers_ = 0, j_ = 0, k_ = 0;
-  bool by_layers_ = false;
-  size_t box_width_ = 0, box_rows_ = 0;  // by layers: of the box
+  size_t box_width_ = 0, box_rows_ = 0;                  // by layers: of the box
+  std::array<std::vector<program::ValueId>, 3> inputs_;  // that are needed
   std::vector<Fact> facts_;
   std::vector<program::ValueId> order_, seen_;
   std::array<std::vector<float*>, 8> free_;               // rows by mask
