@@ -176,6 +176,15 @@ size_t PartIndex::count(const Box& region, size_t most) const {
   return count;
 }
 
+bool PartIndex::reaches(const Box& region) const {
+  bool any = false;
+  visit(region, [&](uint32_t, const Bounds&) {
+    any = true;
+    return false;
+  });
+  return any;
+}
+
 Box grown_for_rounding(const Box& box) {
   constexpr double share = 0x1p-16;
   double farthest = 0;

@@ -76,7 +76,7 @@ class PartIndex {
   void find(const Box& region, std::vector<Entry>& entries) const;
   // How many parts have boxes that meet the region, or `most` if it is more; most <= 16.
   size_t count(const Box& region, size_t most) const;
-  bool reaches(const Box& region) const { return count(region, 1) > 0; }
+  bool reaches(const Box& region) const;
 
  private:
   struct Bounds {

@@ -111,6 +111,11 @@ void evaluate_intervals(const Program& program, const Box& box, std::vector<Inte
                         const SourceRanges& source_ranges, Precision precision) {
   const bool batch = precision == Precision::batch;
   const auto rounded = [&](Interval v) { return batch ? to_single(v) : v; };
+  struct {
+    const PartSet* set = nullptr;
+    Box where;
+    bool reaches = false;
+  } asked;
   values.resize(program.code.size());
   for (size_t i = 0; i < program.code.size(); ++i) {
     const Instruction& in = program.code[i];
@@ -138,7 +143,9 @@ void evaluate_intervals(const Program& program, const Box& box, std::vector<Inte
       case Op::parts: {
         const Box where{{a.lo, b.lo, c.lo}, {a.hi, b.hi, c.hi}};
         const PartSet& set = *program.part_sets[in.aux];
-        values[i] = set.index.reaches(where) ? set.ranges[static_cast<size_t>(in.value)] : Interval(0);
+        // Slots of one set at one place follow each other.
+        if (asked.set != &set || asked.where != where) asked = {&set, where, set.index.reaches(where)};
+        values[i] = asked.reaches ? set.ranges[static_cast<size_t>(in.value)] : Interval(0);
         break;
       }
       case Op::divide:

@@ -1,6 +1,7 @@
 // Tiles in float batches.
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "eval/batch/batch.h"
 #include "program/passes/passes.h"
@@ -18,12 +19,20 @@ class RowsAtWork : public eval::SourceRows {
  public:
   explicit RowsAtWork(const PartRows& parts) : parts_(parts) {}
   bool has(const program::Read& read) const override { return sources->has(read.tag); }
-  void fill(const program::Read& read, size_t row, size_t k, std::span<float> values) const override {
-    sources->fill(read.tag, places[row].i, places[row].j, layer + static_cast<int64_t>(k), values);
+  void fill(const program::Read& read, const eval::RowsToFill& rows) const override {
+    for (size_t n = 0; n < rows.count; ++n) {
+      const RowPlace at = places[rows.first + n];
+      const std::span<float> values(rows.values + n * rows.stride, rows.width);
+      sources->fill(read.tag, at.i, at.j, layer + static_cast<int64_t>(rows.layer), values);
+    }
   }
-  void fill_parts(uint32_t set, size_t slot, size_t row, size_t k, std::span<float> values) const override {
-    const RowPlace at = places[row];
-    std::copy_n(parts_.row(set, slot, at.i, at.j, layer + static_cast<int64_t>(k)), values.size(), values.data());
+  void fill_parts(uint32_t set, size_t slot, const eval::RowsToFill& rows) const override {
+    for (size_t n = 0; n < rows.count; ++n) {
+      const float* from = parts_.row(set, slot, places[rows.first + n], layer + static_cast<int64_t>(rows.layer));
+      float* const to = rows.values + n * rows.stride;
+      for (size_t i = 0; i < rows.width; i += eval::batch_lanes)
+        std::memcpy(to + i, from + i, eval::batch_lanes * sizeof *to);
+    }
   }
 
   const StripSources* sources = nullptr;
@@ -141,7 +150,7 @@ class BatchLeaf : public LeafEvaluator {
     batch_.begin_layer(static_cast<size_t>(k - rows_.layer));
     batch_.begin_row(0);
     if (!kernels_.any(batch_.output(0), width * places.size())) return;
-    batch_.finish_row();
+    finish_row();
     for (size_t first = 0, end = 0; first < places.size(); first = end) {
       const RowPlace at = places[first];
       const auto follows = [&](size_t n) {
@@ -160,15 +169,22 @@ class BatchLeaf : public LeafEvaluator {
       for (size_t row = 0; row < rows_.places.size(); ++row) {
         batch_.begin_row(row);
         if (!kernels_.any(batch_.output(0), tile_width())) continue;
-        batch_.finish_row();
+        finish_row();
         take({rows_.places[row], k, tile_width(), 0});
       }
     }
   }
 
+  void finish_row() {
+    batch_.finish_row();
+    outputs_.clear();
+    for (size_t n = 0; n < output_count(); ++n) outputs_.push_back(batch_.output(n));
+  }
+
+  size_t output_count() const { return 1 + job_.selector.threshold_count + job_.selector.check_count; }
   size_t tile_width() const { return static_cast<size_t>(tile_.size(0)); }
   // An output along the stretch at work.
-  eval::Values output(size_t n) const { return batch_.output(n).from(stretch_.lane); }
+  eval::Values output(size_t n) const { return outputs_[n].from(stretch_.lane); }
 
   void take(const Stretch& stretch) {
     stretch_ = stretch;
@@ -271,6 +287,7 @@ class BatchLeaf : public LeafEvaluator {
   TileBox tile_;
   TilePoints points_;
   std::vector<eval::PointRow> point_rows_;
+  std::vector<eval::Values> outputs_;  // of the rows at work
   Stretch stretch_;
   StripVoxels* voxels_ = nullptr;
   std::vector<size_t> unknown_outputs_;  // that may be NaN in the tile

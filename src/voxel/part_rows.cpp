@@ -29,7 +29,7 @@ int64_t padded(int64_t width) { return (width + block - 1) / block * block; }
 class NoSources : public eval::SourceRows {
  public:
   bool has(const program::Read&) const override { return false; }
-  void fill(const program::Read&, size_t, size_t, std::span<float>) const override {}
+  void fill(const program::Read&, const eval::RowsToFill&) const override {}
 };
 const NoSources no_sources;
 
@@ -75,7 +75,10 @@ PartRows::PartRows(const VoxelJob& job, const eval::KernelSet& kernels)
     Set& set = known == sets_.end() ? sets_.emplace_back() : *known;
     set.parts = parts;
     const auto slot = static_cast<size_t>(in.value);
-    if (std::find(set.slots.begin(), set.slots.end(), slot) == set.slots.end()) set.slots.push_back(slot);
+    if (std::find(set.slots.begin(), set.slots.end(), slot) != set.slots.end()) continue;
+    set.numbers.resize(std::max(set.numbers.size(), slot + 1));
+    set.numbers[slot] = set.slots.size();
+    set.slots.push_back(slot);
   }
 }
 
@@ -129,13 +132,6 @@ void PartRows::touch_all() {
   const auto blocks = static_cast<unsigned>(stride_ / eval::batch_lanes);
   const uint64_t all = ~uint64_t{0} >> (64 - blocks);
   for (size_t row = 0; row < touched_.size(); ++row) touch(row, all);
-}
-
-const float* PartRows::row(uint32_t set, size_t slot, int64_t i, int64_t j, int64_t k) const {
-  const Set& read = *by_number_[set];
-  const auto at = std::find(read.slots.begin(), read.slots.end(), slot);
-  ASSERT(at != read.slots.end() && "the program's slots are known");
-  return values_.data() + offset(read.first_plane + static_cast<size_t>(at - read.slots.begin()), i, j, k);
 }
 
 // The tile's voxels with centres in [lo, hi): boxes of one part that share a face share no voxel.

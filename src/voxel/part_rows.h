@@ -51,7 +51,10 @@ class PartRows {
   // Bit b: some part touched voxels [16 b, 16 (b + 1)) of the tile's row.
   uint64_t touched(int64_t j, int64_t k) const { return touched_[row_number(j, k)]; }
   // From voxel i on; the tile's width is padded.
-  const float* row(uint32_t set, size_t slot, int64_t i, int64_t j, int64_t k) const;
+  const float* row(uint32_t set, size_t slot, RowPlace at, int64_t k) const {
+    const Set& read = *by_number_[set];
+    return values_.data() + offset(read.first_plane + read.numbers[slot], at.i, at.j, k);
+  }
 
  private:
   struct KeptBody {
@@ -62,6 +65,7 @@ class PartRows {
   struct Set {
     const program::PartSet* parts = nullptr;
     std::vector<size_t> slots;
+    std::vector<size_t> numbers;  // of the slots among `slots`
     std::vector<KeptBody> bodies;
     size_t first_plane = 0;
   };

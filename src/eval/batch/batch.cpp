@@ -312,26 +312,22 @@ void BatchEvaluator::run(const std::vector<Step>& steps, size_t j, size_t count)
         kernels_.sine_cosine(step.a.at(j), step.out.at(j), step.second_out.at(j), count);
         break;
       case Step::Kind::fill:
-        each_box_row(step, j, count,
-                     [&](size_t row, std::span<float> values) { sources_->fill(*step.read, row, k_, values); });
+        sources_->fill(*step.read, rows_of(step, j, count));
         break;
       case Step::Kind::sample:
         sample(step, j, count);
         break;
       case Step::Kind::parts:
-        each_box_row(step, j, count, [&](size_t row, std::span<float> values) {
-          sources_->fill_parts(step.parts->aux, static_cast<size_t>(step.parts->value), row, k_, values);
-        });
+        sources_->fill_parts(step.parts->aux, static_cast<size_t>(step.parts->value), rows_of(step, j, count));
         break;
     }
   }
 }
 
-template <class F>
-void BatchEvaluator::each_box_row(const Step& step, size_t j, size_t count, F f) const {
-  float* out = step.out.at(j);
-  if (!shape_.by_layers) return f(j, {out, count});
-  for (size_t row = 0; row < box_rows_; ++row) f(row, {out + row * padded(box_width_), box_width_});
+// The rows of the box that the row at work stands for.
+RowsToFill BatchEvaluator::rows_of(const Step& step, size_t j, size_t count) const {
+  if (!shape_.by_layers) return {k_, j, 1, step.out.at(j), count, count};
+  return {k_, 0, box_rows_, step.out.at(j), box_width_, padded(box_width_)};
 }
 
 void BatchEvaluator::sample(const Step& step, size_t j, size_t count) const {

@@ -23,14 +23,21 @@ struct Values {
   Values from(size_t n) const { return is_number ? *this : Values{row + n, false}; }
 };
 
-// Sources that know their rows: what they say along row (j, k) of the box.
+// Rows of a layer to be filled: row `first` + n begins at values + n * stride.
+struct RowsToFill {
+  size_t layer = 0, first = 0, count = 0;
+  float* values = nullptr;
+  size_t width = 0, stride = 0;
+};
+
+// Sources that know their rows: what they say along those of the box.
 class SourceRows {
  public:
   virtual ~SourceRows() = default;
   virtual bool has(const program::Read& read) const = 0;  // if not, it is asked point by point
-  virtual void fill(const program::Read& read, size_t j, size_t k, std::span<float> values) const = 0;
+  virtual void fill(const program::Read& read, const RowsToFill& rows) const = 0;
   // Slot of the program's part set `set`; asked only of those that have parts.
-  virtual void fill_parts(uint32_t /*set*/, size_t /*slot*/, size_t /*j*/, size_t /*k*/, std::span<float>) const {}
+  virtual void fill_parts(uint32_t /*set*/, size_t /*slot*/, const RowsToFill&) const {}
 };
 
 // Coordinates of the points of a box, as floats.
@@ -123,9 +130,7 @@ class BatchEvaluator {
   size_t row_length(uint8_t mask) const;
   void run(const std::vector<Step>& steps, size_t j, size_t count);
   void sample(const Step& step, size_t j, size_t count) const;
-  // Calls f(j, values) for each row of the box that the row at work stands for.
-  template <class F>
-  void each_box_row(const Step& step, size_t j, size_t count, F f) const;
+  RowsToFill rows_of(const Step& step, size_t j, size_t count) const;
 
   const KernelSet& kernels_;
   const program::Program* program_ = nullptr;

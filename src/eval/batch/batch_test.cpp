@@ -26,7 +26,7 @@ bool same_bits(float a, float b) { return (std::isnan(a) && std::isnan(b)) || st
 class NoRows : public SourceRows {
  public:
   bool has(const program::Read&) const override { return false; }
-  void fill(const program::Read&, size_t, size_t, std::span<float>) const override {}
+  void fill(const program::Read&, const RowsToFill&) const override {}
 };
 
 struct Points {
