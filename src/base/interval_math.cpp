@@ -76,6 +76,18 @@ Interval divide(Interval a, Interval b) {
   return {std::min({p, q, r, s}), std::max({p, q, r, s})};
 }
 
+Interval share(Interval part, Interval total) {
+  const bool may_be_nan = part.is_everything() || total.is_everything() || (!part.is_bounded() && !total.is_bounded());
+  if (may_be_nan) return Interval::everything();
+  if (total.hi <= 0) return 0;
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  const bool surely = total.lo > 0;
+  const double lo = part.lo >= 0 ? part.lo / total.hi : surely ? part.lo / total.lo : -inf;
+  const double hi = part.hi <= 0 ? part.hi / total.hi : surely ? part.hi / total.lo : inf;
+  const Interval quotient{std::min(lo, 1.0), std::min(hi, 1.0)};
+  return surely ? quotient : hull(quotient, 0);
+}
+
 Interval sin(Interval v) {
   if (!v.is_bounded() || v.hi - v.lo >= 2 * pi || std::max(std::abs(v.lo), std::abs(v.hi)) > 1e8)
     return v.is_bounded() ? Interval(-1, 1) : Interval::everything();

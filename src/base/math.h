@@ -44,6 +44,8 @@ inline double logical_not(double v) { return v != 0 ? 0 : 1; }
 inline double logical_and(double a, double b) { return a != 0 && b != 0 ? 1 : 0; }
 inline double logical_or(double a, double b) { return a != 0 || b != 0 ? 1 : 0; }
 inline double fma(double a, double b, double c) { return std::fma(a, b, c); }  // rounded once
+// What part is of a total that holds it; 0 of a total of 0, so that nothing divided by nothing is a number.
+inline double share(double part, double total) { return !(total > 0) ? 0 : part / total > 1 ? 1 : part / total; }
 inline double select(double condition, double a, double b) { return condition != 0 ? a : b; }
 inline double is_finite(double v) { return std::isfinite(v) ? 1 : 0; }
 
@@ -87,6 +89,7 @@ Interval logical_not(Interval v);
 Interval logical_and(Interval a, Interval b);
 Interval logical_or(Interval a, Interval b);
 Interval fma(Interval a, Interval b, Interval c);
+Interval share(Interval part, Interval total);
 Interval select(Interval condition, Interval a, Interval b);
 Interval is_finite(Interval v);
 

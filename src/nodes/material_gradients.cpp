@@ -75,7 +75,7 @@ struct Mixture {
   static std::vector<Field> normalised(const std::vector<Field>& values) {
     const Field total = program::fold(values, add);
     std::vector<Field> shares;
-    for (const Field v : values) shares.push_back(v / total);
+    for (const Field v : values) shares.push_back(share(v, total));
     return shares;
   }
 

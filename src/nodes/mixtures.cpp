@@ -40,7 +40,7 @@ Composition weighted(const Inputs& in, const Point& p, Demand demand, const std:
   }
   const Field total = program::fold(weights, add);
   Composition result;
-  for (auto& [id, list] : terms) result.fractions.emplace_back(id, program::fold(std::move(list), add) / total);
+  for (auto& [id, list] : terms) result.fractions.emplace_back(id, share(program::fold(std::move(list), add), total));
   for (auto& [number, list] : marks)
     result.checks.emplace_back(number, program::fold(std::move(list), program::logical_or));
   return result;
@@ -75,7 +75,7 @@ Composition mixed(const design::Inputs& in, const Point& p, const design::PartFi
     }
   }
   Composition result;
-  for (const auto& [id, sum] : sums) result.fractions.emplace_back(id, sum / count);
+  for (const auto& [id, sum] : sums) result.fractions.emplace_back(id, share(sum, count));
   for (const auto& [number, mark] : marks) result.checks.emplace_back(number, mark);
   return result;
 }

@@ -249,6 +249,7 @@ Field truth(Field a) { return a.builder->apply(Op::truth, a); }
 Field logical_not(Field a) { return a.builder->apply(Op::logical_not, a); }
 Field logical_and(Field a, Field b) { return a.builder->apply(Op::logical_and, a, b); }
 Field logical_or(Field a, Field b) { return a.builder->apply(Op::logical_or, a, b); }
+Field share(Field part, Field total) { return part.builder->apply(Op::share, part, total); }
 Field select(Field condition, Field a, Field b) { return a.builder->apply(Op::select, condition, a, b); }
 Field is_finite(Field a) { return a.builder->apply(Op::is_finite, a); }
 

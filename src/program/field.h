@@ -99,6 +99,7 @@ Field truth(Field a);
 Field logical_not(Field a);
 Field logical_and(Field a, Field b);
 Field logical_or(Field a, Field b);
+Field share(Field part, Field total);
 Field select(Field condition, Field a, Field b);
 Field is_finite(Field a);
 // Folds a list pairwise, as a balanced tree, so that a part of it can be settled alone.

@@ -19,7 +19,7 @@
   row(sinh, 1) row(cosh, 1) row(tanh, 1) row(exp, 1) row(log, 1) row(log10, 1) row(log2, 1) \
   row(less, 2) row(less_equal, 2) row(equal, 2) row(truth, 1)                              \
   row(logical_not, 1) row(logical_and, 2) row(logical_or, 2) row(select, 3) row(is_finite, 1) \
-  row(fma, 3)
+  row(fma, 3) row(share, 2)
 // clang-format on
 
 namespace ombre::program {

@@ -149,7 +149,8 @@ void evaluate_intervals(const Program& program, const Box& box, std::vector<Inte
         break;
       }
       case Op::divide:
-        if (in.a == in.b && a.is_bounded() && (a.lo > 0 || a.hi < 0)) {
+      case Op::share:
+        if (in.a == in.b && a.is_bounded() && (a.lo > 0 || (a.hi < 0 && in.op == Op::divide))) {
           values[i] = 1;
           break;
         }

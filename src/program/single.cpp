@@ -59,7 +59,11 @@ Interval elementary(Op op, Interval a, Interval b, Interval c) {
   const Interval value = apply(op, a, b, c);
   if (value.is_everything()) return value;
   const bool not_negative = value.lo >= 0;
-  const Interval wide = widened(value);
+  Interval wide = widened(value);
+  // Near the end of the floats, functions of floats give up early.
+  constexpr double inf = std::numeric_limits<double>::infinity(), near_the_end = 0x1p126;
+  if (wide.hi > near_the_end) wide.hi = inf;
+  if (wide.lo < -near_the_end) wide.lo = -inf;
   return {not_negative ? std::max(0.0, wide.lo) : wide.lo, wide.hi};
 }
 

@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "eval/batch/batch.h"
 #include "program/passes/passes.h"
@@ -68,9 +69,7 @@ class BatchLeaf : public LeafEvaluator {
     rows_.sources = &sources;
     rows_.layer = tile.lo[2];
     voxels_ = &voxels;
-    unknown_outputs_.clear();
-    for (size_t n = 0; n < program.outputs.size(); ++n)
-      if (ranges[program.outputs[n]].is_everything()) unknown_outputs_.push_back(n);
+    find_used(program, ranges);
     has_reference_ = false;
     points_.place(job_.lattice, tile);
     if (program.has_parts()) {
@@ -177,11 +176,53 @@ class BatchLeaf : public LeafEvaluator {
 
   void finish_row() {
     batch_.finish_row();
-    outputs_.clear();
-    for (size_t n = 0; n < output_count(); ++n) outputs_.push_back(batch_.output(n));
+    for (const size_t n : used_) outputs_[n] = batch_.output(n);
   }
 
-  size_t output_count() const { return 1 + job_.selector.threshold_count + job_.selector.check_count; }
+  // What of the outputs matters in the tile.
+  void find_used(const program::Program& program, const std::vector<Interval>& ranges) {
+    used_.assign(1, 0);
+    unknown_outputs_.clear();
+    checks_.clear();
+    outputs_.resize(program.outputs.size());
+    find_choices(program);
+    used_.insert(used_.end(), choices_.begin(), choices_.end());
+    for (size_t c = 0, n = 1 + job_.selector.threshold_count; c < job_.selector.check_count; ++c, ++n) {
+      if (constant(program, n) == 0.0) continue;
+      checks_.push_back(c);
+      used_.push_back(n);
+    }
+    for (const size_t n : used_)
+      if (ranges[program.outputs[n]].is_everything()) unknown_outputs_.push_back(n);
+  }
+
+  // Only the materials that draws can fall to here: those between the last threshold 0 and the first 1, and
+  // only the last of those between equal thresholds.
+  void find_choices(const program::Program& program) {
+    const Selector& selector = job_.selector;
+    choices_.clear();
+    materials_.assign(1, selector.materials[0]);
+    for (size_t t = 0; t < selector.threshold_count; ++t) {
+      const auto value = constant(program, 1 + t);
+      if (value == 1.0) return;
+      const bool is_new = choices_.empty() || program.outputs[choices_.back()] != program.outputs[1 + t];
+      if (value == 0.0) {
+        choices_.clear();
+        materials_.assign(1, selector.materials[t + 1]);
+      } else if (is_new) {
+        choices_.push_back(1 + t);
+        materials_.push_back(selector.materials[t + 1]);
+      } else {
+        materials_.back() = selector.materials[t + 1];
+      }
+    }
+  }
+
+  static std::optional<double> constant(const program::Program& program, size_t output) {
+    const program::Instruction& in = program.code[program.outputs[output]];
+    return in.op == program::Op::constant ? std::optional(in.value) : std::nullopt;
+  }
+
   size_t tile_width() const { return static_cast<size_t>(tile_.size(0)); }
   // An output along the stretch at work.
   eval::Values output(size_t n) const { return outputs_[n].from(stretch_.lane); }
@@ -192,27 +233,13 @@ class BatchLeaf : public LeafEvaluator {
     const eval::Values inside = output(0);
     if (!kernels_.any(inside, width)) return;
     thresholds_.clear();
-    for (size_t t = 0; t < job_.selector.threshold_count; ++t) thresholds_.push_back(output(1 + t));
+    for (const size_t n : choices_) thresholds_.push_back(output(n));
     MaterialId* out = voxels_->at(at.i, at.j, k);
     const Draws draws = draws_of_row(job_.dither, job_.seed, at.j, k);
-    kernels_.choose(present({inside, thresholds_, job_.selector.materials, draws, at.i, width}), out);
+    kernels_.choose({inside, thresholds_, materials_, draws, at.i, width}, out);
     for (size_t t = 0; t < voxels_->kept_thresholds(); ++t) keep_threshold(t);
-    for (size_t c = 0; c < job_.selector.check_count; ++c) count_check(c, inside);
+    for (const size_t c : checks_) count_check(c, inside);
     if (has_unknown(inside)) redo_unknown(inside);
-  }
-
-  // Only the materials that draws can fall to here: those between the last threshold 0 and the first 1.
-  static ChoiceRow present(ChoiceRow row) {
-    const auto is = [&](size_t t, float value) {
-      return row.thresholds[t].is_number && *row.thresholds[t].row == value;
-    };
-    size_t end = 0, begin = 0;
-    while (end < row.thresholds.size() && !is(end, 1)) ++end;
-    for (size_t t = 0; t < end; ++t)
-      if (is(t, 0)) begin = t + 1;
-    row.thresholds = row.thresholds.subspan(begin, end - begin);
-    row.materials = row.materials.subspan(begin, end - begin + 1);
-    return row;
   }
 
   bool has_unknown(const eval::Values& inside) const {
@@ -223,7 +250,7 @@ class BatchLeaf : public LeafEvaluator {
 
   void keep_threshold(size_t t) {
     float* to = voxels_->threshold(t, stretch_.at.i, stretch_.at.j, stretch_.k);
-    const eval::Values& from = thresholds_[t];
+    const eval::Values from = batch_.output(1 + t).from(stretch_.lane);
     if (from.is_number)
       std::fill_n(to, stretch_.width, *from.row);
     else
@@ -290,7 +317,9 @@ class BatchLeaf : public LeafEvaluator {
   std::vector<eval::Values> outputs_;  // of the rows at work
   Stretch stretch_;
   StripVoxels* voxels_ = nullptr;
-  std::vector<size_t> unknown_outputs_;  // that may be NaN in the tile
+  std::vector<size_t> used_, choices_, unknown_outputs_;  // outputs: those that matter, thresholds, may be NaN
+  std::vector<size_t> checks_;                            // that may fail
+  std::vector<MaterialId> materials_;                     // one more than choices_
   bool has_reference_ = false;
   program::Program reference_program_;
   std::vector<eval::Values> thresholds_;

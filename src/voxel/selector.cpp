@@ -16,7 +16,7 @@ std::vector<Field> shares(const std::vector<Field>& fractions) {
     sums.push_back(sums.empty() ? share : sums.back() + share);
   }
   std::vector<Field> thresholds;
-  for (size_t m = 0; m + 1 < sums.size(); ++m) thresholds.push_back(sums[m] / sums.back());
+  for (size_t m = 0; m + 1 < sums.size(); ++m) thresholds.push_back(share(sums[m], sums.back()));
   return thresholds;
 }
 

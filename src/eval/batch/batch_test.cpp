@@ -205,7 +205,7 @@ TEST(Batch, IntervalsHoldEveryValueAndShorteningKeepsThem) {
   const auto& sets = kernel_sets();
   if (sets.empty()) GTEST_SKIP();
   std::mt19937 random(4);
-  for (int n = 0; n < 2000; ++n) {
+  for (int n = 0; n < 20000; ++n) {
     const Program program = fuse(sign_only(random_program(random, 25)));
     const Points points = random_points(random, 8, 4, 2);
     std::vector<Interval> ranges;

@@ -67,6 +67,7 @@ constexpr bool loses_nan(Op op) {
     case Op::logical_or:
     case Op::select:
     case Op::is_finite:
+    case Op::share:
     case Op::pow:
       return true;
     default:

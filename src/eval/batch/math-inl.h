@@ -145,6 +145,10 @@ HWY_INLINE V truth(V v) { return one_where(is_set(v)); }
 HWY_INLINE V logical_not(V v) { return one_where(hn::Eq(v, hn::Zero(D()))); }
 HWY_INLINE V logical_and(V a, V b) { return one_where(hn::And(is_set(a), is_set(b))); }
 HWY_INLINE V logical_or(V a, V b) { return one_where(hn::Or(is_set(a), is_set(b))); }
+HWY_INLINE V share(V part, V total) {
+  const V quotient = hn::Div(part, total), most = hn::IfThenElse(hn::Gt(quotient, number(1)), number(1), quotient);
+  return hn::IfThenElseZero(hn::Gt(total, hn::Zero(D())), most);
+}
 HWY_INLINE V select(V condition, V a, V b) { return hn::IfThenElse(is_set(condition), a, b); }
 // What overflowed may be finite in double precision.
 HWY_INLINE V is_finite(V v) {

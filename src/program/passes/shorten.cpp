@@ -1,6 +1,7 @@
 // Drops what a region has settled.
 #include "program/passes/copy_tables.h"
 #include "program/passes/passes.h"
+#include "program/passes/zero_signs.h"
 
 namespace ombre::program {
 namespace {
@@ -8,7 +9,7 @@ namespace {
 bool lacks_zero(Interval v) { return v.lo > 0 || v.hi < 0; }
 
 // The operand that an instruction is sure to equal, or the instruction itself.
-ValueId settled(const Program& program, ValueId i, const std::vector<Interval>& values) {
+ValueId settled(const Program& program, ValueId i, const std::vector<Interval>& values, bool zero_sign_matters) {
   const Instruction& in = program.code[i];
   const auto never_nan = [&](ValueId v) { return !values[v].is_everything(); };
   switch (in.op) {
@@ -30,8 +31,8 @@ ValueId settled(const Program& program, ValueId i, const std::vector<Interval>& 
       return i;
     case Op::add:
       // Zeros aside, whose sign a sum may change.
-      if (values[in.a] == Interval(0) && lacks_zero(values[in.b])) return in.b;
-      if (values[in.b] == Interval(0) && lacks_zero(values[in.a])) return in.a;
+      if (values[in.a] == Interval(0) && (!zero_sign_matters || lacks_zero(values[in.b]))) return in.b;
+      if (values[in.b] == Interval(0) && (!zero_sign_matters || lacks_zero(values[in.a]))) return in.a;
       return i;
     case Op::multiply:
       if (values[in.a] == Interval(1)) return in.b;
@@ -45,7 +46,7 @@ ValueId settled(const Program& program, ValueId i, const std::vector<Interval>& 
 class Shortener {
  public:
   Shortener(const Program& program, const std::vector<Interval>& values, std::vector<Interval>* kept)
-      : from_(program), values_(values), kept_(kept) {
+      : from_(program), values_(values), kept_(kept), zero_sign_matters_(zero_signs_that_matter(program)) {
     if (kept_) kept_->clear();
   }
 
@@ -58,9 +59,12 @@ class Shortener {
   }
 
  private:
-  // Inputs stay what they are, also where the region is one point wide: others look for them.
+  // Inputs stay what they are, also where the region is one point wide: others look for them. Intervals do not
+  // know the sign of a 0.
   bool is_known(ValueId i) const {
-    return from_.code[i].op != Op::input && values_[i].is_point() && std::isfinite(values_[i].lo);
+    const Op op = from_.code[i].op;
+    if (op == Op::input || !values_[i].is_point() || !std::isfinite(values_[i].lo)) return false;
+    return op == Op::constant || values_[i].lo != 0 || !zero_sign_matters_[i];
   }
 
   // An `or` with a side that is surely false is its other side, and the like.
@@ -86,7 +90,7 @@ class Shortener {
     target_.resize(n);
     needed_.assign(n, false);
     for (ValueId i = 0; i < n; ++i) {
-      const ValueId next = is_known(i) ? i : logical_target(settled(from_, i, values_));
+      const ValueId next = is_known(i) ? i : logical_target(settled(from_, i, values_, zero_sign_matters_[i]));
       target_[i] = next == i ? i : target_[next];
     }
     for (const ValueId output : from_.outputs) needed_[target_[output]] = true;
@@ -124,6 +128,7 @@ class Shortener {
   const std::vector<Interval>& values_;
   std::vector<Interval>* kept_;
   Program to_;
+  std::vector<bool> zero_sign_matters_;
   std::vector<ValueId> target_, renamed_;
   std::vector<bool> needed_;
 };
