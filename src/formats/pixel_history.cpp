@@ -90,7 +90,6 @@ void PixelHistory::put_row(const uint8_t* packed, const uint8_t* image, DeflateW
 
 template <unsigned bits>
 void PixelHistory::put(const uint8_t* packed, const uint8_t* image, DeflateWriter& out) {
-  enter<bits>(packed);
   cut<bits>(packed, image, out);
 }
 
@@ -114,31 +113,13 @@ void PixelHistory::store(const uint8_t* packed) {
 }
 
 template <unsigned bits>
-void PixelHistory::enter(const uint8_t* packed) {
-  constexpr uint32_t key_pixels = Keys<bits>::pixels, pixels_in_byte = 8 / bits;
-  const uint32_t count = begin_count(width_, key_pixels);
-  uint32_t* const latest = latest_.data();  // which no store below can move
-  uint32_t* before = before_.data();
-  uint32_t position = row_;
-  const auto enter_pixel = [&](uint64_t word) {
-    *before++ = std::exchange(latest[slot<bits * key_pixels, table_bits>(word)], position);
-    position += sizeof(uint32_t);
-  };
-  uint32_t column = 0;
-  for (; column + pixels_in_byte <= count; column += pixels_in_byte) {
-    const uint64_t word = load(packed + column / pixels_in_byte);
-    for (unsigned k = 0; k < pixels_in_byte; ++k) enter_pixel(word << k * bits);
-  }
-  for (; column < count; ++column) enter_pixel(word_at(packed, size_t{column} * bits));
-}
-
-template <unsigned bits>
 void PixelHistory::cut(const uint8_t* packed, const uint8_t* image, DeflateWriter& out) {
   constexpr uint32_t key_pixels = Keys<bits>::pixels, short_key_pixels = Keys<bits>::short_pixels;
   const uint32_t row = row_, width = width_;
   const uint32_t begins = begin_count(width, key_pixels), short_begins = begin_count(width, short_key_pixels);
   const uint8_t* const history = pixels_.data();
   const size_t first_bit = first_bit_;
+  uint32_t* const latest = latest_.data();
   uint32_t* const latest_short = latest_short_.data();
   for (uint32_t column = 0, count = 0; column < width; column += count) {
     const uint32_t here = row + 4 * column;
@@ -147,7 +128,11 @@ void PixelHistory::cut(const uint8_t* packed, const uint8_t* image, DeflateWrite
       return here - there <= window &&
              (pixels ^ word_at(history, (size_t{there} * bits >> 2) - first_bit)) >> (64 - in_bits) == 0;
     };
-    uint32_t there = column < begins ? before_[column] : 0, there_short = 0;
+    const auto enter = [&](uint32_t n) {
+      for (uint32_t i = 0; i < n; ++i)
+        latest[slot<bits * key_pixels, table_bits>(pixels << i * bits)] = here + 4 * i;
+    };
+    uint32_t there = column < begins ? latest[slot<bits * key_pixels, table_bits>(pixels)] : 0, there_short = 0;
     if (column < short_begins)
       there_short = std::exchange(latest_short[slot<bits * short_key_pixels, short_table_bits>(pixels)], here);
     count = key_pixels;
@@ -156,11 +141,20 @@ void PixelHistory::cut(const uint8_t* packed, const uint8_t* image, DeflateWrite
       count = short_key_pixels;
       if (!agrees(there, bits * short_key_pixels)) {
         count = 1;
+        if (column < begins) enter(1);
         out.literals(image + size_t{4} * column, 4);
         continue;
       }
     }
-    if (agrees(there, bits * count + more_bits)) count = common_pixels<bits>(column, there);
+    if (agrees(there, bits * count + more_bits)) {
+      count = common_pixels<bits>(column, there);
+      const uint32_t last = std::min(column + count, begins);
+      for (uint32_t i = column; i < last; ++i)
+        latest[slot<bits * key_pixels, table_bits>(word_at(packed, size_t{i} * bits))] = row + 4 * i;
+    } else if (column + count <= begins) {
+      enter(count);
+    } else if (column < begins)
+      enter(begins - column);
     out.match(4 * count, here - there);
   }
 }

@@ -30,8 +30,6 @@ class PixelHistory {
   void put(const uint8_t* packed, const uint8_t* image, DeflateWriter& out);
   void store(const uint8_t* packed);
   template <unsigned bits>
-  void enter(const uint8_t* packed);
-  template <unsigned bits>
   void cut(const uint8_t* packed, const uint8_t* image, DeflateWriter& out);
   template <unsigned bits>
   uint32_t common_pixels(uint32_t column, uint32_t there) const;
