@@ -43,8 +43,9 @@ class RgbaRows {
   std::vector<Run> runs_, runs_above_;  // of smooth rows
   // A dithered row in numbers and in colours.
   RowPacker packer_;
-  std::vector<Rgba> pixels_of_byte_;  // of a byte of numbers
-  std::vector<uint8_t> packed_, image_;
+  std::vector<uint8_t> numbers_of_byte_;  // of a byte of packed numbers
+  std::vector<Rgba> colours_of_byte_;
+  std::vector<uint8_t> packed_, numbers_, image_;
   PixelHistory history_;
 };
 
