@@ -135,6 +135,7 @@ void RgbaRows::put_runs() {
 void RgbaRows::put_dense(const RowView& row) {
   runs_above_.clear();
   put_filter(filter_none);
+  stretches_.clear();
   packer_.pack(row, packed_.data());
   expand();
   out_.sum.add(image_.data(), size_t{4} * width_);
@@ -168,17 +169,14 @@ void RgbaRows::expand_bytes() {
 }
 
 void RgbaRows::put_filter(uint8_t filter) {
-  out_.deflate.literals(&filter, 1);
+  stretches_.put_filter(filter, out_.deflate);
   out_.sum.add(&filter, 1);
 }
 
 void RgbaRows::put_stretch(Rgba pixel, uint32_t count) {
   if (count == 0) return;
   out_.sum.add_repeated(pixel, count);
-  const bool is_one_byte = pixel == Rgba{pixel[0], pixel[0], pixel[0], pixel[0]};
-  const uint32_t period = is_one_byte ? 1 : 4;
-  out_.deflate.literals(pixel.data(), period);
-  if (4 * count > period) out_.deflate.match(4 * count - period, period);
+  stretches_.put(pixel, count, out_.deflate);
 }
 
 }  // namespace ombre::formats
