@@ -16,6 +16,9 @@ constexpr size_t word_bytes = sizeof(uint64_t);
 // The window holds 8192 pixels, so most of half as many keys stand in it.
 constexpr uint32_t most_keys = 4096;
 
+constexpr uint32_t very_long = 32;    // pixels of a match
+constexpr uint32_t equal_pixels = 4;  // distance of a match
+
 uint32_t power(uint32_t base, uint32_t exponent) {
   uint32_t result = 1;
   for (; exponent > 0; --exponent) result *= base;
@@ -124,16 +127,26 @@ void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
       out.literals(image + size_t{4} * column, 4);
     } else {
       const uint8_t *const now = numbers + (here / 4 - first) + count, *const before = numbers + (there / 4 - first) + count;
-      if (((load(now) ^ load(before)) & goes_on_mask) == 0) count = common_pixels(column, there, count);
+      if (((load(now) ^ load(before)) & goes_on_mask) == 0) {
+        count = common_pixels(column, there, count);
+        if (count >= very_long && here - there != equal_pixels) enter(column, column + count);
+      }
       out.match(4 * count, here - there);
     }
-    // The last few columns: of a long match they are enough, behind a short one most of them stand there already.
+    // The last few columns: behind a short match most of them stand there already, of a longer one they are enough.
     const uint32_t end = column + count, from = std::max(end, key_pixels) - key_pixels;
     if (end - from == key_pixels && end <= begins)
       for (uint32_t i = 0; i < key_pixels; ++i) latest[keys[from + size_t{i}]] = row + 4 * (from + i);
     else
       for (uint32_t i = from; i < std::min(end, begins); ++i) latest[keys[i]] = row + 4 * i;
   }
+}
+
+void PixelHistory::enter(uint32_t column, uint32_t end) {
+  const uint32_t begins = begin_count(width_, key_pixels_), row = row_;
+  const uint16_t* const keys = keys_.data();
+  uint32_t* const latest = latest_.data();
+  for (; column < std::min(end, begins); ++column) latest[keys[column]] = row + 4 * column;
 }
 
 void PixelHistory::store(const uint8_t* numbers) {

@@ -30,6 +30,7 @@ class PixelHistory {
   void make_keys(uint32_t pixels, std::vector<uint16_t>& keys, std::vector<uint16_t>& half_keys) const;
   template <uint32_t fixed_key_pixels, uint32_t fixed_prefix_keys>
   void cut(const uint8_t* image, DeflateWriter& out);
+  void enter(uint32_t column, uint32_t end);
   uint32_t common_pixels(uint32_t column, uint32_t there, uint32_t known) const;
   // Where in `numbers_` the pixel at a position is.
   size_t index(uint32_t position) const { return position / 4 - first_; }

@@ -134,8 +134,9 @@ void RgbaRows::put_runs() {
 
 void RgbaRows::put_dense(const RowView& row) {
   runs_above_.clear();
-  put_filter(filter_none);
   stretches_.clear();
+  out_.deflate.literals(&filter_none, 1);
+  out_.sum.add(&filter_none, 1);
   packer_.pack(row, packed_.data());
   expand();
   out_.sum.add(image_.data(), size_t{4} * width_);
