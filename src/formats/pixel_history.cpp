@@ -13,7 +13,7 @@ constexpr uint32_t first_position = 2 * window;        // out of reach from ther
 constexpr uint32_t last_position = uint32_t{1} << 31;  // far enough from overflow
 constexpr size_t word_bytes = sizeof(uint64_t);
 
-// The window holds 8192 pixels, so most of half as many keys stand in it.
+// The window holds 8192 pixels, and in it stand most of half as many keys.
 constexpr uint32_t most_keys = 4096;
 
 constexpr uint32_t very_long = 32;    // pixels of a match
@@ -25,7 +25,7 @@ uint32_t power(uint32_t base, uint32_t exponent) {
   return result;
 }
 
-// The most that tell `count` things apart at most, and two at least.
+// The most digits that make no more than `count` numbers, and two at least.
 uint32_t digits_within(uint32_t base, uint32_t count) {
   uint32_t digits = 2;
   while (power(base, digits + 1) <= count) ++digits;
@@ -74,6 +74,8 @@ void PixelHistory::put_row(const uint8_t* numbers, const uint8_t* image, Deflate
   next_row_ += 4 * width_ + 1;
   store(numbers);
   make_keys(key_pixels_, keys_, half_keys_);
+  // Loops of a known length are faster: for the usual numbers of materials, with void.
+  static_assert(most_keys == 4096);
   switch (colours_) {
     case 2:
       return cut<12, 4>(image, out);
@@ -88,6 +90,7 @@ void PixelHistory::put_row(const uint8_t* numbers, const uint8_t* image, Deflate
   }
 }
 
+// The pixels of a key and the keys of a prefix, or 0 where they are not known beforehand.
 template <uint32_t fixed_key_pixels, uint32_t fixed_prefix_keys>
 void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
   // What no store below can change.
@@ -105,6 +108,7 @@ void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
     const uint32_t here = row + 4 * column;
     uint32_t there = 0;
     const auto is_out_of_reach = [&] { return here - there > window; };
+    // As many of the next pixels as a key has, or somewhat fewer.
     if (column < begins) {
       const uint32_t key = keys[column];
       there = latest[key];
@@ -115,6 +119,7 @@ void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
         count = prefix_pixels;
       }
     }
+    // Or half.
     if (column < half_begins) {
       const uint32_t latest_here = std::exchange(latest_half[half_keys[column]], here);
       if (is_out_of_reach()) {
@@ -126,7 +131,8 @@ void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
       count = 1;
       out.literals(image + size_t{4} * column, 4);
     } else {
-      const uint8_t *const now = numbers + (here / 4 - first) + count, *const before = numbers + (there / 4 - first) + count;
+      const uint8_t *const now = numbers + here / 4 - first + count, *const before =
+                                                                         numbers + there / 4 - first + count;
       if (((load(now) ^ load(before)) & goes_on_mask) == 0) {
         count = common_pixels(column, there, count);
         if (count >= very_long && here - there != equal_pixels) enter(column, column + count);
@@ -142,6 +148,7 @@ void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
   }
 }
 
+// Of all columns from one on.
 void PixelHistory::enter(uint32_t column, uint32_t end) {
   const uint32_t begins = begin_count(width_, key_pixels_), row = row_;
   const uint16_t* const keys = keys_.data();
@@ -168,7 +175,7 @@ void PixelHistory::make_keys(uint32_t pixels, std::vector<uint16_t>& keys, std::
   }
   const uint32_t half = pixels / 2;
   make_keys(half, half_keys, keys);
-  const uint16_t *__restrict const first = half_keys.data(), *__restrict const second = first + half;
+  const uint16_t* __restrict const first = half_keys.data(), * __restrict const second = first + half;
   const uint8_t* __restrict const last = digits + size_t{2} * half;
   const auto factor = static_cast<uint16_t>(power(colours_, half)), base = static_cast<uint16_t>(colours_);
   const size_t begins = begin_count(width_, pixels);
