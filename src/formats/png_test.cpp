@@ -194,7 +194,7 @@ TEST(Png, SmoothRgbaLayersTakeFewBytesForEachEdge) {
   expect_same_voxels(layer, palette_of(1));
   PngLayout rgba;
   rgba.format = PngFormat::rgba;
-  EXPECT_LT(encode_png(layer, palette_of(1), rgba).size(), 4 * waves * height);
+  EXPECT_LT(encode_png(layer, palette_of(1), rgba).size(), 3 * waves * height);
 }
 
 TEST(Png, StoresTheDepthOfTheWholeJob) {
