@@ -232,9 +232,9 @@ void DeflateWriter::finish() {
 void DeflateWriter::end_block(bool is_last) {
   SymbolCounts counts;
   counts.add_literals(literals_);
-  std::array<MatchCounts, 4> turns;
+  std::array<MatchCounts, 2> turns;
   size_t turn = 0;
-  for (const Step& step : steps()) turns[turn++ % 4].add(step.length, step.distance);
+  for (const Step& step : steps()) turns[turn++ % 2].add(step.length, step.distance);
   for (const MatchCounts& matches : turns) counts.add_matches(matches);
   counts.literals[end_of_block] = 1;
 
