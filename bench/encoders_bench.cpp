@@ -28,6 +28,9 @@ Fractions half_void(double, double) { return {0.5}; }
 Fractions half_and_half(double, double) { return {0.5, 0.5}; }
 Fractions tenth(double, double) { return {0.1, 0.9}; }
 Fractions four_materials(double, double) { return {0.25, 0.25, 0.25, 0.25}; }
+Fractions four_in_disc(double x, double y) {
+  return x * x + y * y > 0.95 ? Fractions(4) : Fractions{0.25, 0.25, 0.25, 0.25};
+}
 Fractions graded(double x, double) { return {(x + 2) / 4, (2 - x) / 4}; }
 Fractions graded_disc(double x, double y) {
   const double share = 1 / (1 + std::exp(-5 * x));
@@ -51,6 +54,7 @@ constexpr Kind kinds[] = {{"half void", half_void, 1},
                           {"tenth", tenth, 2},
                           {"four materials", four_materials, 4},
                           {"four of twenty", four_materials, 20},
+                          {"four in a disc", four_in_disc, 4},
                           {"graded", graded, 2},
                           {"graded disc", graded_disc, 2},
                           {"uniform", uniform, 1},

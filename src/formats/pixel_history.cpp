@@ -12,170 +12,187 @@ constexpr uint32_t window = DeflateWriter::window;
 constexpr uint32_t first_position = 2 * window;        // out of reach from there: position 0
 constexpr uint32_t last_position = uint32_t{1} << 31;  // far enough from overflow
 constexpr size_t word_bytes = sizeof(uint64_t);
-constexpr unsigned sure_bits = 56;  // of a word, wherever it begins
 
-// How many pixels a match is found by. The window holds 8192, so stretches of 12 bits mostly stand in it.
-// Pixels of many bits seldom use them all.
-template <unsigned bits>
-struct Keys {
-  static constexpr uint32_t pixels = (bits <= 2 ? 12 : 24) / bits, short_pixels = pixels / 2;
-};
+// The window holds 8192 pixels, and in it stand most of half as many keys.
+constexpr uint32_t most_keys = 4096;
 
-constexpr unsigned more_bits = 8;  // a match that goes on for so long is followed to its end
+constexpr uint32_t very_long = 32;    // pixels of a match
+constexpr uint32_t equal_pixels = 4;  // distance of a match
 
-constexpr unsigned table_bits = 12, short_table_bits = 8;
-
-// The slot of the pixels in the high bits of a word; others may share it.
-template <unsigned key_bits, unsigned slot_bits>
-size_t slot(uint64_t word) {
-  const uint64_t key = word >> (64 - key_bits);
-  if constexpr (key_bits <= slot_bits) return key;
-  return key * 0x9E3779B97F4A7C15 >> (64 - slot_bits);
+uint32_t power(uint32_t base, uint32_t exponent) {
+  uint32_t result = 1;
+  for (; exponent > 0; --exponent) result *= base;
+  return result;
 }
 
-// The first byte is the highest.
+// The most digits that make no more than `count` numbers, and two at least.
+uint32_t digits_within(uint32_t base, uint32_t count) {
+  uint32_t digits = 2;
+  while (power(base, digits + 1) <= count) ++digits;
+  return digits;
+}
+
 uint64_t load(const uint8_t* bytes) {
   static_assert(std::endian::native == std::endian::little);
   uint64_t word;
   std::memcpy(&word, bytes, sizeof word);
-  return __builtin_bswap64(word);
+  return word;
 }
-
-void store_word(uint8_t* bytes, uint64_t word) {
-  word = __builtin_bswap64(word);
-  std::memcpy(bytes, &word, sizeof word);
-}
-
-uint64_t word_at(const uint8_t* bytes, size_t bit) { return load(bytes + bit / 8) << bit % 8; }
 
 // In how many columns a stretch of pixels can begin.
 uint32_t begin_count(uint32_t width, uint32_t pixels) { return width - std::min(width, pixels - 1); }
 
 }  // namespace
 
-PixelHistory::PixelHistory(uint32_t width, unsigned bits)
+PixelHistory::PixelHistory(uint32_t width, uint32_t colours)
     : width_(width),
-      bits_(bits),
-      pixels_((size_t{window} + 4 * size_t{width} + 1) * bits / 16 + 4 * word_bytes),
-      latest_(size_t{1} << table_bits),
-      latest_short_(size_t{1} << short_table_bits),
-      before_(width) {
+      colours_(std::max(colours, 2U)),
+      key_pixels_(digits_within(colours_, most_keys)),
+      half_pixels_(key_pixels_ / 2),
+      prefix_pixels_(key_pixels_ - (colours_ == 2 ? 2 : 1)),
+      prefix_keys_(power(colours_, key_pixels_ - prefix_pixels_)),
+      goes_on_mask_(colours_ == 2 ? ~uint64_t{0} : 0xFFFFFFFF),
+      numbers_(window / 4 + 2 * size_t{width} + 2 * word_bytes),
+      keys_(size_t{width} + key_pixels_),
+      half_keys_(keys_.size()),
+      latest_(power(colours_, key_pixels_)),
+      latest_half_(power(colours_, half_pixels_)) {
   clear();
 }
 
 void PixelHistory::clear() {
   if (next_row_ == first_position) return;
   next_row_ = first_position;
-  first_bit_ = size_t{first_position} * bits_ >> 2;
+  first_ = first_position / 4;
   std::fill(latest_.begin(), latest_.end(), 0);
-  std::fill(latest_short_.begin(), latest_short_.end(), 0);
+  std::fill(latest_half_.begin(), latest_half_.end(), 0);
 }
 
-void PixelHistory::put_row(const uint8_t* packed, const uint8_t* image, DeflateWriter& out) {
+void PixelHistory::put_row(const uint8_t* numbers, const uint8_t* image, DeflateWriter& out) {
   if (next_row_ > last_position) clear();
   row_ = next_row_;
   next_row_ += 4 * width_ + 1;
-  store(packed);
-  switch (bits_) {
-    case 1:
-      return put<1>(packed, image, out);
+  store(numbers);
+  make_keys(key_pixels_, keys_, half_keys_);
+  // Loops of a known length are faster: for the usual numbers of materials, with void.
+  static_assert(most_keys == 4096);
+  switch (colours_) {
     case 2:
-      return put<2>(packed, image, out);
+      return cut<12, 4>(image, out);
+    case 3:
+      return cut<7, 3>(image, out);
     case 4:
-      return put<4>(packed, image, out);
+      return cut<6, 4>(image, out);
+    case 5:
+      return cut<5, 5>(image, out);
     default:
-      return put<8>(packed, image, out);
+      return cut<0, 0>(image, out);
   }
 }
 
-template <unsigned bits>
-void PixelHistory::put(const uint8_t* packed, const uint8_t* image, DeflateWriter& out) {
-  enter<bits>(packed);
-  cut<bits>(packed, image, out);
-}
+// The pixels of a key and the keys of a prefix, or 0 where they are not known beforehand.
+template <uint32_t fixed_key_pixels, uint32_t fixed_prefix_keys>
+void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
+  // What no store below can change.
+  const uint32_t row = row_, width = width_, half_pixels = half_pixels_;
+  const uint32_t key_pixels = fixed_key_pixels ? fixed_key_pixels : key_pixels_;
+  const uint32_t prefix_pixels = prefix_pixels_, prefix_keys = fixed_prefix_keys ? fixed_prefix_keys : prefix_keys_;
+  const uint32_t begins = begin_count(width, key_pixels), half_begins = begin_count(width, half_pixels);
+  const uint64_t goes_on_mask = goes_on_mask_;
+  const uint16_t *const keys = keys_.data(), *const half_keys = half_keys_.data();
+  uint32_t *const latest = latest_.data(), *const latest_half = latest_half_.data();
+  const uint8_t* const numbers = numbers_.data();
+  const size_t first = first_;
 
-void PixelHistory::store(const uint8_t* packed) {
-  const size_t size = (size_t{width_} * bits_ + 7) / 8;
-  if (bit_at(row_) / 8 + size + 2 * word_bytes > pixels_.size()) {
-    const size_t begin = bit_at(row_ - window) / 8;
-    std::memmove(pixels_.data(), &pixels_[begin], bit_at(row_) / 8 + 1 - begin);
-    first_bit_ += 8 * begin;
-  }
-  const size_t bit = bit_at(row_);
-  const unsigned offset = bit % 8;
-  uint8_t* out = &pixels_[bit / 8];
-  uint64_t carry = uint64_t{*out} >> (8 - offset) << (64 - offset) % 64;
-  for (size_t i = 0; i < size; i += word_bytes, out += word_bytes) {
-    const uint64_t word = load(packed + i);
-    store_word(out, carry | word >> offset);
-    carry = word << 1 << (63 - offset);
-  }
-  store_word(out, carry);
-}
-
-template <unsigned bits>
-void PixelHistory::enter(const uint8_t* packed) {
-  constexpr uint32_t key_pixels = Keys<bits>::pixels, pixels_in_byte = 8 / bits;
-  const uint32_t count = begin_count(width_, key_pixels);
-  uint32_t* const latest = latest_.data();  // which no store below can move
-  uint32_t* before = before_.data();
-  uint32_t position = row_;
-  const auto enter_pixel = [&](uint64_t word) {
-    *before++ = std::exchange(latest[slot<bits * key_pixels, table_bits>(word)], position);
-    position += sizeof(uint32_t);
-  };
-  uint32_t column = 0;
-  for (; column + pixels_in_byte <= count; column += pixels_in_byte) {
-    const uint64_t word = load(packed + column / pixels_in_byte);
-    for (unsigned k = 0; k < pixels_in_byte; ++k) enter_pixel(word << k * bits);
-  }
-  for (; column < count; ++column) enter_pixel(word_at(packed, size_t{column} * bits));
-}
-
-template <unsigned bits>
-void PixelHistory::cut(const uint8_t* packed, const uint8_t* image, DeflateWriter& out) {
-  constexpr uint32_t key_pixels = Keys<bits>::pixels, short_key_pixels = Keys<bits>::short_pixels;
-  const uint32_t row = row_, width = width_;
-  const uint32_t begins = begin_count(width, key_pixels), short_begins = begin_count(width, short_key_pixels);
-  const uint8_t* const history = pixels_.data();
-  const size_t first_bit = first_bit_;
-  uint32_t* const latest_short = latest_short_.data();
   for (uint32_t column = 0, count = 0; column < width; column += count) {
     const uint32_t here = row + 4 * column;
-    const uint64_t pixels = word_at(packed, size_t{column} * bits);
-    const auto agrees = [&](uint32_t there, unsigned in_bits) {
-      return here - there <= window &&
-             (pixels ^ word_at(history, (size_t{there} * bits >> 2) - first_bit)) >> (64 - in_bits) == 0;
-    };
-    uint32_t there = column < begins ? before_[column] : 0, there_short = 0;
-    if (column < short_begins)
-      there_short = std::exchange(latest_short[slot<bits * short_key_pixels, short_table_bits>(pixels)], here);
-    count = key_pixels;
-    if (!agrees(there, bits * key_pixels)) {
-      there = there_short;
-      count = short_key_pixels;
-      if (!agrees(there, bits * short_key_pixels)) {
-        count = 1;
-        out.literals(image + size_t{4} * column, 4);
-        continue;
+    uint32_t there = 0;
+    const auto is_out_of_reach = [&] { return here - there > window; };
+    // As many of the next pixels as a key has, or somewhat fewer.
+    if (column < begins) {
+      const uint32_t key = keys[column];
+      there = latest[key];
+      count = key_pixels;
+      if (is_out_of_reach()) {
+        const uint32_t* const with_prefix = latest + (key - key % prefix_keys);
+        for (uint32_t i = 0; i < prefix_keys; ++i) there = std::max(there, with_prefix[i]);
+        count = prefix_pixels;
       }
     }
-    if (agrees(there, bits * count + more_bits)) count = common_pixels<bits>(column, there);
-    out.match(4 * count, here - there);
+    // Or half.
+    if (column < half_begins) {
+      const uint32_t latest_here = std::exchange(latest_half[half_keys[column]], here);
+      if (is_out_of_reach()) {
+        there = latest_here;
+        count = half_pixels;
+      }
+    }
+    if (is_out_of_reach()) {
+      count = 1;
+      out.literals(image + size_t{4} * column, 4);
+    } else {
+      const uint8_t *const now = numbers + here / 4 - first + count, *const before =
+                                                                         numbers + there / 4 - first + count;
+      if (((load(now) ^ load(before)) & goes_on_mask) == 0) {
+        count = common_pixels(column, there, count);
+        if (count >= very_long && here - there != equal_pixels) enter(column, column + count);
+      }
+      out.match(4 * count, here - there);
+    }
+    // The last few columns: behind a short match most of them stand there already, of a longer one they are enough.
+    const uint32_t end = column + count, from = std::max(end, key_pixels) - key_pixels;
+    if (end - from == key_pixels && end <= begins)
+      for (uint32_t i = 0; i < key_pixels; ++i) latest[keys[from + size_t{i}]] = row + 4 * (from + i);
+    else
+      for (uint32_t i = from; i < std::min(end, begins); ++i) latest[keys[i]] = row + 4 * i;
   }
 }
 
-template <unsigned bits>
-uint32_t PixelHistory::common_pixels(uint32_t column, uint32_t there) const {
+// Of all columns from one on.
+void PixelHistory::enter(uint32_t column, uint32_t end) {
+  const uint32_t begins = begin_count(width_, key_pixels_), row = row_;
+  const uint16_t* const keys = keys_.data();
+  uint32_t* const latest = latest_.data();
+  for (; column < std::min(end, begins); ++column) latest[keys[column]] = row + 4 * column;
+}
+
+void PixelHistory::store(const uint8_t* numbers) {
+  if (index(row_) + width_ + 2 * word_bytes > numbers_.size()) {
+    const size_t begin = index(row_ - window);
+    std::memmove(numbers_.data(), &numbers_[begin], index(row_) - begin);
+    first_ += begin;
+  }
+  std::memcpy(&numbers_[index(row_)], numbers, width_);
+}
+
+// Two keys of half as many pixels make one, with a digit behind them if need be.
+void PixelHistory::make_keys(uint32_t pixels, std::vector<uint16_t>& keys, std::vector<uint16_t>& half_keys) const {
+  const uint8_t* const digits = &numbers_[index(row_)];
+  uint16_t* __restrict const out = keys.data();
+  if (pixels == 1) {
+    std::copy(digits, digits + width_, out);
+    return;
+  }
+  const uint32_t half = pixels / 2;
+  make_keys(half, half_keys, keys);
+  const uint16_t* __restrict const first = half_keys.data(), * __restrict const second = first + half;
+  const uint8_t* __restrict const last = digits + size_t{2} * half;
+  const auto factor = static_cast<uint16_t>(power(colours_, half)), base = static_cast<uint16_t>(colours_);
+  const size_t begins = begin_count(width_, pixels);
+  if (pixels % 2 == 0)
+    for (size_t i = 0; i < begins; ++i) out[i] = static_cast<uint16_t>(first[i] * factor + second[i]);
+  else
+    for (size_t i = 0; i < begins; ++i)
+      out[i] = static_cast<uint16_t>((first[i] * factor + second[i]) * base + last[i]);
+}
+
+uint32_t PixelHistory::common_pixels(uint32_t column, uint32_t there, uint32_t known) const {
   const uint32_t column_there = (there - first_position) % (4 * width_ + 1) / 4;
   const uint32_t most = width_ - std::max(column, column_there);
-  const size_t bit = bit_at(row_) + size_t{column} * bits, bit_there = bit_at(there);
-  for (uint32_t count = 0; count < most; count += sure_bits / bits) {
-    const size_t skipped = size_t{count} * bits;
-    const uint64_t differences = word_at(pixels_.data(), bit + skipped) ^ word_at(pixels_.data(), bit_there + skipped);
-    const auto equal = static_cast<uint32_t>(std::countl_zero(differences)) / bits;
-    if (equal < sure_bits / bits) return std::min(most, count + equal);
-  }
+  const uint8_t *const now = &numbers_[index(row_) + column], *const before = &numbers_[index(there)];
+  for (uint32_t count = known; count < most; count += word_bytes)
+    if (const uint64_t differences = load(now + count) ^ load(before + count))
+      return std::min(most, count + static_cast<uint32_t>(std::countr_zero(differences)) / 8);
   return most;
 }
 

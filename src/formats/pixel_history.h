@@ -10,44 +10,44 @@
 namespace ombre::formats {
 
 // Deflates rows of four-byte pixels, each behind a byte that says how the row is stored. Here a pixel is a small
-// number of 1, 2, 4 or 8 bits, so that a word holds many: they are looked up and compared together.
+// number, and a few of them are the digits of another, their key.
 //
 // A dithered row says nothing new but which of the stretches seen before comes next. So it becomes matches of
 // a fixed number of pixels, each with the latest place where they stood; only those that go on far are followed to
-// their end. Following all would save one byte in a hundred, but then each match waits for the one before.
+// their end. Following all would save one byte in a hundred, but cost more time.
 class PixelHistory {
  public:
-  PixelHistory(uint32_t width, unsigned bits);
+  // Pixels are numbers below `colours`.
+  PixelHistory(uint32_t width, uint32_t colours);
 
   // What follows repeats nothing that came before.
   void clear();
-  // The next row: packed, the first pixel in the highest bits, with eight more bytes that can be read; and as
-  // in the image.
-  void put_row(const uint8_t* packed, const uint8_t* image, DeflateWriter& out);
+  // The next row, in numbers and as in the image.
+  void put_row(const uint8_t* numbers, const uint8_t* image, DeflateWriter& out);
 
  private:
-  template <unsigned bits>
-  void put(const uint8_t* packed, const uint8_t* image, DeflateWriter& out);
-  void store(const uint8_t* packed);
-  template <unsigned bits>
-  void enter(const uint8_t* packed);
-  template <unsigned bits>
-  void cut(const uint8_t* packed, const uint8_t* image, DeflateWriter& out);
-  template <unsigned bits>
-  uint32_t common_pixels(uint32_t column, uint32_t there) const;
-  // The bit of `pixels_` at which the pixel at a position begins.
-  size_t bit_at(uint32_t position) const { return (size_t{position} * bits_ >> 2) - first_bit_; }
+  void store(const uint8_t* numbers);
+  void make_keys(uint32_t pixels, std::vector<uint16_t>& keys, std::vector<uint16_t>& half_keys) const;
+  template <uint32_t fixed_key_pixels, uint32_t fixed_prefix_keys>
+  void cut(const uint8_t* image, DeflateWriter& out);
+  void enter(uint32_t column, uint32_t end);
+  uint32_t common_pixels(uint32_t column, uint32_t there, uint32_t known) const;
+  // Where in `numbers_` the pixel at a position is.
+  size_t index(uint32_t position) const { return position / 4 - first_; }
 
-  uint32_t width_;
-  unsigned bits_;
-  // Positions are bytes of the image data. Rows follow each other in these bits as they do there; the byte
-  // before a row takes a quarter of a pixel, rounded.
-  std::vector<uint8_t> pixels_;
-  size_t first_bit_ = 0;
+  uint32_t width_, colours_;
+  uint32_t key_pixels_, half_pixels_, prefix_pixels_;
+  uint32_t prefix_keys_;   // how many keys begin with the same pixels
+  uint64_t goes_on_mask_;  // of the pixels that follow a match which is followed to its end
+  // Positions are bytes of the image data. Rows follow each other here as they do there; the byte before a row
+  // takes a quarter of a pixel, rounded.
+  std::vector<uint8_t> numbers_;
+  size_t first_ = 0;
   uint32_t row_ = 0, next_row_ = 0;
-  // By their hash: where stretches of pixels began at last, or 0.
-  std::vector<uint32_t> latest_, latest_short_;
-  std::vector<uint32_t> before_;  // by column of the newest row: where its next pixels stood before, or 0
+  // Of the newest row: from each column on, the next pixels as a number.
+  std::vector<uint16_t> keys_, half_keys_;
+  // By key: where it stood at last, or 0. Half keys are noted only where matches begin.
+  std::vector<uint32_t> latest_, latest_half_;
 };
 
 }  // namespace ombre::formats

@@ -148,8 +148,8 @@ TEST(Png, KeepsEveryVoxelOfSmoothLayers) {
 }
 
 TEST(Png, KeepsEveryVoxelOfDitheredLayers) {
-  for (const int materials : {1, 3, 5, 40})
-    expect_same_voxels(random_layer(500, 200, materials, 1, 1), palette_of(materials));
+  for (const int materials : {1, 2, 3, 4, 5, 7, 15, 16, 40, 255})
+    expect_same_voxels(random_layer(500, 100, materials, 1, 1), palette_of(materials));
 }
 
 TEST(Png, KeepsEveryVoxelWhereManyEdgesMove) {
@@ -164,6 +164,37 @@ TEST(Png, KeepsEveryVoxelWhereManyEdgesMove) {
     layer.end_row();
   }
   expect_same_voxels(layer, palette_of(2));
+}
+
+TEST(Png, DitheredRgbaLayersOfManyMaterialsTakeLittleMoreThanTheirEntropy) {
+  constexpr uint32_t side = 1024;
+  PngLayout rgba;
+  rgba.format = PngFormat::rgba;
+  for (const int materials : {2, 3, 4, 7, 15}) {  // and void
+    const double entropy = std::log2(materials + 1) * side * side / 8;
+    const RunLayer layer = random_layer(side, side, materials, 1, 1);
+    EXPECT_LT(static_cast<double>(encode_png(layer, palette_of(materials), rgba).size()), 1.7 * entropy) << materials;
+  }
+}
+
+TEST(Png, SmoothRgbaLayersTakeFewBytesForEachEdge) {
+  constexpr uint32_t width = 4096, height = 512, waves = 16;
+  RunLayer layer(width);
+  for (uint32_t row = 0; row < height; ++row) {
+    const double phase = 2 + std::sin(row * 0.02);
+    uint32_t filled = 0;
+    for (uint32_t edge = 0; edge < waves; ++edge) {
+      const auto end = static_cast<uint32_t>((edge + phase / 4) * width / waves);
+      layer.add_uniform(static_cast<MaterialId>(edge % 2), end - filled);
+      filled = end;
+    }
+    layer.add_uniform(0, width - filled);
+    layer.end_row();
+  }
+  expect_same_voxels(layer, palette_of(1));
+  PngLayout rgba;
+  rgba.format = PngFormat::rgba;
+  EXPECT_LT(encode_png(layer, palette_of(1), rgba).size(), 3 * waves * height);
 }
 
 TEST(Png, StoresTheDepthOfTheWholeJob) {

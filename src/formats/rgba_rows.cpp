@@ -8,7 +8,6 @@
 namespace ombre::formats {
 namespace {
 
-constexpr size_t spare_bytes = 8;  // of packed rows, for the history
 constexpr uint8_t filter_none = 0, filter_up = 2;
 
 Rgba difference(Rgba a, Rgba b) {
@@ -50,15 +49,19 @@ RgbaRows::RgbaRows(uint32_t width, const Palette& palette, const Samples& number
       flip_x_(flip_x),
       out_(out),
       packer_(width, numbers, flip_x),
-      packed_(packer_.size() + spare_bytes),
-      image_(packer_.size() * 8 / bits_ * sizeof(Rgba)),
-      history_(width, bits_) {
+      packed_(packer_.size()),
+      numbers_(packed_.size() * 8 / bits_),
+      image_(numbers_.size() * sizeof(Rgba)),
+      history_(width, static_cast<uint32_t>(numbers.ids.size())) {
   std::array<Rgba, 256> of_number{};
   for (const MaterialId id : numbers.ids)
     of_number[numbers.of[id]] = colours_[id] = palette.colours()[palette.entry(id)];
-  for (unsigned byte = 0; byte < 256; ++byte)
-    for (unsigned end = bits_; end <= 8; end += bits_)
-      pixels_of_byte_.push_back(of_number[byte >> (8 - end) & ((1U << bits_) - 1)]);
+  for (unsigned byte = 0; byte < 256; ++byte) {
+    for (unsigned end = bits_; end <= 8; end += bits_) {
+      numbers_of_byte_.push_back(static_cast<uint8_t>(byte >> (8 - end) & ((1U << bits_) - 1)));
+      colours_of_byte_.push_back(of_number[numbers_of_byte_.back()]);
+    }
+  }
 }
 
 void RgbaRows::put(const RowView& row) {
@@ -131,11 +134,13 @@ void RgbaRows::put_runs() {
 
 void RgbaRows::put_dense(const RowView& row) {
   runs_above_.clear();
-  put_filter(filter_none);
+  stretches_.clear();
+  out_.deflate.literals(&filter_none, 1);
+  out_.sum.add(&filter_none, 1);
   packer_.pack(row, packed_.data());
   expand();
   out_.sum.add(image_.data(), size_t{4} * width_);
-  history_.put_row(packed_.data(), image_.data(), out_.deflate);
+  history_.put_row(numbers_.data(), image_.data(), out_.deflate);
 }
 
 void RgbaRows::expand() {
@@ -153,26 +158,26 @@ void RgbaRows::expand() {
 
 template <size_t pixels_in_byte>
 void RgbaRows::expand_bytes() {
-  const Rgba* const pixels = pixels_of_byte_.data();  // which no byte written can move
-  uint8_t* out = image_.data();
-  for (const uint8_t byte : std::span(packed_).first(packer_.size())) {
-    std::memcpy(out, pixels + byte * pixels_in_byte, sizeof(Rgba) * pixels_in_byte);
-    out += sizeof(Rgba) * pixels_in_byte;
+  const uint8_t* const numbers_of_byte = numbers_of_byte_.data();  // which no byte written can move
+  const Rgba* const colours_of_byte = colours_of_byte_.data();
+  uint8_t *numbers = numbers_.data(), *image = image_.data();
+  for (const uint8_t byte : packed_) {
+    std::memcpy(numbers, numbers_of_byte + byte * pixels_in_byte, pixels_in_byte);
+    std::memcpy(image, colours_of_byte + byte * pixels_in_byte, sizeof(Rgba) * pixels_in_byte);
+    numbers += pixels_in_byte;
+    image += sizeof(Rgba) * pixels_in_byte;
   }
 }
 
 void RgbaRows::put_filter(uint8_t filter) {
-  out_.deflate.literals(&filter, 1);
+  stretches_.put_filter(filter, out_.deflate);
   out_.sum.add(&filter, 1);
 }
 
 void RgbaRows::put_stretch(Rgba pixel, uint32_t count) {
   if (count == 0) return;
   out_.sum.add_repeated(pixel, count);
-  const bool is_one_byte = pixel == Rgba{pixel[0], pixel[0], pixel[0], pixel[0]};
-  const uint32_t period = is_one_byte ? 1 : 4;
-  out_.deflate.literals(pixel.data(), period);
-  if (4 * count > period) out_.deflate.match(4 * count - period, period);
+  stretches_.put(pixel, count, out_.deflate);
 }
 
 }  // namespace ombre::formats

@@ -9,6 +9,7 @@
 #include "formats/palette.h"
 #include "formats/pixel_history.h"
 #include "formats/png_rows.h"
+#include "formats/stretch_history.h"
 #include "formats/zlib_stream.h"
 
 namespace ombre::formats {
@@ -41,10 +42,12 @@ class RgbaRows {
   std::array<Rgba, 256> colours_{};  // by id
   ZlibStream& out_;
   std::vector<Run> runs_, runs_above_;  // of smooth rows
+  StretchHistory stretches_;
   // A dithered row in numbers and in colours.
   RowPacker packer_;
-  std::vector<Rgba> pixels_of_byte_;  // of a byte of numbers
-  std::vector<uint8_t> packed_, image_;
+  std::vector<uint8_t> numbers_of_byte_;  // of a byte of packed numbers
+  std::vector<Rgba> colours_of_byte_;
+  std::vector<uint8_t> packed_, numbers_, image_;
   PixelHistory history_;
 };
 
