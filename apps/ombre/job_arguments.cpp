@@ -18,8 +18,16 @@ uint64_t parse_seed(const std::string& text) {
 
 }  // namespace
 
-void add_job_arguments(CLI::App& app, JobArguments& a) {
+void add_design_arguments(CLI::App& app, DesignArguments& a) {
   app.add_option("design", a.design, "The design, a .vcad file")->required()->type_name("FILE");
+  app.add_option("--materials", a.materials, "Materials file (see: ombre materials)")->type_name("FILE");
+  app.add_option("-D,--define", a.definitions, "Set a variable of the design; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE");
+}
+
+void add_job_arguments(CLI::App& app, JobArguments& a) {
+  add_design_arguments(app, a);
   app.add_option("--printer", a.printer, "Printer profile: a name, or the path of a .json file")->type_name("NAME");
   CLI::Option* voxel = app.add_option("--voxel", a.voxel, "Voxel size: one length, or x,y,z; mm")->type_name("X,Y,Z");
   app.add_option("--dpi", a.dpi, "Resolution in dots per inch: x and y alike, x,y or x,y,z")
@@ -45,10 +53,6 @@ void add_job_arguments(CLI::App& app, JobArguments& a) {
           ->type_name("design|center");
   app.add_flag("--tray", a.tray, "Images cover the printer's whole build box, the design where it stands")
       ->excludes(place);
-  app.add_option("--materials", a.materials, "Materials file (see: ombre materials)")->type_name("FILE");
-  app.add_option("-D,--define", a.definitions, "Set a variable of the design; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("NAME=VALUE");
 }
 
 std::optional<compile::PlanOptions> plan_options(const JobArguments& a, Diagnostics& diagnostics) {
@@ -70,7 +74,7 @@ std::optional<compile::PlanOptions> plan_options(const JobArguments& a, Diagnost
   return options;
 }
 
-compile::LoadedPtr load_design(const JobArguments& a, Session& session, const StopFlag& stop,
+compile::LoadedPtr load_design(const DesignArguments& a, Session& session, const StopFlag& stop,
                                Diagnostics& diagnostics) {
   compile::LoadOptions options{a.materials, a.definitions};
   options.echo = [&](const std::string& text) { session.console.say(text); };

@@ -12,10 +12,15 @@
 
 namespace ombre::cli {
 
-struct JobArguments {
-  std::string design, printer, voxel, dpi, layer_height, dither = "stochastic", evaluator = "batch", seed = "0", image,
-                                                         place, materials;
+// Which design, and with what it is read.
+struct DesignArguments {
+  std::string design, materials;
   std::vector<std::string> definitions;
+};
+void add_design_arguments(CLI::App& app, DesignArguments& arguments);
+
+struct JobArguments : DesignArguments {
+  std::string printer, voxel, dpi, layer_height, dither = "stochastic", evaluator = "batch", seed = "0", image, place;
   bool tray = false;
 };
 
@@ -26,7 +31,7 @@ void add_job_arguments(CLI::App& app, JobArguments& arguments);
 std::optional<compile::PlanOptions> plan_options(const JobArguments& arguments, Diagnostics& diagnostics);
 
 // Null, and diagnostics, when the design is wrong.
-compile::LoadedPtr load_design(const JobArguments& arguments, Session& session, const StopFlag& stop,
+compile::LoadedPtr load_design(const DesignArguments& arguments, Session& session, const StopFlag& stop,
                                Diagnostics& diagnostics);
 
 }  // namespace ombre::cli

@@ -44,14 +44,17 @@ Built build_program(const design::Design& design) {
   return built;
 }
 
+bool fits_flat(const design::Design& design, const program::Program& program, Diagnostics& diagnostics) {
+  const double size = program::inlined_size(program);
+  if (size <= most_instructions) return true;
+  diagnostics.error(design.parts[0].solid->where(),
+                    "the design repeats its parts too often: about " + format_rounded(size, 2) + " operations a voxel");
+  return false;
+}
+
 std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics) {
   Built built = build_program(design);
-  const double size = program::inlined_size(built.materials.program);
-  if (size > most_instructions) {
-    diagnostics.error(design.parts[0].solid->where(), "the design repeats its parts too often: about " +
-                                                          format_rounded(size, 2) + " operations a voxel");
-    return std::nullopt;
-  }
+  if (!fits_flat(design, built.materials.program, diagnostics)) return std::nullopt;
   built.materials.program = program::inline_bodies(built.materials.program);
   return built;
 }

@@ -22,6 +22,9 @@ Built build_program(const design::Design& design);
 // The same, ready to be evaluated. Nothing, and a diagnostic, when it would not fit into memory.
 std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics);
 
+// Would a program of the design, its bodies written out, fit into memory? If not, a diagnostic.
+bool fits_flat(const design::Design& design, const program::Program& program, Diagnostics& diagnostics);
+
 // Leaves out materials and checks that cannot occur within the box, and what only they needed.
 void leave_out_impossible(Built& built, const Box& box);
 

@@ -112,6 +112,8 @@ class Point {
 
   // The point of a whole program or body.
   static Point origin_frame(Builder& builder);
+  // A point of three fields, as a new base.
+  static Point of(Field x, Field y, Field z) { return {x, y, z, Affine{}}; }
   // The point that `map` takes this one to.
   Point mapped(const Affine& map) const;
   // The map that takes the builder's inputs to this point, if an affine one does.

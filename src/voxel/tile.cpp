@@ -19,14 +19,24 @@ StripSources::StripSources(const std::vector<std::unique_ptr<program::RowSampler
   }
 }
 
+// The first span that ends behind voxel i, if it holds it or begins behind it.
+static std::vector<program::Span>::const_iterator span_at(const std::vector<program::Span>& spans, int64_t i) {
+  return std::upper_bound(spans.begin(), spans.end(), i, [](int64_t at, const program::Span& s) { return at < s.end; });
+}
+
+bool StripSources::inside(uint32_t tag, int64_t i, int64_t j, int64_t k) const {
+  const auto& spans = row(tag, j, k);
+  const auto span = span_at(spans, i);
+  return span != spans.end() && span->begin <= i;
+}
+
 Interval StripSources::range(uint32_t tag, const TileBox& tile) const {
   bool some_inside = false, some_outside = false;
   for (int64_t k = tile.lo[2]; k < tile.hi[2]; ++k) {
     for (int64_t j = tile.lo[1]; j < tile.hi[1]; ++j) {
       const auto& spans = row(tag, j, k);
       // The first span that ends behind the tile's beginning decides.
-      const auto span = std::upper_bound(spans.begin(), spans.end(), tile.lo[0],
-                                         [](int64_t i, const program::Span& s) { return i < s.end; });
+      const auto span = span_at(spans, tile.lo[0]);
       const bool covers = span != spans.end() && span->begin <= tile.lo[0] && span->end >= tile.hi[0];
       const bool misses = span == spans.end() || span->begin >= tile.hi[0];
       some_inside = some_inside || !misses;

@@ -27,6 +27,7 @@ class StripSources {
   StripSources(const std::vector<std::unique_ptr<program::RowSampler>>& samplers, const TileBox& strip);
 
   bool has(uint32_t tag) const { return tag < spans_.size() && !spans_[tag].empty(); }
+  bool inside(uint32_t tag, int64_t i, int64_t j, int64_t k) const;
   // 1 or 0 where the whole tile is inside or outside, else both.
   Interval range(uint32_t tag, const TileBox& tile) const;
   // The same as evaluate_intervals asks for it; valid as long as this and the tile.

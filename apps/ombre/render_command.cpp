@@ -1,0 +1,229 @@
+// ombre render: pictures of a design.
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "base/text.h"
+#include "compile/picture.h"
+#include "export/output_file.h"
+#include "formats/png.h"
+#include "ombre/command_line.h"
+#include "ombre/commands.h"
+#include "ombre/interrupt.h"
+#include "ombre/job_arguments.h"
+#include "ombre/overwrite.h"
+
+namespace ombre::cli {
+namespace {
+
+struct RenderArguments {
+  DesignArguments design;
+  std::string output, size = "800x600", view = "iso", from, box, background = "white";
+  std::vector<std::string> cuts, opacity;
+  double perspective = 0, zoom = 1;
+  int samples = 2, frames = 1, threads = 0;
+  bool force = false;
+};
+
+constexpr const char* footer =
+    "Lengths are millimetres, angles degrees.\n\n"
+    "Examples:\n"
+    "  ombre render part.vcad -o part.png\n"
+    "  ombre render part.vcad --cut x=0 --view right        cut open, seen from the right\n"
+    "  ombre render part.vcad --opacity clear=0.1           what the clear material hides\n"
+    "  ombre render part.vcad --frames 36 -o turn.png       turn_00.png to turn_35.png, all around the part\n";
+
+constexpr int64_t most_pixels = 16384;
+
+void add_arguments(CLI::App& app, RenderArguments& a) {
+  add_design_arguments(app, a.design);
+  app.add_option("-o,--output", a.output, "The picture to write, - for stdout (default: the design's name with .png)")
+      ->type_name("FILE");
+  app.add_option("--size", a.size, "Of the picture in pixels (default 800x600)")->type_name("WxH");
+  CLI::Option* view =
+      app.add_option("--view", a.view, "From where: iso (default), front, back, left, right, top or bottom")
+          ->check(CLI::IsMember(render::view_names()))
+          ->type_name("NAME");
+  app.add_option("--from", a.from, "From where, as angles: azimuth (0 in front, 90 from the right), elevation")
+      ->excludes(view)
+      ->type_name("AZ,EL");
+  app.add_option("--perspective", a.perspective, "Vertical field of view; degrees (default 0: parallel rays)")
+      ->check(CLI::Range(0.0, 120.0))
+      ->type_name("DEG");
+  app.add_option("--zoom", a.zoom, "Enlarge the middle of the picture")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->type_name("X");
+  app.add_option("--cut", a.cuts,
+                 "Cut along a plane: x=0 takes away the side of the eye, x>0 or x<0 that side; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("PLANE");
+  app.add_option("--box", a.box, "Show only what is within this box; mm")->type_name("X0,Y0,Z0,X1,Y1,Z1");
+  app.add_option("--opacity", a.opacity, "Of a material, 0 (clear) to 1, in place of its own; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("MATERIAL=N");
+  app.add_option("--background", a.background, "white (default), black, gray, transparent or #rrggbb")
+      ->type_name("COLOUR");
+  app.add_option("--aa", a.samples, "Rays along the edge of a pixel, which smooth edges (default 2)")
+      ->check(CLI::Range(1, 8))
+      ->type_name("N");
+  app.add_option("--frames", a.frames, "Pictures all around the part, numbered (default 1)")
+      ->check(CLI::Range(1, 3600))
+      ->type_name("N");
+  app.add_option("--threads", a.threads, "Threads (default: all cores)")->check(CLI::Range(0, 1024))->type_name("N");
+  app.add_flag("--force", a.force, "Replace pictures that are there");
+}
+
+void set_size(const std::string& text, compile::PictureRequest& request) {
+  const auto x = text.find('x');
+  const auto width = x == std::string::npos ? std::nullopt : parse_number(text.substr(0, x));
+  const auto height = x == std::string::npos ? std::nullopt : parse_number(text.substr(x + 1));
+  const auto is_right = [](std::optional<double> v) {
+    return v && *v >= 1 && *v <= most_pixels && *v == std::floor(*v);
+  };
+  if (!is_right(width) || !is_right(height))
+    throw WrongArgument("--size " + text + " is not a size in pixels; write for example --size 800x600 (at most " +
+                        std::to_string(most_pixels) + " each way)");
+  request.width = static_cast<int64_t>(*width);
+  request.height = static_cast<int64_t>(*height);
+}
+
+std::vector<double> numbers(const std::string& text) {
+  std::vector<double> values;
+  for (const std::string_view part : split(text, ',')) {
+    const auto value = parse_number(trim(part));
+    if (!value || !std::isfinite(*value)) return {};
+    values.push_back(*value);
+  }
+  return values;
+}
+
+void set_view(const RenderArguments& a, compile::PictureRequest& request) {
+  request.view = render::named_view(a.view).value();
+  if (!a.from.empty()) {
+    const std::vector<double> angles = numbers(a.from);
+    if (angles.size() != 2 || std::abs(angles[1]) > 90)
+      throw WrongArgument("--from " + a.from +
+                          " is not azimuth,elevation; write for example --from 30,20 (elevation from -90 to 90)");
+    request.view.azimuth_deg = angles[0];
+    request.view.elevation_deg = angles[1];
+  }
+  request.view.field_of_view_deg = a.perspective;
+  request.view.zoom = a.zoom;
+}
+
+void set_box(const std::string& text, compile::PictureRequest& request) {
+  if (text.empty()) return;
+  const std::vector<double> v = numbers(text);
+  if (v.size() != 6 || v[0] >= v[3] || v[1] >= v[4] || v[2] >= v[5])
+    throw WrongArgument("--box " + text +
+                        " is not a box x0,y0,z0,x1,y1,z1; write for example --box -5,-5,0,5,5,10 (mm)");
+  request.box = Box{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
+uint8_t hex_byte(std::string_view digits) {
+  unsigned value = 0;
+  const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+  if (status != std::errc() || end != digits.data() + digits.size()) throw std::invalid_argument("not hexadecimal");
+  return static_cast<uint8_t>(value);
+}
+
+void set_background(const std::string& text, compile::PictureRequest& request) {
+  const auto plain = [&](render::Rgba8 colour) { request.background.top = request.background.bottom = colour; };
+  if (text == "white") return plain({255, 255, 255, 255});
+  if (text == "black") return plain({0, 0, 0, 255});
+  if (text == "gray") return plain({128, 128, 128, 255});
+  if (text == "transparent") {
+    request.background.is_transparent = true;
+    return;
+  }
+  try {
+    if (text.size() != 7 || text[0] != '#') throw std::invalid_argument("not a colour");
+    const std::string_view digits = std::string_view(text).substr(1);
+    plain({hex_byte(digits.substr(0, 2)), hex_byte(digits.substr(2, 2)), hex_byte(digits.substr(4, 2)), 255});
+  } catch (const std::invalid_argument&) {
+    throw WrongArgument("--background " + text +
+                        " is not a colour; write white, black, gray, transparent or for example #20304a");
+  }
+}
+
+compile::PictureRequest picture_request(const RenderArguments& a) {
+  compile::PictureRequest request;
+  set_size(a.size, request);
+  set_view(a, request);
+  set_box(a.box, request);
+  set_background(a.background, request);
+  for (const std::string& text : a.cuts) {
+    const auto cut = compile::parse_cut(text);
+    if (!cut)
+      throw WrongArgument("--cut " + text + " is not a plane; write for example --cut x=0 or --cut \"z>3.5\" (mm)");
+    request.cuts.push_back(*cut);
+  }
+  for (const std::string& text : a.opacity) {
+    const auto sign = text.rfind('=');
+    const auto value = sign == std::string::npos ? std::nullopt : parse_number(text.substr(sign + 1));
+    if (!value || !(*value >= 0 && *value <= 1))
+      throw WrongArgument("--opacity " + text + " is not a material and a number from 0 to 1; write for example " +
+                          "--opacity clear=0.2");
+    request.opacity.emplace_back(text.substr(0, sign), *value);
+  }
+  request.samples = a.samples;
+  request.frames = a.frames;
+  request.threads = a.threads;
+  return request;
+}
+
+// turn.png gives turn_00.png and so on where there are several frames.
+std::vector<std::string> output_files(const RenderArguments& a) {
+  namespace fs = std::filesystem;
+  const fs::path path(a.output.empty() ? fs::path(a.design.design).stem().string() + ".png" : a.output);
+  if (a.frames == 1) return {path.string()};
+  std::vector<std::string> files;
+  const size_t digits = std::to_string(a.frames - 1).size();
+  for (int frame = 0; frame < a.frames; ++frame) {
+    std::string number = std::to_string(frame);
+    number.insert(0, digits - number.size(), '0');
+    files.push_back((path.parent_path() / (path.stem().string() + "_" + number + path.extension().string())).string());
+  }
+  return files;
+}
+
+int render_design(const RenderArguments& a, Session& session) {
+  const compile::PictureRequest request = picture_request(a);
+  const bool to_stdout = a.output == "-";
+  if (to_stdout && session.console.voice() == Voice::programs)
+    throw WrongArgument("-o - writes the picture to stdout, where --json writes events; give -o a file name");
+  if (to_stdout && a.frames > 1) throw WrongArgument("stdout holds one picture; give -o a file name");
+  const std::vector<std::string> files = output_files(a);
+  if (!to_stdout)
+    for (const std::string& file : files) refuse_to_overwrite(file, a.force);
+
+  Diagnostics diagnostics;
+  const InterruptGuard interrupt;
+  const compile::LoadedPtr loaded = load_design(a.design, session, interrupt.flag(), diagnostics);
+  const auto take = [&](int frame, const compile::Picture& picture) {
+    const std::string bytes =
+        formats::encode_png(static_cast<uint32_t>(request.width), static_cast<uint32_t>(request.height), picture.rgba);
+    if (to_stdout) return session.console.print(bytes);
+    const std::string& file = files[static_cast<size_t>(frame)];
+    exporting::write_file(file, bytes);
+    session.console.say("written to " + file + ", " + format_rounded(picture.pixel_mm, 3) + " mm a pixel");
+    session.console.event("picture", {{"file", file}, {"pixel_mm", picture.pixel_mm}});
+  };
+  const bool is_done = loaded && compile::take_pictures(*loaded, request, interrupt.flag(), take, diagnostics);
+  session.console.diagnose(diagnostics);
+  return is_done && !diagnostics.has_errors() ? done : wrong_input;
+}
+
+}  // namespace
+
+Command add_render(CLI::App& program, OutputOptions& output) {
+  CLI::App* app = program.add_subcommand("render", "Make pictures of a design");
+  auto arguments = std::make_shared<RenderArguments>();
+  add_arguments(*app, *arguments);
+  add_output_options(*app, output);
+  app->footer(footer);
+  return {app, [arguments](Session& session) { return render_design(*arguments, session); }};
+}
+
+}  // namespace ombre::cli

@@ -1,0 +1,48 @@
+// From a design to pictures of it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/progress.h"
+#include "compile/load.h"
+#include "compile/scene.h"
+#include "render/shade.h"
+
+namespace ombre::compile {
+
+// A plane x, y or z = mm. `removed`: '>' or '<' for what is left away, '=' for the side of the eye.
+struct CutRequest {
+  int axis = 2;
+  char removed = '=';
+  double mm = 0;
+};
+// "x=0", "z>3.5", "y < -2".
+std::optional<CutRequest> parse_cut(std::string_view text);
+
+struct PictureRequest {
+  int64_t width = 800, height = 600;  // pixels
+  int64_t samples = 2;                // rays for each pixel: samples x samples
+  render::ViewOptions view;
+  std::vector<CutRequest> cuts;
+  std::optional<Box> box;
+  std::vector<std::pair<std::string, double>> opacity;  // by the name of the material
+  render::Background background;
+  int frames = 1;  // around the part
+  int threads = 0;
+};
+
+struct Picture {
+  std::vector<uint8_t> rgba;  // rows from the top
+  double pixel_mm = 0;        // at the part's middle
+};
+
+// Calls `take` with each frame. False, and diagnostics, when there is nothing to see. Throws Cancelled.
+bool take_pictures(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop,
+                   const std::function<void(int frame, const Picture&)>& take, Diagnostics& diagnostics);
+
+}  // namespace ombre::compile

@@ -1,0 +1,207 @@
+// Pictures: what rays meet, against geometry.
+#include "compile/picture.h"
+
+#include <cmath>
+
+#include "compile/build.h"
+#include "compile/test_designs.h"
+#include "program/passes/passes.h"
+
+namespace ombre::compile {
+namespace {
+
+struct Shot {
+  render::Film film;
+  render::Camera camera;
+  std::vector<render::RayHit> hits;
+  const render::RayHit& at(int64_t column, int64_t row) const {
+    return hits[static_cast<size_t>(row * film.width + column)];
+  }
+};
+
+Shot shoot(const std::string& text, render::ViewOptions view, SceneOptions options = {}, int threads = 1,
+           int64_t edge = 200) {
+  Diagnostics diagnostics;
+  const LoadedPtr loaded = load_text(text, diagnostics);
+  EXPECT_TRUE(loaded) << to_text(diagnostics);
+  const Box box = scene_box(*design_box(loaded->design, diagnostics), options);
+  Shot shot;
+  shot.camera = render::camera_around(box, view, 1);
+  shot.film = {edge, edge, shot.camera.height_mm / static_cast<double>(edge)};
+  const auto scene = make_scene(loaded->design, box, shot.camera, options, diagnostics);
+  EXPECT_TRUE(scene) << to_text(diagnostics);
+  shot.hits = render::cast_rays(*scene, shot.film, threads, nullptr);
+  return shot;
+}
+
+render::ViewOptions view(const char* name) { return *render::named_view(name); }
+
+constexpr float none = render::RayHit::none;
+
+}  // namespace
+
+TEST(Pictures, RaysMeetASphereWhereItIs) {
+  for (const char* name : {"iso", "front", "top"}) {
+    const Shot shot = shoot("sphere(10, \"red\");", view(name));
+    for (int64_t row = 0; row < shot.film.height; ++row) {
+      for (int64_t column = 0; column < shot.film.width; ++column) {
+        const double y = shot.film.right_of(column), z = shot.film.down_of(row), square = 100 - y * y - z * z;
+        const float depth = shot.at(column, row).surface;
+        if (square < -1e-3) {
+          EXPECT_EQ(depth, none) << name << column << " " << row;
+        }
+        if (square < 1) continue;
+        // Two of the finest steps, of which a pixel has 1024.
+        EXPECT_NEAR(depth, -std::sqrt(square), shot.film.pixel_mm / 500) << name << column << " " << row;
+        EXPECT_EQ(shot.at(column, row).end, depth);
+      }
+    }
+  }
+}
+
+TEST(Pictures, PerspectiveSeesTheConeAroundASphere) {
+  render::ViewOptions options = view("iso");
+  options.field_of_view_deg = 40;
+  const Shot shot = shoot("sphere(10);", options);
+  const double away = shot.camera.distance_mm;
+  // The outline of a sphere lies on the cone of tangents.
+  const double outline = away * std::tan(std::asin(10 / away));
+  size_t seen = 0;
+  for (const render::RayHit& ray : shot.hits) seen += ray.surface != none;
+  const double area = static_cast<double>(seen) * shot.film.pixel_mm * shot.film.pixel_mm;
+  EXPECT_NEAR(area / (3.14159265358979 * outline * outline), 1, 0.005);
+  const float nearest = shot.at(100, 100).surface;
+  EXPECT_NEAR(nearest, -10, 0.02);
+}
+
+TEST(Pictures, MeshesAndCallsAndManyPartsAreSeenToo) {
+  const std::string mesh = "mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");";
+  const Shot gear = shoot(mesh, view("top"));
+  Diagnostics diagnostics;
+  const LoadedPtr loaded = load_text(mesh, diagnostics);
+  const Box box = *design_box(loaded->design, diagnostics);
+  float top = none;
+  for (const render::RayHit& ray : gear.hits) top = std::min(top, ray.surface);
+  EXPECT_NEAR(top, -box.size().z / 2, gear.film.pixel_mm / 100);
+
+  std::string balls = "union() {";
+  for (int n = 0; n < 40; ++n)
+    balls += "translate(" + std::to_string(3 * (n % 8)) + ", " + std::to_string(3 * (n / 8)) + ", 0) sphere(1);";
+  const Shot many = shoot(balls + "}", view("top"), {}, 1, 400);
+  size_t seen = 0;
+  for (const render::RayHit& ray : many.hits) seen += ray.surface != none;
+  EXPECT_NEAR(static_cast<double>(seen) * many.film.pixel_mm * many.film.pixel_mm, 40 * 3.14159265, 1.5);
+}
+
+TEST(Pictures, CutsShowTheInside) {
+  SceneOptions options;
+  options.cuts = {{1, 0, -1}};  // what lies at y < 0 is left away
+  const Shot shot =
+      shoot("union(materials=\"last\") { sphere(10, \"red\"); sphere(5, \"blue\"); }", view("front"), options);
+  // The camera aims at the middle of what is left, y = 5.
+  EXPECT_NEAR(shot.at(100, 100).surface, -5, shot.film.pixel_mm / 100);
+  EXPECT_GT(shot.at(100, 100).at_end.blue, 2 * shot.at(100, 100).at_end.red);
+  EXPECT_GT(shot.at(30, 100).at_end.red, 2 * shot.at(30, 100).at_end.blue);
+}
+
+TEST(Pictures, LightFadesInTranslucentMaterial) {
+  Diagnostics diagnostics;
+  const LoadedPtr loaded = load_text("cube(10, \"clear\");", diagnostics);
+  SceneOptions options;
+  options.opacity[loaded->design.materials.find("clear")->id] = 0.3;
+  const Shot shot = shoot("cube(10, \"clear\");", view("front"), options);
+  const double clarity = std::sqrt(300.0) / 4;
+  for (const int64_t column : {20, 100, 170}) {
+    const render::RayHit& ray = shot.at(column, 100);
+    EXPECT_NEAR(ray.surface, -5, shot.film.pixel_mm / 100);
+    EXPECT_EQ(ray.end, none);
+    EXPECT_NEAR(ray.passes, std::pow(0.7, 10 / clarity), 0.01);
+  }
+  // What is opaque within is seen through it.
+  const Shot filled =
+      shoot("union(materials=\"last\") { cube(10, \"clear\"); sphere(3, \"red\"); }", view("front"), options);
+  EXPECT_NEAR(filled.at(100, 100).end, -3, filled.film.pixel_mm / 100);
+  EXPECT_NEAR(filled.at(100, 100).passes, std::pow(0.7, 2 / clarity), 0.01);
+}
+
+TEST(Pictures, DoNotDependOnThreads) {
+  const std::string text =
+      "fgrade([\"0.5 + x/40\", \"0.5 - x/40\"], [\"red\", \"clear\"]) rotate(20, 30, 40) cube(20);";
+  const Shot one = shoot(text, view("iso"), {}, 1), two = shoot(text, view("iso"), {}, 2);
+  for (size_t n = 0; n < one.hits.size(); ++n) {
+    ASSERT_EQ(one.hits[n].end, two.hits[n].end);
+    ASSERT_EQ(one.hits[n].passes, two.hits[n].passes);
+    ASSERT_EQ(one.hits[n].veil.red, two.hits[n].veil.red);
+  }
+}
+
+class EveryPicture : public testing::TestWithParam<std::string> {};
+
+// Where a ray ends, the reference finds the same material, but for rays that meet an edge.
+TEST_P(EveryPicture, ShowsWhatTheReferenceFinds) {
+  use_source_data();
+  Diagnostics diagnostics;
+  const LoadedPtr loaded = load_design(OMBRE_SOURCE_DIR "/examples/" + GetParam() + ".vcad", {}, diagnostics);
+  ASSERT_TRUE(loaded) << to_text(diagnostics);
+  const Box box = *design_box(loaded->design, diagnostics);
+  const render::Camera camera = render::camera_around(box, view("iso"), 1);
+  const render::Film film{160, 160, camera.height_mm / 160};
+  const auto scene = make_scene(loaded->design, box, camera, {}, diagnostics);
+  const auto hits = render::cast_rays(*scene, film, 2, nullptr);
+  const program::Program program =
+      program::expand_parts(scene->program, std::vector<Interval>(scene->program.code.size(), Interval(-1e4, 1e4)),
+                            program::Precision::reference);
+  size_t seen = 0, wrong = 0;
+  std::vector<double> values;
+  for (int64_t n = 0; n < film.width * film.height; ++n) {
+    const render::RayHit& ray = hits[static_cast<size_t>(n)];
+    if (ray.end == none || ray.passes < 1) continue;
+    ++seen;
+    const auto value = [&](render::Scene::Output output) { return values[program.outputs[output]]; };
+    // Colours are those a little behind the surface, if there is something.
+    for (const double behind : {film.pixel_mm / 8, film.pixel_mm / 500}) {
+      const Vec3 p{static_cast<double>(ray.end) + behind, film.right_of(n % film.width), film.down_of(n / film.width)};
+      evaluate_point(program, p, values);
+      if (value(render::Scene::opaque) == 1) break;
+    }
+    const bool same = value(render::Scene::opaque) == 1 &&
+                      std::abs(value(render::Scene::red) - static_cast<double>(ray.at_end.red)) < 0.01 &&
+                      std::abs(value(render::Scene::green) - static_cast<double>(ray.at_end.green)) < 0.01 &&
+                      std::abs(value(render::Scene::blue) - static_cast<double>(ray.at_end.blue)) < 0.01;
+    wrong += !same;
+  }
+  EXPECT_GT(seen, 500U);
+  EXPECT_LT(wrong, seen / 100) << "of " << seen;
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, EveryPicture,
+                         testing::Values("calibration_sheet", "cone_and_sphere", "gear", "graded_cube", "graded_wing",
+                                         "knob", "mug", "overlap", "parametric_hook", "soft_actuator",
+                                         "tensile_bar_prob", "tensile_bar_thresh", "tetrahedron"),
+                         [](const auto& test) { return test.param; });
+
+TEST(Pictures, PlanesAreReadAsPeopleWriteThem) {
+  EXPECT_EQ(parse_cut("x=0")->axis, 0);
+  EXPECT_EQ(parse_cut("z > 3.5")->removed, '>');
+  EXPECT_EQ(parse_cut("z > 3.5")->mm, 3.5);
+  for (const char* wrong : {"", "x", "w=1", "x=", "x=a", "xy=1", "=1", "x=nan"})
+    EXPECT_FALSE(parse_cut(wrong)) << wrong;
+}
+
+TEST(Pictures, WhatIsWrongIsSaid) {
+  Diagnostics diagnostics;
+  const LoadedPtr loaded = load_text("sphere(10, \"red\");", diagnostics);
+  PictureRequest request;
+  request.width = request.height = 20;
+  StopFlag stop;
+  const auto ignore = [](int, const Picture&) {};
+  request.opacity = {{"glass", 0.5}};
+  EXPECT_FALSE(take_pictures(*loaded, request, stop, ignore, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("there is no material \"glass\""), std::string::npos);
+  request.opacity.clear();
+  request.cuts = {{0, '>', -11}};
+  EXPECT_FALSE(take_pictures(*loaded, request, stop, ignore, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("nothing of the design is left by the cuts"), std::string::npos);
+}
+
+}  // namespace ombre::compile

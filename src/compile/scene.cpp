@@ -1,0 +1,114 @@
+#include "compile/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compile/build.h"
+#include "design/lowering.h"
+#include "program/passes/passes.h"
+#include "render/shade.h"
+
+namespace ombre::compile {
+namespace {
+
+using program::Field;
+using program::Point;
+
+// The design's point that the program's inputs stand for.
+Point design_point(program::Builder& builder, const render::Camera& camera) {
+  const Affine map = camera.design_from_view();
+  const Point view = Point::origin_frame(builder);
+  if (camera.is_orthographic()) return view.mapped(map);
+  const Field stretch = (view.x + camera.distance_mm) / camera.distance_mm;
+  return Point::of(view.x, view.y * stretch, view.z * stretch).mapped(map);
+}
+
+Field within_cuts(Field inside, const Point& p, const SceneOptions& options) {
+  const Field coordinates[] = {p.x, p.y, p.z};
+  for (const CutPlane& cut : options.cuts) {
+    const Field at = coordinates[cut.axis], face = p.constant(cut.mm);
+    inside = logical_and(inside, cut.sign > 0 ? less_equal(at, face) : less_equal(face, at));
+  }
+  if (!options.box) return inside;
+  for (int axis = 0; axis < 3; ++axis) {
+    inside = logical_and(inside, less_equal(coordinates[axis], p.constant(options.box->hi[axis])));
+    inside = logical_and(inside, less_equal(p.constant(options.box->lo[axis]), coordinates[axis]));
+  }
+  return inside;
+}
+
+double opacity_of(const design::Material& material, const SceneOptions& options) {
+  const auto given = options.opacity.find(material.id);
+  return given != options.opacity.end() ? given->second : material.colour[3] / 255.0;
+}
+
+// The sum of something over the materials, by their fractions.
+template <class Of>
+Field mean(const design::Composition& composition, const Point& p, Of of) {
+  Field sum = p.constant(0);
+  for (const auto& [id, fraction] : composition.fractions) sum = sum + max(fraction, 0.0) * of(id);
+  return sum;
+}
+
+// Between which depths the box lies.
+void find_depths(render::Scene& scene, const Box& box, const render::Camera& camera) {
+  scene.near_mm = Box::inf;
+  scene.far_mm = -Box::inf;
+  for (int n = 0; n < 8; ++n) {
+    const Vec3 corner{n & 1 ? box.hi.x : box.lo.x, n & 2 ? box.hi.y : box.lo.y, n & 4 ? box.hi.z : box.lo.z};
+    const double depth = dot(corner - camera.target, camera.forward);
+    scene.near_mm = std::min(scene.near_mm, depth);
+    scene.far_mm = std::max(scene.far_mm, depth);
+  }
+  // Nothing at the eye or behind it.
+  if (!camera.is_orthographic()) scene.near_mm = std::max(scene.near_mm, -0.99 * camera.distance_mm);
+}
+
+}  // namespace
+
+Box scene_box(const Box& design_box, const SceneOptions& options) {
+  Box box = options.box ? intersect(design_box, *options.box) : design_box;
+  for (const CutPlane& cut : options.cuts) {
+    if (cut.sign > 0)
+      box.hi[cut.axis] = std::min(box.hi[cut.axis], cut.mm);
+    else
+      box.lo[cut.axis] = std::max(box.lo[cut.axis], cut.mm);
+  }
+  return box.is_empty() ? Box::empty() : box;
+}
+
+std::optional<render::Scene> make_scene(const design::Design& design, const Box& box, const render::Camera& camera,
+                                        const SceneOptions& options, Diagnostics& diagnostics) {
+  const design::NodePtr solid = whole_solid(design);
+  design::LoweringContext context(design.materials, {solid});
+  program::Builder builder;
+  design::Lowering lowering(context, builder);
+  const Point p = design_point(builder, camera);
+  const Field inside = within_cuts(lowering.inside(*solid, p), p, options);
+  const design::Composition composition = lowering.composition(*solid, p, design::Demand::inside);
+
+  render::Scene scene;
+  for (const auto& [id, fraction] : composition.fractions)
+    if (opacity_of(design.materials.all()[id], options) < 1) scene.is_translucent = true;
+  const auto linear = [&](MaterialId id) { return render::linear(design.materials.all()[id].colour); };
+  const Field opacity =
+      mean(composition, p, [&](MaterialId id) { return opacity_of(design.materials.all()[id], options); });
+  const Field opaque = scene.is_translucent ? logical_and(inside, less_equal(p.constant(0.5), opacity)) : inside;
+  const auto channel = [&](float render::Colour::*part) {
+    return mean(composition, p, [&](MaterialId id) { return static_cast<double>(linear(id).*part); });
+  };
+  context.finish_bodies();
+  scene.program = builder.finish({{"inside", inside},
+                                  {"opaque", opaque},
+                                  {"red", channel(&render::Colour::red)},
+                                  {"green", channel(&render::Colour::green)},
+                                  {"blue", channel(&render::Colour::blue)},
+                                  {"opacity", opacity}});
+  if (!fits_flat(design, scene.program, diagnostics)) return std::nullopt;
+  scene.program = program::inline_bodies(scene.program);
+  find_depths(scene, box, camera);
+  scene.clarity_mm = length(box.size()) / 4;
+  return scene;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,35 @@
+// From a design to what a picture of it shows.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "base/box.h"
+#include "design/design.h"
+#include "render/camera.h"
+#include "render/scene.h"
+
+namespace ombre::compile {
+
+// What lies behind it is left away: where sign * (coordinate - mm) is greater than 0.
+struct CutPlane {
+  int axis = 2;
+  double mm = 0;
+  int sign = 1;
+};
+
+struct SceneOptions {
+  std::vector<CutPlane> cuts;
+  std::optional<Box> box;                // only what is within
+  std::map<MaterialId, double> opacity;  // 0 to 1, in place of the materials' own
+};
+
+// The box that the picture should hold: the design's, cut.
+Box scene_box(const Box& design_box, const SceneOptions& options);
+
+// `box` holds all that is to be seen. Nothing, and diagnostics, when the design does not fit into memory.
+std::optional<render::Scene> make_scene(const design::Design& design, const Box& box, const render::Camera& camera,
+                                        const SceneOptions& options, Diagnostics& diagnostics);
+
+}  // namespace ombre::compile

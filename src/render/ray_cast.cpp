@@ -1,0 +1,377 @@
+#include "render/ray_cast.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "eval/batch/batch.h"
+#include "program/passes/passes.h"
+#include "voxel/tile.h"
+
+namespace ombre::render {
+namespace {
+
+using program::Op;
+using voxel::StripSources;
+using voxel::TileBox;
+
+// Rays are sampled in steps. Where one finds a surface, sixteenths of the step are tried, and sixteenths of those.
+constexpr double steps_per_pixel = 4;
+constexpr int64_t finer = 16, fine_per_step = finer * finer;
+// Tiles of rays that are sampled without further questions.
+constexpr int64_t leaf_steps = 32, leaf_columns = 16, leaf_rows = 8;
+// Within translucent material, where no surface is, one sample stands for so many steps.
+constexpr int64_t murky_steps = 8;
+constexpr int64_t tile_edge = 32;  // of the picture's tiles, in pixels
+constexpr size_t many_parts = 4;   // while so many reach a tile, it is cut before they are written out
+constexpr float dark = 0.01F;      // less light than that is none
+
+// Samples along rays, one after the other; places are counted in fine steps, of which a step has 256.
+struct RayLattice {
+  double near_mm = 0, fine_mm = 0;
+  int64_t steps = 0;
+  Film film;
+
+  RayLattice(const Scene& scene, const Film& of_film) : near_mm(scene.near_mm), film(of_film) {
+    const double step = film.pixel_mm / steps_per_pixel;
+    fine_mm = step / static_cast<double>(fine_per_step);
+    steps = static_cast<int64_t>(std::ceil((scene.far_mm - scene.near_mm) / step)) + 1;
+  }
+  static int64_t fine_of(int64_t step) { return step * fine_per_step + fine_per_step / 2; }
+  double depth(int64_t fine) const { return near_mm + (static_cast<double>(fine) + 0.5) * fine_mm; }
+  float sample(int64_t fine) const { return static_cast<float>(depth(fine)); }
+  Affine view_from_index() const {
+    return {{Vec3{fine_mm, 0, 0}, Vec3{0, film.pixel_mm, 0}, Vec3{0, 0, film.pixel_mm}},
+            {depth(0), film.right_of(0), film.down_of(0)}};
+  }
+};
+
+// The share of light that comes through some steps, by opacity in thousandths or so.
+class Clarity {
+ public:
+  // What a material lets through whose opacity is o: 1 - o along a way of 1 / `step` steps.
+  explicit Clarity(double step) {
+    for (size_t n = 0; n < one_.size(); ++n) {
+      const double clear = 1 - static_cast<double>(n) / grades;
+      one_[n] = static_cast<float>(math::pow(clear, step));
+      some_[n] = static_cast<float>(math::pow(clear, step * murky_steps));
+    }
+  }
+  float through(float opacity, int64_t steps) const {
+    const auto n = static_cast<size_t>(std::clamp(opacity, 0.0F, 1.0F) * grades + 0.5F);
+    if (steps == 1) return one_[n];
+    if (steps == murky_steps) return some_[n];
+    return static_cast<float>(math::pow(static_cast<double>(one_[n]), static_cast<double>(steps)));
+  }
+
+ private:
+  static constexpr float grades = 1024;
+  std::array<float, 1025> one_, some_;
+};
+
+// Samples of the rays at work.
+class RaySamples : public eval::SourceRows {
+ public:
+  struct Ray {
+    int64_t column = 0, first = 0;  // the fine place of its first sample
+  };
+  std::vector<Ray> rays;
+  int64_t row = 0, stride = 1;  // of the picture; from sample to sample
+  const StripSources* sources = nullptr;
+
+  bool has(const program::Read& read) const override { return sources->has(read.tag); }
+  void fill(const program::Read& read, const eval::RowsToFill& to) const override {
+    for (size_t n = 0; n < to.count; ++n)
+      for (size_t i = 0; i < to.width; ++i)
+        to.values[n * to.stride + i] =
+            sources->inside(read.tag, rays[n].first + stride * static_cast<int64_t>(i), rays[n].column, row) ? 1 : 0;
+  }
+};
+
+// One thread's.
+class RayCaster {
+ public:
+  RayCaster(const Scene& scene, const program::Program& batch, const RayLattice& lattice, const Clarity& clarity,
+            std::vector<RayHit>& hits)
+      : scene_(scene),
+        program_(batch),
+        lattice_(lattice),
+        clarity_(clarity),
+        batch_(eval::kernel_sets().front()),
+        hits_(hits) {}
+
+  void cast(const TileBox& tile, const StripSources& sources) {
+    samples_.sources = &sources;
+    descend(program_, tile);
+  }
+
+ private:
+  // Tiles are boxes of steps, columns and rows. Samples that look closer lie up to a step before the first.
+  Box points_of(const TileBox& tile) const {
+    const Film& film = lattice_.film;
+    return {{lattice_.depth(RayLattice::fine_of(tile.lo[0] - 1)), film.right_of(tile.lo[1]), film.down_of(tile.lo[2])},
+            {lattice_.depth(RayLattice::fine_of(tile.hi[0] - 1)), film.right_of(tile.hi[1] - 1),
+             film.down_of(tile.hi[2] - 1)}};
+  }
+
+  static TileBox fine_box(const TileBox& tile) {
+    TileBox fine = tile;
+    fine.lo[0] = RayLattice::fine_of(tile.lo[0] - 1);
+    fine.hi[0] = RayLattice::fine_of(tile.hi[0] - 1) + 1;
+    return fine;
+  }
+
+  RayHit& hit(int64_t column, int64_t row) { return hits_[static_cast<size_t>(row * lattice_.film.width + column)]; }
+  bool is_open(int64_t column, int64_t row) { return hit(column, row).end == RayHit::none; }
+  bool is_hidden(const TileBox& tile) {
+    for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row)
+      for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column)
+        if (is_open(column, row)) return false;
+    return true;
+  }
+
+  void descend(const program::Program& program, const TileBox& tile) {
+    if (is_hidden(tile)) return;
+    const TileBox fine = fine_box(tile);
+    std::vector<Interval> values, kept;
+    evaluate_intervals(program, points_of(tile), values, samples_.sources->ranges(fine), program::Precision::batch);
+    const auto range = [&](Scene::Output output) { return values[program.outputs[output]]; };
+    if (range(Scene::inside) == Interval(0)) return;
+    const bool is_murky = range(Scene::inside) == Interval(1) && range(Scene::opaque) == Interval(0);
+    if (is_murky && is_uniform(range)) return absorb_all(tile, range);
+    program::Program shorter = program::shorten(program, values, &kept);
+    if (shorter.has_parts()) {
+      if (!is_small(tile, false) && parts_in_reach(shorter, kept, many_parts) >= many_parts) return cut(shorter, tile);
+      return descend(program::expand_parts(shorter, kept, program::Precision::batch), tile);
+    }
+    if (is_small(tile, is_murky)) return is_murky ? sample_murk(shorter, kept, tile) : sample(shorter, kept, tile);
+    cut(shorter, tile);
+  }
+
+  static bool is_small(const TileBox& tile, bool is_murky) {
+    return tile.size(0) <= (is_murky ? leaf_steps * murky_steps : leaf_steps) && tile.size(1) <= leaf_columns &&
+           tile.size(2) <= leaf_rows;
+  }
+
+  template <class Range>
+  static bool is_uniform(Range range) {
+    for (const auto output : {Scene::red, Scene::green, Scene::blue, Scene::opacity})
+      if (!range(output).is_point()) return false;
+    return true;
+  }
+
+  // Of one colour and opacity throughout.
+  template <class Range>
+  void absorb_all(const TileBox& tile, Range range) {
+    const auto value = [&](Scene::Output output) { return static_cast<float>(range(output).lo); };
+    const Colour colour{value(Scene::red), value(Scene::green), value(Scene::blue)};
+    const float depth = lattice_.sample(RayLattice::fine_of(tile.lo[0]));
+    const float through = clarity_.through(value(Scene::opacity), tile.size(0));
+    for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row)
+      for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column)
+        if (is_open(column, row)) absorb(hit(column, row), through, depth, colour);
+  }
+
+  // A few samples for many steps.
+  void sample_murk(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile) {
+    batch_.compile(program, ranges, static_cast<size_t>(leaf_columns * leaf_steps), 1, samples_);
+    const int64_t count = (tile.size(0) + murky_steps - 1) / murky_steps;
+    for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row) {
+      find_open(row, tile);
+      if (samples_.rays.empty()) continue;
+      evaluate(fine_per_step * murky_steps, static_cast<size_t>(count), true);
+      for (size_t n = 0; n < samples_.rays.size(); ++n) {
+        RayHit& ray = hit(samples_.rays[n].column, row);
+        for (int64_t i = 0; i < count; ++i) {
+          const int64_t steps = std::min(murky_steps, tile.size(0) - i * murky_steps);
+          const auto at = static_cast<size_t>(i);
+          const float through = clarity_.through(value(Scene::opacity, n, at), steps);
+          if (absorb(ray, through, depths_[n * stride_ + at], colour(n, at))) break;
+        }
+      }
+    }
+  }
+
+  void find_open(int64_t row, const TileBox& tile) {
+    samples_.row = row;
+    samples_.rays.clear();
+    for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column)
+      if (is_open(column, row)) samples_.rays.push_back({column, RayLattice::fine_of(tile.lo[0])});
+  }
+
+  // The near half first, which may hide the other one.
+  void cut(const program::Program& program, const TileBox& tile) {
+    const int64_t sizes[] = {(tile.size(0) + leaf_steps - 1) / leaf_steps,
+                             (tile.size(1) + leaf_columns - 1) / leaf_columns,
+                             (tile.size(2) + leaf_rows - 1) / leaf_rows};
+    const auto axis = static_cast<size_t>(std::max_element(sizes, sizes + 3) - sizes);
+    TileBox low = tile, high = tile;
+    low.hi[axis] = high.lo[axis] = (tile.lo[axis] + tile.hi[axis]) / 2;
+    descend(program, low);
+    descend(program, high);
+  }
+
+  void sample(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile) {
+    batch_.compile(program, ranges, static_cast<size_t>(leaf_columns * leaf_steps), 1, samples_);
+    for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row) {
+      find_open(row, tile);
+      if (samples_.rays.empty()) continue;
+      evaluate(fine_per_step, static_cast<size_t>(tile.size(0)), scene_.is_translucent);
+      find_hits(tile);
+      if (!surfaces_.empty()) look_closer(surfaces_, Scene::inside);
+      if (!ends_.empty()) look_closer(ends_, Scene::opaque);
+    }
+  }
+
+  void evaluate(int64_t stride, size_t width, bool all_outputs) {
+    samples_.stride = stride;
+    width_ = width;
+    stride_ = (width + eval::batch_lanes - 1) / eval::batch_lanes * eval::batch_lanes;
+    depths_.resize(stride_ * samples_.rays.size());
+    rows_.clear();
+    for (size_t n = 0; n < samples_.rays.size(); ++n) {
+      float* const depths = depths_.data() + n * stride_;
+      for (size_t i = 0; i < stride_; ++i)
+        depths[i] = lattice_.sample(samples_.rays[n].first + stride * static_cast<int64_t>(std::min(i, width - 1)));
+      rows_.push_back({depths, static_cast<float>(lattice_.film.right_of(samples_.rays[n].column))});
+    }
+    const auto down = static_cast<float>(lattice_.film.down_of(samples_.row));
+    batch_.place({rows_, {&down, 1}, width});
+    batch_.begin_layer(0);
+    batch_.begin_row(0);
+    if (all_outputs) batch_.finish_row();
+  }
+
+  // Of sample `i` of ray `n`. What floats cannot hold counts as 0.
+  float value(Scene::Output output, size_t n, size_t i) const {
+    const float value = batch_.output(output)[n * stride_ + i];
+    return std::isnan(value) ? 0 : value;
+  }
+  Colour colour(size_t n, size_t i) const {
+    return {value(Scene::red, n, i), value(Scene::green, n, i), value(Scene::blue, n, i)};
+  }
+
+  // Notes between which samples rays meet a surface, and what the light loses in each.
+  void find_hits(const TileBox& tile) {
+    surfaces_.clear();
+    ends_.clear();
+    for (size_t n = 0; n < samples_.rays.size(); ++n) {
+      RayHit& ray = hit(samples_.rays[n].column, samples_.row);
+      bool is_new = ray.surface == RayHit::none;
+      for (size_t i = 0; i < width_; ++i) {
+        if (value(Scene::inside, n, i) == 0) continue;
+        const RaySamples::Ray before{samples_.rays[n].column,
+                                     RayLattice::fine_of(tile.lo[0] + static_cast<int64_t>(i) - 1)};
+        if (is_new) surfaces_.push_back(before);
+        is_new = false;
+        if (!scene_.is_translucent) break;
+        if (value(Scene::opaque, n, i) != 0) {
+          ends_.push_back(before);
+          break;
+        }
+        const float through = clarity_.through(value(Scene::opacity, n, i), 1);
+        if (absorb(ray, through, depths_[n * stride_ + i], colour(n, i))) break;
+      }
+    }
+  }
+
+  // True: no light is left.
+  bool absorb(RayHit& ray, float through, float depth, const Colour& here) {
+    const float taken = ray.passes * (1 - through);
+    ray.veil.red += taken * here.red;
+    ray.veil.green += taken * here.green;
+    ray.veil.blue += taken * here.blue;
+    ray.passes *= through;
+    if (ray.passes > dark) return false;
+    ray.end = depth;
+    ray.at_end = here;
+    return true;
+  }
+
+  // From places before a surface to the first fine step behind it. An opaque surface also ends its ray.
+  void look_closer(const std::vector<RaySamples::Ray>& before, Scene::Output what) {
+    samples_.rays = before;
+    for (const int64_t stride : {finer, int64_t{1}}) {
+      for (RaySamples::Ray& ray : samples_.rays) ray.first += stride;
+      evaluate(stride, finer, what != Scene::inside);
+      for (size_t n = 0; n < samples_.rays.size(); ++n) {
+        size_t i = 0;
+        while (i + 1 < finer && value(what, n, i) == 0) ++i;
+        samples_.rays[n].first += stride * (static_cast<int64_t>(i) - (stride > 1 ? 1 : 0));
+      }
+    }
+    const bool is_end = what == Scene::opaque || !scene_.is_translucent;
+    for (const RaySamples::Ray& ray : samples_.rays) {
+      RayHit& found = hit(ray.column, samples_.row);
+      const float depth = lattice_.sample(ray.first);
+      if (what == Scene::inside) found.surface = depth;
+      if (is_end) found.end = depth;
+    }
+    if (is_end) take_colours();
+  }
+
+  // A little behind the surface, if the solid is thick enough: where surfaces of two materials coincide, rounding
+  // decides which is met first.
+  void take_colours() {
+    evaluate(fine_per_step / 2, 2, true);
+    for (size_t n = 0; n < samples_.rays.size(); ++n)
+      hit(samples_.rays[n].column, samples_.row).at_end = colour(n, value(Scene::opaque, n, 1) != 0 ? 1 : 0);
+  }
+
+  const Scene& scene_;
+  const program::Program& program_;
+  const RayLattice& lattice_;
+  const Clarity& clarity_;
+  eval::BatchEvaluator batch_;
+  RaySamples samples_;
+  std::vector<RayHit>& hits_;
+  size_t width_ = 0, stride_ = 0;
+  std::vector<float> depths_;  // of the samples at work
+  std::vector<eval::PointRow> rows_;
+  std::vector<RaySamples::Ray> surfaces_, ends_;
+};
+
+// Sources whose operands are affine in the view are placed on the rays.
+std::vector<std::unique_ptr<program::RowSampler>> place_sources(program::Program& program, const RayLattice& lattice) {
+  std::vector<std::unique_ptr<program::RowSampler>> samplers;
+  for (const program::Instruction& in : program.code) {
+    if (in.op != Op::source) continue;
+    program::Read& read = program.reads[in.aux];
+    read.tag = static_cast<uint32_t>(samplers.size());
+    const auto map = program::affine_operands(program, in);
+    samplers.push_back(map ? read.source->rows(read.channel, *map * lattice.view_from_index()) : nullptr);
+  }
+  return samplers;
+}
+
+}  // namespace
+
+std::vector<RayHit> cast_rays(const Scene& scene, const Film& film, int threads,
+                              const std::function<bool()>& is_stopped) {
+  if (eval::kernel_sets().empty()) throw Error("pictures need a processor with hardware multiply-add");
+  const RayLattice lattice(scene, film);
+  program::Program reference = scene.program;
+  const Clarity clarity(film.pixel_mm / steps_per_pixel / scene.clarity_mm);
+  const auto samplers = place_sources(reference, lattice);
+  const program::Program batch = fuse(sign_only(reference));
+  std::vector<RayHit> hits(static_cast<size_t>(film.width * film.height));
+  const int64_t across = (film.width + tile_edge - 1) / tile_edge, down = (film.height + tile_edge - 1) / tile_edge;
+  run_parallel(static_cast<size_t>(across * down), threads, [&](size_t n) {
+    if (is_stopped && is_stopped()) return;
+    const int64_t column = static_cast<int64_t>(n) % across * tile_edge,
+                  row = static_cast<int64_t>(n) / across * tile_edge;
+    const TileBox tile{
+        {0, column, row},
+        {lattice.steps, std::min(column + tile_edge, film.width), std::min(row + tile_edge, film.height)}};
+    TileBox strip = tile;
+    strip.hi[0] = lattice.steps * fine_per_step;
+    const StripSources sources(samplers, strip);
+    RayCaster(scene, batch, lattice, clarity, hits).cast(tile, sources);
+  });
+  return hits;
+}
+
+}  // namespace ombre::render

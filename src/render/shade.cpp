@@ -1,0 +1,137 @@
+#include "render/shade.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.h"
+
+namespace ombre::render {
+namespace {
+
+// In the view's frame, towards the light: from behind the eye, left and above.
+const Vec3 key_light{-0.74, -0.42, -0.53};
+constexpr double ambient = 0.32, diffuse = 0.62, from_the_eye = 0.12, highlight = 0.10, sharpness = 40;
+
+double to_linear(uint8_t value) {
+  const double v = value / 255.0;
+  return v <= 0.04045 ? v / 12.92 : math::pow((v + 0.055) / 1.055, 2.4);
+}
+
+uint8_t to_srgb(double linear) {
+  const double v = std::clamp(linear, 0.0, 1.0);
+  const double s = v <= 0.0031308 ? 12.92 * v : 1.055 * math::pow(v, 1 / 2.4) - 0.055;
+  return static_cast<uint8_t>(std::lround(255 * s));
+}
+
+struct Light {
+  double share = 1, shine = 0;  // of the surface's own colour; white
+};
+
+Light light_on(Vec3 normal) {
+  const double towards_light = std::max(0.0, dot(normal, key_light)), towards_eye = std::max(0.0, -normal.x);
+  const Vec3 eye{-1, 0, 0};
+  const Vec3 half = (1 / length(eye + key_light)) * (eye + key_light);
+  const double glance = std::max(0.0, dot(normal, half));
+  return {ambient + diffuse * towards_light + from_the_eye * towards_eye, highlight * math::pow(glance, sharpness)};
+}
+
+// Depths as a field over the film, and the surface's direction in it.
+class Relief {
+ public:
+  Relief(const std::vector<RayHit>& hits, const Film& film, const Camera& camera, float RayHit::*depth)
+      : hits_(hits), film_(film), camera_(camera), depth_(depth) {}
+
+  float depth(int64_t column, int64_t row) const {
+    if (column < 0 || row < 0 || column >= film_.width || row >= film_.height) return RayHit::none;
+    return hits_[static_cast<size_t>(row * film_.width + column)].*depth_;
+  }
+
+  // Towards the eye. Of the neighbours on both sides the nearer one in depth is taken: the other may lie behind an
+  // edge.
+  Vec3 normal(int64_t column, int64_t row) const {
+    const Vec3 across = step(column, row, 1, 0), down = step(column, row, 0, 1);
+    const Vec3 n = cross(across, down);
+    const double size = length(n);
+    if (!(size > 0)) return {-1, 0, 0};
+    return (n.x > 0 ? -1 / size : 1 / size) * n;
+  }
+
+ private:
+  Vec3 place(int64_t column, int64_t row) const {
+    return camera_.unprojected({static_cast<double>(depth(column, row)), film_.right_of(column), film_.down_of(row)});
+  }
+
+  Vec3 step(int64_t column, int64_t row, int64_t dx, int64_t dy) const {
+    const float here = depth(column, row), before = depth(column - dx, row - dy), after = depth(column + dx, row + dy);
+    const float to_before = std::abs(here - before), to_after = std::abs(after - here);
+    if (to_before == RayHit::none && to_after == RayHit::none)
+      return {0, static_cast<double>(dx), static_cast<double>(dy)};
+    if (to_after <= to_before) return place(column + dx, row + dy) - place(column, row);
+    return place(column, row) - place(column - dx, row - dy);
+  }
+
+  const std::vector<RayHit>& hits_;
+  const Film& film_;
+  const Camera& camera_;
+  float RayHit::*depth_;
+};
+
+struct Sum {
+  double red = 0, green = 0, blue = 0, cover = 0;
+  void add(const Colour& colour, double share, double shine) {
+    red += static_cast<double>(colour.red) * share + shine;
+    green += static_cast<double>(colour.green) * share + shine;
+    blue += static_cast<double>(colour.blue) * share + shine;
+  }
+};
+
+}  // namespace
+
+Colour linear(Rgba8 srgb) {
+  return {static_cast<float>(to_linear(srgb[0])), static_cast<float>(to_linear(srgb[1])),
+          static_cast<float>(to_linear(srgb[2]))};
+}
+
+std::vector<uint8_t> shade(const std::vector<RayHit>& hits, const Film& film, const Camera& camera, int64_t samples,
+                           const Background& background) {
+  const Relief outer(hits, film, camera, &RayHit::surface), inner(hits, film, camera, &RayHit::end);
+  const int64_t width = film.width / samples, height = film.height / samples;
+  const Colour top = linear(background.top), bottom = linear(background.bottom);
+  const double rays = static_cast<double>(samples * samples);
+  std::vector<uint8_t> pixels;
+  pixels.reserve(static_cast<size_t>(width * height * 4));
+  for (int64_t y = 0; y < height; ++y) {
+    const auto down = static_cast<float>((static_cast<double>(y) + 0.5) / static_cast<double>(height));
+    const auto mixed = [&](float a, float b) { return a + (b - a) * down; };
+    const Colour behind{mixed(top.red, bottom.red), mixed(top.green, bottom.green), mixed(top.blue, bottom.blue)};
+    for (int64_t x = 0; x < width; ++x) {
+      Sum sum;
+      for (int64_t row = y * samples; row < (y + 1) * samples; ++row) {
+        for (int64_t column = x * samples; column < (x + 1) * samples; ++column) {
+          const RayHit& ray = hits[static_cast<size_t>(row * film.width + column)];
+          double left = 1;
+          if (ray.surface != RayHit::none && ray.surface != ray.end) {
+            const Light light = light_on(outer.normal(column, row));
+            sum.add(ray.veil, light.share, light.shine);
+            left = static_cast<double>(ray.passes);
+          }
+          if (ray.end != RayHit::none) {
+            const Light light = light_on(inner.normal(column, row));
+            sum.add(ray.at_end, left * light.share, left * light.shine);
+            left = 0;
+          }
+          sum.cover += 1 - left;
+          if (!background.is_transparent) sum.add(behind, left, 0);
+        }
+      }
+      // Colours of transparent pictures are not premultiplied.
+      const double over = background.is_transparent ? (sum.cover > 0 ? sum.cover : 1) : rays;
+      for (const double value : {sum.red, sum.green, sum.blue}) pixels.push_back(to_srgb(value / over));
+      const double alpha = background.is_transparent ? sum.cover / rays : 1;
+      pixels.push_back(static_cast<uint8_t>(std::lround(255 * alpha)));
+    }
+  }
+  return pixels;
+}
+
+}  // namespace ombre::render
