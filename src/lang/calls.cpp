@@ -143,7 +143,7 @@ void Interpreter::node_arguments(const CallStatement& statement, const ScopePtr&
 }
 
 void Interpreter::make_node(const Invocation& invocation, const ast::Span& where, Nodes& out) {
-  at_ = &where;
+  at_ = where;
   meter_.count_instance();
   Diagnostics found;
   design::NodePtr node = vocabulary_.make(invocation, found);

@@ -238,12 +238,12 @@ ExprPtr Parser::bracketed() {
   return range;
 }
 
-bool Parser::at_generator(size_t ahead) const {
+bool Parser::at_generator(size_t ahead) {
   return at_word("for", ahead) || at_word("each", ahead) || at_word("if", ahead);
 }
 
 // (for ...), also behind let(...): only what follows tells it from a grouped value.
-bool Parser::at_parenthesised_generator() const {
+bool Parser::at_parenthesised_generator() {
   if (!at(TokenKind::left_paren)) return false;
   size_t ahead = 1;
   while (at_word("let", ahead) && kind(ahead + 1) == TokenKind::left_paren) {
@@ -328,7 +328,7 @@ ExprPtr Parser::function_literal() {
   return result;
 }
 
-bool Parser::at_expression_end() const {
+bool Parser::at_expression_end() {
   switch (kind()) {
     case TokenKind::end:
     case TokenKind::comma:
