@@ -183,9 +183,8 @@ const AttributeDeclaration* Lowering::declaration(std::string_view name) const {
 }
 
 MaterialId Lowering::material(const MaterialName& name) const {
-  const Material* material = context_.materials().find(name.name);
-  ASSERT(material && "parameters hold names of the table");
-  return material->id;
+  ASSERT(name.material == context_.materials().find(name.material->id) && "parameters hold materials of the table");
+  return name.material->id;
 }
 
 uint32_t Lowering::add_check(const Node& node, const std::string& message) {

@@ -33,7 +33,7 @@ struct Parameter {
       };
     if constexpr (std::is_same_v<M, MaterialName>)
       fill = [member](T& value, const Reader& reader) {
-        if ((value.*member).name.empty()) (value.*member).name = reader.materials.first().name;
+        if (!(value.*member).material) (value.*member).material = &reader.materials.first();
       };
   }
 

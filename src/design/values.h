@@ -49,10 +49,14 @@ struct Numbers3 {
   bool operator==(const Numbers3&) const = default;
 };
 
+// A material of the design's table, which nodes do not outlive; null: none was given.
 struct MaterialName {
-  std::string name;  // once read, a name of the table
+  const Material* material = nullptr;
   bool operator==(const MaterialName&) const = default;
 };
+
+// One of a parameter's choices: the text stands in its domain, or is a literal.
+using Choice = std::string_view;
 
 struct FilePath {
   std::string path;
@@ -66,7 +70,7 @@ struct Domain {
   double least = -std::numeric_limits<double>::infinity(), greatest = std::numeric_limits<double>::infinity();
   bool above_least = false;            // greater than `least`, not equal
   bool required = false;               // has no default
-  std::vector<std::string> choices;    // for texts
+  std::vector<std::string> choices;    // of a Choice
   std::vector<std::string> variables;  // known in expressions besides the coordinates
 };
 
@@ -125,6 +129,7 @@ bool read(const Data& data, const Domain& domain, Number& value, const Reader& r
 bool read(const Data& data, const Domain& domain, Numbers3& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, bool& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::string& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, Choice& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Vec3& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::optional<Vec3>& value, const Reader& reader);  // null: none
 bool read(const Data& data, const Domain& domain, Affine& value, const Reader& reader);
@@ -139,6 +144,7 @@ Data write(const Number& value, bool for_hash);
 Data write(const Numbers3& value, bool for_hash);
 Data write(bool value, bool for_hash);
 Data write(const std::string& value, bool for_hash);
+Data write(Choice value, bool for_hash);
 Data write(const Vec3& value, bool for_hash);
 Data write(const std::optional<Vec3>& value, bool for_hash);
 Data write(const Affine& value, bool for_hash);
@@ -154,7 +160,7 @@ constexpr std::string_view kind_name() {
   if constexpr (std::is_same_v<M, Number>) return "number or field";
   if constexpr (std::is_same_v<M, Numbers3>) return "3 numbers or fields";
   if constexpr (std::is_same_v<M, bool>) return "true or false";
-  if constexpr (std::is_same_v<M, std::string>) return "text";
+  if constexpr (std::is_same_v<M, std::string> || std::is_same_v<M, Choice>) return "text";
   if constexpr (std::is_same_v<M, Vec3> || std::is_same_v<M, std::optional<Vec3>>) return "3 numbers";
   if constexpr (std::is_same_v<M, Affine>) return "matrix";
   if constexpr (std::is_same_v<M, MaterialName>) return "material";

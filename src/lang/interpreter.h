@@ -109,7 +109,7 @@ class Interpreter {
   std::vector<size_t> chosen_children(const ast::CallStatement& statement, const ScopePtr& scope, size_t count);
   void call_node(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
   void node_arguments(const ast::CallStatement& statement, const ScopePtr& scope, Invocation& invocation);
-  void make_node(const Invocation& invocation, const ast::Span& where, Nodes& out);
+  void make_node(Invocation invocation, const ast::Span& where, Nodes& out);
   bool knows(const ast::Name& name);
   std::pair<const ast::ModuleDef*, ScopePtr> find_module(Symbol name, const ScopePtr& scope);
   void bind(const std::vector<ast::Parameter>& parameters, const std::vector<ast::Argument>& arguments,

@@ -14,6 +14,57 @@ bool is_name_part(char c) { return (is_name_start(c) && c != '$') || is_digit(c)
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
+std::optional<TokenKind> single_sign(char c) {
+  switch (c) {
+    case '(':
+      return TokenKind::left_paren;
+    case ')':
+      return TokenKind::right_paren;
+    case '[':
+      return TokenKind::left_bracket;
+    case ']':
+      return TokenKind::right_bracket;
+    case '{':
+      return TokenKind::left_brace;
+    case '}':
+      return TokenKind::right_brace;
+    case ';':
+      return TokenKind::semicolon;
+    case ',':
+      return TokenKind::comma;
+    case '.':
+      return TokenKind::dot;
+    case ':':
+      return TokenKind::colon;
+    case '?':
+      return TokenKind::question;
+    case '=':
+      return TokenKind::assign;
+    case '#':
+      return TokenKind::hash;
+    case '+':
+      return TokenKind::plus;
+    case '-':
+      return TokenKind::minus;
+    case '*':
+      return TokenKind::star;
+    case '/':
+      return TokenKind::slash;
+    case '%':
+      return TokenKind::percent;
+    case '^':
+      return TokenKind::caret;
+    case '!':
+      return TokenKind::bang;
+    case '<':
+      return TokenKind::less;
+    case '>':
+      return TokenKind::greater;
+    default:
+      return std::nullopt;
+  }
+}
+
 // Reads one string's escapes.
 class Unescaper {
  public:
@@ -231,29 +282,23 @@ void Lexer::string() {
 }
 
 void Lexer::sign() {
-  struct Sign {
-    std::string_view text;
+  struct Pair {
+    char first, second;
     TokenKind kind;
   };
-  static constexpr Sign signs[] = {
-      {"<=", TokenKind::less_equal},   {">=", TokenKind::greater_equal}, {"==", TokenKind::equal_equal},
-      {"!=", TokenKind::not_equal},    {"&&", TokenKind::and_and},       {"||", TokenKind::or_or},
-      {"(", TokenKind::left_paren},    {")", TokenKind::right_paren},    {"[", TokenKind::left_bracket},
-      {"]", TokenKind::right_bracket}, {"{", TokenKind::left_brace},     {"}", TokenKind::right_brace},
-      {";", TokenKind::semicolon},     {",", TokenKind::comma},          {".", TokenKind::dot},
-      {":", TokenKind::colon},         {"?", TokenKind::question},       {"=", TokenKind::assign},
-      {"#", TokenKind::hash},          {"+", TokenKind::plus},           {"-", TokenKind::minus},
-      {"*", TokenKind::star},          {"/", TokenKind::slash},          {"%", TokenKind::percent},
-      {"^", TokenKind::caret},         {"!", TokenKind::bang},           {"<", TokenKind::less},
-      {">", TokenKind::greater}};
-  const std::string_view rest = text_.substr(at_, 2);
-  for (const Sign& sign : signs) {
-    if (rest.substr(0, sign.text.size()) != sign.text) continue;
-    const size_t begin = at_;
-    at_ += sign.text.size();
-    return put(sign.kind, begin);
+  static constexpr Pair pairs[] = {{'<', '=', TokenKind::less_equal},  {'>', '=', TokenKind::greater_equal},
+                                   {'=', '=', TokenKind::equal_equal}, {'!', '=', TokenKind::not_equal},
+                                   {'&', '&', TokenKind::and_and},     {'|', '|', TokenKind::or_or}};
+  const size_t begin = at_;
+  for (const Pair& pair : pairs) {
+    if (peek() != pair.first || peek(1) != pair.second) continue;
+    at_ += 2;
+    return put(pair.kind, begin);
   }
-  stray();
+  const auto kind = single_sign(peek());
+  if (!kind) return stray();
+  ++at_;
+  put(*kind, begin);
 }
 
 // A row of strange bytes is one mistake.

@@ -40,7 +40,8 @@ Parser::Level::Level(Parser& parser) : parser_(parser) {
 }
 
 bool Parser::at_word(std::string_view word, size_t ahead) {
-  return kind(ahead) == TokenKind::name && text(token(ahead)) == word;
+  const Token next = token(ahead);
+  return next.kind == TokenKind::name && text(next) == word;
 }
 
 bool Parser::is_name(size_t ahead) { return kind(ahead) == TokenKind::name && !is_reserved(text(token(ahead))); }

@@ -115,7 +115,7 @@ std::string list_text(const std::vector<Number>& functions) {
 struct FGrade {
   std::vector<Number> functions;
   std::vector<MaterialName> materials;
-  std::string mode = "prob";
+  Choice mode = "prob";
 
   static Spec<FGrade> spec() {
     return {"fgrade",

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "base/json.h"
+#include "base/assert.h"
 #include "base/text.h"
 #include "lang/vocabulary/legacy_forms.h"
 
@@ -19,12 +19,12 @@ namespace {
 constexpr std::string_view axes[] = {"x", "y", "z"};
 
 // A name for every argument: given, or by position. False, and diagnostics, when one has no parameter.
-bool bind(const NodeType& type, const std::vector<Argument>& arguments, std::vector<NamedValue>& values,
-          Diagnostics& diagnostics, const SourceRange& whole) {
+bool bind_arguments(const NodeType& type, std::vector<Argument> arguments, std::vector<NamedValue>& values,
+                    Diagnostics& diagnostics, const SourceRange& whole) {
   std::vector<bool> taken(type.parameters.size(), false);
   bool good = true;
   size_t position = 0, positional = 0;
-  for (const Argument& argument : arguments) {
+  for (Argument& argument : arguments) {
     const SourceRange where = argument.name_where.source    ? argument.name_where
                               : argument.value.where.source ? argument.value.where
                                                             : whole;
@@ -56,9 +56,30 @@ bool bind(const NodeType& type, const std::vector<Argument>& arguments, std::vec
       continue;
     }
     taken[at] = true;
-    if (!argument.value.is_null()) values.push_back({&type.parameters[at], argument.value});
+    if (!argument.value.is_null()) values.push_back({&type.parameters[at], std::move(argument.value)});
   }
   return good;
+}
+
+template <class T>
+void append_bytes(std::string& key, const T& value) {
+  key.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+// Bytes that are the same for equal values only.
+void append_value(std::string& key, const Data& data) {
+  key += static_cast<char>(data.value.index());
+  if (const bool* b = data.boolean()) key += *b ? '1' : '0';
+  if (const double* n = data.number()) append_bytes(key, *n == 0 ? 0.0 : *n);
+  if (const std::string* s = data.string()) {
+    append_bytes(key, s->size());
+    key += *s;
+  }
+  if (const DataList* list = data.list()) {
+    append_bytes(key, list->size());
+    for (const Data& element : *list) append_value(key, element);
+  }
+  ASSERT(!data.members() && "no parameter has members");
 }
 
 }  // namespace
@@ -94,7 +115,7 @@ std::vector<std::string> VcadVocabulary::constants() const {
   return names;
 }
 
-NodePtr VcadVocabulary::make(const Invocation& call, Diagnostics& diagnostics) {
+NodePtr VcadVocabulary::make(Invocation call, Diagnostics& diagnostics) {
   const size_t errors_before = diagnostics.error_count();
   const NodeType* type = registry_.find(node_name(call.name));
   NodePtr node = fold_name(call.name) == "root" ? make_root(call, diagnostics)
@@ -105,12 +126,12 @@ NodePtr VcadVocabulary::make(const Invocation& call, Diagnostics& diagnostics) {
   return node;
 }
 
-NodePtr VcadVocabulary::make_of_type(const NodeType& type, const Invocation& call, Diagnostics& diagnostics) {
+NodePtr VcadVocabulary::make_of_type(const NodeType& type, Invocation& call, Diagnostics& diagnostics) {
   std::vector<NamedValue> values;
-  const auto arguments = modern_arguments(type, call.arguments);
-  if (!bind(type, arguments, values, diagnostics, call.whole)) return nullptr;
+  if (!bind_arguments(type, modern_arguments(type, std::move(call.arguments)), values, diagnostics, call.whole))
+    return nullptr;
   const Reader reader{materials_, diagnostics, loader_, call.whole, type.name, ""};
-  std::vector<NodePtr> children = call.children;
+  std::vector<NodePtr>& children = call.children;
   if (children.empty() && call.has_wrong_children && type.inputs.least > 0) return nullptr;  // told already
   if (type.inputs.grouped && call.group_ends.size() < children.size()) {
     children = groups(call, reader);
@@ -144,10 +165,11 @@ NodePtr VcadVocabulary::joined(std::vector<NodePtr> nodes, const Reader& reader)
 // Equal type, parameters and inputs: the node that is there already.
 NodePtr VcadVocabulary::shared(NodePtr node) {
   if (!node) return node;
-  std::string key = node->type().name;
-  for (size_t i = 0; i < node->type().parameters.size(); ++i)
-    key += '|' + print_json_line(node->type().get(node->value(), i, false));
-  for (const NodePtr& input : node->inputs()) key += '@' + std::to_string(reinterpret_cast<uintptr_t>(input.get()));
+  const NodeType* type = &node->type();
+  std::string key;
+  append_bytes(key, type);
+  for (size_t i = 0; i < type->parameters.size(); ++i) append_value(key, type->get(node->value(), i, false));
+  for (const NodePtr& input : node->inputs()) append_bytes(key, input.get());
   return known_.try_emplace(hash_bytes(key), node).first->second;
 }
 
