@@ -9,10 +9,12 @@ namespace ombre::design {
 
 std::string_view name(ValueType type) { return type == ValueType::solid ? "solid" : "field"; }
 
-Node::Node(const NodeType& type, std::unique_ptr<const NodeValue> value, std::vector<NodePtr> inputs, SourceRange where)
-    : type_(type), value_(std::move(value)), inputs_(std::move(inputs)), where_(std::move(where)) {
+Node::Node(std::unique_ptr<const NodeValue> value, std::vector<NodePtr> inputs, SourceRange where)
+    : value_(std::move(value)), inputs_(std::move(inputs)), where_(std::move(where)) {
   for (const NodePtr& input : inputs_) depth_ = std::max(depth_, input->depth() + 1);
-  metric_ = value_->metric(Inputs(*this, nullptr));
+  const Metric metric = value_->metric(Inputs(*this, nullptr));
+  lipschitz_ = metric.lipschitz;
+  kind_ = metric.kind;
 }
 
 Box BoundsMemory::of(const Node& node, const Box& where, double margin) {

@@ -65,6 +65,8 @@ class NodeValueOf final : public NodeValue {
 
   explicit NodeValueOf(const NodeTypeOf<T>& type) : type_(type) {}
 
+  const NodeType& type() const override { return type_; }
+
   Box reach(const Inputs& in, const Box& where, double margin) const override {
     if constexpr (requires { data.reach(in, where, margin); }) return intersect(data.reach(in, where, margin), where);
     // A leaf's g is at least the distance to its shape.

@@ -207,6 +207,7 @@ bool read(const Data& data, const Domain& domain, std::vector<Number>& value, co
     value.emplace_back();
     return read(data, domain, value.back(), reader);
   }
+  value.reserve(data.list()->size());
   bool good = true;
   for (const Data& element : *data.list()) {
     value.emplace_back();
@@ -221,6 +222,7 @@ bool read(const Data& data, const Domain& domain, std::vector<MaterialName>& val
     value.emplace_back();
     return read(data, domain, value.back(), reader);
   }
+  value.reserve(data.list()->size());
   bool good = true;
   for (const Data& element : *data.list()) {
     value.emplace_back();

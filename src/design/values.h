@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -22,15 +23,20 @@ inline Box design_space() { return Box::centered({design_limit_mm, design_limit_
 class Number {
  public:
   Number(double value = 0) : value_(value) {}  // NOLINT: a double is a Number
-  Number(expr::Expression e) : value_(std::make_shared<const expr::Expression>(std::move(e))) {}  // NOLINT
+  Number(expr::Expression e) : value_(std::make_unique<const expr::Expression>(std::move(e))) {}  // NOLINT
+  Number(const Number& other) : value_(copy(other.value_)) {}
+  Number(Number&&) = default;
+  Number& operator=(const Number& other) { return *this = Number(other); }
+  Number& operator=(Number&&) = default;
+  ~Number() = default;
   program::Field operator()(const program::Point& p) const { return at(p, nullptr); }
   // With variables besides the coordinates.
   program::Field at(const program::Point& p, const expr::Variables& extra) const;
   Interval range(const Box& where) const;  // encloses its values there
   const double* constant() const { return std::get_if<double>(&value_); }
   const expr::Expression* expression() const {
-    const auto* shared = std::get_if<ExpressionPtr>(&value_);
-    return shared ? shared->get() : nullptr;
+    const auto* pointer = std::get_if<ExpressionPtr>(&value_);
+    return pointer ? pointer->get() : nullptr;
   }
   bool operator==(const Number& other) const {
     if (!expression() || !other.expression()) return value_ == other.value_;
@@ -38,9 +44,16 @@ class Number {
   }
 
  private:
-  // Shared, which keeps numbers small: a design may hold millions.
-  using ExpressionPtr = std::shared_ptr<const expr::Expression>;
-  std::variant<double, ExpressionPtr> value_;
+  // Apart, which keeps numbers small: a design may hold millions.
+  using ExpressionPtr = std::unique_ptr<const expr::Expression>;
+  using Value = std::variant<double, ExpressionPtr>;
+  static Value copy(const Value& value) {
+    if (const auto* pointer = std::get_if<ExpressionPtr>(&value))
+      return std::make_unique<const expr::Expression>(**pointer);
+    return std::get<double>(value);
+  }
+
+  Value value_;
 };
 
 struct Numbers3 {

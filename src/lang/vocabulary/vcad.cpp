@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "base/assert.h"
 #include "base/text.h"
 #include "lang/vocabulary/legacy_forms.h"
 
@@ -59,27 +58,6 @@ bool bind_arguments(const NodeType& type, std::vector<Argument> arguments, std::
     if (!argument.value.is_null()) values.push_back({&type.parameters[at], std::move(argument.value)});
   }
   return good;
-}
-
-template <class T>
-void append_bytes(std::string& key, const T& value) {
-  key.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-// Bytes that are the same for equal values only.
-void append_value(std::string& key, const Data& data) {
-  key += static_cast<char>(data.value.index());
-  if (const bool* b = data.boolean()) key += *b ? '1' : '0';
-  if (const double* n = data.number()) append_bytes(key, *n == 0 ? 0.0 : *n);
-  if (const std::string* s = data.string()) {
-    append_bytes(key, s->size());
-    key += *s;
-  }
-  if (const DataList* list = data.list()) {
-    append_bytes(key, list->size());
-    for (const Data& element : *list) append_value(key, element);
-  }
-  ASSERT(!data.members() && "no parameter has members");
 }
 
 }  // namespace
@@ -141,7 +119,7 @@ NodePtr VcadVocabulary::make_of_type(const NodeType& type, Invocation& call, Dia
     children = {joined(std::move(children), reader)};
     if (!children[0]) return nullptr;
   }
-  return shared(design::make_node(type, values, std::move(children), reader));
+  return known_.first(design::make_node(type, values, std::move(children), reader));
 }
 
 // As OpenSCAD has it: difference() { for (...) ...; sphere(5); } takes the ball out of all that the loop makes.
@@ -151,7 +129,7 @@ std::vector<NodePtr> VcadVocabulary::groups(const Invocation& call, const Reader
   for (const size_t end : call.group_ends) {
     const auto first = call.children.begin() + static_cast<std::ptrdiff_t>(begin),
                last = call.children.begin() + static_cast<std::ptrdiff_t>(end);
-    result.push_back(shared(joined({first, last}, reader)));
+    result.push_back(known_.first(joined({first, last}, reader)));
     if (!result.back()) return {};
     begin = end;
   }
@@ -160,17 +138,6 @@ std::vector<NodePtr> VcadVocabulary::groups(const Invocation& call, const Reader
 
 NodePtr VcadVocabulary::joined(std::vector<NodePtr> nodes, const Reader& reader) const {
   return nodes.size() == 1 ? nodes[0] : design::make_node(*registry_.find("union"), {}, std::move(nodes), reader);
-}
-
-// Equal type, parameters and inputs: the node that is there already.
-NodePtr VcadVocabulary::shared(NodePtr node) {
-  if (!node) return node;
-  const NodeType* type = &node->type();
-  std::string key;
-  append_bytes(key, type);
-  for (size_t i = 0; i < type->parameters.size(); ++i) append_value(key, type->get(node->value(), i, false));
-  for (const NodePtr& input : node->inputs()) append_bytes(key, input.get());
-  return known_.try_emplace(hash_bytes(key), node).first->second;
 }
 
 NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnostics) {

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <optional>
-#include <unordered_map>
 
-#include "base/hash.h"
 #include "design/design.h"
 #include "lang/vocabulary.h"
+#include "lang/vocabulary/equal_nodes.h"
 
 namespace ombre::lang {
 
@@ -31,15 +30,11 @@ class VcadVocabulary : public Vocabulary {
   design::NodePtr make_of_type(const design::NodeType& type, Invocation& call, Diagnostics& diagnostics);
   std::vector<design::NodePtr> groups(const Invocation& call, const design::Reader& reader);
   design::NodePtr joined(std::vector<design::NodePtr> nodes, const design::Reader& reader) const;
-  design::NodePtr shared(design::NodePtr node);
 
   const design::Registry& registry_;
   const design::MaterialTable& materials_;
   design::SourceLoader* loader_;
-  struct HashOfHash {
-    size_t operator()(const Hash& hash) const { return hash.low; }
-  };
-  std::unordered_map<Hash, design::NodePtr, HashOfHash> known_;  // equal nodes become one
+  EqualNodes known_;
   std::optional<design::Sampling> sampling_;
   std::optional<SourceRange> root_where_;
   design::NodePtr root_;
