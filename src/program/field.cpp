@@ -228,23 +228,26 @@ void Builder::finish(const Outputs& outputs, Program& program) const {
   program.part_sets.clear();
   program.outputs.clear();
   program.output_names.clear();
-  std::vector<bool> needed(code_.size(), false);
-  for (const auto& [name, field] : outputs) needed[field.id] = true;
+  constexpr ValueId unneeded = ~ValueId{0};
+  std::vector<ValueId> renamed(code_.size(), unneeded);
+  for (const auto& [name, field] : outputs) renamed[field.id] = 0;
+  size_t count = 0;
   for (size_t i = code_.size(); i-- > 0;) {
-    if (!needed[i]) continue;
+    if (renamed[i] == unneeded) continue;
+    ++count;
     const int arity = info(code_[i].op).arity;
-    if (arity > 0) needed[code_[i].a] = true;
-    if (arity > 1) needed[code_[i].b] = true;
-    if (arity > 2) needed[code_[i].c] = true;
+    if (arity > 0) renamed[code_[i].a] = 0;
+    if (arity > 1) renamed[code_[i].b] = 0;
+    if (arity > 2) renamed[code_[i].c] = 0;
   }
-  program.code.reserve(static_cast<size_t>(std::count(needed.begin(), needed.end(), true)));
-  std::vector<ValueId> renamed(code_.size(), 0);
+  program.code.reserve(count);
   for (size_t i = 0; i < code_.size(); ++i) {
-    if (!needed[i]) continue;
+    if (renamed[i] == unneeded) continue;
     Instruction in = code_[i];
-    in.a = renamed[in.a];
-    in.b = renamed[in.b];
-    in.c = renamed[in.c];
+    const int arity = info(in.op).arity;
+    in.a = arity > 0 ? renamed[in.a] : 0;
+    in.b = arity > 1 ? renamed[in.b] : 0;
+    in.c = arity > 2 ? renamed[in.c] : 0;
     if (in.op == Op::affine) {
       program.maps.push_back(maps_[in.aux]);
       in.aux = static_cast<uint32_t>(program.maps.size() - 1);
