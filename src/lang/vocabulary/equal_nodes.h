@@ -1,6 +1,7 @@
 // Equal nodes of a design become one.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
