@@ -72,6 +72,11 @@ void Diagnostics::add(Diagnostic diagnostic) {
   list_.push_back(std::move(diagnostic));
 }
 
+void Diagnostics::add_all(const Diagnostics& others) {
+  for (const Diagnostic& diagnostic : others.list_) add(diagnostic);
+  error_count_ += others.error_count_ - std::min(others.error_count_, most);  // those that were not kept
+}
+
 void Diagnostics::error(SourceRange where, std::string message, std::string hint) {
   add({Severity::error, std::move(where), std::move(message), std::move(hint)});
 }

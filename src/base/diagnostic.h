@@ -23,6 +23,7 @@ class Diagnostics {
   static constexpr size_t most = 20;  // errors kept; the rest are counted
 
   void add(Diagnostic diagnostic);
+  void add_all(const Diagnostics& others);
   void error(SourceRange where, std::string message, std::string hint = "");
   void warning(SourceRange where, std::string message, std::string hint = "");
   void note(SourceRange where, std::string message);

@@ -75,6 +75,20 @@ TEST(Diagnostic, HintsAndSeverities) {
   EXPECT_EQ(to_text(Diagnostic{Severity::error, {}, "wrong", "write this"}), "error: wrong; write this\n");
 }
 
+TEST(Diagnostics, CountAllOfOthers) {
+  Diagnostics first, second, all;
+  for (int n = 0; n < 15; ++n) first.error({}, "first");
+  for (int n = 0; n < 30; ++n) second.error({}, "second");
+  second.warning({}, "warned");
+  all.add_all(first);
+  all.add_all(second);
+  EXPECT_EQ(all.error_count(), 45u);
+  ASSERT_EQ(all.list().size(), Diagnostics::most + 1);
+  EXPECT_EQ(all.list()[14].message, "first");
+  EXPECT_EQ(all.list()[15].message, "second");
+  EXPECT_EQ(all.list().back().message, "warned");
+}
+
 TEST(Diagnostics, KeepsTheFirstErrorsAndCountsAll) {
   Diagnostics diagnostics;
   EXPECT_FALSE(diagnostics.has_errors());

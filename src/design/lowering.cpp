@@ -39,7 +39,7 @@ LoweringContext::LoweringContext(const MaterialTable& materials, const std::vect
   std::unordered_map<const Node*, int> uses;
   for (const Node* node : topological(roots)) {
     for (const NodePtr& input : node->inputs())
-      if (++uses[input.get()] == 2) shared_.insert(input.get());
+      if (input.use_count() > 1 && ++uses[input.get()] == 2) shared_.insert(input.get());
     if (const auto declared = node->value().declares()) {
       bool known = false;
       for (const auto& attribute : attributes_) known = known || attribute.name == declared->name;
@@ -183,9 +183,8 @@ const AttributeDeclaration* Lowering::declaration(std::string_view name) const {
 }
 
 MaterialId Lowering::material(const MaterialName& name) const {
-  const Material* material = context_.materials().find(name.name);
-  ASSERT(material && "parameters hold names of the table");
-  return material->id;
+  ASSERT(name.material == context_.materials().find(name.material->id) && "parameters hold materials of the table");
+  return name.material->id;
 }
 
 uint32_t Lowering::add_check(const Node& node, const std::string& message) {

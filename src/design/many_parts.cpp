@@ -7,6 +7,7 @@
 #include "design/lowering.h"
 #include "design/registry.h"
 #include "program/passes/passes.h"
+#include "program/passes/replay.h"
 
 namespace ombre::design {
 namespace {
@@ -36,13 +37,15 @@ class PartsMaker {
 
   ManyParts make(const Node& node) {
     const auto parts = static_cast<double>(node.inputs().size());
+    for (program::PartTable* table : {&set_->reference, &set_->batch}) table->expect(node.inputs().size());
     most_boxes_ = std::clamp(most_boxes_together / node.inputs().size(), size_t{1}, most_boxes);
+    set_->index.expect(node.inputs().size() * most_boxes_);
     // Half the distance from part to part, about.
     const Vec3 size = image(program_from_node_, node.bounds(design_space())).size();
     finest_ = 0.5 * std::cbrt(size.x * size.y * size.z / parts);
     for (size_t i = 0; i < node.inputs().size(); ++i)
       if (!add(*node.inputs()[i])) made_.others.push_back(i);
-    set_->index.build(entries_);
+    set_->index.build();
     set_ranges(node.inputs().size());
     if (is_one_material_ && part_count_ > 0 && query_ != PartQuery::interior) made_.only = material_;
     made_.material_slots.assign(material_slots_.begin(), material_slots_.end());
@@ -59,40 +62,42 @@ class PartsMaker {
     if (bounds.is_empty() || std::max({size.x, size.y, size.z}) >= design_limit_mm) return false;
     const Box box = program::grown_for_rounding(image(program_from_node_, bounds));
 
-    Builder builder;
-    Lowering lowering(context_, builder);
+    builder_.clear();
+    Lowering lowering(context_, builder_);
     lowering.write_bodies_out();
-    const Point p = Point::origin_frame(builder).mapped(node_from_program_);
+    const Point p = Point::origin_frame(builder_).mapped(node_from_program_);
     const Field mark = query_ == PartQuery::interior ? lowering.interior(part, p) : lowering.inside(part, p);
-    std::vector<std::pair<std::string, Field>> outputs{{"inside", mark}};
-    std::vector<int> slots{0};
+    outputs_.assign(1, {"inside", mark});
+    slots_.assign(1, 0);
     if (query_ != PartQuery::interior) {
-      add_composition(lowering, part, mark, p, outputs, slots);
-      add_checks(lowering, mark, box, outputs, slots);
+      add_composition(lowering, part, mark, p);
+      add_checks(lowering, mark, box);
     }
-    const Program program = builder.finish(outputs);
-    if (!program.reads.empty() || program.has_parts()) return false;
-    add_to(set_->reference, program, slots, box, program::Precision::reference);
-    add_to(set_->batch, fuse(sign_only(program)), slots, box, program::Precision::batch);
-    add_boxes(part, builder.finish({outputs[0]}), box);
+    builder_.finish(outputs_, program_);
+    if (!program_.reads.empty() || program_.has_parts()) return false;
+    add_to(set_->reference, program_, box, program::Precision::reference);
+    sign_only(program_, workspace_, signs_);
+    fuse(signs_, workspace_, batch_);
+    add_to(set_->batch, batch_, box, program::Precision::batch);
+    outputs_.resize(1);
+    builder_.finish(outputs_, inside_);
+    add_boxes(part, box);
     return true;
   }
 
-  void add_to(program::PartTable& table, const Program& program, const std::vector<int>& slots, const Box& box,
-              program::Precision precision) {
-    std::vector<Interval> values;
-    evaluate_intervals(program, box, values, nullptr, precision);
+  void add_to(program::PartTable& table, const Program& program, const Box& box, program::Precision precision) {
+    evaluate_intervals(program, box, values_, nullptr, precision);
     const auto is_everything = [](const Interval& value) { return value.is_everything(); };
-    table.add(program, slots, std::any_of(values.begin(), values.end(), is_everything));
-    widen_ranges(program, slots, values);
+    table.add(program, slots_, std::any_of(values_.begin(), values_.end(), is_everything));
+    widen_ranges(program);
   }
 
-  // What the slots can be where the part is, whoever evaluates it.
-  void widen_ranges(const Program& program, const std::vector<int>& slots, const std::vector<Interval>& values) {
-    for (size_t slot = 0; slot < slots.size(); ++slot) {
-      if (slots[slot] < 0) continue;
+  // What the slots can be where the part is, whoever evaluates it; values_ has what the program's code can be.
+  void widen_ranges(const Program& program) {
+    for (size_t slot = 0; slot < slots_.size(); ++slot) {
+      if (slots_[slot] < 0) continue;
       if (reach_.size() <= slot) reach_.resize(slot + 1);
-      const Interval value = values[program.outputs[static_cast<size_t>(slots[slot])]];
+      const Interval value = values_[program.outputs[static_cast<size_t>(slots_[slot])]];
       reach_[slot] =
           value.is_everything() || reach_[slot].is_everything() ? Interval::everything() : hull(reach_[slot], value);
     }
@@ -110,11 +115,11 @@ class PartsMaker {
   }
 
   // Boxes around a part that share no inside. A strut that lies across its box fills little of it.
-  void add_boxes(const Node& part, const Program& inside, const Box& whole) {
-    std::vector<Box> boxes = slices(part, whole);
-    if (volume(boxes) > 0.5 * volume({whole})) boxes = pieces(inside, whole);
+  void add_boxes(const Node& part, const Box& whole) {
+    find_slices(part, whole);
+    if (volume(boxes_) > 0.5 * volume({whole})) find_pieces(whole);
     const auto number = static_cast<uint32_t>(part_count_++);
-    for (const Box& box : boxes) entries_.push_back({box, number});
+    for (const Box& box : boxes_) set_->index.add(box, number);
   }
 
   static double volume(const std::vector<Box>& boxes) {
@@ -129,11 +134,11 @@ class PartsMaker {
   }
 
   // Slices across the longest side, as small as the node knows.
-  std::vector<Box> slices(const Node& part, const Box& whole) const {
+  void find_slices(const Node& part, const Box& whole) {
+    boxes_.clear();
     const int axis = longest_axis(whole);
     const double length = whole.size()[axis];
     const auto count = std::clamp(std::ceil(length / finest_), 1.0, static_cast<double>(most_boxes_));
-    std::vector<Box> boxes;
     for (double n = 0; n < count; ++n) {
       Box slice = whole;
       slice.lo[axis] = whole.lo[axis] + length * n / count;
@@ -141,47 +146,44 @@ class PartsMaker {
       const Box wide = program::grown_for_rounding(slice);
       const Box tight = image(program_from_node_, part.bounds(image(node_from_program_, wide)));
       const Box box = intersect(program::grown_for_rounding(tight), slice);
-      if (!box.is_empty()) boxes.push_back(box);
+      if (!box.is_empty()) boxes_.push_back(box);
     }
-    return boxes;
   }
 
   // Halves, quarters and so on, without those where intervals see nothing of the part.
-  std::vector<Box> pieces(const Program& inside, const Box& whole) const {
-    std::vector<Box> open{whole}, kept;
-    std::vector<Interval> ranges;
-    while (!open.empty()) {
-      const Box box = open.back();
-      open.pop_back();
-      evaluate_intervals(inside, program::grown_for_rounding(box), ranges);
-      if (ranges[inside.outputs[0]] == Interval(0)) continue;
+  void find_pieces(const Box& whole) {
+    boxes_.clear();
+    open_.assign(1, whole);
+    while (!open_.empty()) {
+      const Box box = open_.back();
+      open_.pop_back();
+      evaluate_intervals(inside_, program::grown_for_rounding(box), values_);
+      if (values_[inside_.outputs[0]] == Interval(0)) continue;
       const int axis = longest_axis(box);
-      if (box.size()[axis] <= finest_ || open.size() + kept.size() + 1 >= most_boxes_) {
-        kept.push_back(box);
+      if (box.size()[axis] <= finest_ || open_.size() + boxes_.size() + 1 >= most_boxes_) {
+        boxes_.push_back(box);
         continue;
       }
       Box low = box, high = box;
       low.hi[axis] = high.lo[axis] = 0.5 * (box.lo[axis] + box.hi[axis]);
       // The widest box is cut first.
-      open.insert(open.begin(), {low, high});
+      open_.insert(open_.begin(), {low, high});
     }
-    return kept;
   }
 
-  void set_slot(std::vector<int>& slots, size_t slot, size_t output) {
-    if (slots.size() <= slot) slots.resize(slot + 1, -1);
-    slots[slot] = static_cast<int>(output);
+  void set_slot(size_t slot, size_t output) {
+    if (slots_.size() <= slot) slots_.resize(slot + 1, -1);
+    slots_[slot] = static_cast<int>(output);
   }
 
-  void add_composition(Lowering& lowering, const Node& part, Field mark, const Point& p,
-                       std::vector<std::pair<std::string, Field>>& outputs, std::vector<int>& slots) {
+  void add_composition(Lowering& lowering, const Node& part, Field mark, const Point& p) {
     composition_ = lowering.composition(part, p, Demand::inside);
-    if (query_ == PartQuery::mix) set_slot(slots, made_.count_slot, 0);
+    if (query_ == PartQuery::mix) set_slot(made_.count_slot, 0);
     for (const auto& [id, fraction] : composition_.fractions) {
-      set_slot(slots, material_slot(id), outputs.size());
+      set_slot(material_slot(id), outputs_.size());
       // select, not a product: what a part says of a point outside of it may not be a number.
       const Field term = query_ == PartQuery::mix ? select(mark, fraction, p.constant(0)) : fraction;
-      outputs.emplace_back("fraction", term);
+      outputs_.emplace_back("fraction", term);
     }
     const bool one = composition_.fractions.size() == 1;
     if (one && part_count_ == 0) material_ = composition_.fractions[0].first;
@@ -198,21 +200,19 @@ class PartsMaker {
   }
 
   // Checks that cannot fail where the part is are left out; the others share one for each kind of node.
-  void add_checks(Lowering& lowering, Field mark, const Box& box, std::vector<std::pair<std::string, Field>>& outputs,
-                  std::vector<int>& slots) {
+  void add_checks(Lowering& lowering, Field mark, const Box& box) {
     if (composition_.checks.empty()) return;
-    std::vector<std::pair<std::string, Field>> marks;
+    program::Outputs marks;
     for (const auto& [number, bad] : composition_.checks) marks.emplace_back("check", logical_and(mark, bad));
     const Program program = lowering.builder().finish(marks);
     if (!program.reads.empty()) return;
-    std::vector<Interval> ranges;
-    evaluate_intervals(program, box, ranges);
+    evaluate_intervals(program, box, values_);
     for (size_t n = 0; n < marks.size(); ++n) {
-      if (ranges[program.outputs[n]] == Interval(0)) continue;
+      if (values_[program.outputs[n]] == Interval(0)) continue;
       is_one_material_ = false;
       const Lowering::LocalCheck& check = lowering.local_checks()[composition_.checks[n].first];
-      set_slot(slots, check_slot(check), outputs.size());
-      outputs.push_back(marks[n]);
+      set_slot(check_slot(check), outputs_.size());
+      outputs_.push_back(marks[n]);
     }
   }
 
@@ -230,7 +230,6 @@ class PartsMaker {
   Affine node_from_program_, program_from_node_;
   ManyParts made_;
   std::shared_ptr<program::PartSet> set_ = std::make_shared<program::PartSet>();
-  std::vector<program::PartIndex::Entry> entries_;
   std::vector<Interval> reach_;
   size_t part_count_ = 0;
   double finest_ = 0;
@@ -240,6 +239,14 @@ class PartsMaker {
   std::map<const NodeType*, std::pair<uint32_t, size_t>> checks_;
   bool is_one_material_ = true;
   MaterialId material_ = 0;
+  // Of the part being added; kept for their memory.
+  Builder builder_;
+  program::Workspace workspace_;
+  Program program_, signs_, batch_, inside_;  // `inside_` is its first output alone
+  program::Outputs outputs_;
+  std::vector<int> slots_;  // outputs by slot, or -1
+  std::vector<Interval> values_;
+  std::vector<Box> open_, boxes_;
 };
 
 }  // namespace

@@ -25,7 +25,9 @@ std::optional<uint8_t> channel(const Data& entry, std::string_view key, std::opt
 
 }  // namespace
 
-MaterialTable::MaterialTable() { all_.push_back({"void", 0, {0, 0, 0, 0}, {}}); }
+MaterialTable::MaterialTable() : all_(std::make_shared<std::vector<Material>>()) {
+  all_->push_back({"void", 0, {0, 0, 0, 0}, {}});
+}
 
 std::optional<MaterialTable> MaterialTable::read(const Data& data, Diagnostics& diagnostics) {
   const Data* entries = data.find("materials");
@@ -35,6 +37,7 @@ std::optional<MaterialTable> MaterialTable::read(const Data& data, Diagnostics& 
     return std::nullopt;
   }
   MaterialTable table;
+  std::vector<Material>& all = *table.all_;
   const size_t errors_before = diagnostics.error_count();
   for (const Data& entry : *entries->list()) {
     const Data* name = entry.find("name");
@@ -50,21 +53,21 @@ std::optional<MaterialTable> MaterialTable::read(const Data& data, Diagnostics& 
       if (key != "name" && key != "r" && key != "g" && key != "b" && key != "a")
         material.properties.emplace_back(key, value);
     if (to_lower(material.name) == "void") {
-      table.all_[0].properties = material.properties;  // its id and colour are fixed
+      all[0].properties = material.properties;  // its id and colour are fixed
       continue;
     }
     if (table.find(material.name)) {
       diagnostics.error(name->where, "the material \"" + material.name + "\" is defined twice");
       continue;
     }
-    if (table.all_.size() > most_materials) {
+    if (all.size() > most_materials) {
       diagnostics.error(entry.where, "a file may define at most " + std::to_string(most_materials) + " materials");
       break;
     }
-    material.id = static_cast<MaterialId>(table.all_.size());
-    table.all_.push_back(std::move(material));
+    material.id = static_cast<MaterialId>(all.size());
+    all.push_back(std::move(material));
   }
-  if (table.all_.size() == 1 && diagnostics.error_count() == errors_before)
+  if (all.size() == 1 && diagnostics.error_count() == errors_before)
     diagnostics.error(entries->where, "this file defines no material");
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   return table;
@@ -72,8 +75,8 @@ std::optional<MaterialTable> MaterialTable::read(const Data& data, Diagnostics& 
 
 Data MaterialTable::to_data() const {
   DataList list;
-  for (size_t i = 1; i < all_.size(); ++i) {
-    const Material& m = all_[i];
+  for (size_t i = 1; i < all_->size(); ++i) {
+    const Material& m = (*all_)[i];
     DataMembers entry{{"name", Data(m.name)}};
     const char* keys[] = {"r", "g", "b", "a"};
     for (size_t c = 0; c < 4; ++c) entry.emplace_back(keys[c], Data(static_cast<double>(m.colour[c])));
@@ -84,15 +87,17 @@ Data MaterialTable::to_data() const {
 }
 
 const Material* MaterialTable::find(std::string_view name) const {
+  for (const Material& material : *all_)
+    if (material.name == name) return &material;
   const std::string lower = to_lower(name);
-  for (const Material& material : all_)
+  for (const Material& material : *all_)
     if (to_lower(material.name) == lower) return &material;
   return nullptr;
 }
 
 std::vector<std::string> MaterialTable::names() const {
   std::vector<std::string> names;
-  for (const Material& material : all_) names.push_back(material.name);
+  for (const Material& material : *all_) names.push_back(material.name);
   return names;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,14 +31,14 @@ class MaterialTable {
   // The list in the form that `read` takes.
   Data to_data() const;
 
-  const std::vector<Material>& all() const { return all_; }  // by id, void first
-  const Material* find(std::string_view name) const;         // names match without regard to case
-  const Material* find(MaterialId id) const { return id < all_.size() ? &all_[id] : nullptr; }
-  const Material& first() const { return all_[all_.size() > 1 ? 1 : 0]; }  // what is meant when none is given
+  const std::vector<Material>& all() const { return *all_; }  // by id, void first
+  const Material* find(std::string_view name) const;          // names match without regard to case
+  const Material* find(MaterialId id) const { return id < all_->size() ? &(*all_)[id] : nullptr; }
+  const Material& first() const { return (*all_)[all_->size() > 1 ? 1 : 0]; }  // what is meant when none is given
   std::vector<std::string> names() const;
 
  private:
-  std::vector<Material> all_;
+  std::shared_ptr<std::vector<Material>> all_;  // copies share it: nodes point at materials
 };
 
 }  // namespace ombre::design

@@ -9,13 +9,19 @@ namespace ombre::design {
 
 std::string_view name(ValueType type) { return type == ValueType::solid ? "solid" : "field"; }
 
-Node::Node(const NodeType& type, std::unique_ptr<const NodeValue> value, std::vector<NodePtr> inputs, SourceRange where)
-    : type_(type), value_(std::move(value)), inputs_(std::move(inputs)), where_(std::move(where)) {
+Node::Node(std::unique_ptr<const NodeValue> value, std::vector<NodePtr> inputs, SourceRange where)
+    : value_(std::move(value)), inputs_(std::move(inputs)), where_(std::move(where)) {
   for (const NodePtr& input : inputs_) depth_ = std::max(depth_, input->depth() + 1);
-  metric_ = value_->metric(Inputs(*this, nullptr));
+  const Metric metric = value_->metric(Inputs(*this, nullptr));
+  lipschitz_ = metric.lipschitz;
+  kind_ = metric.kind;
 }
 
 Box BoundsMemory::of(const Node& node, const Box& where, double margin) {
+  // What is only a few nodes in a row is asked again: remembering it would cost more.
+  constexpr int few = 4;
+  if (node.depth() <= few && node.inputs().size() <= 1)
+    return node.value().reach(Inputs(node, nullptr, this), where, margin);
   const auto known = last_.find(&node);
   if (known != last_.end() && known->second.where == where && known->second.margin == margin) return known->second.box;
   const Box box = node.value().reach(Inputs(node, nullptr, this), where, margin);
@@ -41,13 +47,15 @@ Node::~Node() {
 std::vector<const Node*> topological(const std::vector<NodePtr>& roots) {
   std::vector<const Node*> order;
   std::unordered_set<const Node*> seen;
+  // What only one node holds cannot be seen twice.
+  const auto is_new = [&](const NodePtr& node) { return node.use_count() == 1 || seen.insert(node.get()).second; };
   struct Visit {
     const Node* node;
     size_t next;
   };
   std::vector<Visit> stack;
   for (const NodePtr& root : roots) {
-    if (seen.insert(root.get()).second) stack.push_back({root.get(), 0});
+    if (is_new(root)) stack.push_back({root.get(), 0});
     while (!stack.empty()) {
       Visit& visit = stack.back();
       if (visit.next == visit.node->inputs().size()) {
@@ -55,8 +63,8 @@ std::vector<const Node*> topological(const std::vector<NodePtr>& roots) {
         stack.pop_back();
         continue;
       }
-      const Node* input = visit.node->inputs()[visit.next++].get();
-      if (seen.insert(input).second) stack.push_back({input, 0});
+      const NodePtr& input = visit.node->inputs()[visit.next++];
+      if (is_new(input)) stack.push_back({input.get(), 0});
     }
   }
   return order;

@@ -81,6 +81,7 @@ class Inputs {
 class NodeValue {
  public:
   virtual ~NodeValue() = default;
+  virtual const NodeType& type() const = 0;
   // Encloses the points of `where` at which g is `margin` (mm, not negative) or less.
   virtual Box reach(const Inputs& in, const Box& where, double margin) const = 0;
   virtual Metric metric(const Inputs& in) const = 0;
@@ -100,25 +101,26 @@ class NodeValue {
 
 class Node {
  public:
-  Node(const NodeType& type, std::unique_ptr<const NodeValue> value, std::vector<NodePtr> inputs, SourceRange where);
+  Node(std::unique_ptr<const NodeValue> value, std::vector<NodePtr> inputs, SourceRange where);
   ~Node();  // without recursion: chains may be long
 
-  const NodeType& type() const { return type_; }
+  const NodeType& type() const { return value_->type(); }
   const NodeValue& value() const { return *value_; }
   const std::vector<NodePtr>& inputs() const { return inputs_; }
   const SourceRange& where() const { return where_; }
 
   // The smallest known box around what is inside within `where`.
   Box bounds(const Box& where) const;
-  const Metric& metric() const { return metric_; }
+  Metric metric() const { return {kind_, lipschitz_}; }
   int depth() const { return depth_; }  // 1 for a leaf
 
  private:
-  const NodeType& type_;
   std::unique_ptr<const NodeValue> value_;
   std::vector<NodePtr> inputs_;
   SourceRange where_;
-  Metric metric_;
+  // The metric in parts, with which a node takes less memory.
+  double lipschitz_ = 1;
+  Metric::Kind kind_ = Metric::Kind::exact;
   int depth_ = 1;
 };
 

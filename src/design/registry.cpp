@@ -87,7 +87,7 @@ NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, s
     reader.diagnostics.error(reader.where, "the design nests deeper than " + std::to_string(deepest_design) + " nodes");
     return nullptr;
   }
-  return std::make_shared<const Node>(type, std::move(value), std::move(inputs), reader.where);
+  return std::make_shared<const Node>(std::move(value), std::move(inputs), reader.where);
 }
 
 }  // namespace ombre::design

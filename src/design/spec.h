@@ -33,7 +33,7 @@ struct Parameter {
       };
     if constexpr (std::is_same_v<M, MaterialName>)
       fill = [member](T& value, const Reader& reader) {
-        if ((value.*member).name.empty()) (value.*member).name = reader.materials.first().name;
+        if (!(value.*member).material) (value.*member).material = &reader.materials.first();
       };
   }
 
@@ -64,6 +64,8 @@ class NodeValueOf final : public NodeValue {
   T data;
 
   explicit NodeValueOf(const NodeTypeOf<T>& type) : type_(type) {}
+
+  const NodeType& type() const override { return type_; }
 
   Box reach(const Inputs& in, const Box& where, double margin) const override {
     if constexpr (requires { data.reach(in, where, margin); }) return intersect(data.reach(in, where, margin), where);

@@ -43,9 +43,16 @@ bool in_range(double v, const Domain& domain) {
   return std::isfinite(v) && v <= domain.greatest && (domain.above_least ? v > domain.least : v >= domain.least);
 }
 
-bool read_list(const Data& data, size_t size, const std::string& expected, const Reader& reader) {
-  if (data.list() && data.list()->size() == size) return true;
-  return reader.fail(data, expected);
+bool is_list(const Data& data, size_t size) { return data.list() && data.list()->size() == size; }
+
+bool read_vector(const Data& data, const Domain& domain, const Reader& reader) {
+  return is_list(data, 3) || reader.fail(data, "three numbers (x, y, z)" + with_unit(domain));
+}
+
+// Most expressions are plain numbers, which need no parser.
+std::optional<double> plain_number(const std::string& text) {
+  const bool begins_one = !text.empty() && (text[0] == '-' || text[0] == '.' || (text[0] >= '0' && text[0] <= '9'));
+  return begins_one ? parse_number(text) : std::nullopt;
 }
 
 }  // namespace
@@ -53,15 +60,22 @@ bool read_list(const Data& data, size_t size, const std::string& expected, const
 bool read(const Data& data, const Domain& domain, double& value, const Reader& reader) {
   const double* number = data.number();
   if (!number) return reader.fail(data, "a number" + with_unit(domain));
-  const std::string range = range_text(domain);
-  if (!in_range(*number, domain))
+  if (!in_range(*number, domain)) {
+    const std::string range = range_text(domain);
     return reader.fail(data, range.empty() ? "a finite number" : "a number " + range + with_unit(domain));
+  }
   value = *number;
   return true;
 }
 
 bool read(const Data& data, const Domain& domain, Number& value, const Reader& reader) {
+  double number = 0;
   if (const std::string* text = data.string()) {
+    if (const auto plain = plain_number(*text)) {
+      if (!read(Data(*plain, data.where), domain, number, reader)) return false;
+      value = number;
+      return true;
+    }
     auto expression = expr::Expression::parse(*text, data.where, reader.diagnostics);
     if (!expression) return false;
     std::vector<std::string> known = expr::coordinate_names();
@@ -76,12 +90,10 @@ bool read(const Data& data, const Domain& domain, Number& value, const Reader& r
       value = std::move(*expression);
       return true;
     }
-    double number = 0;
     if (!read(Data(*constant, data.where), domain, number, reader)) return false;
     value = number;
     return true;
   }
-  double number = 0;
   if (!data.number()) return reader.fail(data, "a number" + with_unit(domain) + " or an expression in quotes");
   if (!read(data, domain, number, reader)) return false;
   value = number;
@@ -89,7 +101,7 @@ bool read(const Data& data, const Domain& domain, Number& value, const Reader& r
 }
 
 bool read(const Data& data, const Domain& domain, Numbers3& value, const Reader& reader) {
-  if (!read_list(data, 3, "three numbers (x, y, z)" + with_unit(domain), reader)) return false;
+  if (!read_vector(data, domain, reader)) return false;
   const DataList& list = *data.list();
   const bool x = read(list[0], domain, value.x, reader), y = read(list[1], domain, value.y, reader),
              z = read(list[2], domain, value.z, reader);
@@ -102,24 +114,26 @@ bool read(const Data& data, const Domain&, bool& value, const Reader& reader) {
   return true;
 }
 
-bool read(const Data& data, const Domain& domain, std::string& value, const Reader& reader) {
+bool read(const Data& data, const Domain&, std::string& value, const Reader& reader) {
   if (!data.string()) return reader.fail(data, "a text in quotes");
-  if (!domain.choices.empty()) {
-    const std::string folded = fold_name(*data.string());
-    for (const std::string& choice : domain.choices)
-      if (fold_name(choice) == folded) {
-        value = choice;
-        return true;
-      }
-    return reader.fail(data, "one of \"" + join(domain.choices, "\", \"") + "\"",
-                       did_you_mean(*data.string(), domain.choices));
-  }
   value = *data.string();
   return true;
 }
 
+bool read(const Data& data, const Domain& domain, Choice& value, const Reader& reader) {
+  if (!data.string()) return reader.fail(data, "a text in quotes");
+  const std::string folded = fold_name(*data.string());
+  for (const std::string& choice : domain.choices)
+    if (fold_name(choice) == folded) {
+      value = choice;
+      return true;
+    }
+  return reader.fail(data, "one of \"" + join(domain.choices, "\", \"") + "\"",
+                     did_you_mean(*data.string(), domain.choices));
+}
+
 bool read(const Data& data, const Domain& domain, Vec3& value, const Reader& reader) {
-  if (!read_list(data, 3, "three numbers (x, y, z)" + with_unit(domain), reader)) return false;
+  if (!read_vector(data, domain, reader)) return false;
   const DataList& list = *data.list();
   const bool x = read(list[0], domain, value.x, reader), y = read(list[1], domain, value.y, reader),
              z = read(list[2], domain, value.z, reader);
@@ -138,7 +152,7 @@ bool read(const Data& data, const Domain& domain, Affine& value, const Reader& r
   const DataList* rows = data.list();
   if (!rows || rows->size() < 3 || rows->size() > 4) return reader.fail(data, expected);
   for (size_t r = 0; r < rows->size(); ++r) {
-    if (!read_list((*rows)[r], 4, expected, reader)) return false;
+    if (!is_list((*rows)[r], 4)) return reader.fail((*rows)[r], expected);
     for (size_t c = 0; c < 4; ++c) {
       double number = 0;
       if (!read((*(*rows)[r].list())[c], domain, number, reader)) return false;
@@ -161,16 +175,16 @@ bool read(const Data& data, const Domain&, MaterialName& value, const Reader& re
     if (!material)
       return reader.fail(
           data, "a material's name, or its number from 0 to " + std::to_string(reader.materials.all().size() - 1));
-    value.name = material->name;
+    value.material = material;
     return true;
   }
   if (!data.string()) return reader.fail(data, "a material's name");
   if (data.string()->empty()) {
-    value.name = reader.materials.first().name;
+    value.material = &reader.materials.first();
     return true;
   }
   if (const Material* material = reader.materials.find(*data.string())) {
-    value.name = material->name;
+    value.material = material;
     return true;
   }
   const auto names = reader.materials.names();
@@ -193,6 +207,7 @@ bool read(const Data& data, const Domain& domain, std::vector<Number>& value, co
     value.emplace_back();
     return read(data, domain, value.back(), reader);
   }
+  value.reserve(data.list()->size());
   bool good = true;
   for (const Data& element : *data.list()) {
     value.emplace_back();
@@ -207,6 +222,7 @@ bool read(const Data& data, const Domain& domain, std::vector<MaterialName>& val
     value.emplace_back();
     return read(data, domain, value.back(), reader);
   }
+  value.reserve(data.list()->size());
   bool good = true;
   for (const Data& element : *data.list()) {
     value.emplace_back();
@@ -223,6 +239,7 @@ Data write(const Number& value, bool) {
 Data write(const Numbers3& v, bool h) { return Data(DataList{write(v.x, h), write(v.y, h), write(v.z, h)}); }
 Data write(bool value, bool) { return Data(value); }
 Data write(const std::string& value, bool) { return Data(value); }
+Data write(Choice value, bool) { return Data(std::string(value)); }
 Data write(const Vec3& v, bool) { return Data(DataList{Data(v.x), Data(v.y), Data(v.z)}); }
 Data write(const std::optional<Vec3>& value, bool h) { return value ? write(*value, h) : Data(); }
 Data write(const Affine& value, bool) {
@@ -233,7 +250,7 @@ Data write(const Affine& value, bool) {
   }
   return Data(std::move(rows));
 }
-Data write(const MaterialName& value, bool) { return Data(value.name); }
+Data write(const MaterialName& value, bool) { return Data(value.material ? value.material->name : std::string()); }
 Data write(const FilePath& value, bool for_hash) { return Data(for_hash ? value.content.hex() : value.path); }
 Data write(const std::vector<Number>& value, bool h) {
   DataList list;

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -22,15 +23,20 @@ inline Box design_space() { return Box::centered({design_limit_mm, design_limit_
 class Number {
  public:
   Number(double value = 0) : value_(value) {}  // NOLINT: a double is a Number
-  Number(expr::Expression e) : value_(std::make_shared<const expr::Expression>(std::move(e))) {}  // NOLINT
+  Number(expr::Expression e) : value_(std::make_unique<const expr::Expression>(std::move(e))) {}  // NOLINT
+  Number(const Number& other) : value_(copy(other.value_)) {}
+  Number(Number&&) = default;
+  Number& operator=(const Number& other) { return *this = Number(other); }
+  Number& operator=(Number&&) = default;
+  ~Number() = default;
   program::Field operator()(const program::Point& p) const { return at(p, nullptr); }
   // With variables besides the coordinates.
   program::Field at(const program::Point& p, const expr::Variables& extra) const;
   Interval range(const Box& where) const;  // encloses its values there
   const double* constant() const { return std::get_if<double>(&value_); }
   const expr::Expression* expression() const {
-    const auto* shared = std::get_if<ExpressionPtr>(&value_);
-    return shared ? shared->get() : nullptr;
+    const auto* pointer = std::get_if<ExpressionPtr>(&value_);
+    return pointer ? pointer->get() : nullptr;
   }
   bool operator==(const Number& other) const {
     if (!expression() || !other.expression()) return value_ == other.value_;
@@ -38,9 +44,16 @@ class Number {
   }
 
  private:
-  // Shared, which keeps numbers small: a design may hold millions.
-  using ExpressionPtr = std::shared_ptr<const expr::Expression>;
-  std::variant<double, ExpressionPtr> value_;
+  // Apart, which keeps numbers small: a design may hold millions.
+  using ExpressionPtr = std::unique_ptr<const expr::Expression>;
+  using Value = std::variant<double, ExpressionPtr>;
+  static Value copy(const Value& value) {
+    if (const auto* pointer = std::get_if<ExpressionPtr>(&value))
+      return std::make_unique<const expr::Expression>(**pointer);
+    return std::get<double>(value);
+  }
+
+  Value value_;
 };
 
 struct Numbers3 {
@@ -49,10 +62,14 @@ struct Numbers3 {
   bool operator==(const Numbers3&) const = default;
 };
 
+// A material of the design's table, which nodes do not outlive; null: none was given.
 struct MaterialName {
-  std::string name;  // once read, a name of the table
+  const Material* material = nullptr;
   bool operator==(const MaterialName&) const = default;
 };
+
+// One of a parameter's choices: the text stands in its domain, or is a literal.
+using Choice = std::string_view;
 
 struct FilePath {
   std::string path;
@@ -66,7 +83,7 @@ struct Domain {
   double least = -std::numeric_limits<double>::infinity(), greatest = std::numeric_limits<double>::infinity();
   bool above_least = false;            // greater than `least`, not equal
   bool required = false;               // has no default
-  std::vector<std::string> choices;    // for texts
+  std::vector<std::string> choices;    // of a Choice
   std::vector<std::string> variables;  // known in expressions besides the coordinates
 };
 
@@ -125,6 +142,7 @@ bool read(const Data& data, const Domain& domain, Number& value, const Reader& r
 bool read(const Data& data, const Domain& domain, Numbers3& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, bool& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::string& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, Choice& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Vec3& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::optional<Vec3>& value, const Reader& reader);  // null: none
 bool read(const Data& data, const Domain& domain, Affine& value, const Reader& reader);
@@ -139,6 +157,7 @@ Data write(const Number& value, bool for_hash);
 Data write(const Numbers3& value, bool for_hash);
 Data write(bool value, bool for_hash);
 Data write(const std::string& value, bool for_hash);
+Data write(Choice value, bool for_hash);
 Data write(const Vec3& value, bool for_hash);
 Data write(const std::optional<Vec3>& value, bool for_hash);
 Data write(const Affine& value, bool for_hash);
@@ -154,7 +173,7 @@ constexpr std::string_view kind_name() {
   if constexpr (std::is_same_v<M, Number>) return "number or field";
   if constexpr (std::is_same_v<M, Numbers3>) return "3 numbers or fields";
   if constexpr (std::is_same_v<M, bool>) return "true or false";
-  if constexpr (std::is_same_v<M, std::string>) return "text";
+  if constexpr (std::is_same_v<M, std::string> || std::is_same_v<M, Choice>) return "text";
   if constexpr (std::is_same_v<M, Vec3> || std::is_same_v<M, std::optional<Vec3>>) return "3 numbers";
   if constexpr (std::is_same_v<M, Affine>) return "matrix";
   if constexpr (std::is_same_v<M, MaterialName>) return "material";

@@ -4,6 +4,7 @@
 // deep tree, so that walking a tree never needs more stack than the parser's nesting limit allows.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -243,17 +244,44 @@ struct GenerateEach : Expr {
   ExprPtr element;
 };
 
+// The signs before a statement, of "*!#%", each at most once, as they were written.
+class Modifiers {
+ public:
+  void add(char modifier) {
+    if (!has(modifier)) list_[text().size()] = modifier;
+  }
+  bool has(char modifier) const { return text().find(modifier) != std::string_view::npos; }
+  bool empty() const { return list_[0] == 0; }
+  std::string_view text() const { return list_.data(); }
+
+ private:
+  std::array<char, 5> list_{};
+};
+
 struct Statement {
-  enum class Kind : uint8_t { assign, function, module, include, group, call, loop, let, assertion, echo, condition };
+  enum class Kind : uint8_t {
+    assign,
+    function,
+    module,
+    include,
+    group,
+    call,
+    loop,
+    let,
+    assertion,
+    echo,
+    condition,
+    deferred
+  };
 
   Statement(Kind k, Span s) : kind(k), span(s) {}
   virtual ~Statement() = default;
 
   Kind kind;
+  Modifiers modifiers;
   Span span;
-  std::string modifiers;  // of "*!#%"
 
-  bool has(char modifier) const { return modifiers.find(modifier) != std::string::npos; }
+  bool has(char modifier) const { return modifiers.has(modifier); }
 };
 using StatementPtr = std::unique_ptr<Statement>;
 
@@ -331,6 +359,11 @@ struct CallStatement : Statement {
   Span whole;  // from the name to the closing parenthesis
   std::vector<Argument> arguments;
   Block children;
+};
+
+// A call of which only the place is kept; it is read again when it is its turn (parser.h).
+struct Deferred : Statement {
+  explicit Deferred(const Statement& call) : Statement(Kind::deferred, call.span) { modifiers = call.modifiers; }
 };
 
 struct Condition : Statement {

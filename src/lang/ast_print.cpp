@@ -77,7 +77,7 @@ class Printer {
 
   void print(const Statement& statement) {
     line();
-    text += statement.modifiers;
+    text += statement.modifiers.text();
     switch (statement.kind) {
       case Statement::Kind::assign: {
         const auto& assign = static_cast<const Assign&>(statement);

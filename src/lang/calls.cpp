@@ -119,7 +119,7 @@ void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scop
   invocation.is_top_level = node_depth_ == 0 && module_calls_.empty();
   for (size_t i = module_calls_.size(); i > 0 && invocation.called_from.size() < most_callers; --i)
     invocation.called_from.push_back(module_calls_[i - 1]->whole.range());
-  make_node(invocation, statement.span, out);
+  make_node(std::move(invocation), statement.span, out);
 }
 
 void Interpreter::node_arguments(const CallStatement& statement, const ScopePtr& scope, Invocation& invocation) {
@@ -142,11 +142,11 @@ void Interpreter::node_arguments(const CallStatement& statement, const ScopePtr&
   }
 }
 
-void Interpreter::make_node(const Invocation& invocation, const ast::Span& where, Nodes& out) {
-  at_ = &where;
+void Interpreter::make_node(Invocation invocation, const ast::Span& where, Nodes& out) {
+  at_ = where;
   meter_.count_instance();
   Diagnostics found;
-  design::NodePtr node = vocabulary_.make(invocation, found);
+  design::NodePtr node = vocabulary_.make(std::move(invocation), found);
   for (const Diagnostic& diagnostic : found.list()) report(diagnostic);
   if (node) out.push_back(std::move(node));
 }

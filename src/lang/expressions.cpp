@@ -131,7 +131,7 @@ Value Interpreter::eval_power(const ast::Power& power, const ScopePtr& scope) {
 }
 
 Value Interpreter::binary(ast::Operator op, const ast::Span& where, const Value& left, const Value& right) {
-  at_ = &where;
+  at_ = where;
   try {
     return apply(op, left, right, meter_);
   } catch (const Mismatch& mismatch) {

@@ -116,7 +116,7 @@ Value Interpreter::call_builtin(const Builtin& builtin, const ast::Call& call, c
   }
   std::vector<const Expr*> places;
   const BuiltinCall arguments(builtin.name, builtin_arguments(builtin, call, scope, places), meter_);
-  at_ = &call.span;
+  at_ = call.span;
   try {
     return builtin.call(arguments);
   } catch (const BadArgument& bad) {

@@ -52,10 +52,7 @@ Interpreter::Nodes Interpreter::run() {
     } catch (const Failure&) {  // of an assertion
     }
   } catch (const LimitReached& limit) {
-    if (at_)
-      report({Severity::error, at_->range(), limit.message, limit.hint});
-    else
-      report({Severity::error, {}, limit.message, limit.hint});
+    report({Severity::error, at_.range(), limit.message, limit.hint});
   }
   return has_roots_ ? std::move(roots_) : std::move(nodes);
 }

@@ -272,6 +272,57 @@ TEST(Interpret, StepsAndInstancesAreLimited) {
   EXPECT_NE(result.messages.find("the design makes more than 100 nodes"), std::string::npos);
 }
 
+// Long enough for calls to be read twice.
+std::string numbered_cubes(int count) {
+  std::string text;
+  for (int n = 0; n < count; ++n) text += "cube(" + std::to_string(n) + ");\n";
+  return text;
+}
+
+TEST(Interpret, LongListsMeanWhatShortOnesDo) {
+  std::string expected;
+  for (int n = 0; n < 3000; ++n) expected += (n > 0 ? " cube(" : "cube(") + std::to_string(n) + ")";
+  expect_nodes({{numbered_cubes(3000), expected},
+                {"union() {" + numbered_cubes(3000) + "}", "union(){" + expected + "}"},
+                {"{" + numbered_cubes(3000) + "}", expected},
+                {"module m() {" + numbered_cubes(3000) + "} m();", expected},
+                {"for (i = [0:0]) {" + numbered_cubes(3000) + "}", expected},
+                {"module m() children(); m() {" + numbered_cubes(3000) + "}", expected},
+                {"module m() children(2500); m() {" + numbered_cubes(3000) + "}", "cube(2500)"},
+                {"module m() cube($children); m() {" + numbered_cubes(3000) + "}", "cube(3000)"}});
+}
+
+TEST(Interpret, LongListsMayHoldAnything) {
+  const std::string before = "module nothing() {}\n" + std::string(2000, ';');
+  std::string many;
+  for (int n = 0; n < 2000; ++n) many += "nothing();";
+  expect_nodes(
+      {{before + many + "*cube(1); %cube(2); #cube(3);", "cube(3)"},
+       {many + "cube(1); module nothing() {} !cube(2); !union() { cube(3); }", "cube(2) union(){cube(3)}"},
+       {before + many + "F-grade([\"1\"], [red]) { a = 3; cube(a); } cube(a); a = 4;",
+        "fgrade([\"1\"],[\"red\"]){cube(3)} cube(4)"},
+       {before + many + "module give(f) cube(f(2)); give(function(n) n + 1);", "cube(3)"},
+       {before + many + "union() {" + many + "cube(1); union() { cube(2); } }", "union(){cube(1) union(){cube(2)}}"}});
+}
+
+TEST(Interpret, MistakesInLongListsAreToldOnceWithTheirPlaces) {
+  const std::string many = numbered_cubes(2000);
+  expect_messages({{many + "cube(1;", "2001:7: error: expected \",\" or \")\" after this argument, found \";\""},
+                   {many + "cube(nowhere);",
+                    "2001:6: error: there is no variable \"nowhere\"; give it a value first: nowhere = ...;"}});
+  const std::string messages = run_script(many + "show(\"\\q\"); union() { a = 1; a = 2; }").messages;
+  for (const std::string_view told : {"starts no escape", "has a value already"}) {
+    EXPECT_NE(messages.find(told), std::string::npos) << messages;
+    EXPECT_EQ(messages.find(told), messages.rfind(told)) << messages;
+  }
+}
+
+TEST(Interpret, LimitsInLongListsNameThePlace) {
+  Options options;
+  options.limits.instances = 2500;
+  EXPECT_EQ(first_message(numbered_cubes(3000), options).substr(0, 40), "part.vcad:2501:1: error: the design make");
+}
+
 TEST(Interpret, ClosuresInRingsAndRowsAreFreed) {
   Options options;
   EXPECT_EQ(

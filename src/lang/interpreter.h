@@ -96,6 +96,7 @@ class Interpreter {
   void execute(const ast::Statement& statement, const ScopePtr& scope, Nodes& out);
   void execute_modified(const ast::Statement& statement, const ScopePtr& scope, Nodes& out);
   void dispatch(const ast::Statement& statement, const ScopePtr& scope, Nodes& out);
+  void run_deferred(const ast::Deferred& statement, const ScopePtr& scope, Nodes& out);
   void run_condition(const ast::Condition& statement, const ScopePtr& scope, Nodes& out);
   void run_loop(const ast::CallStatement& statement, size_t variable, const ScopePtr& scope, Nodes& out);
   void run_let(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
@@ -108,7 +109,7 @@ class Interpreter {
   std::vector<size_t> chosen_children(const ast::CallStatement& statement, const ScopePtr& scope, size_t count);
   void call_node(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
   void node_arguments(const ast::CallStatement& statement, const ScopePtr& scope, Invocation& invocation);
-  void make_node(const Invocation& invocation, const ast::Span& where, Nodes& out);
+  void make_node(Invocation invocation, const ast::Span& where, Nodes& out);
   bool knows(const ast::Name& name);
   std::pair<const ast::ModuleDef*, ScopePtr> find_module(Symbol name, const ScopePtr& scope);
   void bind(const std::vector<ast::Parameter>& parameters, const std::vector<ast::Argument>& arguments,
@@ -186,10 +187,10 @@ class Interpreter {
   std::vector<std::pair<Symbol, Value>> specials_;       // of the calls being evaluated, innermost last
   std::vector<const ast::CallStatement*> module_calls_;  // being evaluated, innermost last
   int depth_ = 0;
-  int node_depth_ = 0;             // calls of nodes whose children are being evaluated
-  const ast::Span* at_ = nullptr;  // what is being evaluated
-  uint64_t argument_bytes_ = 0;    // of the call being put together
-  Nodes roots_;                    // of statements marked "!"
+  int node_depth_ = 0;           // calls of nodes whose children are being evaluated
+  ast::Span at_;                 // what is being evaluated
+  uint64_t argument_bytes_ = 0;  // of the call being put together
+  Nodes roots_;                  // of statements marked "!"
   bool has_roots_ = false;
   std::unordered_set<std::string> told_;  // diagnostics that were given
 };

@@ -14,180 +14,56 @@ bool is_name_part(char c) { return (is_name_start(c) && c != '$') || is_digit(c)
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-class Lexer {
- public:
-  Lexer(const SourcePtr& source, Diagnostics& diagnostics)
-      : source_(source), text_(source->text()), diagnostics_(diagnostics) {}
-
-  Tokens run() {
-    if (text_.substr(0, 3) == byte_order_mark) at_ = 3;
-    for (skip_blank(); at_ < text_.size(); skip_blank()) next();
-    put(TokenKind::end, at_);
-    return std::move(tokens_);
+std::optional<TokenKind> single_sign(char c) {
+  switch (c) {
+    case '(':
+      return TokenKind::left_paren;
+    case ')':
+      return TokenKind::right_paren;
+    case '[':
+      return TokenKind::left_bracket;
+    case ']':
+      return TokenKind::right_bracket;
+    case '{':
+      return TokenKind::left_brace;
+    case '}':
+      return TokenKind::right_brace;
+    case ';':
+      return TokenKind::semicolon;
+    case ',':
+      return TokenKind::comma;
+    case '.':
+      return TokenKind::dot;
+    case ':':
+      return TokenKind::colon;
+    case '?':
+      return TokenKind::question;
+    case '=':
+      return TokenKind::assign;
+    case '#':
+      return TokenKind::hash;
+    case '+':
+      return TokenKind::plus;
+    case '-':
+      return TokenKind::minus;
+    case '*':
+      return TokenKind::star;
+    case '/':
+      return TokenKind::slash;
+    case '%':
+      return TokenKind::percent;
+    case '^':
+      return TokenKind::caret;
+    case '!':
+      return TokenKind::bang;
+    case '<':
+      return TokenKind::less;
+    case '>':
+      return TokenKind::greater;
+    default:
+      return std::nullopt;
   }
-
- private:
-  char peek(size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
-
-  void put(TokenKind kind, size_t begin) {
-    tokens_.list.push_back({kind, static_cast<uint32_t>(begin), static_cast<uint32_t>(at_)});
-  }
-
-  void error(size_t begin, size_t end, std::string message, std::string hint = "") {
-    diagnostics_.error({source_, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)}, std::move(message),
-                       std::move(hint));
-  }
-
-  void skip_blank() {
-    while (at_ < text_.size()) {
-      if (is_space(text_[at_])) {
-        ++at_;
-      } else if (peek() == '/' && peek(1) == '/') {
-        at_ = std::min(text_.find('\n', at_), text_.size());
-      } else if (peek() == '/' && peek(1) == '*') {
-        skip_comment();
-      } else {
-        return;
-      }
-    }
-  }
-
-  void skip_comment() {
-    const size_t close = text_.find("*/", at_ + 2);
-    if (close == std::string_view::npos) {
-      error(at_, at_ + 2, "the comment is not closed", "write */ at its end");
-      tokens_.is_cut_short = true;
-      at_ = text_.size();
-    } else {
-      at_ = close + 2;
-    }
-  }
-
-  void next() {
-    const char c = peek();
-    if (is_name_start(c)) return name();
-    if (is_digit(c) || (c == '.' && is_digit(peek(1)))) return number();
-    if (c == '"') return string();
-    sign();
-  }
-
-  void name() {
-    const size_t begin = at_++;
-    while (is_name_part(peek())) ++at_;
-    const std::string_view word = text_.substr(begin, at_ - begin);
-    if (word == "include" || word == "use") {
-      size_t open = at_;
-      while (open < text_.size() && is_space(text_[open])) ++open;
-      if (open < text_.size() && text_[open] == '<') return path(begin, open, word == "use");
-    }
-    if (word == "$") error(begin, at_, "a name is missing after \"$\"");
-    put(TokenKind::name, begin);
-  }
-
-  void path(size_t begin, size_t open, bool is_use) {
-    const size_t close = text_.find_first_of(">\n", open);
-    if (close == std::string_view::npos || text_[close] == '\n') {
-      error(open, open + 1, "the path is not closed", "write > at its end");
-      at_ = std::min(close, text_.size());
-      return;
-    }
-    at_ = close + 1;
-    put(is_use ? TokenKind::use_path : TokenKind::include_path, begin);
-  }
-
-  void number() {
-    const size_t begin = at_;
-    while (is_digit(peek())) ++at_;
-    if (peek() == '.') ++at_;
-    while (is_digit(peek())) ++at_;
-    if (peek() == 'e' || peek() == 'E') {
-      const size_t sign = peek(1) == '+' || peek(1) == '-' ? 1 : 0;
-      if (is_digit(peek(1 + sign))) {
-        at_ += 1 + sign;
-        while (is_digit(peek())) ++at_;
-      }
-    }
-    put(TokenKind::number, begin);
-    if (is_name_start(peek())) {
-      size_t end = at_;
-      while (end < text_.size() && is_name_part(text_[end])) ++end;
-      const std::string digits(text_.substr(begin, at_ - begin));
-      error(begin, std::max(end, at_ + 1), "a number runs into a name",
-            "names start with a letter, and a product is written " + digits + " * x");
-      at_ = std::max(end, at_ + 1);
-    }
-  }
-
-  void string() {
-    const size_t begin = at_++;
-    while (at_ < text_.size() && text_[at_] != '"') {
-      if (text_[at_] == '\\' && at_ + 1 < text_.size()) ++at_;
-      ++at_;
-    }
-    if (at_ < text_.size()) {
-      ++at_;
-    } else {
-      error(begin, begin + 1, "the string is not closed", "write \" after its last character");
-      tokens_.is_cut_short = true;
-    }
-    put(TokenKind::string, begin);
-  }
-
-  void sign() {
-    struct Sign {
-      std::string_view text;
-      TokenKind kind;
-    };
-    static constexpr Sign signs[] = {
-        {"<=", TokenKind::less_equal},   {">=", TokenKind::greater_equal}, {"==", TokenKind::equal_equal},
-        {"!=", TokenKind::not_equal},    {"&&", TokenKind::and_and},       {"||", TokenKind::or_or},
-        {"(", TokenKind::left_paren},    {")", TokenKind::right_paren},    {"[", TokenKind::left_bracket},
-        {"]", TokenKind::right_bracket}, {"{", TokenKind::left_brace},     {"}", TokenKind::right_brace},
-        {";", TokenKind::semicolon},     {",", TokenKind::comma},          {".", TokenKind::dot},
-        {":", TokenKind::colon},         {"?", TokenKind::question},       {"=", TokenKind::assign},
-        {"#", TokenKind::hash},          {"+", TokenKind::plus},           {"-", TokenKind::minus},
-        {"*", TokenKind::star},          {"/", TokenKind::slash},          {"%", TokenKind::percent},
-        {"^", TokenKind::caret},         {"!", TokenKind::bang},           {"<", TokenKind::less},
-        {">", TokenKind::greater}};
-    const std::string_view rest = text_.substr(at_, 2);
-    for (const Sign& sign : signs) {
-      if (rest.substr(0, sign.text.size()) != sign.text) continue;
-      const size_t begin = at_;
-      at_ += sign.text.size();
-      return put(sign.kind, begin);
-    }
-    stray();
-  }
-
-  // A row of strange bytes is one mistake.
-  void stray() {
-    const size_t begin = at_;
-    const size_t size = code_point_size(text_, at_);
-    if (size > 1) {
-      at_ += size;
-      return error(begin, at_,
-                   "a name, number or sign cannot contain \"" + std::string(text_.substr(begin, size)) + '"',
-                   "such characters belong in strings and comments");
-    }
-    if (size == 1 && text_[at_] > ' ' && text_[at_] < '\x7F') {
-      ++at_;
-      const std::string hint = text_[begin] == '\'' ? "write strings between double quotes" : "";
-      return error(begin, at_, std::string("there is no sign \"") + text_[begin] + '"', hint);
-    }
-    const auto is_binary = [&] {
-      const auto byte = static_cast<unsigned char>(peek());
-      return byte == 0x7F || (byte < ' ' && !is_space(peek())) || (byte >= 0x80 && code_point_size(text_, at_) == 0);
-    };
-    while (at_ < text_.size() && is_binary()) ++at_;
-    error(begin, at_, "this is not text in UTF-8", "save the file as plain UTF-8 text");
-  }
-
-  const SourcePtr& source_;
-  std::string_view text_;
-  Diagnostics& diagnostics_;
-  size_t at_ = 0;
-  Tokens tokens_;
-};
+}
 
 // Reads one string's escapes.
 class Unescaper {
@@ -289,7 +165,171 @@ class Unescaper {
 
 }  // namespace
 
-Tokens lex(const SourcePtr& source, Diagnostics& diagnostics) { return Lexer(source, diagnostics).run(); }
+Token Lexer::next() {
+  if (at_ == 0 && text_.substr(0, 3) == byte_order_mark) at_ = 3;
+  for (found_.reset(); !found_;) {
+    skip_blank();
+    if (at_ < text_.size())
+      read();
+    else
+      put(TokenKind::end, at_);
+  }
+  return *found_;
+}
+
+void Lexer::put(TokenKind kind, size_t begin) {
+  found_ = Token{kind, static_cast<uint32_t>(begin), static_cast<uint32_t>(at_)};
+}
+
+void Lexer::error(size_t begin, size_t end, std::string message, std::string hint) {
+  diagnostics_.error({source_, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)}, std::move(message),
+                     std::move(hint));
+}
+
+void Lexer::skip_blank() {
+  while (at_ < text_.size()) {
+    if (is_space(text_[at_])) {
+      ++at_;
+    } else if (peek() == '/' && peek(1) == '/') {
+      at_ = std::min(text_.find('\n', at_), text_.size());
+    } else if (peek() == '/' && peek(1) == '*') {
+      skip_comment();
+    } else {
+      return;
+    }
+  }
+}
+
+void Lexer::skip_comment() {
+  const size_t close = text_.find("*/", at_ + 2);
+  if (close == std::string_view::npos) {
+    error(at_, at_ + 2, "the comment is not closed", "write */ at its end");
+    is_cut_short_ = true;
+    at_ = text_.size();
+  } else {
+    at_ = close + 2;
+  }
+}
+
+void Lexer::read() {
+  const char c = peek();
+  if (is_name_start(c)) return name();
+  if (is_digit(c) || (c == '.' && is_digit(peek(1)))) return number();
+  if (c == '"') return string();
+  sign();
+}
+
+void Lexer::name() {
+  const size_t begin = at_++;
+  while (is_name_part(peek())) ++at_;
+  const std::string_view word = text_.substr(begin, at_ - begin);
+  if (word == "include" || word == "use") {
+    size_t open = at_;
+    while (open < text_.size() && is_space(text_[open])) ++open;
+    if (open < text_.size() && text_[open] == '<') return path(begin, open, word == "use");
+  }
+  if (word == "$") error(begin, at_, "a name is missing after \"$\"");
+  put(TokenKind::name, begin);
+}
+
+void Lexer::path(size_t begin, size_t open, bool is_use) {
+  const size_t close = text_.find_first_of(">\n", open);
+  if (close == std::string_view::npos || text_[close] == '\n') {
+    error(open, open + 1, "the path is not closed", "write > at its end");
+    at_ = std::min(close, text_.size());
+    return;
+  }
+  at_ = close + 1;
+  put(is_use ? TokenKind::use_path : TokenKind::include_path, begin);
+}
+
+void Lexer::number() {
+  const size_t begin = at_;
+  while (is_digit(peek())) ++at_;
+  if (peek() == '.') ++at_;
+  while (is_digit(peek())) ++at_;
+  if (peek() == 'e' || peek() == 'E') {
+    const size_t sign = peek(1) == '+' || peek(1) == '-' ? 1 : 0;
+    if (is_digit(peek(1 + sign))) {
+      at_ += 1 + sign;
+      while (is_digit(peek())) ++at_;
+    }
+  }
+  put(TokenKind::number, begin);
+  if (is_name_start(peek())) {
+    size_t end = at_;
+    while (end < text_.size() && is_name_part(text_[end])) ++end;
+    const std::string digits(text_.substr(begin, at_ - begin));
+    error(begin, std::max(end, at_ + 1), "a number runs into a name",
+          "names start with a letter, and a product is written " + digits + " * x");
+    at_ = std::max(end, at_ + 1);
+  }
+}
+
+void Lexer::string() {
+  const size_t begin = at_++;
+  while (at_ < text_.size() && text_[at_] != '"') {
+    if (text_[at_] == '\\' && at_ + 1 < text_.size()) ++at_;
+    ++at_;
+  }
+  if (at_ < text_.size()) {
+    ++at_;
+  } else {
+    error(begin, begin + 1, "the string is not closed", "write \" after its last character");
+    is_cut_short_ = true;
+  }
+  put(TokenKind::string, begin);
+}
+
+void Lexer::sign() {
+  struct Pair {
+    char first, second;
+    TokenKind kind;
+  };
+  static constexpr Pair pairs[] = {{'<', '=', TokenKind::less_equal},  {'>', '=', TokenKind::greater_equal},
+                                   {'=', '=', TokenKind::equal_equal}, {'!', '=', TokenKind::not_equal},
+                                   {'&', '&', TokenKind::and_and},     {'|', '|', TokenKind::or_or}};
+  const size_t begin = at_;
+  for (const Pair& pair : pairs) {
+    if (peek() != pair.first || peek(1) != pair.second) continue;
+    at_ += 2;
+    return put(pair.kind, begin);
+  }
+  const auto kind = single_sign(peek());
+  if (!kind) return stray();
+  ++at_;
+  put(*kind, begin);
+}
+
+// A row of strange bytes is one mistake.
+void Lexer::stray() {
+  const size_t begin = at_;
+  const size_t size = code_point_size(text_, at_);
+  if (size > 1) {
+    at_ += size;
+    return error(begin, at_, "a name, number or sign cannot contain \"" + std::string(text_.substr(begin, size)) + '"',
+                 "such characters belong in strings and comments");
+  }
+  if (size == 1 && text_[at_] > ' ' && text_[at_] < '\x7F') {
+    ++at_;
+    const std::string hint = text_[begin] == '\'' ? "write strings between double quotes" : "";
+    return error(begin, at_, std::string("there is no sign \"") + text_[begin] + '"', hint);
+  }
+  const auto is_binary = [&] {
+    const auto byte = static_cast<unsigned char>(peek());
+    return byte == 0x7F || (byte < ' ' && !is_space(peek())) || (byte >= 0x80 && code_point_size(text_, at_) == 0);
+  };
+  while (at_ < text_.size() && is_binary()) ++at_;
+  error(begin, at_, "this is not text in UTF-8", "save the file as plain UTF-8 text");
+}
+
+void Tokens::take() {
+  constexpr size_t most_taken = 256;
+  last_end_ = ahead().end;
+  if (++first_ < most_taken) return;
+  list_.erase(list_.begin(), list_.begin() + static_cast<ptrdiff_t>(first_));
+  first_ = 0;
+}
 
 StringValue read_string(const SourceRange& token, Diagnostics& diagnostics) {
   return Unescaper(token, diagnostics).run();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,12 +52,58 @@ struct Token {
   uint32_t begin = 0, end = 0;
 };
 
-struct Tokens {
-  std::vector<Token> list;    // the last one is the end
-  bool is_cut_short = false;  // a string or comment ran to the end of the text: what then seems missing is no news
+// Reads a text from a place on, token by token.
+class Lexer {
+ public:
+  Lexer(const SourcePtr& source, uint32_t begin, Diagnostics& diagnostics)
+      : source_(source), text_(source->text()), diagnostics_(diagnostics), at_(begin) {}
+
+  Token next();  // the end, again and again, where the text ends
+  // A string or comment ran to the end of the text: what then seems missing is no news.
+  bool is_cut_short() const { return is_cut_short_; }
+
+ private:
+  char peek(size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
+  void put(TokenKind kind, size_t begin);
+  void error(size_t begin, size_t end, std::string message, std::string hint = "");
+  void skip_blank();
+  void skip_comment();
+  void read();
+  void name();
+  void path(size_t begin, size_t open, bool is_use);
+  void number();
+  void string();
+  void sign();
+  void stray();
+
+  const SourcePtr& source_;
+  std::string_view text_;
+  Diagnostics& diagnostics_;
+  size_t at_ = 0;
+  std::optional<Token> found_;
+  bool is_cut_short_ = false;
 };
 
-Tokens lex(const SourcePtr& source, Diagnostics& diagnostics);
+// The tokens ahead of a reader, read when they are looked at: a file has far more than are needed at a time.
+class Tokens {
+ public:
+  Tokens(const SourcePtr& source, uint32_t begin, Diagnostics& diagnostics)
+      : lexer_(source, begin, diagnostics), last_end_(begin) {}
+
+  Token ahead(size_t count = 0) {
+    while (list_.size() - first_ <= count) list_.push_back(lexer_.next());
+    return list_[first_ + count];
+  }
+  void take();
+  uint32_t last_end() const { return last_end_; }  // of the token that was taken last
+  bool is_cut_short() const { return lexer_.is_cut_short(); }
+
+ private:
+  Lexer lexer_;
+  std::vector<Token> list_;
+  size_t first_ = 0;  // in the list; those before it were taken
+  uint32_t last_end_;
+};
 
 struct StringValue {
   std::string text;

@@ -49,7 +49,7 @@ class Loader {
   // Adds a file's statements to the unit, and those of the files that it includes in their places.
   void splice(const SourcePtr& source, Unit& into) {
     open_.push_back(normal(source->name()));
-    program_.files.push_back(parse(source, program_.names, diagnostics_));
+    program_.files.push_back(parse_deferred(source, program_.names, diagnostics_));
     const ast::File& file = program_.files.back();
     for (const ast::StatementPtr& statement : file.statements) {
       if (statement->kind == ast::Statement::Kind::include)

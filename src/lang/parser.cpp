@@ -16,6 +16,8 @@ constexpr std::array<std::string_view, 14> reserved = {"module", "function", "if
                                                        "let",    "assert",   "echo",    "each", "true",
                                                        "false",  "undef",    "include", "use"};
 
+constexpr size_t most_kept = 1000;  // statements of one list, before calls are deferred
+
 bool is_reserved(std::string_view word) { return std::find(reserved.begin(), reserved.end(), word) != reserved.end(); }
 
 // Text from the script, short enough for a message.
@@ -37,15 +39,12 @@ Parser::Level::Level(Parser& parser) : parser_(parser) {
   ++parser_.depth_;
 }
 
-const Token& Parser::token(size_t ahead) const {
-  return tokens_.list[std::min(next_ + ahead, tokens_.list.size() - 1)];
+bool Parser::at_word(std::string_view word, size_t ahead) {
+  const Token next = token(ahead);
+  return next.kind == TokenKind::name && text(next) == word;
 }
 
-bool Parser::at_word(std::string_view word, size_t ahead) const {
-  return kind(ahead) == TokenKind::name && text(token(ahead)) == word;
-}
-
-bool Parser::is_name(size_t ahead) const { return kind(ahead) == TokenKind::name && !is_reserved(text(token(ahead))); }
+bool Parser::is_name(size_t ahead) { return kind(ahead) == TokenKind::name && !is_reserved(text(token(ahead))); }
 
 bool Parser::accept(TokenKind wanted) {
   if (!at(wanted)) return false;
@@ -53,11 +52,11 @@ bool Parser::accept(TokenKind wanted) {
   return true;
 }
 
-std::string Parser::found() const { return at(TokenKind::end) ? "the end of the file" : quoted(text(token())); }
+std::string Parser::found() { return at(TokenKind::end) ? "the end of the file" : quoted(text(token())); }
 
 void Parser::fail(Span where, std::string message, std::string hint) {
   // After an unclosed string or comment the file only seems to end here.
-  const bool is_consequence = tokens_.is_cut_short && at(TokenKind::end);
+  const bool is_consequence = tokens_.is_cut_short() && at(TokenKind::end);
   if (!is_consequence) diagnostics_.error(where.range(), std::move(message), std::move(hint));
   throw SyntaxError{};
 }
@@ -104,10 +103,18 @@ void Parser::statements(std::vector<StatementPtr>& into, bool inside_braces) {
     }
     try {
       into.push_back(statement());
+      if (into.size() > most_kept) defer(into.back());
     } catch (const SyntaxError&) {
       resynchronise();
     }
   }
+}
+
+// A design may be a list of a million calls, and its tree many times as large as its text. Calls that are
+// evaluated once are read again instead, one by one; what repeats them keeps them.
+void Parser::defer(StatementPtr& statement) const {
+  if (!defers_ || repeats_ > 0 || statement->kind != Statement::Kind::call) return;
+  statement = std::make_unique<Deferred>(*statement);
 }
 
 // Goes on after the next ";" or "}" at this level; braces that open on the way are skipped whole.
@@ -133,7 +140,7 @@ StatementPtr Parser::statement() {
 }
 
 StatementPtr Parser::include() {
-  const Token& path = token();
+  const Token path = token();
   const std::string_view all = text(path);
   const auto open = static_cast<uint32_t>(all.find('<') + 1);
   const Span inside{source_, path.begin + open, path.end - 1};
@@ -181,6 +188,7 @@ StatementPtr Parser::module_definition() {
   result->name = name("the name of the module");
   parameters(result->parameters);
   const Level level(*this);
+  const Repeated repeated(*this);
   block(result->body, "the module's statements");
   result->span = since(result->span.begin);
   return result;
@@ -188,29 +196,28 @@ StatementPtr Parser::module_definition() {
 
 StatementPtr Parser::instantiation() {
   const Level level(*this);
-  std::string modifiers;
+  Modifiers modifiers;
   for (;; take()) {
     if (at(TokenKind::star))
-      modifiers += '*';
+      modifiers.add('*');
     else if (at(TokenKind::bang))
-      modifiers += '!';
+      modifiers.add('!');
     else if (at(TokenKind::hash))
-      modifiers += '#';
+      modifiers.add('#');
     else if (at(TokenKind::percent))
-      modifiers += '%';
+      modifiers.add('%');
     else
       break;
-    if (std::count(modifiers.begin(), modifiers.end(), modifiers.back()) > 1) modifiers.pop_back();
   }
-  if (at_word("if")) return condition(std::move(modifiers));
+  if (at_word("if")) return condition(modifiers);
   if (at_word("else"))
     fail(span(token()), "this \"else\" belongs to no \"if\"", "write it right after the if's statement");
-  return call(std::move(modifiers));
+  return call(modifiers);
 }
 
-StatementPtr Parser::condition(std::string modifiers) {
+StatementPtr Parser::condition(Modifiers modifiers) {
   auto result = std::make_unique<Condition>(span(token()));
-  result->modifiers = std::move(modifiers);
+  result->modifiers = modifiers;
   while (at_word("if")) {
     take();
     expect(TokenKind::left_paren, "(");
@@ -237,7 +244,7 @@ Statement::Kind Parser::call_kind(std::string_view name) {
 }
 
 // F-grade is one name where a call begins: its parts stand together, before "(" or "{".
-size_t Parser::hyphenated_tokens() const {
+size_t Parser::hyphenated_tokens() {
   size_t count = 1;
   while (kind(count) == TokenKind::minus && kind(count + 1) == TokenKind::name &&
          token(count).begin == token(count - 1).end && token(count + 1).begin == token(count).end)
@@ -256,10 +263,10 @@ Name Parser::call_name() {
   return name_at(where, text_.substr(where.begin, where.end - where.begin));
 }
 
-StatementPtr Parser::call(std::string modifiers) {
+StatementPtr Parser::call(Modifiers modifiers) {
   const Name callee = call_name();
   auto result = std::make_unique<CallStatement>(call_kind(callee.text()), callee);
-  result->modifiers = std::move(modifiers);
+  result->modifiers = modifiers;
   const bool is_node = result->kind == Statement::Kind::call;
   if (at(TokenKind::left_paren)) {
     if (result->kind == Statement::Kind::loop || result->kind == Statement::Kind::let) {
@@ -275,6 +282,7 @@ StatementPtr Parser::call(std::string modifiers) {
     fail(span(token()), "expected \"(\" after " + quoted(callee.text()) + ", found " + found(), hint);
   }
   result->whole = since(callee.span.begin);
+  const Repeated repeated(*this, result->kind == Statement::Kind::loop);
   // The last statement before "}" may lack its ";".
   if (!accept(TokenKind::semicolon) && !at(TokenKind::right_brace))
     block(result->children, "\";\" or the children of the call");
@@ -327,7 +335,9 @@ void warn_of_replaced(const Plan& plan, Diagnostics& diagnostics) {
   }
 }
 
-File parse(const SourcePtr& source, std::shared_ptr<Names> names, Diagnostics& diagnostics) {
+namespace {
+
+File parse(const SourcePtr& source, std::shared_ptr<Names> names, bool defer, Diagnostics& diagnostics) {
   File file;
   file.source = std::make_unique<const SourcePtr>(source);
   file.names = std::move(names);
@@ -335,13 +345,30 @@ File parse(const SourcePtr& source, std::shared_ptr<Names> names, Diagnostics& d
     diagnostics.error({source, 0, 1}, "the file is larger than 2 GB");
     return file;
   }
-  Parser parser(file.source.get(), *file.names, lex(source, diagnostics), diagnostics);
+  Diagnostics lexical, syntactic;
+  Parser parser(file.source.get(), 0, *file.names, lexical, syntactic);
+  if (defer) parser.defer_calls();
   file.statements = parser.file();
+  diagnostics.add_all(lexical);
+  diagnostics.add_all(syntactic);
   return file;
 }
 
+}  // namespace
+
 File parse(const SourcePtr& source, Diagnostics& diagnostics) {
-  return parse(source, std::make_shared<Names>(), diagnostics);
+  return parse(source, std::make_shared<Names>(), false, diagnostics);
+}
+
+File parse_deferred(const SourcePtr& source, std::shared_ptr<Names> names, Diagnostics& diagnostics) {
+  return parse(source, std::move(names), true, diagnostics);
+}
+
+StatementPtr read(const Deferred& call, Names& names) {
+  Diagnostics told;
+  Parser parser(call.span.source, call.span.begin, names, told, told);
+  parser.defer_calls();
+  return parser.statement();
 }
 
 }  // namespace ombre::lang

@@ -34,6 +34,8 @@ constexpr std::array<BinaryOperator, 13> binary_operators = {{{TokenKind::or_or,
 constexpr int tightest = 5;
 
 const BinaryOperator* binary_operator(TokenKind token) {
+  // Between values stands mostly what is none of them.
+  if (token < TokenKind::plus) return nullptr;
   const auto* found = std::find_if(binary_operators.begin(), binary_operators.end(),
                                    [token](const BinaryOperator& op) { return op.token == token; });
   return found == binary_operators.end() ? nullptr : found;
@@ -54,6 +56,7 @@ std::optional<Operator> unary_operator(TokenKind token) {
 
 ExprPtr Parser::expression() {
   const Level level(*this);
+  if (!at(TokenKind::name)) return conditional();
   if (at_word("function")) return function_literal();
   if (at_word("let")) return prefix(PrefixKind::let, false);
   if (at_word("assert")) return prefix(PrefixKind::assertion, false);
@@ -238,12 +241,12 @@ ExprPtr Parser::bracketed() {
   return range;
 }
 
-bool Parser::at_generator(size_t ahead) const {
+bool Parser::at_generator(size_t ahead) {
   return at_word("for", ahead) || at_word("each", ahead) || at_word("if", ahead);
 }
 
 // (for ...), also behind let(...): only what follows tells it from a grouped value.
-bool Parser::at_parenthesised_generator() const {
+bool Parser::at_parenthesised_generator() {
   if (!at(TokenKind::left_paren)) return false;
   size_t ahead = 1;
   while (at_word("let", ahead) && kind(ahead + 1) == TokenKind::left_paren) {
@@ -328,7 +331,7 @@ ExprPtr Parser::function_literal() {
   return result;
 }
 
-bool Parser::at_expression_end() const {
+bool Parser::at_expression_end() {
   switch (kind()) {
     case TokenKind::end:
     case TokenKind::comma:

@@ -17,14 +17,18 @@ struct SyntaxError {};
 
 class Parser {
  public:
-  Parser(const SourcePtr* source, Names& names, Tokens tokens, Diagnostics& diagnostics)
+  // Reads from `begin` on; tells of wrong tokens in `lexical`, of everything else in `diagnostics`.
+  Parser(const SourcePtr* source, uint32_t begin, Names& names, Diagnostics& lexical, Diagnostics& diagnostics)
       : source_(source),
         text_((*source)->text()),
         names_(names),
-        tokens_(std::move(tokens)),
+        tokens_(*source, begin, lexical),
         diagnostics_(diagnostics) {}
 
+  // Of long lists of statements, keeps where the calls stand and not what they say.
+  void defer_calls() { defers_ = true; }
   std::vector<ast::StatementPtr> file();
+  ast::StatementPtr statement();
 
  private:
   // One level of nesting, for as long as it lives.
@@ -39,22 +43,37 @@ class Parser {
     Parser& parser_;
   };
 
+  // What is read may be evaluated many times, for as long as it lives.
+  class Repeated {
+   public:
+    explicit Repeated(Parser& parser, bool is_repeated = true) : parser_(parser), count_(is_repeated ? 1 : 0) {
+      parser_.repeats_ += count_;
+    }
+    ~Repeated() { parser_.repeats_ -= count_; }
+    Repeated(const Repeated&) = delete;
+    Repeated& operator=(const Repeated&) = delete;
+
+   private:
+    Parser& parser_;
+    int count_;
+  };
+
   // --- tokens
-  const Token& token(size_t ahead = 0) const;
-  TokenKind kind(size_t ahead = 0) const { return token(ahead).kind; }
+  Token token(size_t ahead = 0) { return tokens_.ahead(ahead); }
+  TokenKind kind(size_t ahead = 0) { return token(ahead).kind; }
   std::string_view text(const Token& token) const { return text_.substr(token.begin, token.end - token.begin); }
-  bool at(TokenKind wanted) const { return kind() == wanted; }
-  bool at_word(std::string_view word, size_t ahead = 0) const;
-  bool is_name(size_t ahead = 0) const;  // a name that is no reserved word
+  bool at(TokenKind wanted) { return kind() == wanted; }
+  bool at_word(std::string_view word, size_t ahead = 0);
+  bool is_name(size_t ahead = 0);  // a name that is no reserved word
   bool accept(TokenKind wanted);
   void take() {
-    if (kind() != TokenKind::end) ++next_;
+    if (kind() != TokenKind::end) tokens_.take();
   }
   void expect(TokenKind wanted, const char* what);
   ast::Span span(const Token& token) const { return {source_, token.begin, token.end}; }
   ast::Span since(uint32_t begin) const { return {source_, begin, std::max(begin, last_end())}; }
-  uint32_t last_end() const { return next_ == 0 ? 0 : tokens_.list[next_ - 1].end; }
-  std::string found() const;
+  uint32_t last_end() const { return tokens_.last_end(); }
+  std::string found();
   [[noreturn]] void fail(ast::Span where, std::string message, std::string hint = "");
   [[noreturn]] void fail_here(const std::string& expected, std::string hint = "");
   ast::Name name(const char* what);
@@ -63,17 +82,17 @@ class Parser {
   // --- statements
   void statements(std::vector<ast::StatementPtr>& into, bool inside_braces);
   void resynchronise();
-  ast::StatementPtr statement();
+  void defer(ast::StatementPtr& statement) const;
   ast::StatementPtr include();
   ast::StatementPtr group();
   ast::StatementPtr assignment();
   ast::StatementPtr function_definition();
   ast::StatementPtr module_definition();
   ast::StatementPtr instantiation();
-  ast::StatementPtr condition(std::string modifiers);
-  ast::StatementPtr call(std::string modifiers);
+  ast::StatementPtr condition(ast::Modifiers modifiers);
+  ast::StatementPtr call(ast::Modifiers modifiers);
   ast::Name call_name();
-  size_t hyphenated_tokens() const;
+  size_t hyphenated_tokens();
   void block(ast::Block& into, const char* owner);
   void braces(ast::Block& into);
   void finish(ast::Block& block);
@@ -97,9 +116,9 @@ class Parser {
   ast::ExprPtr prefix(ast::PrefixKind which, bool inside_list);
   ast::ExprPtr number();
   ast::ExprPtr string();
-  bool at_generator(size_t ahead = 0) const;
-  bool at_parenthesised_generator() const;
-  bool at_expression_end() const;
+  bool at_generator(size_t ahead = 0);
+  bool at_parenthesised_generator();
+  bool at_expression_end();
   void arguments(std::vector<ast::Argument>& into);  // with both parentheses
   void arguments_until(TokenKind close, std::vector<ast::Argument>& into);
   void named_arguments(std::vector<ast::Argument>& into, const char* owner, TokenKind close);
@@ -110,8 +129,9 @@ class Parser {
   Names& names_;
   Tokens tokens_;
   Diagnostics& diagnostics_;
-  size_t next_ = 0;
   int depth_ = 0;
+  bool defers_ = false;
+  int repeats_ = 0;  // loops and modules around
 };
 
 }  // namespace ombre::lang

@@ -1,6 +1,7 @@
 // Statements: scopes, conditions, loops.
 #include "lang/for_each.h"
 #include "lang/interpreter.h"
+#include "lang/parser.h"
 
 namespace ombre::lang {
 
@@ -8,7 +9,7 @@ using ast::Statement;
 
 Interpreter::Level::Level(Interpreter& interpreter, const ast::Span& at, int weight)
     : interpreter_(interpreter), weight_(weight) {
-  interpreter.at_ = &at;
+  interpreter.at_ = at;
   interpreter.meter_.spend();
   const int limit = interpreter.options_.limits.depth;
   if (interpreter.depth_ + weight > limit)
@@ -110,6 +111,8 @@ void Interpreter::execute_modified(const Statement& statement, const ScopePtr& s
 void Interpreter::dispatch(const Statement& statement, const ScopePtr& scope, Nodes& out) {
   if (statement.kind == Statement::Kind::condition)
     return run_condition(static_cast<const ast::Condition&>(statement), scope, out);
+  if (statement.kind == Statement::Kind::deferred)
+    return run_deferred(static_cast<const ast::Deferred&>(statement), scope, out);
   const auto& named = static_cast<const ast::CallStatement&>(statement);
   switch (statement.kind) {
     case Statement::Kind::loop:
@@ -125,6 +128,12 @@ void Interpreter::dispatch(const Statement& statement, const ScopePtr& scope, No
     default:
       return call(named, scope, out);
   }
+}
+
+// Nothing that evaluation keeps points into the statement: values that remember literals end with it.
+void Interpreter::run_deferred(const ast::Deferred& statement, const ScopePtr& scope, Nodes& out) {
+  const ast::StatementPtr call = read(statement, *program_.names);
+  dispatch(*call, scope, out);
 }
 
 void Interpreter::run_condition(const ast::Condition& statement, const ScopePtr& scope, Nodes& out) {

@@ -46,7 +46,7 @@ class TestVocabulary : public Vocabulary {
   }
   std::vector<std::string> constants() const override { return {"x", "y", "z", "red", "green", "blue"}; }
 
-  design::NodePtr make(const Invocation& call, Diagnostics& diagnostics) override {
+  design::NodePtr make(Invocation call, Diagnostics& diagnostics) override {
     calls.push_back(call);
     if (fold_name(call.name) == "broken") {
       diagnostics.error(call.where, "broken is broken");

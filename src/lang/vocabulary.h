@@ -46,7 +46,7 @@ class Vocabulary {
   virtual std::optional<Data> constant(std::string_view name) const = 0;  // materials, axes
   virtual std::vector<std::string> constants() const = 0;                 // for suggestions
   // Null when the call is wrong (and then diagnostics were added) or gives nothing.
-  virtual design::NodePtr make(const Invocation& call, Diagnostics& diagnostics) = 0;
+  virtual design::NodePtr make(Invocation call, Diagnostics& diagnostics) = 0;
 };
 
 }  // namespace ombre::lang

@@ -14,7 +14,7 @@ struct Attribute {
   Number value;
   std::string unit_text;
   double default_value = 0;
-  std::string overlap = "first";
+  Choice overlap = "first";
 
   static Spec<Attribute> spec() {
     return {"attribute",

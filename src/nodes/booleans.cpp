@@ -15,7 +15,7 @@ constexpr std::string_view overlap_doc =
     "Where inputs overlap: mix adds their compositions and normalises, first and last let one take precedence";
 
 // Weights of inputs that contain the point; where none does and it matters, the nearest counts.
-std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand demand, const std::string& rule) {
+std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand demand, std::string_view rule) {
   std::vector<Field> marks = in.insides(p);
   if (demand == Demand::everywhere) {
     const Field none = logical_not(program::fold(marks, program::logical_or));
@@ -36,7 +36,7 @@ Metric joined_metric(const Inputs& in) {
 }
 
 struct Union {
-  std::string materials = "mix";
+  Choice materials = "mix";
 
   static Spec<Union> spec() {
     return {"union",
@@ -93,7 +93,7 @@ struct Union {
 };
 
 struct Intersection {
-  std::string materials = "mix";
+  Choice materials = "mix";
 
   static Spec<Intersection> spec() {
     return {"intersection",

@@ -12,7 +12,7 @@ using namespace design;
 struct Mesh {
   FilePath path;
   MaterialName material;
-  std::string inside_rule = "nonzero";
+  Choice inside_rule = "nonzero";
   program::SourceField source;  // read when the node is made
 
   static Spec<Mesh> spec() {
@@ -34,7 +34,7 @@ struct Mesh {
       reader.diagnostics.error(reader.where, "meshes cannot be read here");
       return false;
     }
-    source = reader.loader->mesh(path.path, inside_rule, reader.where, reader.diagnostics);
+    source = reader.loader->mesh(path.path, std::string(inside_rule), reader.where, reader.diagnostics);
     if (!source) return false;
     path.content = source->content();
     return true;

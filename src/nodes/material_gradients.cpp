@@ -34,7 +34,9 @@ struct Mixture {
   std::vector<Field> raw;
   bool threshold = false;
 
-  Composition over(const Inputs& in, const Point& p, Demand demand, const std::string& message) const {
+  // `message` gives what the check tells.
+  template <class Message>
+  Composition over(const Inputs& in, const Point& p, Demand demand, const Message& message) const {
     const Field zero = p.constant(0);
     std::vector<Field> values, finite, nonzero;
     for (const Field v : raw) {
@@ -54,7 +56,7 @@ struct Mixture {
     Composition result = fractions(terms, own, usable, zero);
     const Field bad = logical_not(usable);
     for (const auto& [number, mark] : own.checks) result.checks.emplace_back(number, logical_and(bad, mark));
-    result.checks.push_back(in.check(bad, message));
+    result.checks.push_back(in.check(bad, message()));
     return result;
   }
 
@@ -113,7 +115,7 @@ std::string list_text(const std::vector<Number>& functions) {
 struct FGrade {
   std::vector<Number> functions;
   std::vector<MaterialName> materials;
-  std::string mode = "prob";
+  Choice mode = "prob";
 
   static Spec<FGrade> spec() {
     return {"fgrade",
@@ -141,9 +143,10 @@ struct FGrade {
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     Mixture result = mixture(in, p, functions, materials);
     result.threshold = mode == "thresh";
-    return result.over(in, p, demand,
-                       "the fractions of fgrade are all zero or not finite (" + list_text(functions) +
-                           "), the child keeps its own materials there");
+    return result.over(in, p, demand, [&] {
+      return "the fractions of fgrade are all zero or not finite (" + list_text(functions) +
+             "), the child keeps its own materials there";
+    });
   }
 };
 
@@ -181,10 +184,10 @@ struct Material {
   }
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    return mixture(in, p, fractions, materials)
-        .over(in, p, demand,
-              "the fractions of material are all zero or not finite (" + list_text(fractions) +
-                  "), the child keeps its own materials there");
+    return mixture(in, p, fractions, materials).over(in, p, demand, [&] {
+      return "the fractions of material are all zero or not finite (" + list_text(fractions) +
+             "), the child keeps its own materials there";
+    });
   }
 };
 

@@ -152,7 +152,7 @@ struct Torus {
 struct Strut {
   Vec3 start{0, 0, 0}, end{10, 0, 0};
   Number radius = 1;
-  std::string caps = "flat";
+  Choice caps = "flat";
   MaterialName material;
 
   static Spec<Strut> spec() {

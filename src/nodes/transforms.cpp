@@ -47,7 +47,7 @@ struct Translate : Transform<Translate> {
 
 struct Rotate : Transform<Rotate> {
   Vec3 angles, around;
-  std::string order = "zyx";
+  Choice order = "zyx";
   std::optional<Vec3> axis;
   double degrees = 0;
 

@@ -1,21 +1,32 @@
 #include "program/field.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "base/assert.h"
 
 namespace ombre::program {
 
-Builder::Builder() {
+Builder::Builder() { clear(); }
+
+void Builder::clear() {
+  constexpr size_t usual_size = 256;
+  code_.clear();
+  maps_.clear();
+  reads_.clear();
+  calls_.clear();
+  part_sets_.clear();
+  keys_.clear();
+  table_.assign(std::min(std::max(table_.size(), usual_size), 4 * usual_size), 0);
   for (int axis = 0; axis < 3; ++axis) {
     Instruction in;
     in.op = Op::input;
     in.value = axis;
-    code_.push_back(in);
+    push({}, in);
   }
 }
 
-size_t Builder::KeyHash::operator()(const Key& key) const {
+size_t Builder::hash(const Key& key) {
   uint64_t h = key.bits * 0x9E3779B97F4A7C15ull + static_cast<uint64_t>(key.op);
   for (const uint64_t part :
        {uint64_t{key.a}, uint64_t{key.b}, uint64_t{key.c}, std::bit_cast<uint64_t>(key.pointer)}) {
@@ -25,10 +36,32 @@ size_t Builder::KeyHash::operator()(const Key& key) const {
   return h;
 }
 
+void Builder::push(const Key& key, const Instruction& instruction) {
+  code_.push_back(instruction);
+  keys_.push_back(key);
+}
+
 Field Builder::intern(const Key& key, Instruction instruction) {
-  const auto [it, is_new] = known_.try_emplace(key, static_cast<ValueId>(code_.size()));
-  if (is_new) code_.push_back(instruction);
-  return {this, it->second};
+  const size_t mask = table_.size() - 1;
+  size_t at = hash(key) & mask;
+  for (; table_[at] != 0; at = (at + 1) & mask)
+    if (keys_[table_[at]] == key) return {this, table_[at]};
+  table_[at] = static_cast<ValueId>(code_.size());
+  push(key, instruction);
+  if (2 * code_.size() > table_.size()) widen_table();
+  return {this, static_cast<ValueId>(code_.size() - 1)};
+}
+
+void Builder::widen_table() {
+  std::vector<ValueId> wide(2 * table_.size(), 0);
+  const size_t mask = wide.size() - 1;
+  for (const ValueId id : table_) {
+    if (id == 0) continue;
+    size_t at = hash(keys_[id]) & mask;
+    while (wide[at] != 0) at = (at + 1) & mask;
+    wide[at] = id;
+  }
+  table_ = std::move(wide);
 }
 
 Field Builder::constant(double value) {
@@ -137,7 +170,7 @@ Field Builder::affine(const AffineRow& row, Field a, Field b, Field c) {
   if (code_[field.id].aux == maps_.size()) maps_.push_back(row);
   // Two rows with one hash: keep both apart.
   if (maps_[code_[field.id].aux] != row) {
-    code_.push_back(in);
+    push({}, in);
     maps_.push_back(row);
     return {this, static_cast<ValueId>(code_.size() - 1)};
   }
@@ -181,24 +214,40 @@ Field Builder::parts(const std::shared_ptr<const PartSet>& set, size_t slot, Fie
   return field;
 }
 
-Program Builder::finish(const std::vector<std::pair<std::string, Field>>& outputs) const {
-  std::vector<bool> needed(code_.size(), false);
-  for (const auto& [name, field] : outputs) needed[field.id] = true;
-  for (size_t i = code_.size(); i-- > 0;) {
-    if (!needed[i]) continue;
-    const int arity = info(code_[i].op).arity;
-    if (arity > 0) needed[code_[i].a] = true;
-    if (arity > 1) needed[code_[i].b] = true;
-    if (arity > 2) needed[code_[i].c] = true;
-  }
+Program Builder::finish(const Outputs& outputs) const {
   Program program;
-  std::vector<ValueId> renamed(code_.size(), 0);
+  finish(outputs, program);
+  return program;
+}
+
+void Builder::finish(const Outputs& outputs, Program& program) const {
+  program.code.clear();
+  program.maps.clear();
+  program.reads.clear();
+  program.calls.clear();
+  program.part_sets.clear();
+  program.outputs.clear();
+  program.output_names.clear();
+  constexpr ValueId unneeded = ~ValueId{0};
+  std::vector<ValueId> renamed(code_.size(), unneeded);
+  for (const auto& [name, field] : outputs) renamed[field.id] = 0;
+  size_t count = 0;
+  for (size_t i = code_.size(); i-- > 0;) {
+    if (renamed[i] == unneeded) continue;
+    ++count;
+    const int arity = info(code_[i].op).arity;
+    if (arity > 0) renamed[code_[i].a] = 0;
+    if (arity > 1) renamed[code_[i].b] = 0;
+    if (arity > 2) renamed[code_[i].c] = 0;
+  }
+  program.code.reserve(count);
   for (size_t i = 0; i < code_.size(); ++i) {
-    if (!needed[i]) continue;
+    if (renamed[i] == unneeded) continue;
     Instruction in = code_[i];
-    in.a = renamed[in.a];
-    in.b = renamed[in.b];
-    in.c = renamed[in.c];
+    const int arity = info(in.op).arity;
+    in.a = arity > 0 ? renamed[in.a] : 0;
+    in.b = arity > 1 ? renamed[in.b] : 0;
+    in.c = arity > 2 ? renamed[in.c] : 0;
     if (in.op == Op::affine) {
       program.maps.push_back(maps_[in.aux]);
       in.aux = static_cast<uint32_t>(program.maps.size() - 1);
@@ -219,7 +268,6 @@ Program Builder::finish(const std::vector<std::pair<std::string, Field>>& output
     program.outputs.push_back(renamed[field.id]);
     program.output_names.push_back(name);
   }
-  return program;
 }
 
 Field operator+(Field a, Field b) { return a.builder->apply(Op::add, a, b); }

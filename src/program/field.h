@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "program/program.h"
@@ -21,6 +20,8 @@ struct Field {
   explicit operator bool() const { return builder != nullptr; }
   bool operator==(const Field&) const = default;
 };
+
+using Outputs = std::vector<std::pair<std::string, Field>>;
 
 // Builds programs. Shares equal subexpressions and folds constants as they are made.
 class Builder {
@@ -43,9 +44,13 @@ class Builder {
   std::optional<double> constant_value(Field field) const;
   bool is_truth(Field field) const;  // is its value always 0 or 1?
   size_t size() const { return code_.size(); }
+  // Forgets everything but its memory, for another program.
+  void clear();
 
   // What the outputs need, in the order of construction; nothing else.
-  Program finish(const std::vector<std::pair<std::string, Field>>& outputs) const;
+  Program finish(const Outputs& outputs) const;
+  // The same in place of what `program` was, whose memory it takes.
+  void finish(const Outputs& outputs, Program& program) const;
 
  private:
   struct Key {
@@ -55,17 +60,18 @@ class Builder {
     const void* pointer;
     bool operator==(const Key&) const = default;
   };
-  struct KeyHash {
-    size_t operator()(const Key& key) const;
-  };
+  static size_t hash(const Key& key);
   Field intern(const Key& key, Instruction instruction);
+  void push(const Key& key, const Instruction& instruction);
+  void widen_table();
 
   std::vector<Instruction> code_;
   std::vector<AffineRow> maps_;
   std::vector<Read> reads_;
   std::vector<Call> calls_;
   std::vector<std::shared_ptr<const PartSet>> part_sets_;
-  std::unordered_map<Key, ValueId, KeyHash> known_;
+  std::vector<Key> keys_;       // of the instructions
+  std::vector<ValueId> table_;  // instructions by the hashes of their keys; 0, an input, where there is none
 };
 
 // Arithmetic on fields; a number stands for a constant.

@@ -9,9 +9,8 @@ namespace ombre::program {
 namespace {
 
 // Everything of a program but the values of its constants.
-std::string structure(const Program& program, const std::vector<int>& slots) {
-  std::string key;
-  key.reserve(program.code.size() * 13 + slots.size() * 4);
+void write_structure(const Program& program, const std::vector<int>& slots, std::string& key) {
+  key.clear();
   const auto append = [&](uint32_t value) { key.append(reinterpret_cast<const char*>(&value), sizeof value); };
   for (const Instruction& in : program.code) {
     const int arity = info(in.op).arity;
@@ -22,14 +21,14 @@ std::string structure(const Program& program, const std::vector<int>& slots) {
     if (arity > 2) append(in.c);
   }
   for (const int slot : slots) append(slot < 0 ? PartTable::none : program.outputs[static_cast<size_t>(slot)]);
-  return key;
 }
 
 }  // namespace
 
 void PartTable::add(const Program& program, const std::vector<int>& slots, bool may_be_unknown) {
   ASSERT(program.calls.empty() && program.reads.empty());
-  const auto [it, is_new] = known_.try_emplace(structure(program, slots), static_cast<uint32_t>(bodies_.size()));
+  write_structure(program, slots, key_);
+  const auto [it, is_new] = known_.try_emplace(key_, static_cast<uint32_t>(bodies_.size()));
   if (is_new) {
     const auto& code = program.code;
     const auto is_input = [](const Instruction& in) { return in.op == Op::input; };
@@ -43,6 +42,9 @@ void PartTable::add(const Program& program, const std::vector<int>& slots, bool 
     if (in.op == Op::affine)
       parameters_.insert(parameters_.end(), program.maps[in.aux].begin(), program.maps[in.aux].end());
   }
+  if (rows_.size() > 1) return;
+  rows_.reserve(expected_);
+  parameters_.reserve(expected_ * parameters_.size());
 }
 
 void PartTable::append(uint32_t part, Program& to, const std::array<ValueId, 3>& inputs,
@@ -80,37 +82,31 @@ bool PartIndex::Bounds::meets(const Box& box) const {
   return true;
 }
 
-void PartIndex::build(const std::vector<Entry>& entries) {
+void PartIndex::add(const Box& box, uint32_t part) {
   // Rounded to nearest, so that boxes of one part go on sharing their faces.
-  std::vector<Bounds> bounds(entries.size());
-  order_.resize(entries.size());
-  for (size_t n = 0; n < entries.size(); ++n) {
-    order_[n] = static_cast<uint32_t>(n);
-    for (int axis = 0; axis < 3; ++axis) {
-      bounds[n].lo[axis] = static_cast<float>(entries[n].box.lo[axis]);
-      bounds[n].hi[axis] = static_cast<float>(entries[n].box.hi[axis]);
-    }
+  RoundedEntry entry{{}, part};
+  for (int axis = 0; axis < 3; ++axis) {
+    entry.bounds.lo[axis] = static_cast<float>(box.lo[axis]);
+    entry.bounds.hi[axis] = static_cast<float>(box.hi[axis]);
   }
+  entries_.push_back(entry);
+}
+
+void PartIndex::build() {
   knots_.clear();
-  bounds_.clear();
-  if (!entries.empty()) build(bounds, 0, static_cast<uint32_t>(entries.size()));
-  bounds_.reserve(entries.size());
-  for (uint32_t& entry : order_) {
-    bounds_.push_back(bounds[entry]);
-    entry = entries[entry].part;
-  }
+  if (!entries_.empty()) build(0, static_cast<uint32_t>(entries_.size()));
   knots_.shrink_to_fit();
 }
 
 // Halves at the median of the middles along the longest side.
-uint32_t PartIndex::build(const std::vector<Bounds>& boxes, uint32_t begin, uint32_t end) {
+uint32_t PartIndex::build(uint32_t begin, uint32_t end) {
   constexpr uint32_t most_in_leaf = 4;
   const auto number = static_cast<uint32_t>(knots_.size());
-  Bounds bounds = boxes[order_[begin]];
+  Bounds bounds = entries_[begin].bounds;
   for (uint32_t n = begin; n < end; ++n) {
     for (int axis = 0; axis < 3; ++axis) {
-      bounds.lo[axis] = std::min(bounds.lo[axis], boxes[order_[n]].lo[axis]);
-      bounds.hi[axis] = std::max(bounds.hi[axis], boxes[order_[n]].hi[axis]);
+      bounds.lo[axis] = std::min(bounds.lo[axis], entries_[n].bounds.lo[axis]);
+      bounds.hi[axis] = std::max(bounds.hi[axis], entries_[n].bounds.hi[axis]);
     }
   }
   knots_.push_back({bounds, begin, end, 0});
@@ -118,12 +114,16 @@ uint32_t PartIndex::build(const std::vector<Bounds>& boxes, uint32_t begin, uint
   int longest = 0;
   for (int axis = 1; axis < 3; ++axis)
     if (bounds.hi[axis] - bounds.lo[axis] > bounds.hi[longest] - bounds.lo[longest]) longest = axis;
-  const auto middle = [&](uint32_t part) { return boxes[part].lo[longest] + boxes[part].hi[longest]; };
+  const auto middle = [longest](const RoundedEntry& entry) {
+    return entry.bounds.lo[longest] + entry.bounds.hi[longest];
+  };
   const uint32_t half = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
-                   [&](uint32_t a, uint32_t b) { return middle(a) != middle(b) ? middle(a) < middle(b) : a < b; });
-  build(boxes, begin, half);
-  const uint32_t right = build(boxes, half, end);
+  std::nth_element(entries_.begin() + begin, entries_.begin() + half, entries_.begin() + end,
+                   [&](const RoundedEntry& a, const RoundedEntry& b) {
+                     return middle(a) != middle(b) ? middle(a) < middle(b) : a.part < b.part;
+                   });
+  build(begin, half);
+  const uint32_t right = build(half, end);
   knots_[number].right = right;
   return number;
 }
@@ -143,7 +143,7 @@ void PartIndex::visit(const Box& region, Visit visit) const {
       continue;
     }
     for (uint32_t n = knot.begin; n < knot.end; ++n)
-      if (bounds_[n].meets(region) && !visit(order_[n], bounds_[n])) return;
+      if (entries_[n].bounds.meets(region) && !visit(entries_[n].part, entries_[n].bounds)) return;
   }
 }
 

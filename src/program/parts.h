@@ -34,6 +34,8 @@ class PartTable {
     size_t input_count = 0;  // the first instructions
   };
 
+  // How many rows will be added, about as wide as the first.
+  void expect(size_t rows) { expected_ = rows; }
   // `slots[s]` is the program's output for slot s, or -1. The program has neither calls nor sources.
   // `may_be_unknown`: can any of its values be NaN where the part is?
   void add(const Program& program, const std::vector<int>& slots, bool may_be_unknown);
@@ -60,6 +62,8 @@ class PartTable {
   std::unordered_map<std::string, uint32_t> known_;
   std::vector<Row> rows_;
   std::vector<double> parameters_;
+  size_t expected_ = 0;
+  std::string key_;  // of the row being added
 };
 
 // A tree over boxes. A part may have several, which together hold it.
@@ -69,7 +73,9 @@ class PartIndex {
     Box box;
     uint32_t part = 0;
   };
-  void build(const std::vector<Entry>& entries);
+  void expect(size_t entries) { entries_.reserve(entries); }
+  void add(const Box& box, uint32_t part);
+  void build();  // when all are added
   // The parts whose boxes meet the region, in ascending order.
   void find(const Box& region, std::vector<uint32_t>& parts) const;
   // Their boxes, by part.
@@ -86,17 +92,20 @@ class PartIndex {
   };
   struct Knot {
     Bounds bounds;
-    uint32_t begin = 0, end = 0;  // of the leaves' parts
+    uint32_t begin = 0, end = 0;  // of its entries
     uint32_t right = 0;           // the left one follows; 0: a leaf
   };
-  uint32_t build(const std::vector<Bounds>& boxes, uint32_t begin, uint32_t end);
+  struct RoundedEntry {
+    Bounds bounds;
+    uint32_t part = 0;
+  };
+  uint32_t build(uint32_t begin, uint32_t end);
   // Until `visit` says false.
   template <class Visit>
   void visit(const Box& region, Visit visit) const;
 
   std::vector<Knot> knots_;
-  std::vector<uint32_t> order_;  // entries by leaf; once built, their parts
-  std::vector<Bounds> bounds_;   // theirs, in that order
+  std::vector<RoundedEntry> entries_;  // once built, by leaf
 };
 
 struct PartSet {

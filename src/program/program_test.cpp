@@ -32,6 +32,19 @@ TEST(Builder, SharesEqualExpressionsAndFoldsConstants) {
   EXPECT_EQ(b.finish({{"v", x + y}}).code.size(), 3u);
 }
 
+TEST(Builder, SharesAmongThousandsAndStartsAnew) {
+  Builder b;
+  for (int round = 0; round < 2; ++round) {
+    std::vector<Field> sums;
+    for (int n = 1; n <= 3000; ++n) sums.push_back(b.input(0) + n);
+    EXPECT_EQ(b.size(), 3u + 2 * 3000u);
+    for (int n = 1; n <= 3000; ++n) EXPECT_EQ((b.input(0) + n).id, sums[static_cast<size_t>(n) - 1].id);
+    EXPECT_EQ(value(b.finish({{"v", sums[41]}}), {1, 0, 0}), 43);
+    b.clear();
+    EXPECT_EQ(b.size(), 3u);
+  }
+}
+
 TEST(Builder, DoesNotFoldWhatInfinitiesWouldBreak) {
   Builder b;
   const Field x = b.input(0);

@@ -121,10 +121,12 @@ std::vector<Argument> modern_arguments(const design::NodeType& type, std::vector
   // scale(2): the same on each axis.
   if (type.name == "scale" && arguments.size() == 1 && arguments[0].value.number())
     arguments[0].value = Data(DataList(3, arguments[0].value), arguments[0].value.where);
-  for (Argument& argument : arguments)
+  for (Argument& argument : arguments) {
+    if (argument.name.empty()) continue;
     for (const Alias& alias : aliases)
       if (alias.node == type.name && alias.spelling == argument.name && type.parameter(argument.name) < 0)
         argument.name = alias.parameter;
+  }
   return arguments;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "base/json.h"
 #include "base/text.h"
 #include "lang/vocabulary/legacy_forms.h"
 
@@ -19,12 +18,12 @@ namespace {
 constexpr std::string_view axes[] = {"x", "y", "z"};
 
 // A name for every argument: given, or by position. False, and diagnostics, when one has no parameter.
-bool bind(const NodeType& type, const std::vector<Argument>& arguments, std::vector<NamedValue>& values,
-          Diagnostics& diagnostics, const SourceRange& whole) {
+bool bind_arguments(const NodeType& type, std::vector<Argument> arguments, std::vector<NamedValue>& values,
+                    Diagnostics& diagnostics, const SourceRange& whole) {
   std::vector<bool> taken(type.parameters.size(), false);
   bool good = true;
   size_t position = 0, positional = 0;
-  for (const Argument& argument : arguments) {
+  for (Argument& argument : arguments) {
     const SourceRange where = argument.name_where.source    ? argument.name_where
                               : argument.value.where.source ? argument.value.where
                                                             : whole;
@@ -56,7 +55,7 @@ bool bind(const NodeType& type, const std::vector<Argument>& arguments, std::vec
       continue;
     }
     taken[at] = true;
-    if (!argument.value.is_null()) values.push_back({&type.parameters[at], argument.value});
+    if (!argument.value.is_null()) values.push_back({&type.parameters[at], std::move(argument.value)});
   }
   return good;
 }
@@ -94,7 +93,7 @@ std::vector<std::string> VcadVocabulary::constants() const {
   return names;
 }
 
-NodePtr VcadVocabulary::make(const Invocation& call, Diagnostics& diagnostics) {
+NodePtr VcadVocabulary::make(Invocation call, Diagnostics& diagnostics) {
   const size_t errors_before = diagnostics.error_count();
   const NodeType* type = registry_.find(node_name(call.name));
   NodePtr node = fold_name(call.name) == "root" ? make_root(call, diagnostics)
@@ -105,12 +104,12 @@ NodePtr VcadVocabulary::make(const Invocation& call, Diagnostics& diagnostics) {
   return node;
 }
 
-NodePtr VcadVocabulary::make_of_type(const NodeType& type, const Invocation& call, Diagnostics& diagnostics) {
+NodePtr VcadVocabulary::make_of_type(const NodeType& type, Invocation& call, Diagnostics& diagnostics) {
   std::vector<NamedValue> values;
-  const auto arguments = modern_arguments(type, call.arguments);
-  if (!bind(type, arguments, values, diagnostics, call.whole)) return nullptr;
+  if (!bind_arguments(type, modern_arguments(type, std::move(call.arguments)), values, diagnostics, call.whole))
+    return nullptr;
   const Reader reader{materials_, diagnostics, loader_, call.whole, type.name, ""};
-  std::vector<NodePtr> children = call.children;
+  std::vector<NodePtr>& children = call.children;
   if (children.empty() && call.has_wrong_children && type.inputs.least > 0) return nullptr;  // told already
   if (type.inputs.grouped && call.group_ends.size() < children.size()) {
     children = groups(call, reader);
@@ -120,7 +119,7 @@ NodePtr VcadVocabulary::make_of_type(const NodeType& type, const Invocation& cal
     children = {joined(std::move(children), reader)};
     if (!children[0]) return nullptr;
   }
-  return shared(design::make_node(type, values, std::move(children), reader));
+  return known_.first(design::make_node(type, values, std::move(children), reader));
 }
 
 // As OpenSCAD has it: difference() { for (...) ...; sphere(5); } takes the ball out of all that the loop makes.
@@ -130,7 +129,7 @@ std::vector<NodePtr> VcadVocabulary::groups(const Invocation& call, const Reader
   for (const size_t end : call.group_ends) {
     const auto first = call.children.begin() + static_cast<std::ptrdiff_t>(begin),
                last = call.children.begin() + static_cast<std::ptrdiff_t>(end);
-    result.push_back(shared(joined({first, last}, reader)));
+    result.push_back(known_.first(joined({first, last}, reader)));
     if (!result.back()) return {};
     begin = end;
   }
@@ -139,16 +138,6 @@ std::vector<NodePtr> VcadVocabulary::groups(const Invocation& call, const Reader
 
 NodePtr VcadVocabulary::joined(std::vector<NodePtr> nodes, const Reader& reader) const {
   return nodes.size() == 1 ? nodes[0] : design::make_node(*registry_.find("union"), {}, std::move(nodes), reader);
-}
-
-// Equal type, parameters and inputs: the node that is there already.
-NodePtr VcadVocabulary::shared(NodePtr node) {
-  if (!node) return node;
-  std::string key = node->type().name;
-  for (size_t i = 0; i < node->type().parameters.size(); ++i)
-    key += '|' + print_json_line(node->type().get(node->value(), i, false));
-  for (const NodePtr& input : node->inputs()) key += '@' + std::to_string(reinterpret_cast<uintptr_t>(input.get()));
-  return known_.try_emplace(hash_bytes(key), node).first->second;
 }
 
 NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnostics) {

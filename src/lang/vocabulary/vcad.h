@@ -1,12 +1,11 @@
 // The .vcad vocabulary: calls of a script -> nodes of a design, the forms of older files included.
 #pragma once
 
-#include <map>
 #include <optional>
 
-#include "base/hash.h"
 #include "design/design.h"
 #include "lang/vocabulary.h"
+#include "lang/vocabulary/equal_nodes.h"
 
 namespace ombre::lang {
 
@@ -20,7 +19,7 @@ class VcadVocabulary : public Vocabulary {
   std::vector<std::string> names() const override;
   std::optional<Data> constant(std::string_view name) const override;
   std::vector<std::string> constants() const override;
-  design::NodePtr make(const Invocation& call, Diagnostics& diagnostics) override;
+  design::NodePtr make(Invocation call, Diagnostics& diagnostics) override;
 
   // The design that the top-level nodes make; nothing, and a diagnostic, when there is none.
   std::optional<design::Design> finish(const std::vector<design::NodePtr>& top_level, const SourceRange& whole,
@@ -28,15 +27,14 @@ class VcadVocabulary : public Vocabulary {
 
  private:
   design::NodePtr make_root(const Invocation& call, Diagnostics& diagnostics);
-  design::NodePtr make_of_type(const design::NodeType& type, const Invocation& call, Diagnostics& diagnostics);
+  design::NodePtr make_of_type(const design::NodeType& type, Invocation& call, Diagnostics& diagnostics);
   std::vector<design::NodePtr> groups(const Invocation& call, const design::Reader& reader);
   design::NodePtr joined(std::vector<design::NodePtr> nodes, const design::Reader& reader) const;
-  design::NodePtr shared(design::NodePtr node);
 
   const design::Registry& registry_;
   const design::MaterialTable& materials_;
   design::SourceLoader* loader_;
-  std::map<Hash, design::NodePtr> known_;  // equal nodes become one
+  EqualNodes known_;
   std::optional<design::Sampling> sampling_;
   std::optional<SourceRange> root_where_;
   design::NodePtr root_;

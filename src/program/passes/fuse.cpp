@@ -3,6 +3,7 @@
 // A product that depends on fewer axes than the sum stays by itself: it is computed once for many sums.
 #include <algorithm>
 
+#include "program/passes/passes.h"
 #include "program/passes/replay.h"
 
 namespace ombre::program {
@@ -69,5 +70,9 @@ class Fuser {
 }  // namespace
 
 Program fuse(const Program& program) { return rewritten_by<Fuser>(program); }
+
+void fuse(const Program& program, Workspace& workspace, Program& result) {
+  rewrite_by<Fuser>(program, workspace, result);
+}
 
 }  // namespace ombre::program

@@ -29,6 +29,11 @@ Program sign_only(const Program& program);
 // Affine maps become chains of fused multiply-adds, and so do products that are only added to something.
 Program fuse(const Program& program);
 
+// Both as above, with allocations kept from program to program (replay.h).
+struct Workspace;
+void sign_only(const Program& program, Workspace& workspace, Program& result);
+void fuse(const Program& program, Workspace& workspace, Program& result);
+
 // Moves what output 0 needs to the front and returns how many instructions that is.
 size_t order_for_first(Program& program);
 

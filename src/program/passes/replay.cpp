@@ -33,25 +33,34 @@ Field copy(Builder& builder, const Program& program, const Instruction& in, cons
 
 }  // namespace
 
-std::vector<Field> replay(Builder& builder, const Program& program, const std::array<Field, 3>& inputs,
-                          const Rewrite& rewrite) {
-  std::vector<Field> done;
+namespace {
+
+void replay_into(std::vector<Field>& done, Builder& builder, const Program& program, const std::array<Field, 3>& inputs,
+                 const Rewrite& rewrite) {
+  done.clear();
   done.reserve(program.code.size());
   for (ValueId id = 0; id < program.code.size(); ++id) {
     const auto changed = rewrite ? rewrite(id, done) : std::nullopt;
     done.push_back(changed ? *changed : copy(builder, program, program.code[id], inputs, done));
   }
+}
+
+}  // namespace
+
+std::vector<Field> replay(Builder& builder, const Program& program, const std::array<Field, 3>& inputs,
+                          const Rewrite& rewrite) {
+  std::vector<Field> done;
+  replay_into(done, builder, program, inputs, rewrite);
   return done;
 }
 
-Program rewritten(const Program& program, const std::function<Rewrite(Builder&)>& rewrite) {
-  Builder builder;
-  const auto fields =
-      replay(builder, program, {builder.input(0), builder.input(1), builder.input(2)}, rewrite(builder));
-  std::vector<std::pair<std::string, Field>> outputs;
+void rewrite(const Program& program, Workspace& workspace, const Rewrite& rewrite, Program& result) {
+  auto& [builder, fields, outputs] = workspace;
+  replay_into(fields, builder, program, {builder.input(0), builder.input(1), builder.input(2)}, rewrite);
+  outputs.clear();
   for (size_t n = 0; n < program.outputs.size(); ++n)
     outputs.emplace_back(program.output_names[n], fields[program.outputs[n]]);
-  return builder.finish(outputs);
+  builder.finish(outputs, result);
 }
 
 std::vector<uint8_t> axis_masks(const Program& program) {

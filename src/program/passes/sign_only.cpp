@@ -1,6 +1,7 @@
 // Where a distance is only compared with zero, its value need not be computed.
 #include <algorithm>
 
+#include "program/passes/passes.h"
 #include "program/passes/replay.h"
 
 namespace ombre::program {
@@ -90,5 +91,9 @@ class SignOnly {
 }  // namespace
 
 Program sign_only(const Program& program) { return rewritten_by<SignOnly>(program); }
+
+void sign_only(const Program& program, Workspace& workspace, Program& result) {
+  rewrite_by<SignOnly>(program, workspace, result);
+}
 
 }  // namespace ombre::program
