@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# Draws examples/pictures/NAME.png for every example, and docs/hero.png. The same program draws the
-# same bytes on every machine.
+# Draws examples/pictures/NAME.png for every example, and the pictures of the documents.
 #
 #   tools/make_pictures.sh PATH_OF_OMBRE [NAME ...]
 set -euo pipefail
@@ -16,26 +15,25 @@ export OMBRE_DATA=$PWD
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# Layers on the sheet, and options of `ombre slice`. Rows of tiles are full with 2, 3, 6, 8 or 15 of them.
-# Coarser voxels than the design's own show single ones, and make small files.
+# Options of `ombre render`.
 declare -A options=(
-  [calibration_sheet]="2 --voxel 0.25"
-  [cone_and_sphere]="8 --voxel 0.2"
-  [gear]="3 --voxel 0.3"
-  [graded_cube]="3 --voxel 0.2"
-  [graded_wing]="8"
-  [knob]="8 --voxel 0.2"
-  [mug]="8 --voxel 0.6"
-  [overlap]="8"
-  [parametric_hook]="8 --voxel 0.2"
-  [soft_actuator]="8"
-  [tensile_bar_prob]="2"
-  [tensile_bar_thresh]="2"
-  [tetrahedron]="8 --voxel 0.2"
+  [calibration_sheet]="--from -20,55"
+  [graded_wing]="--from -20,35"
+  [knob]="--cut x=0 --from -50,20"
+  [soft_actuator]="--from -50,15"
 )
 
-# draw NAME PICTURE COUNT [OPTION ...]
-draw() {
+# render NAME PICTURE SIZE [OPTION ...]
+render() {
+  local name=$1 picture=$2 size=$3
+  shift 3
+  "$ombre" render "examples/$name.vcad" -o "$picture" --size "$size" --force --quiet "$@"
+  echo "$picture"
+}
+
+# Coarser voxels than the design's own show single ones, and make small files.
+# draw_layers NAME PICTURE COUNT [OPTION OF `ombre slice` ...]
+draw_layers() {
   local name=$1 picture=$2 count=$3
   shift 3
   rm -rf "$scratch/job"
@@ -48,7 +46,11 @@ mkdir -p examples/pictures
 for file in examples/*.vcad; do
   name=$(basename "$file" .vcad)
   if [[ $# -gt 0 && " $* " != *" $name "* ]]; then continue; fi
-  read -ra chosen <<<"${options[$name]:-8}"
-  draw "$name" "examples/pictures/$name.png" "${chosen[@]}"
+  read -ra chosen <<<"${options[$name]:-}"
+  render "$name" "examples/pictures/$name.png" 640x480 "${chosen[@]}"
 done
-if [[ $# -eq 0 || " $* " == *" hero "* ]]; then draw graded_wing docs/hero.png 6 --layers 18:48; fi
+if [[ $# -eq 0 || " $* " == *" docs "* ]]; then
+  render graded_wing docs/hero.png 1000x360 --from -20,35 --aa 3
+  draw_layers graded_wing docs/wing_layers.png 6 --layers 18:48
+  draw_layers knob docs/knob_layers.png 8 --voxel 0.2
+fi

@@ -54,6 +54,22 @@ TEST(CommandLine, SlipsGetSuggestions) {
   expect_wrong({"nodes", "spere"}, "did you mean \"sphere\"?");
 }
 
+TEST(CommandLine, PicturesSayWhatToWrite) {
+  expect_wrong({"render", "part.vcad", "--size", "800"}, "write for example --size 800x600");
+  expect_wrong({"render", "part.vcad", "--size", "0x600"}, "write for example --size 800x600");
+  expect_wrong({"render", "part.vcad", "--size", "99999x600"}, "at most 16384 each way");
+  expect_wrong({"render", "part.vcad", "--cut", "w=1"}, "write for example --cut x=0");
+  expect_wrong({"render", "part.vcad", "--from", "30"}, "write for example --from 30,20");
+  expect_wrong({"render", "part.vcad", "--from", "30,120"}, "elevation from -90 to 90");
+  expect_wrong({"render", "part.vcad", "--opacity", "clear"}, "write for example --opacity clear=0.2");
+  expect_wrong({"render", "part.vcad", "--opacity", "clear=2"}, "a number from 0 to 1");
+  expect_wrong({"render", "part.vcad", "--background", "#12345"}, "for example #20304a");
+  expect_wrong({"render", "part.vcad", "--box", "0,0,0,1,1,0"}, "write for example --box");
+  expect_wrong({"render", "part.vcad", "--view", "below"}, "below");
+  expect_wrong({"render", "part.vcad", "-o", "-", "--frames", "3"}, "stdout holds one picture");
+  expect_wrong({"render", "part.vcad", "-o", "-", "--json"}, "give -o a file name");
+}
+
 TEST(CommandLine, MissingFilesAreFailuresOfTheMachine) {
   const Outcome outcome = run_with({"sheet", "/nowhere/at/all"});
   EXPECT_EQ(outcome.code, failed);

@@ -43,6 +43,23 @@ double common_height(const Box& box, const PictureRequest& request, double aspec
   return height;
 }
 
+// Some rows after the other, so that large pictures fit into memory.
+std::vector<uint8_t> expose(const render::Scene& scene, const render::Film& film, const render::Camera& camera,
+                            const PictureRequest& request, const StopFlag& stop) {
+  constexpr int64_t most_rays = 4'000'000;
+  const int64_t samples = request.samples, rows = std::max<int64_t>(1, most_rays / (film.width * samples));
+  std::vector<uint8_t> pixels;
+  pixels.reserve(static_cast<size_t>(request.width * request.height * 4));
+  for (int64_t begin = 0; begin < request.height; begin += rows) {
+    const int64_t end = std::min(begin + rows, request.height);
+    const auto band = render::cast_rays(scene, film, begin * samples - 1, end * samples + 1, request.threads,
+                                        [&] { return stop.requested(); });
+    if (stop.requested()) throw Cancelled();
+    render::shade(band, film, camera, samples, request.background, begin, end, pixels);
+  }
+  return pixels;
+}
+
 }  // namespace
 
 std::optional<CutRequest> parse_cut(std::string_view text) {
@@ -87,10 +104,7 @@ bool take_pictures(const Loaded& loaded, const PictureRequest& request, const St
     if (!scene) return false;
     render::Film sharp = film;
     sharp.pixel_mm = camera.height_mm / static_cast<double>(sharp.height);
-    const auto hits = render::cast_rays(*scene, sharp, request.threads, [&] { return stop.requested(); });
-    if (stop.requested()) throw Cancelled();
-    take(frame, {render::shade(hits, sharp, camera, request.samples, request.background),
-                 sharp.pixel_mm * static_cast<double>(request.samples)});
+    take(frame, {expose(*scene, sharp, camera, request, stop), sharp.pixel_mm * static_cast<double>(request.samples)});
   }
   return true;
 }

@@ -13,10 +13,8 @@ namespace {
 struct Shot {
   render::Film film;
   render::Camera camera;
-  std::vector<render::RayHit> hits;
-  const render::RayHit& at(int64_t column, int64_t row) const {
-    return hits[static_cast<size_t>(row * film.width + column)];
-  }
+  render::RayBand band;
+  const render::RayHit& at(int64_t column, int64_t row) const { return band.at(column, row); }
 };
 
 Shot shoot(const std::string& text, render::ViewOptions view, SceneOptions options = {}, int threads = 1,
@@ -30,7 +28,7 @@ Shot shoot(const std::string& text, render::ViewOptions view, SceneOptions optio
   shot.film = {edge, edge, shot.camera.height_mm / static_cast<double>(edge)};
   const auto scene = make_scene(loaded->design, box, shot.camera, options, diagnostics);
   EXPECT_TRUE(scene) << to_text(diagnostics);
-  shot.hits = render::cast_rays(*scene, shot.film, threads, nullptr);
+  shot.band = render::cast_rays(*scene, shot.film, 0, edge, threads, nullptr);
   return shot;
 }
 
@@ -67,7 +65,7 @@ TEST(Pictures, PerspectiveSeesTheConeAroundASphere) {
   // The outline of a sphere lies on the cone of tangents.
   const double outline = away * std::tan(std::asin(10 / away));
   size_t seen = 0;
-  for (const render::RayHit& ray : shot.hits) seen += ray.surface != none;
+  for (const render::RayHit& ray : shot.band.hits) seen += ray.surface != none;
   const double area = static_cast<double>(seen) * shot.film.pixel_mm * shot.film.pixel_mm;
   EXPECT_NEAR(area / (3.14159265358979 * outline * outline), 1, 0.005);
   const float nearest = shot.at(100, 100).surface;
@@ -81,7 +79,7 @@ TEST(Pictures, MeshesAndCallsAndManyPartsAreSeenToo) {
   const LoadedPtr loaded = load_text(mesh, diagnostics);
   const Box box = *design_box(loaded->design, diagnostics);
   float top = none;
-  for (const render::RayHit& ray : gear.hits) top = std::min(top, ray.surface);
+  for (const render::RayHit& ray : gear.band.hits) top = std::min(top, ray.surface);
   EXPECT_NEAR(top, -box.size().z / 2, gear.film.pixel_mm / 100);
 
   std::string balls = "union() {";
@@ -89,7 +87,7 @@ TEST(Pictures, MeshesAndCallsAndManyPartsAreSeenToo) {
     balls += "translate(" + std::to_string(3 * (n % 8)) + ", " + std::to_string(3 * (n / 8)) + ", 0) sphere(1);";
   const Shot many = shoot(balls + "}", view("top"), {}, 1, 400);
   size_t seen = 0;
-  for (const render::RayHit& ray : many.hits) seen += ray.surface != none;
+  for (const render::RayHit& ray : many.band.hits) seen += ray.surface != none;
   EXPECT_NEAR(static_cast<double>(seen) * many.film.pixel_mm * many.film.pixel_mm, 40 * 3.14159265, 1.5);
 }
 
@@ -124,14 +122,35 @@ TEST(Pictures, LightFadesInTranslucentMaterial) {
   EXPECT_NEAR(filled.at(100, 100).passes, std::pow(0.7, 2 / clarity), 0.01);
 }
 
+TEST(Pictures, DoNotDependOnBands) {
+  Diagnostics diagnostics;
+  const LoadedPtr loaded =
+      load_text("union() { sphere(8, \"red\"); translate(5, 0, 0) cube(9, \"clear\"); }", diagnostics);
+  const Box box = *design_box(loaded->design, diagnostics);
+  const render::Camera camera = render::camera_around(box, view("iso"), 1);
+  const render::Film film{100, 100, camera.height_mm / 100};
+  const auto scene = make_scene(loaded->design, box, camera, {}, diagnostics);
+  const render::RayBand whole = render::cast_rays(*scene, film, 0, 100, 1, nullptr);
+  for (const int64_t begin : {0, 13, 77}) {
+    const render::RayBand part = render::cast_rays(*scene, film, begin, begin + 20, 1, nullptr);
+    for (int64_t row = begin; row < begin + 20; ++row) {
+      for (int64_t column = 0; column < film.width; ++column) {
+        ASSERT_EQ(whole.at(column, row).surface, part.at(column, row).surface);
+        ASSERT_EQ(whole.at(column, row).end, part.at(column, row).end);
+        ASSERT_NEAR(whole.at(column, row).passes, part.at(column, row).passes, 0.02);
+      }
+    }
+  }
+}
+
 TEST(Pictures, DoNotDependOnThreads) {
   const std::string text =
       "fgrade([\"0.5 + x/40\", \"0.5 - x/40\"], [\"red\", \"clear\"]) rotate(20, 30, 40) cube(20);";
   const Shot one = shoot(text, view("iso"), {}, 1), two = shoot(text, view("iso"), {}, 2);
-  for (size_t n = 0; n < one.hits.size(); ++n) {
-    ASSERT_EQ(one.hits[n].end, two.hits[n].end);
-    ASSERT_EQ(one.hits[n].passes, two.hits[n].passes);
-    ASSERT_EQ(one.hits[n].veil.red, two.hits[n].veil.red);
+  for (size_t n = 0; n < one.band.hits.size(); ++n) {
+    ASSERT_EQ(one.band.hits[n].end, two.band.hits[n].end);
+    ASSERT_EQ(one.band.hits[n].passes, two.band.hits[n].passes);
+    ASSERT_EQ(one.band.hits[n].veil.red, two.band.hits[n].veil.red);
   }
 }
 
@@ -147,7 +166,7 @@ TEST_P(EveryPicture, ShowsWhatTheReferenceFinds) {
   const render::Camera camera = render::camera_around(box, view("iso"), 1);
   const render::Film film{160, 160, camera.height_mm / 160};
   const auto scene = make_scene(loaded->design, box, camera, {}, diagnostics);
-  const auto hits = render::cast_rays(*scene, film, 2, nullptr);
+  const auto hits = render::cast_rays(*scene, film, 0, film.height, 2, nullptr).hits;
   const program::Program program =
       program::expand_parts(scene->program, std::vector<Interval>(scene->program.code.size(), Interval(-1e4, 1e4)),
                             program::Precision::reference);
@@ -199,6 +218,11 @@ TEST(Pictures, WhatIsWrongIsSaid) {
   EXPECT_FALSE(take_pictures(*loaded, request, stop, ignore, diagnostics));
   EXPECT_NE(to_text(diagnostics).find("there is no material \"glass\""), std::string::npos);
   request.opacity.clear();
+  const LoadedPtr mesh = load_text("mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");", diagnostics);
+  request.view.field_of_view_deg = 30;
+  EXPECT_FALSE(take_pictures(*mesh, request, stop, ignore, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("leave out --perspective"), std::string::npos);
+  request.view.field_of_view_deg = 0;
   request.cuts = {{0, '>', -11}};
   EXPECT_FALSE(take_pictures(*loaded, request, stop, ignore, diagnostics));
   EXPECT_NE(to_text(diagnostics).find("nothing of the design is left by the cuts"), std::string::npos);

@@ -106,6 +106,11 @@ std::optional<render::Scene> make_scene(const design::Design& design, const Box&
                                   {"opacity", opacity}});
   if (!fits_flat(design, scene.program, diagnostics)) return std::nullopt;
   scene.program = program::inline_bodies(scene.program);
+  if (!camera.is_orthographic() && !scene.program.reads.empty()) {
+    diagnostics.error(design.parts[0].solid->where(), "a design with meshes cannot be shown in perspective",
+                      "leave out --perspective");
+    return std::nullopt;
+  }
   find_depths(scene, box, camera);
   scene.clarity_mm = length(box.size()) / 4;
   return scene;

@@ -95,7 +95,7 @@ class RaySamples : public eval::SourceRows {
 class RayCaster {
  public:
   RayCaster(const Scene& scene, const program::Program& batch, const RayLattice& lattice, const Clarity& clarity,
-            std::vector<RayHit>& hits)
+            RayBand& hits)
       : scene_(scene),
         program_(batch),
         lattice_(lattice),
@@ -124,7 +124,7 @@ class RayCaster {
     return fine;
   }
 
-  RayHit& hit(int64_t column, int64_t row) { return hits_[static_cast<size_t>(row * lattice_.film.width + column)]; }
+  RayHit& hit(int64_t column, int64_t row) { return hits_.at(column, row); }
   bool is_open(int64_t column, int64_t row) { return hit(column, row).end == RayHit::none; }
   bool is_hidden(const TileBox& tile) {
     for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row)
@@ -327,7 +327,7 @@ class RayCaster {
   const Clarity& clarity_;
   eval::BatchEvaluator batch_;
   RaySamples samples_;
-  std::vector<RayHit>& hits_;
+  RayBand& hits_;
   size_t width_ = 0, stride_ = 0;
   std::vector<float> depths_;  // of the samples at work
   std::vector<eval::PointRow> rows_;
@@ -349,29 +349,28 @@ std::vector<std::unique_ptr<program::RowSampler>> place_sources(program::Program
 
 }  // namespace
 
-std::vector<RayHit> cast_rays(const Scene& scene, const Film& film, int threads,
-                              const std::function<bool()>& is_stopped) {
+RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t end, int threads,
+                  const std::function<bool()>& is_stopped) {
   if (eval::kernel_sets().empty()) throw Error("pictures need a processor with hardware multiply-add");
   const RayLattice lattice(scene, film);
-  program::Program reference = scene.program;
   const Clarity clarity(film.pixel_mm / steps_per_pixel / scene.clarity_mm);
+  program::Program reference = scene.program;
   const auto samplers = place_sources(reference, lattice);
   const program::Program batch = fuse(sign_only(reference));
-  std::vector<RayHit> hits(static_cast<size_t>(film.width * film.height));
-  const int64_t across = (film.width + tile_edge - 1) / tile_edge, down = (film.height + tile_edge - 1) / tile_edge;
+  RayBand band{begin, end, film.width, std::vector<RayHit>(static_cast<size_t>(film.width * (end - begin)))};
+  const int64_t across = (film.width + tile_edge - 1) / tile_edge, down = (end - begin + tile_edge - 1) / tile_edge;
   run_parallel(static_cast<size_t>(across * down), threads, [&](size_t n) {
     if (is_stopped && is_stopped()) return;
     const int64_t column = static_cast<int64_t>(n) % across * tile_edge,
-                  row = static_cast<int64_t>(n) / across * tile_edge;
-    const TileBox tile{
-        {0, column, row},
-        {lattice.steps, std::min(column + tile_edge, film.width), std::min(row + tile_edge, film.height)}};
+                  row = begin + static_cast<int64_t>(n) / across * tile_edge;
+    const TileBox tile{{0, column, row},
+                       {lattice.steps, std::min(column + tile_edge, film.width), std::min(row + tile_edge, end)}};
     TileBox strip = tile;
     strip.hi[0] = lattice.steps * fine_per_step;
     const StripSources sources(samplers, strip);
-    RayCaster(scene, batch, lattice, clarity, hits).cast(tile, sources);
+    RayCaster(scene, batch, lattice, clarity, band).cast(tile, sources);
   });
-  return hits;
+  return band;
 }
 
 }  // namespace ombre::render

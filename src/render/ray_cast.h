@@ -31,10 +31,21 @@ struct Film {
   double down_of(int64_t row) const { return (static_cast<double>(2 * row + 1 - height)) * 0.5 * pixel_mm; }
 };
 
-// hits[row * width + column]. The same whatever the number of threads. Surfaces are found to some thousandths
-// of a pixel; what is thinner than a quarter of a pixel along the ray may be missed. `is_stopped` is asked now and
-// then; if it says so, the rest is left empty.
-std::vector<RayHit> cast_rays(const Scene& scene, const Film& film, int threads,
-                              const std::function<bool()>& is_stopped);
+// What the rays of some rows of the film meet.
+struct RayBand {
+  int64_t begin = 0, end = 0, width = 0;  // rows, columns
+  std::vector<RayHit> hits;               // row by row
+  RayHit& at(int64_t column, int64_t row) { return hits[static_cast<size_t>((row - begin) * width + column)]; }
+  const RayHit& at(int64_t column, int64_t row) const {
+    return hits[static_cast<size_t>((row - begin) * width + column)];
+  }
+};
+
+// Of rows [begin, end), which may lie beyond the film. The same whatever the band, but for sums over translucent
+// material, and the number of threads.
+// Surfaces are found to some thousandths of a pixel; what is thinner than a quarter of a pixel along the ray may be
+// missed. `is_stopped` is asked now and then; if it says so, the rest is left empty.
+RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t end, int threads,
+                  const std::function<bool()>& is_stopped);
 
 }  // namespace ombre::render

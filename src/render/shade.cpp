@@ -38,12 +38,12 @@ Light light_on(Vec3 normal) {
 // Depths as a field over the film, and the surface's direction in it.
 class Relief {
  public:
-  Relief(const std::vector<RayHit>& hits, const Film& film, const Camera& camera, float RayHit::*depth)
-      : hits_(hits), film_(film), camera_(camera), depth_(depth) {}
+  Relief(const RayBand& band, const Film& film, const Camera& camera, float RayHit::*depth)
+      : band_(band), film_(film), camera_(camera), depth_(depth) {}
 
   float depth(int64_t column, int64_t row) const {
-    if (column < 0 || row < 0 || column >= film_.width || row >= film_.height) return RayHit::none;
-    return hits_[static_cast<size_t>(row * film_.width + column)].*depth_;
+    if (column < 0 || column >= film_.width || row < band_.begin || row >= band_.end) return RayHit::none;
+    return band_.at(column, row).*depth_;
   }
 
   // Towards the eye. Of the neighbours on both sides the nearer one in depth is taken: the other may lie behind an
@@ -70,7 +70,7 @@ class Relief {
     return place(column, row) - place(column - dx, row - dy);
   }
 
-  const std::vector<RayHit>& hits_;
+  const RayBand& band_;
   const Film& film_;
   const Camera& camera_;
   float RayHit::*depth_;
@@ -92,15 +92,13 @@ Colour linear(Rgba8 srgb) {
           static_cast<float>(to_linear(srgb[2]))};
 }
 
-std::vector<uint8_t> shade(const std::vector<RayHit>& hits, const Film& film, const Camera& camera, int64_t samples,
-                           const Background& background) {
-  const Relief outer(hits, film, camera, &RayHit::surface), inner(hits, film, camera, &RayHit::end);
+void shade(const RayBand& band, const Film& film, const Camera& camera, int64_t samples, const Background& background,
+           int64_t begin, int64_t end, std::vector<uint8_t>& pixels) {
+  const Relief outer(band, film, camera, &RayHit::surface), inner(band, film, camera, &RayHit::end);
   const int64_t width = film.width / samples, height = film.height / samples;
   const Colour top = linear(background.top), bottom = linear(background.bottom);
   const double rays = static_cast<double>(samples * samples);
-  std::vector<uint8_t> pixels;
-  pixels.reserve(static_cast<size_t>(width * height * 4));
-  for (int64_t y = 0; y < height; ++y) {
+  for (int64_t y = begin; y < end; ++y) {
     const auto down = static_cast<float>((static_cast<double>(y) + 0.5) / static_cast<double>(height));
     const auto mixed = [&](float a, float b) { return a + (b - a) * down; };
     const Colour behind{mixed(top.red, bottom.red), mixed(top.green, bottom.green), mixed(top.blue, bottom.blue)};
@@ -108,7 +106,7 @@ std::vector<uint8_t> shade(const std::vector<RayHit>& hits, const Film& film, co
       Sum sum;
       for (int64_t row = y * samples; row < (y + 1) * samples; ++row) {
         for (int64_t column = x * samples; column < (x + 1) * samples; ++column) {
-          const RayHit& ray = hits[static_cast<size_t>(row * film.width + column)];
+          const RayHit& ray = band.at(column, row);
           double left = 1;
           if (ray.surface != RayHit::none && ray.surface != ray.end) {
             const Light light = light_on(outer.normal(column, row));
@@ -131,7 +129,6 @@ std::vector<uint8_t> shade(const std::vector<RayHit>& hits, const Film& film, co
       pixels.push_back(static_cast<uint8_t>(std::lround(255 * alpha)));
     }
   }
-  return pixels;
 }
 
 }  // namespace ombre::render

@@ -20,9 +20,9 @@ struct Background {
   bool is_transparent = false;
 };
 
-// Pixels of width / samples x height / samples, RGBA, rows from the top: the mean of samples x samples rays each.
-// Light comes from the eye's side, from above on the left.
-std::vector<uint8_t> shade(const std::vector<RayHit>& hits, const Film& film, const Camera& camera, int64_t samples,
-                           const Background& background);
+// Appends rows [begin, end) of pixels, RGBA from left to right: the mean of samples x samples rays each. The band has
+// their rays, and a row more above and below. Light comes from the eye's side, from above on the left.
+void shade(const RayBand& band, const Film& film, const Camera& camera, int64_t samples, const Background& background,
+           int64_t begin, int64_t end, std::vector<uint8_t>& pixels);
 
 }  // namespace ombre::render
