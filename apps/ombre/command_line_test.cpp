@@ -67,7 +67,6 @@ TEST(CommandLine, PicturesSayWhatToWrite) {
   expect_wrong({"render", "part.vcad", "--box", "0,0,0,1,1,0"}, "write for example --box");
   expect_wrong({"render", "part.vcad", "--view", "below"}, "below");
   expect_wrong({"render", "part.vcad", "-o", "-", "--frames", "3"}, "stdout holds one picture");
-  expect_wrong({"render", "part.vcad", "-o", "-", "--json"}, "give -o a file name");
 }
 
 TEST(CommandLine, MissingFilesAreFailuresOfTheMachine) {

@@ -218,7 +218,9 @@ TEST(Pictures, WhatIsWrongIsSaid) {
   EXPECT_FALSE(take_pictures(*loaded, request, stop, ignore, diagnostics));
   EXPECT_NE(to_text(diagnostics).find("there is no material \"glass\""), std::string::npos);
   request.opacity.clear();
-  const LoadedPtr mesh = load_text("mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");", diagnostics);
+  Diagnostics none_yet;
+  const LoadedPtr mesh = load_text("mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");", none_yet);
+  ASSERT_TRUE(mesh);
   request.view.field_of_view_deg = 30;
   EXPECT_FALSE(take_pictures(*mesh, request, stop, ignore, diagnostics));
   EXPECT_NE(to_text(diagnostics).find("leave out --perspective"), std::string::npos);

@@ -61,7 +61,7 @@ class Clarity {
     }
   }
   float through(float opacity, int64_t steps) const {
-    const auto n = static_cast<size_t>(std::clamp(opacity, 0.0F, 1.0F) * grades + 0.5F);
+    const auto n = static_cast<size_t>(std::lround(std::clamp(opacity, 0.0F, 1.0F) * grades));
     if (steps == 1) return one_[n];
     if (steps == murky_steps) return some_[n];
     return static_cast<float>(math::pow(static_cast<double>(one_[n]), static_cast<double>(steps)));
