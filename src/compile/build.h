@@ -19,7 +19,11 @@ struct Built {
 };
 Built build_program(const design::Design& design);
 
-// The same, ready to be evaluated. Nothing, and a diagnostic, when it would not fit into memory.
+// Bodies written out where they are called. Nothing, and a diagnostic, when that would not fit into memory.
+std::optional<program::Program> flatten(const program::Program& program, const SourceRange& where,
+                                        Diagnostics& diagnostics);
+
+// build_program, ready to be evaluated. Nothing, and a diagnostic, when it would not fit into memory.
 std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics);
 
 // Leaves out materials and checks that cannot occur within the box, and what only they needed.
