@@ -18,7 +18,7 @@ uint64_t parse_seed(const std::string& text) {
 
 }  // namespace
 
-void add_job_arguments(CLI::App& app, JobArguments& a) {
+void add_voxel_arguments(CLI::App& app, JobArguments& a) {
   app.add_option("design", a.design, "The design, a .vcad file")->required()->type_name("FILE");
   app.add_option("--printer", a.printer, "Printer profile: a name, or the path of a .json file")->type_name("NAME");
   CLI::Option* voxel = app.add_option("--voxel", a.voxel, "Voxel size: one length, or x,y,z; mm")->type_name("X,Y,Z");
@@ -35,20 +35,24 @@ void add_job_arguments(CLI::App& app, JobArguments& a) {
       ->check(CLI::IsMember({"batch", "reference"}))
       ->type_name("NAME");
   app.add_option("--seed", a.seed, "Seed of the dithering (default 0); equal seeds give equal files")->type_name("N");
-  app.add_option("--format", a.image, "Image format: rgba, indexed, gray or mask (default: the printer's)")
-      ->check(CLI::IsMember(voxel::image_format_names()))
-      ->type_name("FORMAT");
   CLI::Option* place =
       app.add_option("--place", a.place,
-                     "Images cover the design's own box, or the build plate with the part in its middle")
+                     "Layers cover the design's own box, or the build plate with the part in its middle")
           ->check(CLI::IsMember({"design", "center"}))
           ->type_name("design|center");
-  app.add_flag("--tray", a.tray, "Images cover the printer's whole build box, the design where it stands")
+  app.add_flag("--tray", a.tray, "Layers cover the printer's whole build box, the design where it stands")
       ->excludes(place);
   app.add_option("--materials", a.materials, "Materials file (see: ombre materials)")->type_name("FILE");
   app.add_option("-D,--define", a.definitions, "Set a variable of the design; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
+}
+
+void add_job_arguments(CLI::App& app, JobArguments& a) {
+  add_voxel_arguments(app, a);
+  app.add_option("--format", a.image, "Image format: rgba, indexed, gray or mask (default: the printer's)")
+      ->check(CLI::IsMember(voxel::image_format_names()))
+      ->type_name("FORMAT");
 }
 
 std::optional<compile::PlanOptions> plan_options(const JobArguments& a, Diagnostics& diagnostics) {
