@@ -3,9 +3,11 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <variant>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "compile/sparse_file.h"
 #include "compile/volume_files.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
@@ -31,17 +33,20 @@ constexpr const char* footer =
     "FILE ends in\n"
     "  .raw    numbers alone, x fastest; FILE.json describes them\n"
     "  .npy    for NumPy, an array of shape (z, y, x); FILE.json describes it\n"
-    "  .nrrd   for 3D Slicer, ParaView and ITK; --gzip compresses\n\n"
+    "  .nrrd   for 3D Slicer, ParaView and ITK; --gzip compresses\n"
+    "  .vdb    sparse grids of OpenVDB, for Blender, Houdini and others; .nvdb the same for NanoVDB\n\n"
     "--what is\n"
-    "  materials   a byte a voxel: the number of the material that ombre slice puts there, 0 is void\n"
-    "  fractions   a file for each material: its fraction in each voxel before dithering, 0 outside\n"
+    "  materials   the number of the material that ombre slice puts there, 0 is void; a byte a voxel\n"
+    "  fractions   a grid for each material: its fraction in each voxel before dithering, 0 outside\n"
     "  distance    mm from each voxel's centre to the surface, negative inside. Where a design has only a bound of\n"
     "              its distance (unions inside, differences, blends) the surface may be farther; of a function\n"
-    "              only the sign is meant. ombre slice --emit tree says which\n\n"
+    "              only the sign is meant. ombre slice --emit tree says which. In .vdb and .nvdb a narrow\n"
+    "              band around the surface, 3 voxels to both sides\n\n"
     "Examples:\n"
     "  ombre voxels part.vcad -o part.npy                        materials, as ombre slice has them\n"
     "  ombre voxels part.vcad -o part.nrrd --what distance --voxel 0.2\n"
     "  ombre voxels part.vcad -o part.raw --what fractions       part_red.raw, part_blue.raw and so on\n"
+    "  ombre voxels part.vcad -o part.vdb                        distance, and a grid for each material\n"
     "  ombre voxels part.vcad -o part.nrrd --gzip --box -5,-5,0,5,5,2\n";
 
 void add_arguments(CLI::App& app, VoxelsArguments& a) {
@@ -49,7 +54,9 @@ void add_arguments(CLI::App& app, VoxelsArguments& a) {
   app.add_option("-o,--output", a.output, "The file to write; its ending says the format")
       ->required()
       ->type_name("FILE");
-  app.add_option("--what", a.what, "What voxels hold: materials (default), fractions, distance, or distance,fractions")
+  app.add_option("--what", a.what,
+                 "What voxels hold: materials (default; .vdb, .nvdb: distance,fractions), fractions, distance, or\n"
+                 "distance,fractions")
       ->type_name("WHAT");
   app.add_option("--box", a.box, "Only the voxels that touch this box; mm")->type_name("X0,Y0,Z0,X1,Y1,Z1");
   app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
@@ -59,19 +66,28 @@ void add_arguments(CLI::App& app, VoxelsArguments& a) {
   app.add_flag("--force", a.force, "Replace files that are there, and write even if the disk seems too small");
 }
 
-exporting::VolumeFormat chosen_format(const VoxelsArguments& a) {
+// What the ending of the file asks for: dense numbers, or sparse grids.
+using Format = std::variant<exporting::VolumeFormat, vdb::FileFormat>;
+
+Format chosen_format(const VoxelsArguments& a) {
   const std::string ending = to_lower(std::filesystem::path(a.output).extension().string());
   if (a.gzip && ending != ".nrrd")
     throw WrongArgument("--gzip is for .nrrd files; leave it out, or write -o part.nrrd");
   if (ending == ".raw") return exporting::VolumeFormat::raw;
   if (ending == ".npy") return exporting::VolumeFormat::npy;
   if (ending == ".nrrd") return a.gzip ? exporting::VolumeFormat::nrrd_gzip : exporting::VolumeFormat::nrrd;
-  throw WrongArgument("-o " + a.output + " does not say a format; let it end in .npy, .nrrd or .raw");
+  if (ending == ".vdb") return vdb::FileFormat::vdb;
+  if (ending == ".nvdb") return vdb::FileFormat::nvdb;
+  throw WrongArgument("-o " + a.output + " does not say a format; let it end in .npy, .nrrd, .raw, .vdb or .nvdb");
 }
 
-compile::GridWishes chosen_grids(const VoxelsArguments& a) {
+bool is_sparse(const Format& format) { return std::holds_alternative<vdb::FileFormat>(format); }
+
+compile::GridWishes chosen_grids(const VoxelsArguments& a, const Format& format) {
   compile::GridWishes wishes;
-  for (const std::string& word : split(a.what.empty() ? "materials" : a.what, ',')) {
+  wishes.narrow_band = is_sparse(format);
+  const std::string usual = is_sparse(format) ? "distance,fractions" : "materials";
+  for (const std::string& word : split(a.what.empty() ? usual : a.what, ',')) {
     const auto name = trim(word);
     if (name == "materials")
       wishes.materials = true;
@@ -180,6 +196,23 @@ int write_dense(const VoxelsArguments& a, const compile::GridJob& job, exporting
   return done;
 }
 
+int write_sparse(const VoxelsArguments& a, const compile::GridJob& job, vdb::FileFormat format, Session& session,
+                 const StopFlag& stop) {
+  refuse_to_overwrite(a.output, a.force);
+  tell_plan(session.console, job, {a.output}, "sparse");
+  ProgressLine progress(session.console);
+  const compile::GridReport report = compile::write_sparse(job, a.output, format, a.threads, &progress, &stop);
+  progress.finish();
+  tell_report(session.console, report);
+  return done;
+}
+
+int write(const VoxelsArguments& a, const compile::GridJob& job, const Format& format, Session& session,
+          const StopFlag& stop) {
+  if (const auto* sparse = std::get_if<vdb::FileFormat>(&format)) return write_sparse(a, job, *sparse, session, stop);
+  return write_dense(a, job, std::get<exporting::VolumeFormat>(format), session, stop);
+}
+
 std::optional<compile::GridJob> plan_job(const VoxelsArguments& a, const compile::GridWishes& wishes, Session& session,
                                          const StopFlag& stop, Diagnostics& diagnostics) {
   const auto options = plan_options(a.job, diagnostics);
@@ -193,8 +226,8 @@ std::optional<compile::GridJob> plan_job(const VoxelsArguments& a, const compile
 
 int voxels(const VoxelsArguments& a, Session& session) {
   // A slip is better told before a long load.
-  const exporting::VolumeFormat format = chosen_format(a);
-  const compile::GridWishes wishes = chosen_grids(a);
+  const Format format = chosen_format(a);
+  const compile::GridWishes wishes = chosen_grids(a, format);
   if (!a.box.empty()) parse_box(a.box);
   const InterruptGuard interrupt;
   Diagnostics diagnostics;
@@ -202,7 +235,7 @@ int voxels(const VoxelsArguments& a, Session& session) {
   session.console.diagnose(diagnostics);
   if (!job || diagnostics.has_errors()) return wrong_input;
   warn_of_metric(session.console, *job);
-  return write_dense(a, *job, format, session, interrupt.flag());
+  return write(a, *job, format, session, interrupt.flag());
 }
 
 }  // namespace

@@ -5,16 +5,10 @@
 #include <vector>
 
 #include "compile/grid_job.h"
+#include "compile/grid_report.h"
 #include "export/volume_file.h"
 
 namespace ombre::compile {
-
-struct GridReport {
-  std::vector<std::string> files;
-  uint64_t bytes_written = 0;
-  bool has_inside = false;  // else no voxel's centre is inside the design
-  double seconds = 0;
-};
 
 // One file for each grid: `path` itself if it is a single grid of materials or distances, else part_red.npy,
 // part_distance.npy and so on.

@@ -47,6 +47,8 @@ class NewFile {
   // The pieces so far are the file, which keeps its name of old until it is committed.
   void close(Durability durability = Durability::closed);
   void commit() { file_.commit(); }
+  // Its name until then.
+  const std::string& part() const { return file_.part(); }
 
  private:
   PendingFile file_;
