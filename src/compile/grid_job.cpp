@@ -60,6 +60,19 @@ TileProducer material_tiles(const LayerProducer& layers) {
   };
 }
 
+// Around a whole design there is room for the outer half of its band, where nothing is inside. A part that is cut
+// out by a box ends there.
+TileBox with_band(const TileBox& region, const voxel::Lattice& lattice, const design::Design& design) {
+  if (design.sampling || region.lo != std::array<int64_t, 3>{} || region.hi != lattice.count) return region;
+  const auto more = static_cast<int64_t>(band_voxels) + 1;
+  TileBox wider = region;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    wider.lo[axis] -= more;
+    wider.hi[axis] += more;
+  }
+  return wider;
+}
+
 std::optional<TileProducer> field_tiles(const LoadedPtr& loaded, const GridJob& job, Diagnostics& diagnostics) {
   FieldWishes wishes;
   for (const Grid& grid : job.grids) {
@@ -105,7 +118,7 @@ std::vector<TileBox> slabs_of(const GridJob& job) {
   for (int64_t k = job.region.lo[2]; k < job.region.hi[2];) {
     TileBox slab = job.region;
     slab.lo[2] = k;
-    slab.hi[2] = k = std::min((k / layers + 1) * layers, job.region.hi[2]);
+    slab.hi[2] = k = std::min(voxel::multiple_below(k, layers) + layers, job.region.hi[2]);
     slabs.push_back(slab);
   }
   return slabs;
@@ -127,10 +140,13 @@ std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, con
   job.region = region;
   job.grids = wished_grids(plan.request, wishes);
   job.metric = whole_solid(loaded->design)->metric();
-  if (wishes.narrow_band) job.band_mm = band_voxels * largest_pitch_mm(plan.request.lattice);
   if (wishes.materials) {
     job.tiles = material_tiles(plan.producer);
     return job;
+  }
+  if (wishes.narrow_band && wishes.distance) {
+    job.band_mm = band_voxels * largest_pitch_mm(plan.request.lattice);
+    job.region = with_band(region, plan.request.lattice, loaded->design);
   }
   auto tiles = field_tiles(loaded, job, diagnostics);
   if (!tiles) return std::nullopt;

@@ -31,7 +31,7 @@ struct GridWishes {
   bool narrow_band = false;  // distances beyond a few voxels are cut off
 };
 
-// Distances in a narrow band reach so far to both sides.
+// Distances in a narrow band reach so far to both sides of the surface.
 constexpr double band_voxels = 3;
 
 // Thread-safe. Values of all grids, in their order.

@@ -117,9 +117,26 @@ TEST(Grids, NarrowBandsAreCutOff) {
   const Sampled grid = sample("sphere(4);", {{false, false, true, true}, pitch(0.25), {}, 2});
   EXPECT_EQ(grid.job.band_mm, 0.75);
   const voxel::Lattice& lattice = grid.job.request.lattice;
-  for (int64_t k = 0; k < lattice.count[2]; ++k)
-    for (int64_t i = 0; i < lattice.count[0]; ++i)
+  const voxel::TileBox& region = grid.job.region;
+  EXPECT_EQ(region.lo[2], -4);  // the band goes on outside
+  EXPECT_EQ(region.hi[2], lattice.count[2] + 4);
+  for (int64_t k = region.lo[2]; k < region.hi[2]; ++k)
+    for (int64_t i = region.lo[0]; i < region.hi[0]; ++i)
       ASSERT_NEAR(grid.at(0, i, 9, k), std::clamp(length(lattice.center(i, 9, k)) - 4, -0.75, 0.75), 2e-6);
+}
+
+// Where a mesh lies on the border of the lattice too.
+TEST(Grids, BandsOfMeshesHaveNothingInsideBeyondTheLattice) {
+  const Sampled grid = sample("mesh(\"" OMBRE_SOURCE_DIR "/examples/models/tetrahedron.off\");",
+                              {{false, true, true, true}, pitch(0.3), {}, 2});
+  const voxel::TileBox& region = grid.job.region;
+  const auto& count = grid.job.request.lattice.count;
+  for (int64_t k = region.lo[2]; k < region.hi[2]; ++k)
+    for (int64_t j = region.lo[1]; j < region.hi[1]; ++j)
+      for (int64_t i = region.lo[0]; i < region.hi[0]; ++i) {
+        const bool beyond = i < 0 || j < 0 || k < 0 || i >= count[0] || j >= count[1] || k >= count[2];
+        ASSERT_TRUE(!beyond || (grid.at(0, i, j, k) > 0 && grid.at(1, i, j, k) == 0)) << i << " " << j << " " << k;
+      }
 }
 
 TEST(Grids, FractionsSumToOneInsideAndAreNothingOutside) {

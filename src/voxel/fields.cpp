@@ -102,10 +102,10 @@ class FieldWalk {
   void cut(const program::Program& program, const TileBox& tile) {
     const size_t axis = tile.size(0) * leaf_height > tile.size(1) * leaf_width ? 0 : 1;
     const int64_t unit = axis == 0 ? leaf_width : leaf_height;
-    const int64_t first = tile.lo[axis] / unit, last = (tile.hi[axis] - 1) / unit;
+    const int64_t first = multiple_below(tile.lo[axis], unit), last = multiple_below(tile.hi[axis] - 1, unit);
+    const int64_t units = (last - first) / unit + 1;
     TileBox low = tile, high = tile;
-    low.hi[axis] = high.lo[axis] = (first + (last - first + 1) / 2) * unit;
-    if (low.hi[axis] <= tile.lo[axis]) low.hi[axis] = high.lo[axis] = (first + 1) * unit;
+    low.hi[axis] = high.lo[axis] = first + std::max<int64_t>(units / 2, 1) * unit;
     ask(program, low);
     ask(program, high);
   }
@@ -212,7 +212,7 @@ std::vector<FieldTile> FieldEvaluator::tiles(const TileBox& region, const StopFl
   FieldWalk walk(*parts_, tiles);
   for (int64_t j = region.lo[1]; j < region.hi[1];) {
     if (stop && stop->requested()) throw Cancelled();
-    const int64_t end = std::min((j / strip_rows + 1) * strip_rows, region.hi[1]);
+    const int64_t end = std::min(multiple_below(j, strip_rows) + strip_rows, region.hi[1]);
     walk.run({{region.lo[0], j, region.lo[2]}, {region.hi[0], end, region.hi[2]}});
     j = end;
   }
