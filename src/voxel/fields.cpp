@@ -2,6 +2,7 @@
 #include "voxel/fields.h"
 
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "eval/batch/batch.h"
@@ -59,8 +60,7 @@ class FieldWalk {
   }
 
   void run(const TileBox& strip) {
-    const StripSources sources(parts_.samplers, strip);
-    sources_ = &sources;
+    sources_.emplace(parts_.samplers, strip);
     ask(is_batch() ? parts_.batch : parts_.reference, strip);
   }
 
@@ -189,7 +189,7 @@ class FieldWalk {
 
   const FieldEvaluator::Parts& parts_;
   std::vector<FieldTile>& tiles_;
-  const StripSources* sources_ = nullptr;
+  std::optional<StripSources> sources_;  // of the strip at work
   std::optional<eval::BatchEvaluator> batch_;
   eval::RowEvaluator rows_{static_cast<size_t>(leaf_width)};
   TilePoints points_;
