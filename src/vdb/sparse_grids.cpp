@@ -9,7 +9,6 @@ namespace ombre::vdb {
 
 struct SparseGrids::Parts {};
 
-bool is_available() { return false; }
 SparseGrids::SparseGrids(Vec3, Vec3) {
   throw Error(
       "this ombre was built without OpenVDB; install libopenvdb-dev and libnanovdb-dev, configure with "
@@ -142,8 +141,6 @@ struct SparseGrids::Parts {
             [&] { std::visit([&](const auto& grid) { f(Filling(*grid, member.grid_class)); }, member.grid); });
   }
 };
-
-bool is_available() { return true; }
 
 SparseGrids::SparseGrids(Vec3 spacing_mm, Vec3 origin_mm)
     : parts_(std::make_unique<Parts>(Parts{spacing_mm, origin_mm, {}})) {

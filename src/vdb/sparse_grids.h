@@ -25,9 +25,6 @@ struct IndexBox {
   std::array<int64_t, 3> lo{}, hi{};
 };
 
-// Was this built with the libraries?
-bool is_available();
-
 // Grids on one lattice. Voxel (i, j, k) has its centre at origin + (i, j, k) * spacing. The values of boxes in
 // any order give the same grids. All but the constructor throw Error, and nothing else, when a library fails.
 class SparseGrids {
