@@ -37,6 +37,7 @@ void add_output_options(CLI::App& app, OutputOptions& options);
 Command add_slice(CLI::App& program, OutputOptions& output);
 Command add_layer(CLI::App& program, OutputOptions& output);
 Command add_render(CLI::App& program, OutputOptions& output);
+Command add_voxels(CLI::App& program, OutputOptions& output);
 Command add_probe(CLI::App& program, OutputOptions& output);
 Command add_sheet(CLI::App& program, OutputOptions& output);
 Command add_nodes(CLI::App& program, OutputOptions& output);

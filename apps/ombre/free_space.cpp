@@ -2,16 +2,13 @@
 #include "ombre/free_space.h"
 
 #include <filesystem>
-#include <optional>
 
 #include "ombre/slice_report.h"
 
 namespace ombre::cli {
-namespace {
 
 namespace fs = std::filesystem;
 
-// Nothing where the system does not tell.
 std::optional<double> free_bytes(const std::string& folder) {
   std::error_code error;
   fs::path path = fs::absolute(folder, error);
@@ -20,8 +17,6 @@ std::optional<double> free_bytes(const std::string& folder) {
   if (error) return std::nullopt;
   return static_cast<double>(space.available);
 }
-
-}  // namespace
 
 std::string space_warning(const std::string& folder, double bytes) {
   const std::optional<double> free = free_bytes(folder);

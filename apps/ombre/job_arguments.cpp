@@ -26,7 +26,7 @@ void add_design_arguments(CLI::App& app, DesignArguments& a) {
       ->type_name("NAME=VALUE");
 }
 
-void add_job_arguments(CLI::App& app, JobArguments& a) {
+void add_voxel_arguments(CLI::App& app, JobArguments& a) {
   add_design_arguments(app, a);
   app.add_option("--printer", a.printer, "Printer profile: a name, or the path of a .json file")->type_name("NAME");
   CLI::Option* voxel = app.add_option("--voxel", a.voxel, "Voxel size: one length, or x,y,z; mm")->type_name("X,Y,Z");
@@ -43,16 +43,20 @@ void add_job_arguments(CLI::App& app, JobArguments& a) {
       ->check(CLI::IsMember({"batch", "reference"}))
       ->type_name("NAME");
   app.add_option("--seed", a.seed, "Seed of the dithering (default 0); equal seeds give equal files")->type_name("N");
+  CLI::Option* place =
+      app.add_option("--place", a.place,
+                     "Layers cover the design's own box, or the build plate with the part in its middle")
+          ->check(CLI::IsMember({"design", "center"}))
+          ->type_name("design|center");
+  app.add_flag("--tray", a.tray, "Layers cover the printer's whole build box, the design where it stands")
+      ->excludes(place);
+}
+
+void add_job_arguments(CLI::App& app, JobArguments& a) {
+  add_voxel_arguments(app, a);
   app.add_option("--format", a.image, "Image format: rgba, indexed, gray or mask (default: the printer's)")
       ->check(CLI::IsMember(voxel::image_format_names()))
       ->type_name("FORMAT");
-  CLI::Option* place =
-      app.add_option("--place", a.place,
-                     "Images cover the design's own box, or the build plate with the part in its middle")
-          ->check(CLI::IsMember({"design", "center"}))
-          ->type_name("design|center");
-  app.add_flag("--tray", a.tray, "Images cover the printer's whole build box, the design where it stands")
-      ->excludes(place);
 }
 
 std::optional<compile::PlanOptions> plan_options(const JobArguments& a, Diagnostics& diagnostics) {

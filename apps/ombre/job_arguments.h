@@ -24,7 +24,9 @@ struct JobArguments : DesignArguments {
   bool tray = false;
 };
 
-// Adds the design and the options to a command.
+// Adds the design and the options that decide its voxels to a command.
+void add_voxel_arguments(CLI::App& app, JobArguments& arguments);
+// The same, and those that decide its images.
 void add_job_arguments(CLI::App& app, JobArguments& arguments);
 
 // Nothing, and diagnostics, when there is no such printer. Throws WrongArgument.

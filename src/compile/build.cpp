@@ -44,18 +44,20 @@ Built build_program(const design::Design& design) {
   return built;
 }
 
-bool fits_flat(const design::Design& design, const program::Program& program, Diagnostics& diagnostics) {
+std::optional<program::Program> flatten(const program::Program& program, const SourceRange& where,
+                                        Diagnostics& diagnostics) {
   const double size = program::inlined_size(program);
-  if (size <= most_instructions) return true;
-  diagnostics.error(design.parts[0].solid->where(),
+  if (size <= most_instructions) return program::inline_bodies(program);
+  diagnostics.error(where,
                     "the design repeats its parts too often: about " + format_rounded(size, 2) + " operations a voxel");
-  return false;
+  return std::nullopt;
 }
 
 std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics) {
   Built built = build_program(design);
-  if (!fits_flat(design, built.materials.program, diagnostics)) return std::nullopt;
-  built.materials.program = program::inline_bodies(built.materials.program);
+  auto flat = flatten(built.materials.program, design.parts[0].solid->where(), diagnostics);
+  if (!flat) return std::nullopt;
+  built.materials.program = std::move(*flat);
   return built;
 }
 

@@ -19,11 +19,12 @@ struct Built {
 };
 Built build_program(const design::Design& design);
 
-// The same, ready to be evaluated. Nothing, and a diagnostic, when it would not fit into memory.
-std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics);
+// Bodies written out where they are called. Nothing, and a diagnostic, when that would not fit into memory.
+std::optional<program::Program> flatten(const program::Program& program, const SourceRange& where,
+                                        Diagnostics& diagnostics);
 
-// Would a program of the design, its bodies written out, fit into memory? If not, a diagnostic.
-bool fits_flat(const design::Design& design, const program::Program& program, Diagnostics& diagnostics);
+// build_program, ready to be evaluated. Nothing, and a diagnostic, when it would not fit into memory.
+std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics);
 
 // Leaves out materials and checks that cannot occur within the box, and what only they needed.
 void leave_out_impossible(Built& built, const Box& box);

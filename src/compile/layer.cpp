@@ -37,17 +37,19 @@ std::optional<int64_t> layer_at(const voxel::Lattice& lattice, double z_mm) {
   return std::clamp<int64_t>(static_cast<int64_t>(std::floor(z + slack)), 0, count - 1);
 }
 
+std::optional<std::pair<int64_t, int64_t>> voxels_over(const voxel::Lattice& lattice, size_t axis, Interval mm) {
+  const double first = std::floor(in_voxels(lattice, axis, mm.lo) + slack);
+  const double last = std::ceil(in_voxels(lattice, axis, mm.hi) - slack);
+  const int64_t begin = std::max<int64_t>(0, static_cast<int64_t>(first));
+  const int64_t end = std::min(lattice.count[axis], static_cast<int64_t>(last));
+  if (begin >= end) return std::nullopt;
+  return std::pair{begin, end};
+}
+
 std::optional<LayerWindow> window_over(const voxel::Lattice& lattice, double x0, double y0, double x1, double y1) {
-  LayerWindow window;
-  const std::array<double, 2> from{x0, y0}, to{x1, y1};
-  for (size_t axis = 0; axis < 2; ++axis) {
-    const double first = std::floor(in_voxels(lattice, axis, from[axis]) + slack);
-    const double last = std::ceil(in_voxels(lattice, axis, to[axis]) - slack);
-    window.lo[axis] = std::max<int64_t>(0, static_cast<int64_t>(first));
-    window.hi[axis] = std::min(lattice.count[axis], static_cast<int64_t>(last));
-    if (window.lo[axis] >= window.hi[axis]) return std::nullopt;
-  }
-  return window;
+  const auto x = voxels_over(lattice, 0, {x0, x1}), y = voxels_over(lattice, 1, {y0, y1});
+  if (!x || !y) return std::nullopt;
+  return LayerWindow{{x->first, y->first}, {x->second, y->second}};
 }
 
 LayerImages make_layer(const SliceRequest& request, const LayerProducer& producer, int64_t layer,

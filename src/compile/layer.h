@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compile/slice.h"
@@ -15,6 +16,10 @@ namespace ombre::compile {
 // next one, if there is one. Nothing when z is outside the lattice. Here as below, what differs from a face
 // by a millionth of a voxel lies on it.
 std::optional<int64_t> layer_at(const voxel::Lattice& lattice, double z_mm);
+
+// The voxels [first, second) along an axis that share length with the stretch; nothing when none does. Its ends are
+// finite.
+std::optional<std::pair<int64_t, int64_t>> voxels_over(const voxel::Lattice& lattice, size_t axis, Interval mm);
 
 // Voxels [lo, hi) along x and y.
 struct LayerWindow {

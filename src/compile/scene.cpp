@@ -5,7 +5,6 @@
 
 #include "compile/build.h"
 #include "design/lowering.h"
-#include "program/passes/passes.h"
 #include "render/shade.h"
 
 namespace ombre::compile {
@@ -98,14 +97,15 @@ std::optional<render::Scene> make_scene(const design::Design& design, const Box&
     return mean(composition, p, [&](MaterialId id) { return static_cast<double>(linear(id).*part); });
   };
   context.finish_bodies();
-  scene.program = builder.finish({{"inside", inside},
-                                  {"opaque", opaque},
-                                  {"red", channel(&render::Colour::red)},
-                                  {"green", channel(&render::Colour::green)},
-                                  {"blue", channel(&render::Colour::blue)},
-                                  {"opacity", opacity}});
-  if (!fits_flat(design, scene.program, diagnostics)) return std::nullopt;
-  scene.program = program::inline_bodies(scene.program);
+  const program::Program called = builder.finish({{"inside", inside},
+                                                  {"opaque", opaque},
+                                                  {"red", channel(&render::Colour::red)},
+                                                  {"green", channel(&render::Colour::green)},
+                                                  {"blue", channel(&render::Colour::blue)},
+                                                  {"opacity", opacity}});
+  auto flat = flatten(called, design.parts[0].solid->where(), diagnostics);
+  if (!flat) return std::nullopt;
+  scene.program = std::move(*flat);
   if (!camera.is_orthographic() && !scene.program.reads.empty()) {
     diagnostics.error(design.parts[0].solid->where(), "a design with meshes cannot be shown in perspective",
                       "leave out --perspective");

@@ -17,7 +17,7 @@ std::string advice(int error) {
   switch (error) {
     case ENOSPC:
     case EDQUOT:
-      return "; free some space there and resume, or choose another folder";
+      return "; free some space there and try again, or choose another folder";
     case EACCES:
     case EPERM:
     case EROFS:
@@ -44,29 +44,47 @@ int write_all(int descriptor, std::string_view bytes) {
   return 0;
 }
 
-int write_and_close(int descriptor, std::string_view bytes, Durability durability) {
-  int error = write_all(descriptor, bytes);
-  if (error == 0 && durability == Durability::flushed && ::fsync(descriptor) != 0) error = errno;
-  // Network disks report a full disk only here.
-  if (::close(descriptor) != 0 && error == 0) error = errno;
-  return error;
-}
-
 }  // namespace
 
 std::string write_failure(const std::string& path, int error) {
   return "cannot write " + path + ": " + std::generic_category().message(error) + advice(error);
 }
 
+PendingFile::~PendingFile() {
+  if (!is_committed_) ::unlink(part_.c_str());
+}
+
+void PendingFile::commit() {
+  if (std::rename(part_.c_str(), path_.c_str()) != 0) throw Error(write_failure(path_, errno));
+  is_committed_ = true;
+}
+
+NewFile::NewFile(std::string path) : file_(std::move(path)) {
+  descriptor_ = ::open(file_.part().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) throw Error(write_failure(file_.path(), errno));
+}
+
+NewFile::~NewFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void NewFile::append(std::string_view bytes) {
+  if (const int error = write_all(descriptor_, bytes); error != 0) throw Error(write_failure(file_.path(), error));
+}
+
+void NewFile::close(Durability durability) {
+  int error = 0;
+  if (durability == Durability::flushed && ::fsync(descriptor_) != 0) error = errno;
+  // Network disks report a full disk only here.
+  if (::close(std::exchange(descriptor_, -1)) != 0 && error == 0) error = errno;
+  if (error != 0) throw Error(write_failure(file_.path(), error));
+}
+
 void write_file(const std::string& path, std::string_view bytes, Durability durability) {
-  const std::string part = path + std::string(part_suffix);
-  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) throw Error(write_failure(path, errno));
-  int error = write_and_close(descriptor, bytes, durability);
-  if (error == 0 && std::rename(part.c_str(), path.c_str()) != 0) error = errno;
-  if (error == 0) return;
-  ::unlink(part.c_str());
-  throw Error(write_failure(path, error));
+  NewFile file(path);
+  file.append(bytes);
+  file.close(durability);
+  file.commit();
 }
 
 AppendFile::AppendFile(std::string path) : path_(std::move(path)) {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace ombre::exporting {
 
@@ -14,6 +15,45 @@ enum class Durability { closed, flushed };
 // Writes beside `path`, then renames, replacing what has that name. On failure nothing is left
 // behind and what was there before stays. Throws Error with the path, the reason and what to do.
 void write_file(const std::string& path, std::string_view bytes, Durability durability = Durability::closed);
+
+// A name beside `path` for a file that is being written by others; what has it goes away unless it is committed.
+class PendingFile {
+ public:
+  explicit PendingFile(std::string path) : path_(std::move(path)), part_(path_ + std::string(part_suffix)) {}
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+
+  const std::string& path() const { return path_; }
+  const std::string& part() const { return part_; }
+  // Gives it its name, replacing what has that. Throws Error.
+  void commit();
+
+ private:
+  std::string path_, part_;
+  bool is_committed_ = false;
+};
+
+// A file that is written piece by piece.
+class NewFile {
+ public:
+  // Throws Error, as do the others.
+  explicit NewFile(std::string path);
+  ~NewFile();
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  void append(std::string_view bytes);
+  // The pieces so far are the file, which keeps its name of old until it is committed.
+  void close(Durability durability = Durability::closed);
+  void commit() { file_.commit(); }
+  // Its name until then.
+  const std::string& part() const { return file_.part(); }
+
+ private:
+  PendingFile file_;
+  int descriptor_ = -1;
+};
 
 // Adds lines to the end of a file. Each append reaches the system in one call.
 class AppendFile {

@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/error.h"
 #include "program/passes/passes.h"
+#include "voxel/place_sources.h"
 #include "voxel/strip_diffusion.h"
 #include "voxel/walk.h"
 
@@ -13,14 +14,6 @@ namespace ombre::voxel {
 namespace {
 
 constexpr int64_t strip_rows = 64;
-
-// Index (i, j, k) of a voxel to its centre.
-Affine design_from_index(const Lattice& lattice) {
-  const Vec3 size{lattice.pitch[0].mm(), lattice.pitch[1].mm(), lattice.pitch[2].mm()};
-  Affine map = Affine::scaling(size);
-  map.offset = lattice.center(0, 0, 0);
-  return map;
-}
 
 // What is left of a program in a region.
 struct Remainder {
@@ -63,7 +56,7 @@ Evaluator best_evaluator(const Lattice& lattice) {
 struct LayerEvaluator::Parts {
   VoxelJob job;
   EvaluatorOptions options;
-  std::vector<std::unique_ptr<program::RowSampler>> samplers;  // by tag
+  RowSamplers samplers;
   std::vector<MaterialId> materials;
 
   bool is_batch() const { return options.evaluator == Evaluator::batch; }
@@ -91,17 +84,6 @@ struct LayerEvaluator::Parts {
     program::evaluate_intervals(whole, centers(job.lattice, slab), values, nullptr, precision());
     rest.program = program::shorten(whole, values, &rest.ranges);
     return rest;
-  }
-
-  // Sources whose operands are affine in (x, y, z) are placed on the voxel rows, each placement once.
-  void place_sources() {
-    for (const program::Instruction& in : job.selector.reference.code) {
-      if (in.op != program::Op::source) continue;
-      program::Read& read = job.selector.reference.reads[in.aux];
-      read.tag = static_cast<uint32_t>(samplers.size());
-      const auto map = program::affine_operands(job.selector.reference, in);
-      samplers.push_back(map ? read.source->rows(read.channel, *map * design_from_index(job.lattice)) : nullptr);
-    }
   }
 };
 
@@ -160,7 +142,7 @@ LayerEvaluator::LayerEvaluator(const MaterialProgram& program, const Lattice& la
   parts_->materials = selector.materials;
   // What is inside is marked with 1 until its errors are diffused.
   if (dither == Dither::diffusion) selector.materials.assign(selector.materials.size(), MaterialId{1});
-  parts_->place_sources();
+  parts_->samplers = place_sources(selector.reference, lattice);
   if (parts_->is_batch()) make_batch(selector);
 }
 

@@ -17,6 +17,12 @@ struct TileBox {
   int64_t voxels() const { return size(0) * size(1) * size(2); }
 };
 
+// The greatest multiple of `unit` that is at most `index`, which may be negative.
+inline int64_t multiple_below(int64_t index, int64_t unit) {
+  const int64_t rest = index % unit;
+  return index - (rest < 0 ? rest + unit : rest);
+}
+
 // The box around a tile's voxel centres.
 Box centers(const Lattice& lattice, const TileBox& tile);
 

@@ -1,0 +1,252 @@
+// ombre voxels: a design as a voxel grid for other programs.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <variant>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "compile/sparse_file.h"
+#include "compile/volume_files.h"
+#include "ombre/command_line.h"
+#include "ombre/commands.h"
+#include "ombre/free_space.h"
+#include "ombre/interrupt.h"
+#include "ombre/job_arguments.h"
+#include "ombre/overwrite.h"
+#include "ombre/progress_line.h"
+#include "ombre/slice_report.h"
+
+namespace ombre::cli {
+namespace {
+
+struct VoxelsArguments {
+  JobArguments job;
+  std::string output, what, box;
+  int threads = 0;
+  bool gzip = false, force = false;
+};
+
+constexpr const char* footer =
+    "Lengths are millimetres in the design's space.\n\n"
+    "FILE ends in\n"
+    "  .raw    numbers alone, x fastest; FILE.json describes them\n"
+    "  .npy    for NumPy, an array of shape (z, y, x); FILE.json describes it\n"
+    "  .nrrd   for 3D Slicer, ParaView and ITK; --gzip compresses\n"
+    "  .vdb    sparse grids of OpenVDB, for Blender, Houdini and others; .nvdb the same for NanoVDB\n\n"
+    "--what is\n"
+    "  materials   the number of the material that ombre slice puts there, 0 is void; a byte a voxel\n"
+    "  fractions   a grid for each material: its fraction in each voxel before dithering, 0 outside\n"
+    "  distance    mm from each voxel's centre to the surface, negative inside. Where a design has only a bound of\n"
+    "              its distance (unions inside, differences, blends) the surface may be farther; of a function\n"
+    "              only the sign is meant. ombre slice --emit tree says which. In .vdb and .nvdb a narrow\n"
+    "              band around the surface, 3 voxels to both sides\n\n"
+    "Examples:\n"
+    "  ombre voxels part.vcad -o part.npy                        materials, as ombre slice has them\n"
+    "  ombre voxels part.vcad -o part.nrrd --what distance --voxel 0.2\n"
+    "  ombre voxels part.vcad -o part.raw --what fractions       part_red.raw, part_blue.raw and so on\n"
+    "  ombre voxels part.vcad -o part.vdb                        distance, and a grid for each material\n"
+    "  ombre voxels part.vcad -o part.nrrd --gzip --box -5,-5,0,5,5,2\n";
+
+void add_arguments(CLI::App& app, VoxelsArguments& a) {
+  add_voxel_arguments(app, a.job);
+  app.add_option("-o,--output", a.output, "The file to write; its ending says the format")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--what", a.what,
+                 "What voxels hold: materials (default; .vdb, .nvdb: distance,fractions), fractions, distance, or\n"
+                 "distance,fractions")
+      ->type_name("WHAT");
+  app.add_option("--box", a.box, "Only the voxels that touch this box; mm")->type_name("X0,Y0,Z0,X1,Y1,Z1");
+  app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  app.add_flag("--gzip", a.gzip, "Compress the numbers of a .nrrd file");
+  app.add_flag("--force", a.force, "Replace files that are there, and write even if the disk seems too small");
+}
+
+// What the ending of the file asks for: dense numbers, or sparse grids.
+using Format = std::variant<exporting::VolumeFormat, vdb::FileFormat>;
+
+Format chosen_format(const VoxelsArguments& a) {
+  const std::string ending = to_lower(std::filesystem::path(a.output).extension().string());
+  if (a.gzip && ending != ".nrrd")
+    throw WrongArgument("--gzip is for .nrrd files; leave it out, or write -o part.nrrd");
+  if (ending == ".raw") return exporting::VolumeFormat::raw;
+  if (ending == ".npy") return exporting::VolumeFormat::npy;
+  if (ending == ".nrrd") return a.gzip ? exporting::VolumeFormat::nrrd_gzip : exporting::VolumeFormat::nrrd;
+  if (ending == ".vdb") return vdb::FileFormat::vdb;
+  if (ending == ".nvdb") return vdb::FileFormat::nvdb;
+  throw WrongArgument("-o " + a.output + " does not say a format; let it end in .npy, .nrrd, .raw, .vdb or .nvdb");
+}
+
+bool is_sparse(const Format& format) { return std::holds_alternative<vdb::FileFormat>(format); }
+
+compile::GridWishes chosen_grids(const VoxelsArguments& a, const Format& format) {
+  compile::GridWishes wishes;
+  wishes.narrow_band = is_sparse(format);
+  const std::string usual = is_sparse(format) ? "distance,fractions" : "materials";
+  for (const std::string& word : split(a.what.empty() ? usual : a.what, ',')) {
+    const auto name = trim(word);
+    if (name == "materials")
+      wishes.materials = true;
+    else if (name == "fractions")
+      wishes.fractions = true;
+    else if (name == "distance")
+      wishes.distance = true;
+    else
+      throw WrongArgument("--what " + a.what + " is not understood; write materials, fractions, distance, or " +
+                          "distance,fractions");
+  }
+  if (wishes.materials && (wishes.fractions || wishes.distance))
+    throw WrongArgument("--what materials goes alone; write the others to a file of their own");
+  return wishes;
+}
+
+std::string mm(double value) { return format_rounded(value, 6); }
+std::string corner(Vec3 p) { return mm(p.x) + "," + mm(p.y) + "," + mm(p.z); }
+
+Box parse_box(const std::string& text) {
+  const auto parts = split(text, ',');
+  std::vector<double> numbers;
+  for (const std::string_view part : parts)
+    if (const auto number = parse_number(trim(part)); number && std::isfinite(*number)) numbers.push_back(*number);
+  if (parts.size() == 6 && numbers.size() == 6) {
+    const Box box{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
+    if (box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.lo.z < box.hi.z) return box;
+  }
+  throw WrongArgument("--box " + text + " is not a box x0,y0,z0,x1,y1,z1; write for example --box -5,-5,0,5,5,2 (mm)");
+}
+
+voxel::TileBox chosen_region(const VoxelsArguments& a, const voxel::Lattice& lattice) {
+  if (a.box.empty()) return {{0, 0, 0}, lattice.count};
+  if (const auto region = compile::region_over(lattice, parse_box(a.box))) return *region;
+  const Box box = lattice.box();
+  throw WrongArgument("--box " + a.box + " is beside the part, which lies from " + corner(box.lo) + " to " +
+                      corner(box.hi) + " mm");
+}
+
+Data number(int64_t value) { return static_cast<double>(value); }
+
+void tell_plan(const Console& console, const compile::GridJob& job, const std::vector<std::string>& paths,
+               const std::string& bytes) {
+  const auto& pitch = job.request.lattice.pitch;
+  const int64_t nx = job.region.size(0), ny = job.region.size(1), nz = job.region.size(2);
+  console.say(std::to_string(nx) + " x " + std::to_string(ny) + " x " + std::to_string(nz) + " voxels of " +
+              mm(pitch[0].mm()) + " x " + mm(pitch[1].mm()) + " x " + mm(pitch[2].mm()) + " mm, " + bytes + " in " +
+              join(paths, ", "));
+  DataList files, names;
+  for (const std::string& path : paths) files.emplace_back(path);
+  for (const compile::Grid& grid : job.grids) names.emplace_back(grid.name);
+  console.event("plan", {{"files", files},
+                         {"grids", names},
+                         {"voxels", DataList{number(nx), number(ny), number(nz)}},
+                         {"pitch_mm", DataList{pitch[0].mm(), pitch[1].mm(), pitch[2].mm()}}});
+}
+
+void tell_report(const Console& console, const compile::GridReport& report) {
+  console.say(join(report.files, ", ") + " written, " + bytes_text(static_cast<double>(report.bytes_written)) + " in " +
+              format_rounded(report.seconds, 3) + " s");
+  if (!report.has_inside) console.warn("no voxel's centre is inside the design: the grid is empty");
+  DataList files;
+  for (const std::string& path : report.files) files.emplace_back(path);
+  console.event(
+      "done",
+      {{"files", files}, {"bytes_written", static_cast<double>(report.bytes_written)}, {"seconds", report.seconds}});
+}
+
+void warn_of_metric(const Console& console, const compile::GridJob& job) {
+  const bool has_distance = std::any_of(job.grids.begin(), job.grids.end(), [](const compile::Grid& grid) {
+    return grid.kind == compile::GridKind::distance;
+  });
+  if (has_distance && job.metric.is_implicit())
+    console.warn("of this design's distance only the sign is meant, since a formula gives it; its values are no mm");
+}
+
+// Files of the grid, and those beside them.
+void refuse_to_overwrite_any(const std::vector<std::string>& paths, exporting::VolumeFormat format, bool force) {
+  for (const std::string& path : paths) {
+    refuse_to_overwrite(path, force);
+    if (exporting::has_description(format)) refuse_to_overwrite(exporting::description_path(path), force);
+  }
+}
+
+void refuse_small_disk(const std::string& path, uint64_t bytes) {
+  const std::string folder = std::filesystem::absolute(path).parent_path().string();
+  const std::optional<double> free = free_bytes(folder);
+  if (!free || static_cast<double>(bytes) <= *free) return;
+  throw Error("the grid takes " + bytes_text(static_cast<double>(bytes)) + ", and the disk of " + folder + " has " +
+              bytes_text(*free) + " left; free some space there, choose larger voxels with --voxel, or write all " +
+              "the same with --force");
+}
+
+int write_dense(const VoxelsArguments& a, const compile::GridJob& job, exporting::VolumeFormat format, Session& session,
+                const StopFlag& stop) {
+  const std::vector<std::string> paths = compile::volume_paths(a.output, job.grids);
+  refuse_to_overwrite_any(paths, format, a.force);
+  const uint64_t bytes = compile::volume_bytes(job);
+  const bool is_compressed = format == exporting::VolumeFormat::nrrd_gzip;
+  if (!a.force && !is_compressed) refuse_small_disk(a.output, bytes);
+  tell_plan(session.console, job, paths, (is_compressed ? "at most " : "") + bytes_text(static_cast<double>(bytes)));
+  ProgressLine progress(session.console);
+  const compile::GridReport report = compile::write_volumes(job, paths, format, a.threads, &progress, &stop);
+  progress.finish();
+  tell_report(session.console, report);
+  return done;
+}
+
+int write_sparse(const VoxelsArguments& a, const compile::GridJob& job, vdb::FileFormat format, Session& session,
+                 const StopFlag& stop) {
+  refuse_to_overwrite(a.output, a.force);
+  tell_plan(session.console, job, {a.output}, "sparse");
+  ProgressLine progress(session.console);
+  const compile::GridReport report = compile::write_sparse(job, a.output, format, a.threads, &progress, &stop);
+  progress.finish();
+  tell_report(session.console, report);
+  return done;
+}
+
+int write(const VoxelsArguments& a, const compile::GridJob& job, const Format& format, Session& session,
+          const StopFlag& stop) {
+  if (const auto* sparse = std::get_if<vdb::FileFormat>(&format)) return write_sparse(a, job, *sparse, session, stop);
+  return write_dense(a, job, std::get<exporting::VolumeFormat>(format), session, stop);
+}
+
+std::optional<compile::GridJob> plan_job(const VoxelsArguments& a, const compile::GridWishes& wishes, Session& session,
+                                         const StopFlag& stop, Diagnostics& diagnostics) {
+  const auto options = plan_options(a.job, diagnostics);
+  if (!options) return std::nullopt;
+  const compile::LoadedPtr loaded = load_design(a.job, session, stop, diagnostics);
+  if (!loaded) return std::nullopt;
+  const auto plan = compile::plan_slice(loaded, *options, diagnostics);
+  if (!plan) return std::nullopt;
+  return compile::plan_grids(loaded, *plan, wishes, chosen_region(a, plan->request.lattice), diagnostics);
+}
+
+int voxels(const VoxelsArguments& a, Session& session) {
+  // A slip is better told before a long load.
+  const Format format = chosen_format(a);
+  const compile::GridWishes wishes = chosen_grids(a, format);
+  if (!a.box.empty()) parse_box(a.box);
+  const InterruptGuard interrupt;
+  Diagnostics diagnostics;
+  const auto job = plan_job(a, wishes, session, interrupt.flag(), diagnostics);
+  session.console.diagnose(diagnostics);
+  if (!job || diagnostics.has_errors()) return wrong_input;
+  warn_of_metric(session.console, *job);
+  return write(a, *job, format, session, interrupt.flag());
+}
+
+}  // namespace
+
+Command add_voxels(CLI::App& program, OutputOptions& output) {
+  CLI::App* app = program.add_subcommand("voxels", "Write a voxel grid for other programs");
+  auto arguments = std::make_shared<VoxelsArguments>();
+  add_arguments(*app, *arguments);
+  add_output_options(*app, output);
+  app->footer(footer);
+  return {app, [arguments](Session& session) { return voxels(*arguments, session); }};
+}
+
+}  // namespace ombre::cli

@@ -1,0 +1,201 @@
+// A design sampled on a part of its lattice: what voxel grids for other programs are made of.
+#include "compile/grid_job.h"
+
+#include <algorithm>
+
+#include "base/stopwatch.h"
+#include "base/tasks.h"
+#include "compile/build.h"
+#include "compile/field_program.h"
+#include "compile/layer.h"
+
+namespace ombre::compile {
+namespace {
+
+using voxel::FieldTile;
+using voxel::TileBox;
+
+// The part of a row's stretch that lies in the region: a tile of one row.
+class RowTiles {
+ public:
+  RowTiles(const TileBox& region, std::vector<FieldTile>& tiles) : region_(region), tiles_(tiles) {}
+
+  void add_row(const RowView& row, int64_t j, int64_t k) {
+    int64_t i = 0;
+    const MaterialId* dense = row.dense.data();
+    for (const Run& run : row.runs) {
+      add({{i, j, k}, {i + run.length, j + 1, k + 1}}, run, dense);
+      if (run.is_dense) dense += run.length;
+      i += run.length;
+    }
+  }
+
+ private:
+  void add(TileBox box, const Run& run, const MaterialId* dense) {
+    const int64_t begin = std::max(box.lo[0], region_.lo[0]), end = std::min(box.hi[0], region_.hi[0]);
+    if (begin >= end) return;
+    const MaterialId* from = dense + (begin - box.lo[0]);
+    box.lo[0] = begin;
+    box.hi[0] = end;
+    if (run.is_dense)
+      tiles_.push_back({box, false, std::vector<float>(from, from + (end - begin))});
+    else
+      tiles_.push_back({box, true, {static_cast<float>(run.material)}});
+  }
+
+  const TileBox& region_;
+  std::vector<FieldTile>& tiles_;
+};
+
+// What slicing puts into the voxels, run by run.
+TileProducer material_tiles(const LayerProducer& layers) {
+  return [layers](const TileBox& region, const StopFlag* stop) {
+    std::vector<FieldTile> tiles;
+    RowTiles rows(region, tiles);
+    const auto made = layers(region.lo[2], region.hi[2], stop);
+    for (int64_t k = region.lo[2]; k < region.hi[2]; ++k)
+      for (int64_t j = region.lo[1]; j < region.hi[1]; ++j)
+        rows.add_row(made[static_cast<size_t>(k - region.lo[2])].runs.row(static_cast<uint32_t>(j)), j, k);
+    return tiles;
+  };
+}
+
+// Around a whole design there is room for the outer half of its band, where nothing is inside. A part that is cut
+// out by a box ends there.
+TileBox with_band(const TileBox& region, const voxel::Lattice& lattice, const design::Design& design) {
+  if (design.sampling || region.lo != std::array<int64_t, 3>{} || region.hi != lattice.count) return region;
+  const auto more = static_cast<int64_t>(band_voxels) + 1;
+  TileBox wider = region;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    wider.lo[axis] -= more;
+    wider.hi[axis] += more;
+  }
+  return wider;
+}
+
+std::optional<TileProducer> field_tiles(const LoadedPtr& loaded, const GridJob& job, Diagnostics& diagnostics) {
+  FieldWishes wishes;
+  for (const Grid& grid : job.grids) {
+    if (grid.material) wishes.fractions.push_back(grid.material->id);
+    wishes.distance |= grid.kind == GridKind::distance;
+  }
+  if (job.band_mm > 0) wishes.band_mm = job.band_mm;
+  auto program = build_field_program(loaded->design, wishes, diagnostics);
+  if (!program) return std::nullopt;
+  auto evaluator =
+      std::make_shared<const voxel::FieldEvaluator>(std::move(*program), job.request.lattice, job.request.evaluator);
+  return [loaded, evaluator](const TileBox& region, const StopFlag* stop) { return evaluator->tiles(region, stop); };
+}
+
+std::vector<Grid> wished_grids(const SliceRequest& request, const GridWishes& wishes) {
+  std::vector<Grid> grids;
+  if (wishes.materials) grids.push_back({GridKind::material, "material", std::nullopt});
+  if (wishes.distance) grids.push_back({GridKind::distance, "distance", std::nullopt});
+  if (wishes.fractions)
+    for (const SliceMaterial& material : request.materials)
+      grids.push_back({GridKind::fraction, material.name, material});
+  return grids;
+}
+
+double largest_pitch_mm(const voxel::Lattice& lattice) {
+  return std::max({lattice.pitch[0].mm(), lattice.pitch[1].mm(), lattice.pitch[2].mm()});
+}
+
+constexpr int64_t slab_unit = 8;  // layers
+constexpr double slab_bytes = 64 << 20, window_bytes = 1 << 30;
+
+// A layer of all grids, as it is computed.
+double layer_bytes(const GridJob& job) {
+  return static_cast<double>(job.region.size(0) * job.region.size(1)) * static_cast<double>(job.grids.size()) *
+         sizeof(float);
+}
+
+std::vector<TileBox> slabs_of(const GridJob& job) {
+  const auto fitting = static_cast<int64_t>(slab_bytes / layer_bytes(job));
+  int64_t layers = slab_unit;
+  while (layers > 1 && layers > fitting) layers /= 2;
+  std::vector<TileBox> slabs;
+  for (int64_t k = job.region.lo[2]; k < job.region.hi[2];) {
+    TileBox slab = job.region;
+    slab.lo[2] = k;
+    slab.hi[2] = k = std::min(voxel::multiple_below(k, layers) + layers, job.region.hi[2]);
+    slabs.push_back(slab);
+  }
+  return slabs;
+}
+
+// Layers take about the same time each.
+HowFar how_far(uint64_t done, uint64_t total, double seconds) {
+  HowFar how{done, total};
+  if (done > 0) how.seconds_left = seconds * static_cast<double>(total - done) / static_cast<double>(done);
+  return how;
+}
+
+}  // namespace
+
+std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, const GridWishes& wishes,
+                                  const TileBox& region, Diagnostics& diagnostics) {
+  GridJob job;
+  job.request = plan.request;
+  job.region = region;
+  job.grids = wished_grids(plan.request, wishes);
+  job.metric = whole_solid(loaded->design)->metric();
+  if (wishes.materials) {
+    job.tiles = material_tiles(plan.producer);
+    return job;
+  }
+  if (wishes.narrow_band && wishes.distance) {
+    job.band_mm = band_voxels * largest_pitch_mm(plan.request.lattice);
+    job.region = with_band(region, plan.request.lattice, loaded->design);
+  }
+  auto tiles = field_tiles(loaded, job, diagnostics);
+  if (!tiles) return std::nullopt;
+  job.tiles = std::move(*tiles);
+  return job;
+}
+
+std::optional<TileBox> region_over(const voxel::Lattice& lattice, const Box& box) {
+  TileBox region;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const auto voxels = voxels_over(lattice, axis, box.axis(static_cast<int>(axis)));
+    if (!voxels) return std::nullopt;
+    region.lo[axis] = voxels->first;
+    region.hi[axis] = voxels->second;
+  }
+  return region;
+}
+
+void each_slab(const GridJob& job, int threads, const std::function<void(const GridSlab&)>& take, Progress* progress,
+               const StopFlag* stop) {
+  const std::vector<TileBox> slabs = slabs_of(job);
+  const auto total = static_cast<uint64_t>(job.region.voxels());
+  const size_t wanted = 2 * static_cast<size_t>(threads > 0 ? threads : core_count());
+  const double bytes = layer_bytes(job) * static_cast<double>(slabs.front().size(2));
+  const size_t window = std::clamp<size_t>(static_cast<size_t>(window_bytes / bytes), 1, wanted);
+  const Stopwatch watch;
+  uint64_t done = 0;
+  if (progress) progress->update(how_far(0, total, 0));
+  run_ordered<GridSlab>(
+      slabs.size(), threads, window,
+      [&](size_t n) {
+        return GridSlab{slabs[n], job.tiles(slabs[n], stop)};
+      },
+      [&](size_t, GridSlab& slab) {
+        if (stop && stop->requested()) throw Cancelled();
+        take(slab);
+        done += static_cast<uint64_t>(slab.box.voxels());
+        if (progress) progress->update(how_far(done, total, watch.seconds()));
+      });
+}
+
+bool has_inside(const GridJob& job, const FieldTile& tile) {
+  const size_t count = tile.is_uniform ? 1 : static_cast<size_t>(tile.box.voxels());
+  for (size_t n = 0; n < job.grids.size(); ++n) {
+    const bool is_distance = job.grids[n].kind == GridKind::distance;
+    const float* values = tile.output(n);
+    if (std::any_of(values, values + count, [&](float v) { return is_distance ? v <= 0 : v > 0; })) return true;
+  }
+  return false;
+}
+
+}  // namespace ombre::compile

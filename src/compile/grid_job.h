@@ -1,0 +1,68 @@
+// A design sampled on a part of its lattice: what voxel grids for other programs are made of.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compile/load.h"
+#include "design/lowered.h"
+#include "voxel/fields.h"
+
+namespace ombre::compile {
+
+// What a grid holds for each voxel.
+enum class GridKind {
+  material,  // its material's id: what slicing puts there
+  fraction,  // of one material, before dithering; 0 outside
+  distance,  // from its centre to the surface, mm, negative inside
+};
+
+struct Grid {
+  GridKind kind = GridKind::material;
+  std::string name;
+  std::optional<SliceMaterial> material;  // of a fraction
+};
+
+// Which grids are wanted. Materials go alone.
+struct GridWishes {
+  bool materials = false, fractions = false, distance = false;
+  bool narrow_band = false;  // distances beyond a few voxels are cut off
+};
+
+// Distances in a narrow band reach so far to both sides of the surface.
+constexpr double band_voxels = 3;
+
+// Thread-safe. Values of all grids, in their order.
+using TileProducer = std::function<std::vector<voxel::FieldTile>(const voxel::TileBox& region, const StopFlag* stop)>;
+
+struct GridJob {
+  SliceRequest request;   // the lattice, the materials and what else decides the values
+  voxel::TileBox region;  // the voxels that are wanted
+  std::vector<Grid> grids;
+  double band_mm = 0;     // of distances; 0: they are not cut off
+  design::Metric metric;  // what distances are
+  TileProducer tiles;
+};
+
+// Nothing, and diagnostics, when the design cannot be sampled.
+std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, const GridWishes& wishes,
+                                  const voxel::TileBox& region, Diagnostics& diagnostics);
+
+// The voxels that share volume with the box; nothing when none does. Its corners are finite.
+std::optional<voxel::TileBox> region_over(const voxel::Lattice& lattice, const Box& box);
+
+// Calls `take` with all tiles of one slab of layers after the other, lowest first; `tiles` reach no further than
+// `slab`. Slabs begin at multiples of 8 voxels. Throws Cancelled.
+struct GridSlab {
+  voxel::TileBox box;
+  std::vector<voxel::FieldTile> tiles;
+};
+void each_slab(const GridJob& job, int threads, const std::function<void(const GridSlab&)>& take, Progress* progress,
+               const StopFlag* stop);
+
+// Whether some voxel of the tile is inside the design.
+bool has_inside(const GridJob& job, const voxel::FieldTile& tile);
+
+}  // namespace ombre::compile

@@ -1,0 +1,19 @@
+// Sources of a program on the rows of a lattice.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "program/program.h"
+#include "voxel/lattice.h"
+
+namespace ombre::voxel {
+
+// By the tag of a read; null for sources that are asked point by point.
+using RowSamplers = std::vector<std::unique_ptr<program::RowSampler>>;
+
+// Gives the program's reads their tags. Sources whose operands are affine in (x, y, z) are placed on the voxel
+// rows, each placement once.
+RowSamplers place_sources(program::Program& program, const Lattice& lattice);
+
+}  // namespace ombre::voxel

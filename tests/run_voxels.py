@@ -1,0 +1,202 @@
+#!/usr/bin/env python3
+"""Voxel grids, run as a user would and read by programs that are not ours.
+
+    python3 tests/run_voxels.py build/dev/apps/ombre/ombre
+"""
+import argparse
+import functools
+import gzip
+import json
+import math
+import pathlib
+import signal
+import struct
+import subprocess
+import tempfile
+import time
+
+import program
+
+try:
+    import numpy
+except ImportError:
+    numpy = None
+
+BALL = 'fgrade(["0.5 + z/10", "0.5 - z/10"], ["red", "blue"]) { sphere(5); }'
+
+
+class Grid:
+    """A folder for one check, with a design in it."""
+
+    def __init__(self, ombre, scratch):
+        self.ombre, self.folder = ombre, pathlib.Path(scratch)
+        (self.folder / "ball.vcad").write_text(BALL, encoding="utf-8")
+
+    def command(self, *arguments):
+        return [str(self.ombre), *(str(a) for a in arguments)]
+
+    def run(self, *arguments, status=0, **options):
+        result = program.run(self.command(*arguments), cwd=self.folder, **options)
+        expect(result.returncode == status, f"status {result.returncode}, expected {status}: {result.stderr[-1500:]}")
+        return result
+
+    def voxels(self, out, *arguments, **options):
+        return self.run("voxels", "ball.vcad", "-o", out, *arguments, **options)
+
+    def floats(self, name):
+        data = (self.folder / name).read_bytes()
+        return struct.unpack(f"<{len(data) // 4}f", data)
+
+    def names(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+
+def expect(good, message):
+    if not good:
+        raise AssertionError(message)
+
+
+def nrrd(path):
+    """Header fields and numbers of a file."""
+    header, data = path.read_bytes().split(b"\n\n", 1)
+    fields = dict(line.split(": ", 1) for line in header.decode().splitlines()[1:] if ": " in line and ":=" not in line)
+    return fields, gzip.decompress(data) if fields["encoding"] == "gzip" else data
+
+
+def materials_are_those_of_slices(grid):
+    grid.voxels("ball.raw", "--voxel", "0.4", "--seed", "7", "--dither", "blue-noise")
+    grid.run("slice", "ball.vcad", "-o", "slices", "--voxel", "0.4", "--seed", "7", "--dither", "blue-noise")
+    about = json.loads((grid.folder / "ball.raw.json").read_text())
+    nx, ny, nz = about["dimensions"]
+    data = (grid.folder / "ball.raw").read_bytes()
+    expect(len(data) == nx * ny * nz, "wrong size")
+    counts = {m["name"]: data.count(m["id"]) for m in about["materials"]}
+    job = json.loads((grid.folder / "slices/job.json").read_text())
+    expected = {m["name"]: m["voxels"] for m in job["totals"]["materials"]}
+    expect(counts == expected, f"{counts}, slices have {expected}")
+
+
+def distances_are_mathematics(grid):
+    grid.voxels("ball.raw", "--voxel", "0.4", "--what", "distance")
+    about = json.loads((grid.folder / "ball.raw.json").read_text())
+    expect(about["distance"] == "exact" and about["data_type"] == "float32", str(about))
+    values = iter(grid.floats("ball.raw"))
+    (nx, ny, nz), step, origin = about["dimensions"], about["spacing_mm"], about["origin_mm"]
+    for k in range(nz):
+        for j in range(ny):
+            for i in range(nx):
+                place = [o + s * n for o, s, n in zip(origin, step, (i, j, k))]
+                expect(abs(next(values) - (math.hypot(*place) - 5)) < 1e-5, f"at {place}")
+
+
+def numpy_reads_them(grid):
+    if numpy is None:
+        return "skipped: no NumPy"
+    grid.voxels("ball.npy", "--voxel", "0.4,0.5,0.8")
+    ids = numpy.load(grid.folder / "ball.npy")
+    expect(ids.shape == (13, 20, 25) and ids.dtype == numpy.uint8, f"{ids.shape} {ids.dtype}")
+    grid.voxels("part.npy", "--voxel", "0.4,0.5,0.8", "--what", "fractions")
+    red, blue = numpy.load(grid.folder / "part_red.npy"), numpy.load(grid.folder / "part_blue.npy")
+    expect(red.dtype == numpy.float32, str(red.dtype))
+    expect(numpy.allclose(red + blue, ids != 0), "fractions do not sum to one inside")
+    heights = -5 + 0.8 * (numpy.arange(13) + 0.5)
+    expect(numpy.allclose(red[1:12, 10, 12], 0.5 + heights[1:12] / 10, atol=1e-6), str(red[:, 10, 12]))
+    return ""
+
+
+def nrrd_is_in_millimetres(grid):
+    grid.voxels("ball.nrrd", "--voxel", "0.5", "--what", "distance")
+    grid.voxels("zip.nrrd", "--voxel", "0.5", "--what", "distance", "--gzip")
+    (plain, data), (zipped, unzipped) = nrrd(grid.folder / "ball.nrrd"), nrrd(grid.folder / "zip.nrrd")
+    expect(data == unzipped and len(data) == 4 * 20 ** 3, "the numbers differ")
+    expect(zipped["encoding"] == "gzip" and plain["encoding"] == "raw", "wrong encoding")
+    expect(plain["sizes"] == "20 20 20" and plain["type"] == "float", str(plain))
+    expect(plain["space directions"] == "(0.5,0,0) (0,0.5,0) (0,0,0.5)", str(plain))
+    expect(plain["space origin"] == "(-4.75,-4.75,-4.75)", str(plain))
+
+
+def boxes_are_cut_out(grid):
+    grid.voxels("ball.raw", "--voxel", "0.5", "--box", "0,0,0,1,2,4.99")
+    about = json.loads((grid.folder / "ball.raw.json").read_text())
+    expect(about["dimensions"] == [2, 4, 10] and about["origin_mm"] == [0.25, 0.25, 0.25], str(about))
+    beside = grid.voxels("b.raw", "--box", "9,9,9,10,10,10", status=1).stderr
+    expect("is beside the part, which lies from -5,-5,-5 to 5,5,5 mm" in beside, beside)
+    empty = grid.voxels("b.raw", "--voxel", "0.5", "--box", "4.6,4.6,4.6,5,5,5").stderr
+    expect("no voxel's centre is inside" in empty, empty)
+
+
+def slips_get_remedies(grid):
+    for arguments, message in [(["b.stl"], "let it end in .npy, .nrrd, .raw, .vdb or .nvdb"),
+                               (["b"], "does not say a format"),
+                               (["b.raw", "--gzip"], "--gzip is for .nrrd files"),
+                               (["b.raw", "--what", "colour"], "write materials, fractions, distance"),
+                               (["b.raw", "--what", "materials,distance"], "goes alone"),
+                               (["b.raw", "--box", "1,2,3"], "write for example --box")]:
+        error = grid.voxels(*arguments, status=1).stderr
+        expect(message in error, f"{arguments}: {error}")
+
+
+def files_are_kept(grid):
+    (grid.folder / "ball.raw.json").write_text("mine")
+    error = grid.voxels("ball.raw", status=2).stderr
+    expect("ball.raw.json exists already" in error, error)
+    grid.voxels("ball.raw", "--force")
+    error = grid.voxels("ball.raw", status=2).stderr
+    expect("ball.raw exists already" in error, error)
+    error = grid.voxels("missing/ball.npy", status=2).stderr
+    expect("the folder is missing" in error, error)
+    error = grid.voxels("huge.npy", "--voxel", "0.0005", status=2).stderr
+    expect("the disk of" in error and "--voxel" in error, error)
+    expect(grid.names() == ["ball.raw", "ball.raw.json", "ball.vcad"], str(grid.names()))
+
+
+def interrupts_leave_nothing(grid):
+    for name in ["ball.npy", "ball.vdb"]:
+        job = subprocess.Popen(grid.command("voxels", "ball.vcad", "-o", name, "--what", "distance", "--voxel", "0.01",
+                                            "--threads", "1", "--force"),
+                               cwd=grid.folder, env=program.environment(), stdin=subprocess.DEVNULL,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 20
+        while not (grid.folder / (name + ".part")).exists() and job.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        job.send_signal(signal.SIGINT)
+        error = job.communicate(timeout=60)[1]
+        if "without OpenVDB" in error:
+            continue
+        expect(job.returncode == 130, f"status {job.returncode}: {error}")
+        expect(grid.names() == ["ball.vcad"], str(grid.names()))
+
+
+def sparse_files_are_the_same_on_any_threads(grid):
+    for ending in [".vdb", ".nvdb"]:
+        made = set()
+        for threads in ["1", "3"]:
+            result = program.run(grid.command("voxels", "ball.vcad", "-o", "b" + ending, "--voxel", "0.25", "--force",
+                                              "--threads", threads), cwd=grid.folder)
+            if "without OpenVDB" in result.stderr:
+                return "skipped: no OpenVDB"
+            expect(result.returncode == 0, result.stderr)
+            made.add((grid.folder / ("b" + ending)).read_bytes())
+        expect(len(made) == 1, f"{ending} depends on threads")
+    return ""
+
+
+CHECKS = [materials_are_those_of_slices, distances_are_mathematics, numpy_reads_them, nrrd_is_in_millimetres,
+          boxes_are_cut_out, slips_get_remedies, files_are_kept, interrupts_leave_nothing,
+          sparse_files_are_the_same_on_any_threads]
+
+
+def in_a_folder(ombre, check):
+    with tempfile.TemporaryDirectory() as scratch:
+        return check(Grid(ombre, scratch))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("ombre", type=pathlib.Path)
+    ombre = parser.parse_args().ombre.resolve()
+    return program.check_all([(check.__name__, functools.partial(in_a_folder, ombre, check)) for check in CHECKS])
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
