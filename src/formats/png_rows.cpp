@@ -123,7 +123,7 @@ void PackedRows::put(const RowView& row) {
     return finish_row(row_);
   }
   history_.clear();
-  if (is_first || !pays_as_difference(repeats, changes)) return write(row_);
+  if (is_first || (!pays_as_difference(repeats, changes) && (repeats || !is_noise_of_few(changes)))) return write(row_);
   if (repeats)
     std::fill(difference_.begin(), difference_.end(), uint8_t{0});
   else
@@ -149,6 +149,12 @@ bool PackedRows::pays_as_difference(bool repeats, size_t changes) {
   if (repeats) return changes > 0;
   equal_above_.compare(row_.data() + pixels_at, row_above_.data() + pixels_at, packer_.size());
   return 2 * (packer_.size() - equal_above_.equal_count()) < changes;
+}
+
+// Rows of two materials cannot gain: each bit is as likely beside any above.
+bool PackedRows::is_noise_of_few(size_t changes) {
+  if (packer_.bit_depth() == 1 || 4 * changes < equal_.size()) return false;
+  return guess_.pays(row_.data() + pixels_at, row_above_.data() + pixels_at, packer_.size());
 }
 
 // Long stretches of one byte become matches; in shorter ones a byte is often but one bit.

@@ -7,6 +7,7 @@
 
 #include "base/run.h"
 #include "formats/byte_history.h"
+#include "formats/difference_guess.h"
 #include "formats/equal_bytes.h"
 #include "formats/zlib_stream.h"
 
@@ -25,6 +26,7 @@ class RowPacker {
   RowPacker(uint32_t width, const Samples& samples, bool flip_x);
 
   uint32_t width() const { return width_; }
+  unsigned bit_depth() const { return bit_depth_; }
   size_t size() const { return (size_t{width_} * bit_depth_ + 7) / 8; }
   void pack(const RowView& row, uint8_t* out);
 
@@ -54,6 +56,7 @@ class PackedRows {
   void compare_neighbours(std::vector<uint8_t>& bytes, uint8_t filter);
   bool pays_as_difference(bool repeats, size_t changes);
   bool has_edges_to_follow(const RowView& row, size_t changes) const;
+  bool is_noise_of_few(size_t changes);
   void write(const std::vector<uint8_t>& bytes);
   void finish_row(const std::vector<uint8_t>& bytes);
 
@@ -63,6 +66,7 @@ class PackedRows {
   // The last byte written before, the filter, then pixels.
   std::vector<uint8_t> row_, row_above_, difference_;
   ByteHistory history_;             // of rows with such edges, while no other comes in between
+  DifferenceGuess guess_;           // of noisy rows
   EqualBytes equal_, equal_above_;  // to the byte before, to the byte above
   uint8_t last_byte_ = 0xFF;        // not a filter, so nothing repeats it
 };

@@ -135,6 +135,28 @@ TEST(Png, KeepsEmptyAndUniformLayers) {
   }
 }
 
+// Each place has two of the materials: which two changes along the row. One bit a voxel at most says which.
+TEST(Png, CodesNoiseOfAFewOfManyMaterialsByTheRowAbove) {
+  constexpr uint32_t width = 2048, height = 256;
+  for (const int materials : {4, 8, 16, 64, 200}) {
+    std::mt19937 random(7);
+    RunLayer layer(width);
+    std::vector<MaterialId> row(width);
+    for (uint32_t j = 0; j < height; ++j) {
+      for (uint32_t i = 0; i < width; ++i) {
+        const uint32_t place = i * static_cast<uint32_t>(materials - 1), lower = place / width;
+        row[i] = static_cast<MaterialId>(1 + lower + (random() % width < place % width ? 1 : 0));
+      }
+      layer.append_row(row.data());
+    }
+    const Palette palette = palette_of(materials);
+    expect_same_voxels(layer, palette, {});
+    // Differences are -1, 0, 1 with 1/6, 2/3, 1/6 on the average: 1.25 bits.
+    const double bits = 8.0 * static_cast<double>(encode_png(layer, palette, {}).size()) / (width * height);
+    EXPECT_LT(bits, 1.55) << materials;
+  }
+}
+
 TEST(Png, KeepsEveryVoxelOfSmoothLayers) {
   RunLayer layer(200);
   for (uint32_t row = 0; row < 50; ++row) {
