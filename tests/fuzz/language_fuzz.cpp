@@ -24,7 +24,7 @@ class Permissive : public lang::Vocabulary {
     return std::nullopt;
   }
   std::vector<std::string> constants() const override { return {"red", "x"}; }
-  design::NodePtr make(const lang::Invocation& call, Diagnostics& diagnostics) override {
+  design::NodePtr make(lang::Invocation call, Diagnostics& diagnostics) override {
     for (const lang::Argument& argument : call.arguments)
       if (argument.value.is_null()) diagnostics.error(argument.value.where, "nothing was given");
     return call.name == "null" ? nullptr : node_;
