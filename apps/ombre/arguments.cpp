@@ -1,6 +1,7 @@
 // Values of options: lengths as exact text, resolutions, sizes of memory.
 #include "ombre/arguments.h"
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -64,6 +65,22 @@ size_t parse_memory(const std::string& text) {
   const double bytes = number ? *number * factor : 0;
   if (bytes >= 1024.0 * 1024 && bytes < 1e18) return static_cast<size_t>(bytes);
   throw WrongArgument("--memory " + text + " is not a size of a megabyte or more; write for example --memory 2G");
+}
+
+std::vector<double> parse_numbers(const std::string& text) {
+  std::vector<double> values;
+  for (const std::string& part : split(text, ',')) {
+    const std::optional<double> value = parse_number(trim(part));
+    if (!value || !std::isfinite(*value)) return {};
+    values.push_back(*value);
+  }
+  return values;
+}
+
+Box parse_box(const std::string& text) {
+  const std::vector<double> v = parse_numbers(text);
+  if (v.size() == 6 && v[0] < v[3] && v[1] < v[4] && v[2] < v[5]) return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+  throw WrongArgument("--box " + text + " is not a box x0,y0,z0,x1,y1,z1; write for example --box -5,-5,0,5,5,2 (mm)");
 }
 
 }  // namespace ombre::cli

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "base/box.h"
 #include "base/pitch.h"
 
 namespace ombre::cli {
@@ -21,5 +23,9 @@ Pitches parse_dpi(const std::string& text);
 Pitch parse_layer_height(const std::string& text);
 // "2G", "512M", "1.5GiB"; at least a megabyte.
 size_t parse_memory(const std::string& text);
+// --box "x0,y0,z0,x1,y1,z1", with a size along each axis; millimetres.
+Box parse_box(const std::string& text);
+// "1,2.5,-3"; empty where something is no finite number.
+std::vector<double> parse_numbers(const std::string& text);
 
 }  // namespace ombre::cli

@@ -7,6 +7,7 @@
 #include "compile/layer.h"
 #include "compile/layer_files.h"
 #include "export/output_file.h"
+#include "ombre/arguments.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/interrupt.h"
@@ -65,10 +66,8 @@ int64_t chosen_layer(const LayerArguments& a, const voxel::Lattice& lattice) {
 
 std::optional<compile::LayerWindow> chosen_window(const LayerArguments& a, const voxel::Lattice& lattice) {
   if (a.box.empty()) return std::nullopt;
-  std::vector<double> corners;
-  for (const std::string_view part : split(a.box, ','))
-    if (const auto number = parse_number(trim(part)); number && std::isfinite(*number)) corners.push_back(*number);
-  if (corners.size() != 4 || split(a.box, ',').size() != 4 || corners[0] >= corners[2] || corners[1] >= corners[3])
+  const std::vector<double> corners = parse_numbers(a.box);
+  if (corners.size() != 4 || corners[0] >= corners[2] || corners[1] >= corners[3])
     throw WrongArgument("--box " + a.box + " is not a box x0,y0,x1,y1; write for example --box -5,-5,5,5 (mm)");
   if (const auto window = compile::window_over(lattice, corners[0], corners[1], corners[2], corners[3])) return window;
   const Box box = lattice.box();

@@ -8,6 +8,7 @@
 #include "compile/picture.h"
 #include "export/output_file.h"
 #include "formats/png.h"
+#include "ombre/arguments.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/interrupt.h"
@@ -88,20 +89,10 @@ void set_size(const std::string& text, compile::PictureRequest& request) {
   request.height = static_cast<int64_t>(*height);
 }
 
-std::vector<double> numbers(const std::string& text) {
-  std::vector<double> values;
-  for (const std::string_view part : split(text, ',')) {
-    const auto value = parse_number(trim(part));
-    if (!value || !std::isfinite(*value)) return {};
-    values.push_back(*value);
-  }
-  return values;
-}
-
 void set_view(const RenderArguments& a, compile::PictureRequest& request) {
   request.view = render::named_view(a.view).value();
   if (!a.from.empty()) {
-    const std::vector<double> angles = numbers(a.from);
+    const std::vector<double> angles = parse_numbers(a.from);
     if (angles.size() != 2 || std::abs(angles[1]) > 90)
       throw WrongArgument("--from " + a.from +
                           " is not azimuth,elevation; write for example --from 30,20 (elevation from -90 to 90)");
@@ -110,15 +101,6 @@ void set_view(const RenderArguments& a, compile::PictureRequest& request) {
   }
   request.view.field_of_view_deg = a.perspective;
   request.view.zoom = a.zoom;
-}
-
-void set_box(const std::string& text, compile::PictureRequest& request) {
-  if (text.empty()) return;
-  const std::vector<double> v = numbers(text);
-  if (v.size() != 6 || v[0] >= v[3] || v[1] >= v[4] || v[2] >= v[5])
-    throw WrongArgument("--box " + text +
-                        " is not a box x0,y0,z0,x1,y1,z1; write for example --box -5,-5,0,5,5,10 (mm)");
-  request.box = Box{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
 uint8_t hex_byte(std::string_view digits) {
@@ -151,7 +133,7 @@ compile::PictureRequest picture_request(const RenderArguments& a) {
   compile::PictureRequest request;
   set_size(a.size, request);
   set_view(a, request);
-  set_box(a.box, request);
+  if (!a.box.empty()) request.box = parse_box(a.box);
   set_background(a.background, request);
   for (const std::string& text : a.cuts) {
     const auto cut = compile::parse_cut(text);

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "compile/sparse_file.h"
 #include "compile/volume_files.h"
+#include "ombre/arguments.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/free_space.h"
@@ -106,18 +107,6 @@ compile::GridWishes chosen_grids(const VoxelsArguments& a, const Format& format)
 
 std::string mm(double value) { return format_rounded(value, 6); }
 std::string corner(Vec3 p) { return mm(p.x) + "," + mm(p.y) + "," + mm(p.z); }
-
-Box parse_box(const std::string& text) {
-  const auto parts = split(text, ',');
-  std::vector<double> numbers;
-  for (const std::string_view part : parts)
-    if (const auto number = parse_number(trim(part)); number && std::isfinite(*number)) numbers.push_back(*number);
-  if (parts.size() == 6 && numbers.size() == 6) {
-    const Box box{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
-    if (box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.lo.z < box.hi.z) return box;
-  }
-  throw WrongArgument("--box " + text + " is not a box x0,y0,z0,x1,y1,z1; write for example --box -5,-5,0,5,5,2 (mm)");
-}
 
 voxel::TileBox chosen_region(const VoxelsArguments& a, const voxel::Lattice& lattice) {
   if (a.box.empty()) return {{0, 0, 0}, lattice.count};

@@ -78,21 +78,8 @@ std::optional<double> Builder::constant_value(Field field) const {
 }
 
 bool Builder::is_truth(Field field) const {
-  switch (const Instruction& in = code_[field.id]; in.op) {
-    case Op::less:
-    case Op::less_equal:
-    case Op::equal:
-    case Op::truth:
-    case Op::logical_not:
-    case Op::logical_and:
-    case Op::logical_or:
-    case Op::is_finite:
-      return true;
-    case Op::constant:
-      return in.value == 0 || in.value == 1;
-    default:
-      return false;
-  }
+  const Instruction& in = code_[field.id];
+  return gives_truth(in.op) || (in.op == Op::constant && (in.value == 0 || in.value == 1));
 }
 
 Field Builder::apply(Op op, Field a, Field b, Field c) {

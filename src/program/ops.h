@@ -54,6 +54,23 @@ inline constexpr auto op_table = std::to_array<OpInfo>({{"input", 0},
 
 inline const OpInfo& info(Op op) { return op_table[static_cast<size_t>(op)]; }
 
+// Is the result always 1 or 0?
+constexpr bool gives_truth(Op op) {
+  switch (op) {
+    case Op::less:
+    case Op::less_equal:
+    case Op::equal:
+    case Op::truth:
+    case Op::logical_not:
+    case Op::logical_and:
+    case Op::logical_or:
+    case Op::is_finite:
+      return true;
+    default:
+      return false;
+  }
+}
+
 using AffineRow = std::array<double, 4>;
 
 inline double apply_affine(const AffineRow& m, double a, double b, double c) {

@@ -9,12 +9,12 @@
 #include "base/math.h"
 #include "eval/batch/batch.h"
 #include "program/passes/passes.h"
+#include "voxel/place_sources.h"
 #include "voxel/tile.h"
 
 namespace ombre::render {
 namespace {
 
-using program::Op;
 using voxel::StripSources;
 using voxel::TileBox;
 
@@ -229,7 +229,7 @@ class RayCaster {
   void evaluate(int64_t stride, size_t width, bool all_outputs) {
     samples_.stride = stride;
     width_ = width;
-    stride_ = (width + eval::batch_lanes - 1) / eval::batch_lanes * eval::batch_lanes;
+    stride_ = eval::padded(width);
     depths_.resize(stride_ * samples_.rays.size());
     rows_.clear();
     for (size_t n = 0; n < samples_.rays.size(); ++n) {
@@ -334,19 +334,6 @@ class RayCaster {
   std::vector<RaySamples::Ray> surfaces_, ends_;
 };
 
-// Sources whose operands are affine in the view are placed on the rays.
-std::vector<std::unique_ptr<program::RowSampler>> place_sources(program::Program& program, const RayLattice& lattice) {
-  std::vector<std::unique_ptr<program::RowSampler>> samplers;
-  for (const program::Instruction& in : program.code) {
-    if (in.op != Op::source) continue;
-    program::Read& read = program.reads[in.aux];
-    read.tag = static_cast<uint32_t>(samplers.size());
-    const auto map = program::affine_operands(program, in);
-    samplers.push_back(map ? read.source->rows(read.channel, *map * lattice.view_from_index()) : nullptr);
-  }
-  return samplers;
-}
-
 }  // namespace
 
 RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t end, int threads,
@@ -355,7 +342,7 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
   const RayLattice lattice(scene, film);
   const Clarity clarity(film.pixel_mm / steps_per_pixel / scene.clarity_mm);
   program::Program reference = scene.program;
-  const auto samplers = place_sources(reference, lattice);
+  const auto samplers = voxel::place_sources(reference, lattice.view_from_index());
   const program::Program batch = fuse(sign_only(reference));
   RayBand band{begin, end, film.width, std::vector<RayHit>(static_cast<size_t>(film.width * (end - begin)))};
   const int64_t across = (film.width + tile_edge - 1) / tile_edge, down = (end - begin + tile_edge - 1) / tile_edge;

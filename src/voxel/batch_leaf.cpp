@@ -137,7 +137,7 @@ class BatchLeaf : public LeafEvaluator {
   }
 
   void evaluate_layers(const program::Program& program, const std::vector<Interval>& ranges) {
-    const size_t width = (tile_width() + block - 1) / block * block;
+    const size_t width = eval::padded(tile_width());
     batch_.compile(program, ranges, width * rows_.places.size(), static_cast<size_t>(tile_.size(2)), rows_);
     place_points(width, tile_.lo[2], tile_.hi[2]);
     for (int64_t k = tile_.lo[2]; k < tile_.hi[2]; ++k) evaluate_layer(k, width);

@@ -26,11 +26,6 @@ constexpr int64_t strip_rows = 64;
 // Tiles that are evaluated without further questions.
 constexpr int64_t leaf_width = 32, leaf_height = 8;
 
-int64_t padded(int64_t width) {
-  constexpr auto lanes = static_cast<int64_t>(eval::batch_lanes);
-  return (width + lanes - 1) / lanes * lanes;
-}
-
 // Zeros lose their sign, which depends on whether a tile was settled or computed.
 float plain(float value) { return value + 0.0f; }
 
@@ -113,7 +108,7 @@ class FieldWalk {
   void compute(const program::Program& program, const std::vector<Interval>& ranges, FieldTile& made) {
     const TileBox& tile = made.box;
     const TileRows rows(*sources_, tile);
-    const auto width = static_cast<size_t>(padded(tile.size(0)));
+    const auto width = eval::padded(static_cast<size_t>(tile.size(0)));
     points_.place(parts_.lattice, tile);
     point_rows_.clear();
     for (int64_t j = tile.lo[1]; j < tile.hi[1]; ++j) point_rows_.push_back(points_.row({tile.lo[0], j}));
@@ -201,7 +196,7 @@ class FieldWalk {
 
 FieldEvaluator::FieldEvaluator(program::Program program, const Lattice& lattice, Evaluator evaluator)
     : parts_(std::make_unique<Parts>(Parts{std::move(program), {}, lattice, {}, evaluator})) {
-  parts_->samplers = place_sources(parts_->reference, lattice);
+  parts_->samplers = place_sources(parts_->reference, design_from_index(lattice));
   if (evaluator == Evaluator::batch) parts_->batch = program::fuse(program::sign_only(parts_->reference));
 }
 

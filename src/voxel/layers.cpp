@@ -142,7 +142,7 @@ LayerEvaluator::LayerEvaluator(const MaterialProgram& program, const Lattice& la
   parts_->materials = selector.materials;
   // What is inside is marked with 1 until its errors are diffused.
   if (dither == Dither::diffusion) selector.materials.assign(selector.materials.size(), MaterialId{1});
-  parts_->samplers = place_sources(selector.reference, lattice);
+  parts_->samplers = place_sources(selector.reference, design_from_index(lattice));
   if (parts_->is_batch()) make_batch(selector);
 }
 

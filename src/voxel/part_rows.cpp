@@ -22,9 +22,7 @@ constexpr int64_t most_points = 512, most_layers = 16;
 constexpr int64_t least_asked = 2048;
 constexpr size_t most_bodies = 64;
 
-constexpr auto block = static_cast<int64_t>(eval::batch_lanes);
-
-int64_t padded(int64_t width) { return (width + block - 1) / block * block; }
+size_t padded_width(const TileBox& box) { return eval::padded(static_cast<size_t>(box.size(0))); }
 
 class NoSources : public eval::SourceRows {
  public:
@@ -94,7 +92,7 @@ bool PartRows::suits(const program::Program& program) {
 void PartRows::begin(const program::Program& program, const TileBox& tile, const TilePoints& points) {
   tile_ = tile;
   points_ = &points;
-  stride_ = static_cast<size_t>(padded(tile.size(0)));
+  stride_ = padded_width(tile);
   ASSERT(stride_ / eval::batch_lanes <= 64);
   touched_.assign(static_cast<size_t>(tile.size(1) * tile.size(2)), 0);
   place_sets(program);
@@ -169,7 +167,7 @@ void PartRows::descend(const Set& set, PartBody& body, const TileBox& box, bool 
     if (inside == Interval(0)) return;
     ask = inside != Interval(1);
   }
-  const int64_t width = padded(box.size(0)), height = box.size(1), depth = box.size(2);
+  const int64_t width = static_cast<int64_t>(padded_width(box)), height = box.size(1), depth = box.size(2);
   if (width * height <= most_points && depth <= most_layers) return evaluate(set, body, box);
   const size_t axis = depth > most_layers && depth >= std::max(width, height) ? 2 : width > 2 * height ? 0 : 1;
   TileBox low = box, high = box;
@@ -184,7 +182,7 @@ void PartRows::evaluate(const Set& set, PartBody& body, const TileBox& box) {
   for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) rows_.push_back(points_->row({box.lo[0], j}));
   eval::BatchEvaluator& batch = body.batch();
   batch.place({rows_, points_->layers(box.lo[2], box.hi[2]), width});
-  const size_t row_floats = static_cast<size_t>(padded(box.size(0)));
+  const size_t row_floats = padded_width(box);
   for (int64_t k = box.lo[2]; k < box.hi[2]; ++k) {
     batch.begin_layer(static_cast<size_t>(k - box.lo[2]));
     batch.begin_row(0);

@@ -3,9 +3,7 @@
 #include "program/passes/passes.h"
 
 namespace ombre::voxel {
-namespace {
 
-// Index (i, j, k) of a voxel to its centre.
 Affine design_from_index(const Lattice& lattice) {
   const Vec3 size{lattice.pitch[0].mm(), lattice.pitch[1].mm(), lattice.pitch[2].mm()};
   Affine map = Affine::scaling(size);
@@ -13,16 +11,14 @@ Affine design_from_index(const Lattice& lattice) {
   return map;
 }
 
-}  // namespace
-
-RowSamplers place_sources(program::Program& program, const Lattice& lattice) {
+RowSamplers place_sources(program::Program& program, const Affine& program_from_index) {
   RowSamplers samplers;
   for (const program::Instruction& in : program.code) {
     if (in.op != program::Op::source) continue;
     program::Read& read = program.reads[in.aux];
     read.tag = static_cast<uint32_t>(samplers.size());
     const auto map = program::affine_operands(program, in);
-    samplers.push_back(map ? read.source->rows(read.channel, *map * design_from_index(lattice)) : nullptr);
+    samplers.push_back(map ? read.source->rows(read.channel, *map * program_from_index) : nullptr);
   }
   return samplers;
 }

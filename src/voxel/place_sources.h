@@ -1,4 +1,4 @@
-// Sources of a program on the rows of a lattice.
+// Sources of a program on the rows of a lattice of points.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,11 @@ namespace ombre::voxel {
 // By the tag of a read; null for sources that are asked point by point.
 using RowSamplers = std::vector<std::unique_ptr<program::RowSampler>>;
 
-// Gives the program's reads their tags. Sources whose operands are affine in (x, y, z) are placed on the voxel
-// rows, each placement once.
-RowSamplers place_sources(program::Program& program, const Lattice& lattice);
+// Gives the program's reads their tags. Sources whose operands are affine in (x, y, z) are placed on the rows, each
+// placement once. The map takes indices of points to the program's (x, y, z).
+RowSamplers place_sources(program::Program& program, const Affine& program_from_index);
+
+// Index (i, j, k) of a voxel to its centre.
+Affine design_from_index(const Lattice& lattice);
 
 }  // namespace ombre::voxel

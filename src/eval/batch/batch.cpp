@@ -17,8 +17,6 @@ constexpr uint8_t axis_x = 1, axis_y = 2, axis_z = 4, all_axes = 7;
 constexpr size_t late = 8;
 constexpr ValueId none = ~ValueId{0};
 
-size_t padded(size_t count) { return (count + batch_lanes - 1) / batch_lanes * batch_lanes; }
-
 // The axis along which values that depend on these axes are stored; 0: they are one number.
 uint8_t row_axis(uint8_t mask) { return mask & axis_x ? axis_x : mask & axis_y ? axis_y : mask; }
 

@@ -14,6 +14,7 @@ namespace ombre::eval {
 
 // Rows are padded to a multiple of this many floats; kernels compute the padding too.
 constexpr size_t batch_lanes = 16;
+constexpr size_t padded(size_t count) { return (count + batch_lanes - 1) / batch_lanes * batch_lanes; }
 
 // out[n] = op(a[n], b[n], c[n]). An operand that is one number for the whole row is read at [0] only.
 using Kernel = void (*)(const float* a, const float* b, const float* c, float* out, size_t count);

@@ -73,16 +73,12 @@ class Shortener {
     if (in.op != Op::logical_or && in.op != Op::logical_and) return i;
     const double neutral = in.op == Op::logical_and ? 1 : 0;
     const auto is_neutral = [&](ValueId v) { return values_[v] == Interval(neutral); };
-    const auto is_truth = [&](ValueId v) { return values_[v].lo >= 0 && values_[v].hi <= 1 && is_logical(v); };
+    const auto is_truth = [&](ValueId v) {
+      return values_[v].lo >= 0 && values_[v].hi <= 1 && gives_truth(from_.code[v].op);
+    };
     if (is_neutral(in.a) && is_truth(in.b)) return in.b;
     if (is_neutral(in.b) && is_truth(in.a)) return in.a;
     return i;
-  }
-
-  bool is_logical(ValueId v) const {
-    const Op op = from_.code[v].op;
-    return op == Op::less || op == Op::less_equal || op == Op::equal || op == Op::truth || op == Op::logical_not ||
-           op == Op::logical_and || op == Op::logical_or;
   }
 
   void find_needed() {

@@ -5,24 +5,7 @@ namespace {
 
 // Is the result for an operand +0 the same as for -0?
 bool forgets_sign(Op op) {
-  switch (op) {
-    case Op::abs:
-    case Op::square:
-    case Op::cos:
-    case Op::cosh:
-    case Op::exp:
-    case Op::less:
-    case Op::less_equal:
-    case Op::equal:
-    case Op::truth:
-    case Op::logical_not:
-    case Op::logical_and:
-    case Op::logical_or:
-    case Op::is_finite:
-      return true;
-    default:
-      return false;
-  }
+  return gives_truth(op) || op == Op::abs || op == Op::square || op == Op::cos || op == Op::cosh || op == Op::exp;
 }
 
 }  // namespace
