@@ -13,14 +13,21 @@ constexpr double clearly = 0.9;
 
 bool DifferenceGuess::pays(const uint8_t* row, const uint8_t* above, size_t size) {
   if (rows_++ % rows_a_sample != 0) return pays_;
-  for (size_t i = 0; i < size; ++i) {
-    ++plain_[row[i]];
-    ++difference_[static_cast<uint8_t>(row[i] - above[i])];
-  }
+  count(size, [&](size_t i) { return row[i]; }, plain_);
+  count(size, [&](size_t i) { return static_cast<uint8_t>(row[i] - above[i]); }, difference_);
   total_ += size;
   pays_ = bits(difference_) < clearly * bits(plain_);
   if (total_ > most_counted) forget_half();
   return pays_;
+}
+
+// Bytes with equal ones on both sides lie in stretches, which take next to nothing.
+template <class At>
+void DifferenceGuess::count(size_t size, At at, Counts& counts) {
+  for (size_t i = 0; i < size; ++i) {
+    const uint8_t value = at(i);
+    if (i == 0 || i + 1 == size || value != at(i - 1) || value != at(i + 1)) ++counts[value];
+  }
 }
 
 // Of a code that suits the counts.

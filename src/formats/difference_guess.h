@@ -1,4 +1,4 @@
-// Whether rows take fewer bytes as differences to those above, by how often bytes occur.
+// Whether rows take fewer bytes as differences to those above, by how often bytes outside of stretches occur.
 #pragma once
 
 #include <array>
@@ -16,6 +16,8 @@ class DifferenceGuess {
 
  private:
   using Counts = std::array<uint32_t, 256>;
+  template <class At>
+  static void count(size_t size, At at, Counts& counts);
   static double bits(const Counts& counts);
   void forget_half();
 

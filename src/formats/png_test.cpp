@@ -157,6 +157,23 @@ TEST(Png, CodesNoiseOfAFewOfManyMaterialsByTheRowAbove) {
   }
 }
 
+// Void, a material, two in equal shares, the other: one bit for each voxel of the noise, where differences to the row above
+// would take one and a half, though bytes of all kinds are as frequent as in noise of the whole row.
+TEST(Png, CodesNoiseBetweenStretchesAsItIs) {
+  constexpr uint32_t stretch = 1920, noise = 2240, height = 128;
+  std::mt19937 random(7);
+  RunLayer layer(3 * stretch + noise);
+  for (uint32_t j = 0; j < height; ++j) {
+    layer.add_uniform(0, stretch);
+    layer.add_uniform(1, stretch);
+    for (uint32_t i = 0; i < noise; ++i) layer.add_uniform(static_cast<MaterialId>(1 + random() % 2), 1);
+    layer.add_uniform(2, stretch);
+    layer.end_row();
+  }
+  const double bits = 8.0 * static_cast<double>(encode_png(layer, palette_of(2), {}).size()) / (noise * height);
+  EXPECT_LT(bits, 1.1);
+}
+
 TEST(Png, KeepsEveryVoxelOfSmoothLayers) {
   RunLayer layer(200);
   for (uint32_t row = 0; row < 50; ++row) {

@@ -1,0 +1,175 @@
+// A design cut into regions, as programs.
+#include "compile/partition_program.h"
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "compile/build.h"
+#include "compile/field_program.h"
+#include "design/lowering.h"
+
+namespace ombre::compile {
+namespace {
+
+using program::Field;
+using program::Point;
+
+// A closed box; its g is negative within.
+Field box_distance(const Box& box, const Point& p) {
+  const Field coordinates[] = {p.x, p.y, p.z};
+  std::vector<Field> faces;
+  for (int axis = 0; axis < 3; ++axis) {
+    faces.push_back(p.constant(box.lo[axis]) - coordinates[axis]);
+    faces.push_back(coordinates[axis] - p.constant(box.hi[axis]));
+  }
+  return program::fold(faces, [](Field a, Field b) { return max(a, b); });
+}
+
+// The number of the greatest score, the first of equals; counted from 1.
+Field number_of_greatest(const std::vector<Field>& scores) {
+  program::Builder& builder = *scores.front().builder;
+  Field best = scores.front(), number = builder.constant(1);
+  for (size_t n = 1; n < scores.size(); ++n) {
+    const Field wins = less(best, scores[n]);
+    number = select(wins, builder.constant(static_cast<double>(n + 1)), number);
+    best = max(best, scores[n]);
+  }
+  return number;
+}
+
+Field number_of_band(Field score, const std::vector<double>& borders) {
+  Field number = score.builder->constant(1);
+  for (const double border : borders) number = number + less_equal(score.builder->constant(border), score);
+  return number;
+}
+
+std::string list_names(const std::vector<std::string>& names) {
+  return names.empty() ? "there is none" : "there are " + join(names, ", ");
+}
+
+class RegionBuilder {
+ public:
+  RegionBuilder(const design::Design& design, const RegionRule& rule, Diagnostics& diagnostics)
+      : design_(design),
+        rule_(rule),
+        diagnostics_(diagnostics),
+        solid_(whole_solid(design)),
+        context_(design.materials, {solid_}),
+        lowering_(context_, builder_),
+        p_(Point::origin_frame(builder_)) {}
+
+  std::optional<RegionProgram> build(const Box& box) {
+    if (!add_scores()) return std::nullopt;
+    const Field within = box_distance(box, p_);
+    const Field inside = logical_and(lowering_.inside(*solid_, p_), within <= 0);
+    const Field label = select(inside, number(), builder_.constant(0));
+    program::Outputs details{{"region", label}, {"distance", max(lowering_.distance(*solid_, p_), within)}};
+    for (const Field& score : scores_) details.emplace_back("score " + std::to_string(details.size() - 1), score);
+    context_.finish_bodies();
+    auto flat_label = flatten(builder_.finish({{"region", label}}), solid_->where(), diagnostics_);
+    auto flat_details = flatten(builder_.finish(details), solid_->where(), diagnostics_);
+    if (!flat_label || !flat_details) return std::nullopt;
+    made_.partition.label = std::move(*flat_label);
+    made_.partition.details = std::move(*flat_details);
+    made_.partition.regions = made_.regions.size();
+    return std::move(made_);
+  }
+
+ private:
+  bool add_scores() {
+    switch (rule_.kind) {
+      case RegionRule::Kind::whole:
+        made_.regions.push_back({design_.parts.size() == 1 ? design_.parts[0].name : "", {}, {}, {}});
+        return true;
+      case RegionRule::Kind::materials:
+        return add_materials();
+      case RegionRule::Kind::fraction:
+        return add_fraction();
+      case RegionRule::Kind::attribute:
+        return add_attribute();
+    }
+    return false;
+  }
+
+  Field number() {
+    if (scores_.empty()) return builder_.constant(1);
+    if (made_.partition.division == surface::Division::greatest) return number_of_greatest(scores_);
+    return number_of_band(scores_.front(), made_.partition.borders);
+  }
+
+  bool add_materials() {
+    made_.partition.division = surface::Division::greatest;
+    for (const auto& [id, fraction] : composition().fractions) {
+      scores_.push_back(fraction);
+      made_.regions.push_back({design_.materials.all()[id].name, id, {}, {}});
+    }
+    return true;
+  }
+
+  bool add_fraction() {
+    const design::Material* material = design_.materials.find(rule_.of);
+    std::vector<std::string> names;
+    for (const auto& [id, part] : shares(composition())) {
+      if (material && material->id == id) {
+        scores_.push_back(part);
+        add_bands(material->name, 100, " %");
+        return true;
+      }
+      names.push_back(design_.materials.all()[id].name);
+    }
+    diagnostics_.error(solid_->where(), "the design has no material \"" + rule_.of + "\"; " + list_names(names));
+    return false;
+  }
+
+  bool add_attribute() {
+    if (!lowering_.has_attribute(*solid_, rule_.of)) {
+      diagnostics_.error(solid_->where(), "the design has no attribute \"" + rule_.of + "\"");
+      return false;
+    }
+    scores_.push_back(lowering_.attribute(*solid_, rule_.of, p_, design::Demand::inside));
+    const design::AttributeDeclaration* declared = lowering_.declaration(rule_.of);
+    add_bands(rule_.of, 1, declared && !declared->unit.empty() ? " " + declared->unit : "");
+    return true;
+  }
+
+  void add_bands(const std::string& subject, double scale, const std::string& unit) {
+    made_.partition.borders = rule_.borders;
+    const size_t bands = rule_.borders.size() + 1;
+    for (size_t n = 0; n < bands; ++n) {
+      Region region;
+      if (n > 0) region.least = rule_.borders[n - 1];
+      if (n + 1 < bands) region.greatest = rule_.borders[n];
+      region.name = subject + range_text(region, scale) + unit;
+      made_.regions.push_back(region);
+    }
+  }
+
+  static std::string range_text(const Region& region, double scale) {
+    const auto text = [&](double value) { return format_rounded(value * scale, 4); };
+    if (region.least && region.greatest) return " " + text(*region.least) + " to " + text(*region.greatest);
+    if (region.least) return " from " + text(*region.least);
+    return region.greatest ? " below " + text(*region.greatest) : "";
+  }
+
+  design::Composition composition() { return lowering_.composition(*solid_, p_, design::Demand::inside); }
+
+  const design::Design& design_;
+  const RegionRule& rule_;
+  Diagnostics& diagnostics_;
+  design::NodePtr solid_;
+  design::LoweringContext context_;
+  program::Builder builder_;
+  design::Lowering lowering_;
+  Point p_;
+  std::vector<Field> scores_;
+  RegionProgram made_;
+};
+
+}  // namespace
+
+std::optional<RegionProgram> build_region_program(const design::Design& design, const Box& box, const RegionRule& rule,
+                                                  Diagnostics& diagnostics) {
+  return RegionBuilder(design, rule, diagnostics).build(box);
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,43 @@
+// A design cut into regions, as programs: one body, a body for each material, or bands of a value.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/run.h"
+#include "design/design.h"
+#include "surface/partition.h"
+
+namespace ombre::compile {
+
+struct RegionRule {
+  enum class Kind : uint8_t {
+    whole,      // all that is inside
+    materials,  // by the material of the greatest fraction
+    fraction,   // by bands of a material's fraction
+    attribute,  // by bands of an attribute
+  };
+  Kind kind = Kind::whole;
+  std::string of;               // the material or attribute
+  std::vector<double> borders;  // between bands; increasing, one less than there are bands
+};
+
+// A region as people know it; regions count from 1, this list from 0.
+struct Region {
+  std::string name;                              // "red", "red 25-50 %", "density 0.2-0.4"
+  std::optional<MaterialId> material;            // of Kind::materials
+  std::optional<double> least, greatest;         // of bands: values from `least`, up to and without `greatest`
+};
+
+struct RegionProgram {
+  surface::Partition partition;
+  std::vector<Region> regions;
+};
+
+// What lies outside of `box` is void. Nothing, and diagnostics, when the rule names what is not there or the programs
+// would not fit into memory.
+std::optional<RegionProgram> build_region_program(const design::Design& design, const Box& box,
+                                                  const RegionRule& rule, Diagnostics& diagnostics);
+
+}  // namespace ombre::compile
