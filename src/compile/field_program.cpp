@@ -12,7 +12,13 @@ namespace {
 
 using program::Field;
 
-// Fractions that are not positive, or not numbers, take no part.
+Field cut_off(Field distance, double band_mm) {
+  const Field band = distance.builder->constant(band_mm), below = distance.builder->constant(-band_mm);
+  return max(min(distance, band), below);
+}
+
+}  // namespace
+
 std::vector<std::pair<MaterialId, Field>> shares(const design::Composition& composition) {
   std::vector<std::pair<MaterialId, Field>> parts;
   std::vector<Field> all;
@@ -24,13 +30,6 @@ std::vector<std::pair<MaterialId, Field>> shares(const design::Composition& comp
   for (auto& [id, part] : parts) part = share(part, total);
   return parts;
 }
-
-Field cut_off(Field distance, double band_mm) {
-  const Field band = distance.builder->constant(band_mm), below = distance.builder->constant(-band_mm);
-  return max(min(distance, band), below);
-}
-
-}  // namespace
 
 std::optional<program::Program> build_field_program(const design::Design& design, const FieldWishes& wishes,
                                                     Diagnostics& diagnostics) {

@@ -13,8 +13,24 @@ using program::Program;
 void RowEvaluator::set_row(std::span<const double> xs, double y, double z) {
   ASSERT(xs.size() <= width_);
   xs_ = xs;
+  ys_ = zs_ = {};
   y_ = y;
   z_ = z;
+}
+
+void RowEvaluator::set_points(std::span<const double> xs, std::span<const double> ys, std::span<const double> zs) {
+  ASSERT(xs.size() <= width_ && ys.size() == xs.size() && zs.size() == xs.size());
+  xs_ = xs;
+  ys_ = ys;
+  zs_ = zs;
+}
+
+void RowEvaluator::run_input(int axis, double* out) const {
+  const std::span<const double> given = axis == 0 ? xs_ : axis == 1 ? ys_ : zs_;
+  if (given.empty())
+    std::fill_n(out, xs_.size(), axis == 1 ? y_ : z_);
+  else
+    std::copy_n(given.data(), given.size(), out);
 }
 
 void RowEvaluator::run(const Program& program, size_t begin, size_t end, const SourceRow& source_row) {
@@ -26,10 +42,7 @@ void RowEvaluator::run(const Program& program, size_t begin, size_t end, const S
     const double *a = row(in.a), *b = row(in.b), *c = row(in.c);
     switch (in.op) {
       case Op::input:
-        if (in.value == 0)
-          std::copy_n(xs_.data(), n, out);
-        else
-          std::fill_n(out, n, in.value == 1 ? y_ : z_);
+        run_input(static_cast<int>(in.value), out);
         break;
       case Op::constant:
         std::fill_n(out, n, in.value);

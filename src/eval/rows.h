@@ -19,19 +19,21 @@ class RowEvaluator {
   explicit RowEvaluator(size_t width) : width_(width) {}
 
   size_t width() const { return width_; }
-  // Points (xs[n], y, z). Call before run.
+  // Points (xs[n], y, z), or (xs[n], ys[n], zs[n]). Call one of them before run.
   void set_row(std::span<const double> xs, double y, double z);
+  void set_points(std::span<const double> xs, std::span<const double> ys, std::span<const double> zs);
   // Instructions [begin, end); those before `begin` were run on this row already.
   void run(const program::Program& program, size_t begin, size_t end, const SourceRow& source_row);
   std::span<const double> values(program::ValueId id) const { return {values_.data() + id * width_, xs_.size()}; }
 
  private:
+  void run_input(int axis, double* out) const;
   void run_source(const program::Program& program, const program::Instruction& in, std::span<double> out,
                   const SourceRow& source_row);
   double* row(program::ValueId id) { return values_.data() + id * width_; }
 
   size_t width_;
-  std::span<const double> xs_;
+  std::span<const double> xs_, ys_, zs_;  // ys_ and zs_ are empty where the points are a row
   double y_ = 0, z_ = 0;
   std::vector<double> values_;
 };

@@ -157,7 +157,8 @@ class BatchLeaf : public LeafEvaluator {
       };
       for (end = first + 1; end < places.size() && follows(end);) ++end;
       const size_t most = static_cast<size_t>(tile_.hi[0] - at.i);
-      take({at, k, std::min((end - first) * width, most), first * width});
+      const Stretch stretch{at, k, std::min((end - first) * width, most), first * width};
+      if (kernels_.any(outputs_[0].from(stretch.lane), stretch.width)) take(stretch);
     }
   }
 
@@ -231,7 +232,6 @@ class BatchLeaf : public LeafEvaluator {
     stretch_ = stretch;
     const auto& [at, k, width, lane] = stretch;
     const eval::Values inside = output(0);
-    if (!kernels_.any(inside, width)) return;
     thresholds_.clear();
     for (const size_t n : choices_) thresholds_.push_back(output(n));
     MaterialId* out = voxels_->at(at.i, at.j, k);
