@@ -20,6 +20,8 @@ enum class GridClass {
 
 enum class FileFormat { vdb, nvdb };
 
+class GridStore;
+
 // Voxels [lo, hi) on each axis.
 struct IndexBox {
   std::array<int64_t, 3> lo{}, hi{};
@@ -31,7 +33,7 @@ class SparseGrids {
  public:
   using Notes = std::vector<std::pair<std::string, std::string>>;
 
-  // Throws Error when this was built without the libraries.
+  // Throws Error when this was built without the libraries, or they cannot be loaded.
   SparseGrids(Vec3 spacing_mm, Vec3 origin_mm);
   ~SparseGrids();
   SparseGrids(SparseGrids&&) noexcept;
@@ -46,8 +48,7 @@ class SparseGrids {
   void write(const std::string& path, FileFormat format);
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<GridStore> store_;
 };
 
 }  // namespace ombre::vdb

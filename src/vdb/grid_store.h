@@ -1,0 +1,22 @@
+// Between SparseGrids and the module that holds OpenVDB, which takes longer to load than most jobs to run.
+#pragma once
+
+#include "vdb/sparse_grids.h"
+
+namespace ombre::vdb {
+
+// As SparseGrids has them.
+class GridStore {
+ public:
+  using Notes = SparseGrids::Notes;
+  virtual ~GridStore() = default;
+  virtual size_t add(const std::string& name, GridClass grid_class, float background, const Notes& notes) = 0;
+  virtual void fill(size_t grid, const IndexBox& box, float value) = 0;
+  virtual void set(size_t grid, const IndexBox& box, const float* values) = 0;
+  virtual void write(const std::string& path, FileFormat format) = 0;
+};
+
+}  // namespace ombre::vdb
+
+// What the module exports.
+extern "C" ombre::vdb::GridStore* ombre_make_grid_store(const ombre::Vec3* spacing, const ombre::Vec3* origin);
