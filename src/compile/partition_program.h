@@ -25,9 +25,9 @@ struct RegionRule {
 
 // A region as people know it; regions count from 1, this list from 0.
 struct Region {
-  std::string name;                              // "red", "red 25-50 %", "density 0.2-0.4"
-  std::optional<MaterialId> material;            // of Kind::materials
-  std::optional<double> least, greatest;         // of bands: values from `least`, up to and without `greatest`
+  std::string name;                       // "red", "red 25-50 %", "density 0.2-0.4"
+  std::optional<MaterialId> material;     // of Kind::materials
+  std::optional<double> least, greatest;  // of bands: values from `least`, up to and without `greatest`
 };
 
 struct RegionProgram {
@@ -37,7 +37,7 @@ struct RegionProgram {
 
 // What lies outside of `box` is void. Nothing, and diagnostics, when the rule names what is not there or the programs
 // would not fit into memory.
-std::optional<RegionProgram> build_region_program(const design::Design& design, const Box& box,
-                                                  const RegionRule& rule, Diagnostics& diagnostics);
+std::optional<RegionProgram> build_region_program(const design::Design& design, const Box& box, const RegionRule& rule,
+                                                  Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

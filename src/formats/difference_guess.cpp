@@ -13,8 +13,10 @@ constexpr double clearly = 0.9;
 
 bool DifferenceGuess::pays(const uint8_t* row, const uint8_t* above, size_t size) {
   if (rows_++ % rows_a_sample != 0) return pays_;
-  count(size, [&](size_t i) { return row[i]; }, plain_);
-  count(size, [&](size_t i) { return static_cast<uint8_t>(row[i] - above[i]); }, difference_);
+  count(
+      size, [&](size_t i) { return row[i]; }, plain_);
+  count(
+      size, [&](size_t i) { return static_cast<uint8_t>(row[i] - above[i]); }, difference_);
   total_ += size;
   pays_ = bits(difference_) < clearly * bits(plain_);
   if (total_ > most_counted) forget_half();

@@ -157,8 +157,8 @@ TEST(Png, CodesNoiseOfAFewOfManyMaterialsByTheRowAbove) {
   }
 }
 
-// Void, a material, two in equal shares, the other: one bit for each voxel of the noise, where differences to the row above
-// would take one and a half, though bytes of all kinds are as frequent as in noise of the whole row.
+// Void, a material, two in equal shares, the other: one bit for each voxel of the noise, where differences to the row
+// above would take one and a half, though bytes of all kinds are as frequent as in noise of the whole row.
 TEST(Png, CodesNoiseBetweenStretchesAsItIs) {
   constexpr uint32_t stretch = 1920, noise = 2240, height = 128;
   std::mt19937 random(7);

@@ -106,8 +106,7 @@ MixedCells find_mixed_cells(const program::Program& label, const Lattice& corner
       slabs, threads, 2 * static_cast<size_t>(threads > 0 ? threads : core_count()),
       [&](size_t n) {
         const int64_t k = static_cast<int64_t>(n) * slab_layers;
-        const TileBox box{{0, 0, k},
-                          {corners.count[0], corners.count[1], std::min(k + slab_layers, cell_layers) + 1}};
+        const TileBox box{{0, 0, k}, {corners.count[0], corners.count[1], std::min(k + slab_layers, cell_layers) + 1}};
         CornerSlab slab(box);
         for (const FieldTile& tile : evaluator.tiles(box, stop)) slab.take(tile);
         slab.clear_outermost(corners);
@@ -118,7 +117,9 @@ MixedCells find_mixed_cells(const program::Program& label, const Lattice& corner
       [&](size_t n, std::vector<MixedCell>& cells) {
         if (stop && stop->requested()) throw Cancelled();
         all.insert(all.end(), cells.begin(), cells.end());
-        if (progress) progress->update({n + 1, slabs, watch.seconds() * static_cast<double>(slabs - n - 1) / static_cast<double>(n + 1)});
+        if (progress)
+          progress->update(
+              {n + 1, slabs, watch.seconds() * static_cast<double>(slabs - n - 1) / static_cast<double>(n + 1)});
       });
   return {corners, std::move(all)};
 }

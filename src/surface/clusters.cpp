@@ -1,0 +1,260 @@
+#include "surface/clusters.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+namespace ombre::surface {
+namespace {
+
+// Of the tolerance, for the root of the mean square of distances to planes; the greatest is some three times that.
+constexpr double rms_share = 0.3;
+constexpr double room_cells = 0.5;  // smallest cells around a cell
+
+int level_of(int32_t index) { return index == 0 ? 31 : std::countr_zero(static_cast<uint32_t>(index)); }
+
+// The levels of the two lattice planes that a quad's edge lies in: below 2^level cells they are borders of cells.
+struct EdgeLevels {
+  int u = 0, v = 0;
+};
+
+// Where a cell's vertex may lie: sharp edges between its crossings may be a little outside of it.
+Box room_of(const voxel::Lattice& lattice, const CellPlace& place, int level) {
+  const auto corner = [&](int32_t more) {
+    return lattice.center(static_cast<int64_t>(place[0] + more) << level,
+                          static_cast<int64_t>(place[1] + more) << level,
+                          static_cast<int64_t>(place[2] + more) << level);
+  };
+  return Box{corner(0), corner(1)}.expanded(room_cells * lattice.pitch[0].mm());
+}
+
+// From the mean, which lies in the cell, as far towards the best point as the cell reaches.
+Vec3 within(const Box& cell, Vec3 mean, Vec3 best) {
+  double share = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = best[axis] - mean[axis];
+    const double room = (way > 0 ? cell.hi : cell.lo)[axis] - mean[axis];
+    if (std::abs(way) > std::abs(room)) share = std::min(share, way != 0 ? room / way : 1);
+  }
+  return mean + std::max(share, 0.0) * (best - mean);
+}
+
+// What is known of the clusters that may become one.
+struct Candidate {
+  std::vector<uint32_t> members;
+  int euler = 0;           // of their part of the surface: 1 for a disc
+  int inner_arc_ends = 0;  // of arcs in which members meet
+  uint16_t crossed_edges = 0;
+  bool crosses_twice = false, is_blocked = false;
+  Quadric planes;
+};
+
+// The edges around each face of a cell.
+constexpr std::array<uint16_t, 6> edges_of_faces() {
+  std::array<uint16_t, 6> faces{};
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side)
+      for (int n = 0; n < 2; ++n) {
+        auto& face = faces[static_cast<size_t>(2 * axis + side)];
+        face = static_cast<uint16_t>(face | 1 << edge_number((axis + 1) % 3, n, side) |
+                                     1 << edge_number((axis + 2) % 3, side, n));
+      }
+  return faces;
+}
+
+bool borders_are_simple(uint16_t crossed) {
+  static constexpr auto faces = edges_of_faces();
+  if (std::popcount(crossed) < 3) return false;
+  return std::ranges::all_of(faces, [&](uint16_t face) { return std::popcount<uint16_t>(crossed & face) <= 2; });
+}
+
+class LevelBuilder {
+ public:
+  LevelBuilder(const MixedCells& cells, const std::vector<Crossing>& crossings, const DualMesh& mesh,
+               double tolerance_mm, std::vector<Cluster>& clusters)
+      : cells_(cells), crossings_(crossings), mesh_(mesh), tolerance_mm_(tolerance_mm), clusters_(clusters) {
+    for (const DualVertex& vertex : mesh.vertices) {
+      planes_.push_back(vertex.planes);
+      euler_.push_back(1);
+      may_join_.push_back(vertex.parts_two);
+    }
+    fresh_.resize(mesh.vertices.size());
+    std::iota(fresh_.begin(), fresh_.end(), 0U);
+    quads_.resize(mesh.quads.size());
+    std::iota(quads_.begin(), quads_.end(), 0U);
+  }
+
+  // False when nothing was joined.
+  bool build(int level) {
+    level_ = level;
+    std::erase_if(quads_, [&](uint32_t q) {
+      const EdgeLevels e = levels(q);
+      return std::max(e.u, e.v) < level - 1;
+    });
+    gather();
+    note_points();
+    note_crossed_edges();
+    return make_clusters();
+  }
+
+ private:
+  const CellPlace& place_of(uint32_t quad) const {
+    return cells_.cells()[crossings_[mesh_.quads[quad].crossing].cell].at;
+  }
+  int axis_of(uint32_t quad) const { return crossings_[mesh_.quads[quad].crossing].axis; }
+  EdgeLevels levels(uint32_t quad) const {
+    const CellPlace& at = place_of(quad);
+    const int axis = axis_of(quad);
+    return {level_of(at[static_cast<size_t>((axis + 1) % 3)]), level_of(at[static_cast<size_t>((axis + 2) % 3)])};
+  }
+  uint32_t top(uint32_t vertex) const {
+    while (clusters_[vertex].parent != Cluster::none) vertex = clusters_[vertex].parent;
+    return vertex;
+  }
+  std::array<uint32_t, 4> tops(uint32_t quad) const {
+    std::array<uint32_t, 4> found{};
+    for (size_t n = 0; n < 4; ++n) found[n] = top(mesh_.quads[quad].corners[n]);
+    return found;
+  }
+  bool is_fresh(uint32_t cluster) const { return clusters_[cluster].level == level_ - 1; }
+
+  // Clusters that hang together across what is inside of a cell of this level.
+  void gather() {
+    group_.assign(clusters_.size(), Cluster::none);
+    for (const uint32_t c : fresh_) group_[c] = c;
+    arc_ends_.clear();
+    blocked_.clear();
+    for (const uint32_t q : quads_) {
+      const EdgeLevels e = levels(q);
+      const auto t = tops(q);
+      for (size_t side = 0; side < 4; ++side)
+        if ((side % 2 == 0 ? e.u : e.v) == level_ - 1) hang_together(t[side], t[(side + 1) % 4]);
+    }
+    collect();
+  }
+
+  void hang_together(uint32_t a, uint32_t b) {
+    if (!is_fresh(a) || !is_fresh(b)) {
+      if (is_fresh(a)) blocked_.push_back(a);
+      if (is_fresh(b)) blocked_.push_back(b);
+      return;
+    }
+    arc_ends_.push_back(a);
+    const uint32_t ga = find(a), gb = find(b);
+    group_[std::max(ga, gb)] = std::min(ga, gb);
+  }
+
+  uint32_t find(uint32_t c) {
+    while (group_[c] != c) c = group_[c] = group_[group_[c]];
+    return c;
+  }
+
+  void collect() {
+    candidates_.clear();
+    number_.assign(clusters_.size(), Cluster::none);
+    for (const uint32_t c : fresh_) {
+      const uint32_t g = find(c);
+      if (number_[g] == Cluster::none) {
+        number_[g] = static_cast<uint32_t>(candidates_.size());
+        candidates_.emplace_back();
+      }
+      number_[c] = number_[g];
+      Candidate& candidate = candidates_[number_[g]];
+      candidate.members.push_back(c);
+      candidate.planes.add(planes_[c]);
+      candidate.euler += euler_[c];
+      candidate.is_blocked |= !may_join_[c];
+    }
+    for (const uint32_t c : blocked_) candidates_[number_[c]].is_blocked = true;
+    for (const uint32_t c : arc_ends_) ++candidates_[number_[c]].inner_arc_ends;
+  }
+
+  Candidate* candidate_of(uint32_t cluster) {
+    return number_[cluster] == Cluster::none ? nullptr : &candidates_[number_[cluster]];
+  }
+
+  // Points where four members meet, or more arcs go on.
+  void note_points() {
+    for (const uint32_t q : quads_) {
+      const EdgeLevels e = levels(q);
+      if (std::max(e.u, e.v) != level_ - 1) continue;
+      if (Candidate* candidate = candidate_of(top(mesh_.quads[q].corners[0]))) ++candidate->euler;
+    }
+  }
+
+  void note_crossed_edges() {
+    for (const uint32_t q : quads_) {
+      const EdgeLevels e = levels(q);
+      if (std::min(e.u, e.v) < level_) continue;
+      const auto t = tops(q);
+      for (size_t n = 0; n < 4; ++n) {
+        Candidate* candidate = candidate_of(t[n]);
+        if (!candidate) continue;
+        const auto bit = static_cast<uint16_t>(1 << edge_number(axis_of(q), quad_offsets[n][0], quad_offsets[n][1]));
+        candidate->crosses_twice |= (candidate->crossed_edges & bit) != 0;
+        candidate->crossed_edges |= bit;
+      }
+    }
+  }
+
+  // What cannot stand for its members may still hang together with others, and be a disc with them, a level up.
+  bool make_clusters() {
+    std::vector<uint32_t> made;
+    for (const Candidate& candidate : candidates_) {
+      if (candidate.is_blocked) continue;
+      const Quadric::Least least = candidate.planes.least();
+      if (least.rms_mm > rms_share * tolerance_mm_) continue;
+      CellPlace place = clusters_[candidate.members[0]].place;
+      for (int32_t& index : place) index >>= 1;
+      // Two quads tell of each arc.
+      const int euler = candidate.euler - candidate.inner_arc_ends / 2;
+      const bool is_simple = euler == 1 && !candidate.crosses_twice && borders_are_simple(candidate.crossed_edges) &&
+                             room_of(cells_.lattice(), place, level_).contains(least.at);
+      const auto number = static_cast<uint32_t>(clusters_.size());
+      for (const uint32_t member : candidate.members) clusters_[member].parent = number;
+      clusters_.push_back({place, static_cast<uint8_t>(level_), !is_simple, Cluster::none, least.at});
+      planes_.push_back(candidate.planes);
+      euler_.push_back(euler);
+      may_join_.push_back(true);
+      made.push_back(number);
+    }
+    fresh_ = std::move(made);
+    return !fresh_.empty();
+  }
+
+  const MixedCells& cells_;
+  const std::vector<Crossing>& crossings_;
+  const DualMesh& mesh_;
+  double tolerance_mm_;
+  std::vector<Cluster>& clusters_;
+  int level_ = 0;
+  std::vector<Quadric> planes_;
+  std::vector<int> euler_;
+  std::vector<bool> may_join_;
+  std::vector<uint32_t> fresh_, quads_, group_, number_, blocked_, arc_ends_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+Clusters::Clusters(const MixedCells& cells, const std::vector<Crossing>& crossings, const DualMesh& mesh,
+                   double tolerance_mm) {
+  for (const DualVertex& vertex : mesh.vertices) {
+    const CellPlace& place = cells.cells()[vertex.cell].at;
+    const Box box = room_of(cells.lattice(), place, 0);
+    clusters_.push_back({place, 0, false, Cluster::none, within(box, vertex.planes.mean(), vertex.planes.least().at)});
+  }
+  if (tolerance_mm <= 0) return;
+  LevelBuilder builder(cells, crossings, mesh, tolerance_mm, clusters_);
+  for (int level = 1; builder.build(level); ++level) {
+  }
+}
+
+uint32_t Clusters::of(uint32_t vertex) const {
+  uint32_t found = vertex;
+  for (uint32_t c = clusters_[vertex].parent; c != Cluster::none; c = clusters_[c].parent)
+    if (!clusters_[c].is_split) found = c;
+  return found;
+}
+
+}  // namespace ombre::surface

@@ -1,0 +1,47 @@
+// The borders of regions as triangles, by dual contouring.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/progress.h"
+#include "surface/partition.h"
+#include "voxel/lattice.h"
+
+namespace ombre::surface {
+
+// Counter-clockwise as seen from region `front`; region `back` is behind it. 0 is void.
+struct Facet {
+  std::array<uint32_t, 3> corners{};
+  Label back = 0, front = 0;
+};
+
+struct ContourReport {
+  uint64_t mixed_cells = 0;
+  uint64_t crossings = 0;
+  uint64_t full_triangles = 0;  // of a mesh with a vertex for each cell
+  uint64_t at_mean_points = 0;  // vertices that would have folded the surface
+  uint64_t folded = 0;          // triangles that still look against the surface there
+};
+
+// Facets between any two regions; those around one region enclose it without a gap.
+struct RegionSurface {
+  std::vector<Vec3> vertices;  // mm
+  std::vector<Facet> facets;
+  ContourReport report;
+};
+
+struct ContourOptions {
+  voxel::Lattice corners;   // the cells' corners; its outermost points count as void
+  double tolerance_mm = 0;  // flat cells are joined within it; 0: none are
+  int threads = 0;
+};
+
+// Dual contouring (Ju et al., 2002) with a vertex for each part of a cell (Nielson, 2004), and cells joined in an
+// octree as Schaefer et al. (2007) do. Regions of more than two meet in shared vertices. What is thinner than a
+// cell may be lost. Throws Cancelled.
+RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress = nullptr,
+                      const StopFlag* stop = nullptr);
+
+}  // namespace ombre::surface

@@ -1,0 +1,34 @@
+// Asks the details of a partition at scattered points of a box, in double precision.
+#pragma once
+
+#include <vector>
+
+#include "base/box.h"
+#include "eval/rows.h"
+#include "surface/partition.h"
+
+namespace ombre::surface {
+
+class PointAsker {
+ public:
+  // Points will lie in `box`. What is settled there is left out of the program.
+  void begin(const Partition& partition, const Box& box);
+  // The answers replace those of the last call.
+  void ask(const std::vector<Vec3>& points);
+
+  Label label(size_t n) const { return static_cast<Label>(value(Partition::label_output, n)); }
+  // What goes from negative to positive on the way from region a to region b.
+  double between(Label a, Label b, size_t n) const;
+
+ private:
+  static constexpr size_t width = 128;
+  double value(size_t output, size_t n) const { return answers_[output * count_ + n]; }
+
+  const Partition* partition_ = nullptr;
+  program::Program program_;
+  eval::RowEvaluator rows_{width};
+  std::vector<double> coordinates_[3], answers_;
+  size_t count_ = 0;
+};
+
+}  // namespace ombre::surface
