@@ -1,0 +1,37 @@
+// What a mesh file is written from: bodies of triangles, with names, materials and colours.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace ombre::formats {
+
+using Rgba = std::array<uint8_t, 4>;  // sRGB, opaque at 255
+
+struct MeshMaterial {
+  std::string name;
+  Rgba colour{128, 128, 128, 255};
+};
+
+struct MeshBody {
+  std::string name;
+  std::vector<Vec3> vertices;                                 // mm
+  std::vector<std::array<uint32_t, 3>> triangles;             // counter-clockwise from outside
+  std::optional<uint32_t> material;                           // an index into the document's
+  std::vector<Rgba> vertex_colours;                           // empty, or one per vertex
+  std::vector<std::pair<std::string, std::string>> settings;  // keys of slicers and their values: fill_density, 15%
+};
+
+struct MeshDocument {
+  std::string title;
+  std::vector<MeshMaterial> materials;
+  std::vector<MeshBody> bodies;
+};
+
+}  // namespace ombre::formats
