@@ -9,10 +9,9 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "formats/rgba.h"
 
 namespace ombre::formats {
-
-using Rgba = std::array<uint8_t, 4>;  // sRGB, opaque at 255
 
 struct MeshMaterial {
   std::string name;
@@ -21,17 +20,20 @@ struct MeshMaterial {
 
 struct MeshBody {
   std::string name;
-  std::vector<Vec3> vertices;                                 // mm
-  std::vector<std::array<uint32_t, 3>> triangles;             // counter-clockwise from outside
-  std::optional<uint32_t> material;                           // an index into the document's
-  std::vector<Rgba> vertex_colours;                           // empty, or one per vertex
-  std::vector<std::pair<std::string, std::string>> settings;  // keys of slicers and their values: fill_density, 15%
+  std::vector<Vec3> vertices;                                      // mm
+  std::vector<std::array<uint32_t, 3>> triangles;                  // counter-clockwise from outside
+  std::optional<uint32_t> material = {};                           // an index into the document's
+  std::vector<Rgba> vertex_colours = {};                           // empty, or one per vertex
+  std::vector<std::pair<std::string, std::string>> settings = {};  // PrusaSlicer's keys: fill_density, 15%
 };
 
 struct MeshDocument {
   std::string title;
   std::vector<MeshMaterial> materials;
   std::vector<MeshBody> bodies;
+
+  size_t vertex_count() const;
+  size_t triangle_count() const;
 };
 
 }  // namespace ombre::formats
