@@ -1,28 +1,6 @@
+#ifdef OMBRE_3MF
+
 #include "formats/zip_archive.h"
-
-#include "base/error.h"
-
-#ifndef OMBRE_3MF
-
-namespace ombre::formats {
-
-constexpr const char* missing = "this ombre was built without libzip";
-constexpr const char* remedy = "install libzip-dev and libpugixml-dev, configure with -DOMBRE_3MF=ON and build again";
-
-void write_zip(const std::string&, const std::vector<ZipEntry>&) {
-  throw Error(std::string(missing) + "; " + remedy + ", or write another format");
-}
-
-ZipReader::ZipReader(const std::string& name, std::string_view, Diagnostics& diagnostics)
-    : name_(name), diagnostics_(diagnostics) {
-  diagnostics.error({make_source(name, ""), 0, 0}, std::string("zip archives cannot be read: ") + missing, remedy);
-  throw DesignError();
-}
-ZipReader::~ZipReader() = default;
-
-}  // namespace ombre::formats
-
-#else
 
 #include <zip.h>
 
@@ -185,41 +163,41 @@ bool ZipReader::has(const std::string& entry) const {
   return std::find(names_.begin(), names_.end(), entry) != names_.end();
 }
 
-std::string ZipReader::read(const std::string& entry) const {
-  zip_stat_t stat;
-  if (zip_stat(archive_, entry.c_str(), 0, &stat) != 0) fail_entry(entry, "is missing");
+// What an entry promises is believed only where it says that reading is not worth while.
+void ZipReader::check(const std::string& entry, const struct zip_stat& stat) const {
   if ((stat.valid & ZIP_STAT_ENCRYPTION_METHOD) != 0 && stat.encryption_method != ZIP_EM_NONE)
     fail_entry(entry, "is encrypted", "save it without a password");
-  if (stat.size > most_entry_bytes)
-    fail_entry(entry, "has " + format_count(stat.size) + " bytes unpacked, at most " + format_count(most_entry_bytes) +
-                          " are read");
+  if (stat.size > most_bytes - bytes_read_)
+    fail_entry(entry, "has " + format_count(stat.size) + " bytes unpacked; of an archive at most " +
+                          format_count(most_bytes) + " bytes are read");
   if (stat.size > small_entry_bytes && stat.size / most_ratio > stat.comp_size)
-    fail_entry(entry, "is packed " + format_count(stat.size / std::max<uint64_t>(stat.comp_size, 1)) +
-                          " to 1, which meshes are not: more than " + format_count(most_ratio) +
-                          " to 1 is taken for an attack on memory");
+    fail_entry(entry, "is packed more tightly than " + format_count(most_ratio) + " to 1 (" + format_count(stat.size) +
+                          " bytes into " + format_count(stat.comp_size) + "), which is taken for an attack on memory");
+}
 
+std::string ZipReader::read(const std::string& entry) {
+  zip_stat_t stat;
+  if (zip_stat(archive_, entry.c_str(), 0, &stat) != 0) fail_entry(entry, "is missing");
+  check(entry, stat);
   const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(zip_fopen_index(archive_, stat.index, 0), zip_fclose);
   if (!file) fail_entry(entry, std::string("cannot be unpacked: ") + zip_strerror(archive_));
-  // What an archive promises is made room for as it comes.
-  constexpr size_t piece = size_t{1} << 20;
+
+  // Room is made as bytes come.
+  constexpr uint64_t piece = uint64_t{1} << 20;
   std::string bytes;
   for (;;) {
     const size_t filled = bytes.size();
-    bytes.resize(filled + std::min<uint64_t>(piece, stat.size - filled + 1));
+    bytes.resize(filled + std::min(piece, stat.size - filled + 1));
     const zip_int64_t got = zip_fread(file.get(), bytes.data() + filled, bytes.size() - filled);
     if (got < 0) fail_entry(entry, std::string("cannot be unpacked: ") + zip_file_strerror(file.get()));
     bytes.resize(filled + static_cast<size_t>(got));
     if (bytes.size() > stat.size) fail_entry(entry, "is larger than the archive says");
-    if (got == 0) return bytes;
+    if (got == 0) break;
   }
+  bytes_read_ += bytes.size();
+  return bytes;
 }
 
 }  // namespace ombre::formats
 
 #endif
-
-namespace ombre::formats {
-
-bool is_zip(std::string_view bytes) { return bytes.substr(0, 4) == "PK\x03\x04"; }
-
-}  // namespace ombre::formats

@@ -1,4 +1,4 @@
-// Zip archives by libzip.
+// Zip archives by libzip. There is no reader in builds without it.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@
 #include "formats/lazy_bytes.h"
 
 struct zip;
+struct zip_stat;
 
 namespace ombre::formats {
 
@@ -23,14 +24,14 @@ struct ZipEntry {
 // Error in builds without libzip. The file is made under another name beside `path` and renamed.
 void write_zip(const std::string& path, const std::vector<ZipEntry>& entries);
 
-bool is_zip(std::string_view bytes);
+inline bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
 // Reads entries into memory; nothing is ever unpacked onto the disk. What is wrong with the archive is reported and
 // ends the reading by DesignError.
 class ZipReader {
  public:
-  // More than this, or packed more tightly than meshes ever are, is taken for an attack.
-  static constexpr uint64_t most_entry_bytes = uint64_t{1} << 30;
+  // More than this in all, or packed more tightly than meshes ever are, is taken for an attack.
+  static constexpr uint64_t most_bytes = uint64_t{1} << 30;
   static constexpr uint64_t most_entries = 10'000;
   static constexpr uint64_t most_ratio = 200, small_entry_bytes = uint64_t{16} << 20;
 
@@ -42,9 +43,10 @@ class ZipReader {
 
   const std::vector<std::string>& names() const { return names_; }
   bool has(const std::string& entry) const;
-  std::string read(const std::string& entry) const;
+  std::string read(const std::string& entry);
 
  private:
+  void check(const std::string& entry, const struct zip_stat& stat) const;
   [[noreturn]] void fail_entry(const std::string& entry, const std::string& problem,
                                const std::string& hint = "") const;
 
@@ -52,6 +54,7 @@ class ZipReader {
   Diagnostics& diagnostics_;
   zip* archive_ = nullptr;
   std::vector<std::string> names_;  // as in the archive
+  uint64_t bytes_read_ = 0;
 };
 
 }  // namespace ombre::formats
