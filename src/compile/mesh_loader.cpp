@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "formats/file.h"
+#include "formats/mesh_objects.h"
 #include "import/mesh_source.h"
 
 namespace ombre::compile {
@@ -56,14 +57,30 @@ bool check_closed(const std::string& path, const importing::MeshReport& report, 
   return false;
 }
 
+// False, and a diagnostic, when the file has no object of that name.
+bool choose_object(const std::string& path, formats::Mesh& mesh, const std::string& object, const SourceRange& where,
+                   Diagnostics& diagnostics) {
+  if (object.empty() || formats::keep_object(mesh, object)) return true;
+  constexpr size_t most_listed = 20;
+  std::vector<std::string> names = formats::object_names(mesh);
+  std::string hint = did_you_mean(object, names);
+  const bool is_cut = names.size() > most_listed;
+  if (is_cut) names.resize(most_listed);
+  if (hint.empty())
+    hint = names.empty() ? "its objects have no names: leave object out"
+                         : "there are " + join(names, ", ") + (is_cut ? " and more" : "");
+  diagnostics.error(where, "the mesh \"" + path + "\" has no object \"" + object + '"', hint);
+  return false;
+}
+
 }  // namespace
 
-program::SourceField MeshLoader::mesh(std::string& path, const std::string& inside, const SourceRange& where,
-                                      Diagnostics& diagnostics) {
+program::SourceField MeshLoader::mesh(std::string& path, const std::string& object, const std::string& inside,
+                                      const SourceRange& where, Diagnostics& diagnostics) {
   const auto found = find_file(path, where, diagnostics);
   if (!found) return nullptr;
   path = *found;
-  const auto known = known_.find({path, inside});
+  const auto known = known_.find({path, object, inside});
   if (known != known_.end()) return known->second;
   std::string bytes;
   try {
@@ -73,18 +90,20 @@ program::SourceField MeshLoader::mesh(std::string& path, const std::string& insi
     return nullptr;
   }
   Hash content = hash_bytes(bytes);
+  if (!object.empty()) content = hash_bytes(content.hex() + object);
   auto mesh = formats::read_mesh(path, bytes, diagnostics);
   if (!mesh) {
     diagnostics.note(where, "the file is used here");
     return nullptr;
   }
+  if (!choose_object(path, *mesh, object, where, diagnostics)) return nullptr;
   if (!check_closed(path, importing::inspect(*mesh), inside, where, diagnostics)) return nullptr;
   const program::SourceField source = importing::make_mesh_source(path, std::move(*mesh), content, {rule_of(inside)});
   if (source->channel("distance") < 0) {
     diagnostics.error(where, "meshes are not available: this build has no library for their distances");
     return nullptr;
   }
-  known_[{path, inside}] = source;
+  known_[{path, object, inside}] = source;
   return source;
 }
 

@@ -5,23 +5,25 @@
 
 #include "base/text.h"
 #include "formats/file.h"
-#include "formats/text_scanner.h"
+#include "formats/zip_archive.h"
 
 namespace ombre::formats {
 namespace {
 
-constexpr std::string_view zip_signature = "PK\x03\x04";
-
 std::string extension(const std::string& name) { return to_lower(std::filesystem::path(name).extension().string()); }
 
-std::optional<Mesh> report_unknown(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  if (bytes.substr(0, zip_signature.size()) == zip_signature)
-    diagnostics.error({make_source(name, ""), 0, 0},
-                      "this is a zip archive (3MF and AMF files are), which cannot be read as a mesh",
-                      "save the mesh as STL, OBJ, PLY or OFF");
-  else
-    diagnostics.error({make_source(name, ""), 0, 0}, "neither the name nor the content tells which mesh format this is",
-                      "name the file .stl, .obj, .ply or .off");
+// The outermost element, behind a declaration and comments.
+bool is_amf(std::string_view bytes) {
+  constexpr size_t sniffed_bytes = 1024;
+  const size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+  if (first == std::string_view::npos || bytes[first] != '<') return false;
+  const std::string_view beginning = bytes.substr(first, sniffed_bytes);
+  return beginning.find("<amf>") != std::string_view::npos || beginning.find("<amf ") != std::string_view::npos;
+}
+
+std::optional<Mesh> report_unknown(const std::string& name, Diagnostics& diagnostics) {
+  diagnostics.error({make_source(name, ""), 0, 0}, "neither the name nor the content tells which mesh format this is",
+                    "name the file .stl, .obj, .ply, .off, .3mf or .amf");
   return std::nullopt;
 }
 
@@ -32,16 +34,20 @@ std::optional<Mesh> read_mesh(const std::string& path, Diagnostics& diagnostics)
 }
 
 std::optional<Mesh> read_mesh(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
+  const std::string ending = extension(name);
   if (is_ply(bytes)) return read_ply(name, bytes, diagnostics);
   if (is_off(bytes)) return read_off(name, bytes, diagnostics);
+  if (is_zip(bytes)) return ending == ".amf" ? read_amf(name, bytes, diagnostics) : read_3mf(name, bytes, diagnostics);
+  if (is_amf(bytes)) return read_amf(name, bytes, diagnostics);
   if (is_stl(bytes)) return read_stl(name, bytes, diagnostics);
 
-  const std::string ending = extension(name);
   if (ending == ".obj") return read_obj(name, bytes, diagnostics);
   if (ending == ".stl") return read_stl(name, bytes, diagnostics);
   if (ending == ".ply") return read_ply(name, bytes, diagnostics);
   if (ending == ".off") return read_off(name, bytes, diagnostics);
-  return report_unknown(name, bytes, diagnostics);
+  if (ending == ".3mf") return read_3mf(name, bytes, diagnostics);
+  if (ending == ".amf") return read_amf(name, bytes, diagnostics);
+  return report_unknown(name, diagnostics);
 }
 
 }  // namespace ombre::formats

@@ -10,21 +10,25 @@
 
 #include "base/diagnostic.h"
 #include "base/vec.h"
+#include "formats/rgba.h"
 
 namespace ombre::formats {
 
-// A run of triangles: an STL solid, or what an OBJ file calls an object or a group. A name may come
-// back when a file returns to it.
+// A run of triangles: an STL solid, what an OBJ file calls an object or a group, a volume of AMF, an object of 3MF as
+// far as one material goes. A name may come back when a file returns to it.
 struct MeshGroup {
   std::string name;
   uint32_t first_triangle = 0, triangle_count = 0;
-  std::string material = {};  // OBJ usemtl; it is also the name where the file gives no other
+  std::string material = {};        // OBJ usemtl; it is also the name where the file gives no other
+  std::string object = {};          // the AMF object or the 3MF part that it belongs to, where that has a name
+  std::optional<Rgba> colour = {};  // AMF, 3MF: its own or its material's
 };
 
 struct Mesh {
-  std::vector<Vec3> vertices;                      // as in the file; finite, at most greatest_coordinate away from 0
-  std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside; never empty
-  std::vector<MeshGroup> groups;                   // in order, none empty, together all triangles
+  // As in the file, 3MF and AMF in mm; finite, at most greatest_coordinate away from 0.
+  std::vector<Vec3> vertices;
+  std::vector<std::array<uint32_t, 3>> triangles;          // counter-clockwise from outside; never empty
+  std::vector<MeshGroup> groups;                           // in order, none empty, together all triangles
   std::vector<std::array<double, 2>> texture_coordinates;  // may be empty
   std::vector<std::array<uint32_t, 3>> texture_triangles;  // empty, or one per triangle, into texture_coordinates
 };
@@ -46,6 +50,10 @@ std::optional<Mesh> read_obj(const std::string& name, std::string_view bytes, Di
 std::optional<Mesh> read_ply(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 // Geomview OFF as text, in three dimensions; normals, colours and texture coordinates may be there.
 std::optional<Mesh> read_off(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+// 3MF: the objects that are built, in place; materials and colours as far as triangles have one.
+std::optional<Mesh> read_3mf(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+// AMF as text or zipped; curved edges are taken as straight.
+std::optional<Mesh> read_amf(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
 // What the bytes show for certain, whatever the file is called.
 bool is_stl(std::string_view bytes);

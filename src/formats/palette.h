@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "base/run.h"
+#include "formats/rgba.h"
 
 namespace ombre::formats {
-
-using Rgba = std::array<uint8_t, 4>;  // red, green, blue, alpha; not premultiplied
 
 // The least of 1, 2, 4, 8 bits that tells so many things apart.
 int bits_for(size_t count);

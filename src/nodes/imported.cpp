@@ -13,18 +13,20 @@ struct Mesh {
   FilePath path;
   MaterialName material;
   Choice inside_rule = "nonzero";
+  std::string object;
   program::SourceField source;  // read when the node is made
 
   static Spec<Mesh> spec() {
     return {"mesh",
             "imported",
-            "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF, in mm.",
+            "Solid bounded by the triangles of a file: STL, OBJ, PLY, OFF, 3MF or AMF, in mm.",
             {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
              {"material", &Mesh::material, "Its material"},
              {"inside", &Mesh::inside_rule,
               "What is inside: nonzero (winding number; overlapping shells stay solid), parity, or generalized (for "
               "open meshes)",
-              one_of({"nonzero", "parity", "generalized"})}},
+              one_of({"nonzero", "parity", "generalized"})},
+             {"object", &Mesh::object, "The name of one of the file's objects; none: all of them"}},
             no_inputs,
             "mesh(\"models/gear.stl\", \"red\");"};
   }
@@ -34,7 +36,7 @@ struct Mesh {
       reader.diagnostics.error(reader.where, "meshes cannot be read here");
       return false;
     }
-    source = reader.loader->mesh(path.path, std::string(inside_rule), reader.where, reader.diagnostics);
+    source = reader.loader->mesh(path.path, object, std::string(inside_rule), reader.where, reader.diagnostics);
     if (!source) return false;
     path.content = source->content();
     return true;

@@ -41,7 +41,8 @@ class BallSource : public program::FieldSource {
 
 class BallLoader : public SourceLoader {
  public:
-  program::SourceField mesh(std::string&, const std::string&, const SourceRange&, Diagnostics&) override {
+  program::SourceField mesh(std::string&, const std::string&, const std::string&, const SourceRange&,
+                            Diagnostics&) override {
     return std::make_shared<BallSource>();
   }
 };

@@ -1,0 +1,39 @@
+// What a mesh file is written from: bodies of triangles, with names, materials and colours.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/vec.h"
+#include "formats/rgba.h"
+
+namespace ombre::formats {
+
+struct MeshMaterial {
+  std::string name;
+  Rgba colour{128, 128, 128, 255};
+};
+
+struct MeshBody {
+  std::string name;
+  std::vector<Vec3> vertices;                                      // mm
+  std::vector<std::array<uint32_t, 3>> triangles;                  // counter-clockwise from outside
+  std::optional<uint32_t> material = {};                           // an index into the document's
+  std::vector<Rgba> vertex_colours = {};                           // empty, or one per vertex
+  std::vector<std::pair<std::string, std::string>> settings = {};  // PrusaSlicer's keys: fill_density, 15%
+};
+
+struct MeshDocument {
+  std::string title;
+  std::vector<MeshMaterial> materials;
+  std::vector<MeshBody> bodies;
+
+  size_t vertex_count() const;
+  size_t triangle_count() const;
+};
+
+}  // namespace ombre::formats

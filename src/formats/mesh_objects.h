@@ -1,0 +1,17 @@
+// The objects within a mesh.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/mesh.h"
+
+namespace ombre::formats {
+
+// The names by which keep_object() finds something, each once, in the order of the file.
+std::vector<std::string> object_names(const Mesh& mesh);
+
+// Keeps the groups whose name is `name`, or whose object's is. False, and an unchanged mesh, if there are none.
+bool keep_object(Mesh& mesh, const std::string& name);
+
+}  // namespace ombre::formats

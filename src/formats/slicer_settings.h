@@ -1,0 +1,13 @@
+// What slicers are told about a body.
+#pragma once
+
+#include "formats/mesh_document.h"
+
+namespace ombre::formats {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+// In PrusaSlicer's keys: the body's own, and the extruder of its material, from 1, unless it names one.
+Settings slicer_settings(const MeshBody& body);
+
+}  // namespace ombre::formats

@@ -1,0 +1,21 @@
+// The model files of a 3MF package. Only for files that are built with pugixml.
+#pragma once
+
+#include <set>
+
+#include "formats/assembly.h"
+#include "formats/xml_file.h"
+
+namespace ombre::formats {
+
+// The key of an object in an assembly.
+std::string object_key(std::string_view part, uint64_t id);
+
+// Adds the objects of a model file, which is called `part` in the package, and to `further` the parts that it
+// refers to.
+void add_objects(const XmlFile& file, const std::string& part, Assembly& assembly, std::set<std::string>& further);
+
+// Adds what a package's main model file says of the whole: its unit, and what is built.
+void add_build(const XmlFile& file, const std::string& part, Assembly& assembly, std::set<std::string>& further);
+
+}  // namespace ombre::formats

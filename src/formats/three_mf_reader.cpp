@@ -1,0 +1,77 @@
+// 3MF: finds the model in the archive, and what it refers to.
+#ifdef OMBRE_3MF
+
+#include "formats/text_scanner.h"
+#include "formats/three_mf_model.h"
+#include "formats/zip_archive.h"
+
+namespace ombre::formats {
+namespace {
+
+constexpr const char* relationships = "_rels/.rels";
+constexpr std::string_view model_relationship = "/3dmodel";
+
+class Reader {
+ public:
+  Reader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
+      : name_(name), diagnostics_(diagnostics), archive_(name, bytes, diagnostics) {}
+
+  Mesh read() {
+    read_part(root_model(), true);
+    while (!further_.empty()) {
+      const std::string part = *further_.begin();
+      further_.erase(further_.begin());
+      if (!read_.contains(part)) read_part(part, false);
+    }
+    return assemble(assembly_, name_, diagnostics_);
+  }
+
+ private:
+  XmlFile xml(const std::string& entry) { return {name_ + '/' + entry, archive_.read(entry), diagnostics_}; }
+
+  // The archive's file to which the package points.
+  std::string root_model() {
+    if (!archive_.has(relationships))
+      fail(diagnostics_, name_,
+           std::string("this zip archive is not a 3MF file: it has no file \"") + relationships + '"',
+           "name it .amf if it is a zipped AMF file");
+    const XmlFile file = xml(relationships);
+    for (const pugi::xml_node node : file.root("Relationships").children()) {
+      const std::string_view type = file.attribute(node, "Type").value_or("");
+      if (local_name(node) != "Relationship" || !type.ends_with(model_relationship)) continue;
+      const std::string_view target = file.required(node, "Target");
+      return std::string(target.starts_with('/') ? target.substr(1) : target);
+    }
+    fail(diagnostics_, name_, "this 3MF file says nowhere which of its files is the model",
+         std::string(relationships) + " lacks a relationship of the type 3dmodel");
+  }
+
+  void read_part(const std::string& part, bool is_root) {
+    const XmlFile file = xml(part);
+    read_.insert(part);
+    add_objects(file, part, assembly_, further_);
+    if (is_root) add_build(file, part, assembly_, further_);
+  }
+
+  const std::string& name_;
+  Diagnostics& diagnostics_;
+  ZipReader archive_;
+  Assembly assembly_;
+  std::set<std::string> read_, further_;  // parts of the package
+};
+
+}  // namespace
+
+std::optional<Mesh> read_3mf(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
+  try {
+    if (bytes.empty()) fail(diagnostics, name, "the file is empty");
+    if (!is_zip(bytes)) fail(diagnostics, name, "this is not a 3MF file: those are zip archives");
+    return Reader(name, bytes, diagnostics).read();
+  } catch (const DesignError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace ombre::formats
+
+#endif

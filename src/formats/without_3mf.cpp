@@ -1,0 +1,35 @@
+// What 3MF and AMF are in builds without libzip and pugixml: messages.
+#ifndef OMBRE_3MF
+
+#include "base/error.h"
+#include "formats/mesh.h"
+#include "formats/zip_archive.h"
+
+namespace ombre::formats {
+namespace {
+
+constexpr const char* missing = "this ombre was built without libzip and pugixml";
+constexpr const char* remedy = "install libzip-dev and libpugixml-dev, configure with -DOMBRE_3MF=ON and build again";
+
+std::optional<Mesh> report(const std::string& name, const std::string& format, Diagnostics& diagnostics) {
+  diagnostics.error({make_source(name, ""), 0, 0}, format + " files cannot be read: " + missing, remedy);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Mesh> read_3mf(const std::string& name, std::string_view, Diagnostics& diagnostics) {
+  return report(name, "3MF", diagnostics);
+}
+
+std::optional<Mesh> read_amf(const std::string& name, std::string_view, Diagnostics& diagnostics) {
+  return report(name, "AMF", diagnostics);
+}
+
+void write_zip(const std::string& path, const std::vector<ZipEntry>&) {
+  throw Error("cannot write " + path + ": " + missing + "; " + remedy + ", or write another format");
+}
+
+}  // namespace ombre::formats
+
+#endif

@@ -1,0 +1,203 @@
+#ifdef OMBRE_3MF
+
+#include "formats/zip_archive.h"
+
+#include <zip.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+
+#include "base/text.h"
+#include "formats/text_scanner.h"
+
+namespace ombre::formats {
+namespace {
+
+// 1980-01-01 00:00, the first date there is.
+constexpr uint16_t first_date = 1 << 5 | 1, midnight = 0;
+
+// An entry's bytes as libzip asks for them.
+class EntrySource {
+ public:
+  explicit EntrySource(const LazyBytes& bytes) : bytes_(bytes), size_(bytes.size()) {}
+
+  static zip_int64_t call(void* self, void* data, zip_uint64_t length, zip_source_cmd_t command) {
+    try {
+      return static_cast<EntrySource*>(self)->answer(data, length, command);
+    } catch (const std::exception&) {
+      return -1;
+    }
+  }
+
+ private:
+  zip_int64_t answer(void* data, zip_uint64_t length, zip_source_cmd_t command) {
+    switch (command) {
+      case ZIP_SOURCE_OPEN:
+        reader_.emplace(bytes_);
+        rest_ = {};
+        return 0;
+      case ZIP_SOURCE_READ:
+        return read(static_cast<char*>(data), length);
+      case ZIP_SOURCE_STAT:
+        return tell_size(static_cast<zip_stat_t*>(data));
+      case ZIP_SOURCE_ERROR:
+        return zip_error_to_data(zip_error_in_memory(), data, length);
+      case ZIP_SOURCE_CLOSE:
+      case ZIP_SOURCE_FREE:
+        return 0;
+      case ZIP_SOURCE_SUPPORTS:
+        return zip_source_make_command_bitmap(ZIP_SOURCE_OPEN, ZIP_SOURCE_READ, ZIP_SOURCE_CLOSE, ZIP_SOURCE_STAT,
+                                              ZIP_SOURCE_ERROR, ZIP_SOURCE_FREE, -1);
+      default:
+        return -1;
+    }
+  }
+
+  static zip_error_t* zip_error_in_memory() {
+    static thread_local zip_error_t error;
+    zip_error_init_with_code(&error, ZIP_ER_MEMORY);
+    return &error;
+  }
+
+  zip_int64_t read(char* to, uint64_t length) {
+    uint64_t filled = 0;
+    while (filled < length) {
+      if (rest_.empty()) rest_ = reader_->next();
+      if (rest_.empty()) break;
+      const size_t count = std::min<uint64_t>(rest_.size(), length - filled);
+      std::memcpy(to + filled, rest_.data(), count);
+      rest_.remove_prefix(count);
+      filled += count;
+    }
+    return static_cast<zip_int64_t>(filled);
+  }
+
+  zip_int64_t tell_size(zip_stat_t* stat) const {
+    zip_stat_init(stat);
+    stat->valid = ZIP_STAT_SIZE;
+    stat->size = size_;
+    return sizeof *stat;
+  }
+
+  const LazyBytes& bytes_;
+  uint64_t size_;
+  std::optional<LazyBytesReader> reader_;
+  std::string_view rest_;
+};
+
+[[noreturn]] void throw_failure(zip_error_t* error) {
+  const int system = zip_error_system_type(error) == ZIP_ET_SYS ? zip_error_code_system(error) : 0;
+  const std::string message = zip_error_strerror(error);
+  zip_error_fini(error);
+  if (system != 0) throw std::system_error(system, std::generic_category());
+  throw std::runtime_error(message);
+}
+
+// An archive that is not written unless it is closed.
+struct Discard {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+};
+using Archive = std::unique_ptr<zip_t, Discard>;
+
+Archive create(const std::string& path) {
+  int code = 0;
+  Archive archive(zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code));
+  if (archive) return archive;
+  zip_error_t error;
+  zip_error_init_with_code(&error, code);
+  throw_failure(&error);
+}
+
+void add(zip_t* archive, const std::string& name, EntrySource& bytes) {
+  zip_source_t* const source = zip_source_function(archive, &EntrySource::call, &bytes);
+  if (!source) throw_failure(zip_get_error(archive));
+  const zip_int64_t index = zip_file_add(archive, name.c_str(), source, ZIP_FL_ENC_UTF_8);
+  if (index < 0) {
+    zip_source_free(source);
+    throw_failure(zip_get_error(archive));
+  }
+  if (zip_file_set_dostime(archive, static_cast<zip_uint64_t>(index), midnight, first_date, 0) != 0)
+    throw_failure(zip_get_error(archive));
+}
+
+}  // namespace
+
+void write_zip(const std::string& path, const std::vector<ZipEntry>& entries) {
+  std::vector<std::unique_ptr<EntrySource>> sources;
+  for (const ZipEntry& entry : entries) sources.push_back(std::make_unique<EntrySource>(entry.bytes));
+  Archive archive = create(path);
+  for (size_t i = 0; i < entries.size(); ++i) add(archive.get(), entries[i].name, *sources[i]);
+  if (zip_close(archive.get()) != 0) throw_failure(zip_get_error(archive.get()));
+  static_cast<void>(archive.release());  // closed
+}
+
+ZipReader::ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
+    : name_(name), diagnostics_(diagnostics) {
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* const source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+  if (source) archive_ = zip_open_from_source(source, ZIP_RDONLY, &error);
+  const std::string problem = zip_error_strerror(&error);
+  zip_error_fini(&error);
+  if (!archive_) {
+    if (source) zip_source_free(source);
+    fail(diagnostics, name, "this zip archive is damaged or cut short: " + problem, "save or copy it again");
+  }
+  const zip_int64_t count = zip_get_num_entries(archive_, 0);
+  for (zip_int64_t i = 0; i < std::min<zip_int64_t>(count, most_entries); ++i)
+    if (const char* const entry = zip_get_name(archive_, static_cast<zip_uint64_t>(i), 0)) names_.emplace_back(entry);
+}
+
+ZipReader::~ZipReader() {
+  if (archive_) zip_discard(archive_);
+}
+
+void ZipReader::fail_entry(const std::string& entry, const std::string& problem, const std::string& hint) const {
+  fail(diagnostics_, name_, "the archive's file " + quoted(entry) + ' ' + problem, hint);
+}
+
+bool ZipReader::has(const std::string& entry) const {
+  return std::find(names_.begin(), names_.end(), entry) != names_.end();
+}
+
+// What an entry promises is believed only where it says that reading is not worth while.
+void ZipReader::check(const std::string& entry, const struct zip_stat& stat) const {
+  if ((stat.valid & ZIP_STAT_ENCRYPTION_METHOD) != 0 && stat.encryption_method != ZIP_EM_NONE)
+    fail_entry(entry, "is encrypted", "save it without a password");
+  if (stat.size > most_bytes - bytes_read_)
+    fail_entry(entry, "has " + format_count(stat.size) + " bytes unpacked; of an archive at most " +
+                          format_count(most_bytes) + " bytes are read");
+  if (stat.size > small_entry_bytes && stat.size / most_ratio > stat.comp_size)
+    fail_entry(entry, "is packed more tightly than " + format_count(most_ratio) + " to 1 (" + format_count(stat.size) +
+                          " bytes into " + format_count(stat.comp_size) + "), which is taken for an attack on memory");
+}
+
+std::string ZipReader::read(const std::string& entry) {
+  zip_stat_t stat;
+  if (zip_stat(archive_, entry.c_str(), 0, &stat) != 0) fail_entry(entry, "is missing");
+  check(entry, stat);
+  const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(zip_fopen_index(archive_, stat.index, 0), zip_fclose);
+  if (!file) fail_entry(entry, std::string("cannot be unpacked: ") + zip_strerror(archive_));
+
+  // Room is made as bytes come.
+  constexpr uint64_t piece = uint64_t{1} << 20;
+  std::string bytes;
+  for (;;) {
+    const size_t filled = bytes.size();
+    bytes.resize(filled + std::min(piece, stat.size - filled + 1));
+    const zip_int64_t got = zip_fread(file.get(), bytes.data() + filled, bytes.size() - filled);
+    if (got < 0) fail_entry(entry, std::string("cannot be unpacked: ") + zip_file_strerror(file.get()));
+    bytes.resize(filled + static_cast<size_t>(got));
+    if (bytes.size() > stat.size) fail_entry(entry, "is larger than the archive says");
+    if (got == 0) break;
+  }
+  bytes_read_ += bytes.size();
+  return bytes;
+}
+
+}  // namespace ombre::formats
+
+#endif

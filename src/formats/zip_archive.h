@@ -1,0 +1,60 @@
+// Zip archives by libzip. There is no reader in builds without it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "formats/lazy_bytes.h"
+
+struct zip;
+struct zip_stat;
+
+namespace ombre::formats {
+
+struct ZipEntry {
+  std::string name;
+  LazyBytes bytes;
+};
+
+// Compressed, all dated 1980-01-01. Throws std::system_error where the disk fails, std::runtime_error otherwise,
+// Error in builds without libzip. The file is made under another name beside `path` and renamed.
+void write_zip(const std::string& path, const std::vector<ZipEntry>& entries);
+
+inline bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
+
+// Reads entries into memory; nothing is ever unpacked onto the disk. What is wrong with the archive is reported and
+// ends the reading by DesignError.
+class ZipReader {
+ public:
+  // More than this in all, or packed more tightly than meshes ever are, is taken for an attack.
+  static constexpr uint64_t most_bytes = uint64_t{1} << 30;
+  static constexpr uint64_t most_entries = 10'000;
+  static constexpr uint64_t most_ratio = 200, small_entry_bytes = uint64_t{16} << 20;
+
+  // `name` and the bytes must live as long.
+  ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+  ~ZipReader();
+  ZipReader(const ZipReader&) = delete;
+  ZipReader& operator=(const ZipReader&) = delete;
+
+  const std::vector<std::string>& names() const { return names_; }
+  bool has(const std::string& entry) const;
+  std::string read(const std::string& entry);
+
+ private:
+  void check(const std::string& entry, const struct zip_stat& stat) const;
+  [[noreturn]] void fail_entry(const std::string& entry, const std::string& problem,
+                               const std::string& hint = "") const;
+
+  const std::string& name_;
+  Diagnostics& diagnostics_;
+  zip* archive_ = nullptr;
+  std::vector<std::string> names_;  // as in the archive
+  uint64_t bytes_read_ = 0;
+};
+
+}  // namespace ombre::formats
