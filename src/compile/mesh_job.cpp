@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "compile/build.h"
+#include "compile/region_survey.h"
 #include "surface/contour.h"
 
 namespace ombre::compile {
@@ -13,6 +14,7 @@ namespace {
 constexpr double sides_of_tolerance = 2000;
 // Corners begin so many cells before the box; an odd part, so that faces of round coordinates do not run through them.
 constexpr double margin_cells = 1.37;
+constexpr MaterialId void_material = 0;
 constexpr int64_t most_cells = int64_t{1} << 20;  // along an axis
 
 // 0.0234 becomes 0.02.
@@ -52,6 +54,55 @@ bool set_sizes(const Box& box, const MeshRequest& request, const SourceRange& wh
   return true;
 }
 
+std::vector<double> equal_borders(Interval range, int bands) {
+  std::vector<double> borders;
+  for (int n = 1; n < bands; ++n) borders.push_back(range.lo + (range.hi - range.lo) * n / bands);
+  return borders;
+}
+
+// A material's fraction, an attribute, or the fraction that varies most. Names of materials go first.
+std::optional<RegionRule> band_rule(const design::Design& design, const Box& box, const BandRequest& bands,
+                                    Diagnostics& diagnostics) {
+  RegionRule rule{RegionRule::Kind::fraction, bands.of, bands.borders};
+  if (bands.of.empty()) {
+    const auto most = most_varying_material(design, box, diagnostics);
+    if (!most) return std::nullopt;
+    rule.of = design.materials.all()[*most].name;
+  } else if (!design.materials.find(bands.of)) {
+    rule.kind = RegionRule::Kind::attribute;
+  }
+  if (!rule.borders.empty()) return rule;
+  if (rule.kind == RegionRule::Kind::fraction) {
+    rule.borders = equal_borders({0, 1}, bands.count);
+    return rule;
+  }
+  const auto whole = build_region_program(design, box, rule, diagnostics);
+  const auto range = whole ? score_range(whole->partition, box) : std::nullopt;
+  if (range) rule.borders = equal_borders(*range, bands.count);
+  return whole ? std::optional(rule) : std::nullopt;
+}
+
+std::optional<RegionRule> region_rule(const design::Design& design, const Box& box, const MeshRequest& request,
+                                      Diagnostics& diagnostics) {
+  if (request.bands) return band_rule(design, box, *request.bands, diagnostics);
+  return RegionRule{request.by_material ? RegionRule::Kind::materials : RegionRule::Kind::whole, "", {}};
+}
+
+void add_bodies(const Loaded& loaded, const RegionProgram& program, const Box& box,
+                const surface::RegionSurface& surface, MeshedDesign& made, Diagnostics& diagnostics) {
+  const std::vector<design::Rgba> colours = mean_colours(loaded.design, program.partition, box, diagnostics);
+  const size_t count = program.regions.size();
+  for (size_t n = 0; n < count; ++n) {
+    surface::Body body = surface::body_of(surface, static_cast<surface::Label>(n + 1));
+    const Region& region = program.regions[n];
+    if (body.triangles.empty() || region.material == void_material) continue;
+    const double share = count > 1 ? static_cast<double>(n) / static_cast<double>(count - 1) : 0;
+    const double volume = surface::volume_mm3(body), area = surface::area_mm2(body);
+    const design::Rgba colour = region.material ? loaded.design.materials.all()[*region.material].colour : colours[n];
+    made.bodies.push_back({region, share, colour, std::move(body), volume, area});
+  }
+}
+
 }  // namespace
 
 std::optional<MeshedDesign> mesh_design(const Loaded& loaded, const MeshRequest& request, Diagnostics& diagnostics,
@@ -62,18 +113,15 @@ std::optional<MeshedDesign> mesh_design(const Loaded& loaded, const MeshRequest&
   MeshedDesign made;
   surface::ContourOptions options;
   if (!set_sizes(*box, request, where, made, options.corners, diagnostics)) return std::nullopt;
-  auto regions = build_region_program(loaded.design, *box, request.regions, diagnostics);
-  if (!regions) return std::nullopt;
+  const auto rule = region_rule(loaded.design, *box, request, diagnostics);
+  if (!rule) return std::nullopt;
+  const auto program = build_region_program(loaded.design, *box, *rule, diagnostics);
+  if (!program) return std::nullopt;
   options.tolerance_mm = request.join_flat ? made.tolerance_mm : 0;
   options.threads = request.threads;
-  const surface::RegionSurface surface = surface::contour(regions->partition, options, progress, stop);
+  const surface::RegionSurface surface = surface::contour(program->partition, options, progress, stop);
   made.report = surface.report;
-  for (size_t n = 0; n < regions->regions.size(); ++n) {
-    surface::Body body = surface::body_of(surface, static_cast<surface::Label>(n + 1));
-    if (body.triangles.empty()) continue;
-    const double volume = surface::volume_mm3(body), area = surface::area_mm2(body);
-    made.bodies.push_back({regions->regions[n], std::move(body), volume, area});
-  }
+  add_bodies(loaded, *program, *box, surface, made, diagnostics);
   return made;
 }
 

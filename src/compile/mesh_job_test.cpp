@@ -67,7 +67,7 @@ TEST(MeshJob, Regions) {
   for (const bool join : {false, true}) {
     MeshRequest r;
     r.join_flat = join;
-    r.regions = {RegionRule::Kind::fraction, "red", {0.25, 0.5, 0.75}};
+    r.bands = {4, {}, "red"};
     const MeshedDesign made = mesh_text("fgrade([\"x/20+0.5\", \"0.5-x/20\"], [\"red\", \"blue\"]) cube(20);", r);
     print("cube bands", made, 2000, 2 * (400 + 10 * 20));
     for (const auto& b : made.bodies) expect_manifold(b.body);
@@ -80,7 +80,7 @@ TEST(MeshJob, Cube) {
     MeshRequest r;
     r.join_flat = false;
     print(text, mesh_text(text, r), 2000, 1000);
-    r.regions = {RegionRule::Kind::fraction, "red", {0.5}};
+    r.bands = {2, {}, ""};
     print(text, mesh_text(text, r), 2000, 1000);
   }
 }

@@ -36,24 +36,35 @@ DyadicBins::DyadicBins(std::span<const Rectangle> rectangles, std::array<uint32_
 }
 
 void DyadicBins::add_levels(std::array<uint32_t, 2> finest) {
-  for (std::array<uint32_t, 2> cells = finest;; cells = {(cells[0] + 1) / 2, (cells[1] + 1) / 2}) {
+  for (uint32_t v = finest[1];; v = (v + 1) / 2) {
+    add_row_of_levels(finest[0], v);
+    if (v == 1) return;
+  }
+}
+
+// With cells of one height, from the finest width to the coarsest.
+void DyadicBins::add_row_of_levels(uint32_t finest, uint32_t cells_v) {
+  size_t count = 0;
+  for (uint32_t u = finest;; u = (u + 1) / 2, ++count) {
     Level level;
+    const std::array<uint32_t, 2> cells{u, cells_v};
     for (size_t axis = 0; axis < 2; ++axis) {
       const double width = (hi_[axis] - lo_[axis]) / cells[axis];
       level.cells[axis] = width > 0 ? cells[axis] : 1;
       level.width[axis] = width > 0 ? width : 1;
     }
     levels_.push_back(std::move(level));
-    if (cells[0] == 1 && cells[1] == 1) return;
+    if (u == 1) break;
   }
+  levels_a_row_ = count + 1;
 }
 
 size_t DyadicBins::level_of(const Rectangle& r) const {
-  for (size_t i = 0; i + 1 < levels_.size(); ++i) {
-    const Level& level = levels_[i];
-    if (r.hi[0] - r.lo[0] <= level.width[0] && r.hi[1] - r.lo[1] <= level.width[1]) return i;
-  }
-  return levels_.size() - 1;
+  const size_t rows = levels_.size() / levels_a_row_;
+  size_t u = 0, v = 0;
+  while (u + 1 < levels_a_row_ && r.hi[0] - r.lo[0] > levels_[u].width[0]) ++u;
+  while (v + 1 < rows && r.hi[1] - r.lo[1] > levels_[v * levels_a_row_].width[1]) ++v;
+  return v * levels_a_row_ + u;
 }
 
 template <class Visit>

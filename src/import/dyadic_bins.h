@@ -8,9 +8,9 @@
 
 namespace ombre::importing {
 
-// Levels of grids, each with cells twice as wide as those of the one below. A rectangle lies in the
-// finest level whose cells are not smaller than it, so in four cells or so; a point asks for one
-// cell of each level.
+// Levels of grids, for each width of cells and each height, in steps of two. A rectangle lies in the finest level
+// whose cells are not smaller than it along either axis, so in four cells or so; a point asks for one cell of each
+// level that is used.
 class DyadicBins {
  public:
   // Closed and finite.
@@ -48,10 +48,12 @@ class DyadicBins {
   template <class Visit>
   void for_cells(const Level& level, const Rectangle& rectangle, const Visit& visit) const;
   void add_levels(std::array<uint32_t, 2> finest);
+  void add_row_of_levels(uint32_t finest, uint32_t cells_v);
   size_t level_of(const Rectangle& rectangle) const;
 
   std::array<double, 2> lo_{1, 1}, hi_{0, 0};  // empty: no point is within
-  std::vector<Level> levels_;
+  std::vector<Level> levels_;                  // width by width, then height by height; later only those that are used
+  size_t levels_a_row_ = 1;
 };
 
 }  // namespace ombre::importing

@@ -34,6 +34,7 @@ class PairsOfParts {
 
 DualMesh make_dual_mesh(const MixedCells& cells, const std::vector<Crossing>& crossings) {
   DualMesh mesh;
+  std::vector<CellParts> parts_of;
   std::vector<uint32_t> first_vertex;
   for (uint32_t n = 0; n < cells.cells().size(); ++n) {
     const MixedCell& cell = cells.cells()[n];
@@ -43,6 +44,7 @@ DualMesh make_dual_mesh(const MixedCells& cells, const std::vector<Crossing>& cr
       if (cell.crosses(e))
         pairs[parts.part_of_edge[static_cast<size_t>(e)]].note(cell.corners[first_corner(e)],
                                                                cell.corners[second_corner(e)]);
+    parts_of.push_back(parts);
     first_vertex.push_back(static_cast<uint32_t>(mesh.vertices.size()));
     for (size_t part = 0; part < parts.count; ++part) mesh.vertices.push_back({n, pairs[part].is_one(), {}});
   }
@@ -54,9 +56,8 @@ DualMesh make_dual_mesh(const MixedCells& cells, const std::vector<Crossing>& cr
       const auto& offsets = quad_offsets[corner];
       const uint32_t cell = cells.find(cell_around(cells.cells()[crossing.cell].at, crossing.axis, offsets));
       ASSERT(cell != MixedCells::none);
-      const CellParts parts = find_cell_parts(cells.cells()[cell].corners);
       const int edge = edge_number(crossing.axis, offsets[0], offsets[1]);
-      quad.corners[corner] = first_vertex[cell] + parts.part_of_edge[static_cast<size_t>(edge)];
+      quad.corners[corner] = first_vertex[cell] + parts_of[cell].part_of_edge[static_cast<size_t>(edge)];
       mesh.vertices[quad.corners[corner]].planes.add(crossing.at, crossing.normal);
     }
     mesh.quads.push_back(quad);

@@ -1,0 +1,215 @@
+// ombre mesh: a design as closed surfaces for slicers and other programs.
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "base/error.h"
+#include "base/stopwatch.h"
+#include "base/text.h"
+#include "compile/mesh_job.h"
+#include "export/mesh_file.h"
+#include "ombre/arguments.h"
+#include "ombre/command_line.h"
+#include "ombre/commands.h"
+#include "ombre/interrupt.h"
+#include "ombre/job_arguments.h"
+#include "ombre/overwrite.h"
+#include "ombre/progress_line.h"
+#include "ombre/slicer_settings.h"
+
+namespace ombre::cli {
+namespace {
+
+struct MeshArguments {
+  DesignArguments design;
+  std::string output, tolerance, cell, by, borders, flavour = "generic";
+  std::vector<std::string> settings;
+  int bands = 0, threads = 0;
+  bool keep_all = false, force = false;
+};
+
+constexpr const char* footer =
+    "Lengths are millimetres.\n\n"
+    "FILE ends in .3mf (default), .stl, .obj, .ply, .off, .amf or .glb. Bodies share their borders exactly: no gaps, "
+    "no\n"
+    "overlaps.\n\n"
+    "What is thinner than a cell may be lost. Triangles are drawn together where the surface is flat within the\n"
+    "tolerance.\n\n"
+    "Examples:\n"
+    "  ombre mesh part.vcad -o part.stl                   one body\n"
+    "  ombre mesh part.vcad --tolerance 0.01\n"
+    "  ombre mesh part.vcad --by materials -o part.3mf    a body for each material\n"
+    "  ombre mesh part.vcad --bands 4                     four bodies by the fraction that varies most\n"
+    "  ombre mesh part.vcad --by red --borders 0.2,0.5    three bodies: red below 20 %, to 50 %, from there on\n"
+    "  ombre mesh seat.vcad --bands 4 --flavour prusa --setting fill_density=10%..60%\n";
+
+void add_arguments(CLI::App& app, MeshArguments& a) {
+  add_design_arguments(app, a.design);
+  app.add_option("-o,--output", a.output,
+                 "The file to write; its ending says the format (default: the design's name and .3mf)")
+      ->type_name("FILE");
+  app.add_option("--tolerance", a.tolerance,
+                 "Largest distance to the design's surface; mm (default: a two-thousandth of its longest side)")
+      ->type_name("MM");
+  app.add_option("--cell", a.cell, "Edge of the smallest cells; mm (default: 8 times the tolerance)")->type_name("MM");
+  app.add_option("--by", a.by,
+                 "A body for each of the materials, or for bands of a material's fraction or an attribute")
+      ->type_name("materials|NAME");
+  auto* bands =
+      app.add_option("--bands", a.bands, "Number of bands of equal width (default 4, of the fraction that varies most)")
+          ->check(CLI::Range(2, 1000))
+          ->type_name("N");
+  app.add_option("--borders", a.borders, "Values between bands: fractions from 0 to 1, or the attribute's")
+      ->excludes(bands)
+      ->type_name("V1,V2,...");
+  app.add_flag("--keep-all", a.keep_all, "Keep the triangles of all cells, also where the surface is flat");
+  app.add_option("--flavour,--flavor", a.flavour, "Whom a .3mf is for: generic (default), prusa or bambu")
+      ->check(CLI::IsMember({"generic", "prusa", "bambu"}))
+      ->type_name("SLICER");
+  app.add_option("--setting", a.settings,
+                 "A slicer's setting for the bodies: KEY=VALUE, KEY=FIRST..LAST from the first region to the last, or\n"
+                 "KEY=V1,V2,... one by one; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->expected(1);
+  app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  app.add_flag("--force", a.force, "Replace the file if it is there");
+}
+
+std::optional<double> length_of(const std::string& option, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const std::optional<Pitch> length = Pitch::parse(text);
+  if (!length)
+    throw WrongArgument(option + " " + text + " is not a length; write for example " + option + " 0.05 (mm)");
+  return length->mm();
+}
+
+std::vector<double> borders_of(const std::string& text) {
+  if (text.empty()) return {};
+  const std::vector<double> borders = parse_numbers(text);
+  const bool rises = std::ranges::adjacent_find(borders, std::greater_equal<>()) == borders.end();
+  if (!borders.empty() && rises) return borders;
+  throw WrongArgument("--borders " + text + " are not rising numbers; write for example --borders 0.25,0.5,0.75");
+}
+
+compile::MeshRequest mesh_request(const MeshArguments& a) {
+  compile::MeshRequest request;
+  request.tolerance_mm = length_of("--tolerance", a.tolerance);
+  request.cell_mm = length_of("--cell", a.cell);
+  request.join_flat = !a.keep_all;
+  request.threads = a.threads;
+  request.by_material = a.by == "materials";
+  const std::vector<double> borders = borders_of(a.borders);
+  const bool has_bands = a.bands > 0 || !borders.empty();
+  if (request.by_material && has_bands)
+    throw WrongArgument("--by materials has no bands; leave out --bands and --borders, or name a material: --by red");
+  if (has_bands || (!a.by.empty() && !request.by_material))
+    request.bands = compile::BandRequest{a.bands > 0 ? a.bands : 4, borders, a.by};
+  return request;
+}
+
+formats::SlicerFlavour flavour_of(const std::string& name) {
+  if (name == "prusa") return formats::SlicerFlavour::prusa;
+  return name == "bambu" ? formats::SlicerFlavour::bambu : formats::SlicerFlavour::generic;
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<SlicerSetting>& settings, size_t body,
+                                                             const compile::MeshedDesign& made) {
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const SlicerSetting& setting : settings) {
+    if (setting.listed() > 0 && setting.listed() != made.bodies.size())
+      throw WrongArgument("--setting " + setting.key() + " lists " + std::to_string(setting.listed()) +
+                          " values, and there are " + std::to_string(made.bodies.size()) + " bodies");
+    values.emplace_back(setting.key(), setting.value(body, made.bodies[body].share));
+  }
+  return values;
+}
+
+// Bodies of materials print with an extruder each, bands of one material with the same.
+formats::MeshDocument document_of(compile::MeshedDesign& made, const std::string& title,
+                                  const std::vector<SlicerSetting>& settings) {
+  formats::MeshDocument document;
+  document.title = title;
+  for (size_t n = 0; n < made.bodies.size(); ++n) {
+    compile::RegionBody& body = made.bodies[n];
+    const std::string name = made.bodies.size() == 1 && body.region.name.empty() ? title : body.region.name;
+    formats::MeshBody written;
+    written.name = name;
+    written.settings = settings_of(settings, n, made);
+    written.material = static_cast<uint32_t>(n);
+    document.materials.push_back({name, body.colour});
+    written.vertices = std::move(body.body.vertices);
+    written.triangles = std::move(body.body.triangles);
+    document.bodies.push_back(std::move(written));
+  }
+  return document;
+}
+
+void tell_bodies(const Console& console, const compile::MeshedDesign& made) {
+  DataList bodies;
+  for (const compile::RegionBody& body : made.bodies) {
+    const std::string name = body.region.name.empty() ? "body" : body.region.name;
+    console.say(name + ": " + format_count(body.body.triangles.size()) + " triangles, " +
+                format_rounded(body.volume_mm3, 6) + " mm3, " + format_rounded(body.area_mm2, 6) + " mm2");
+    bodies.push_back(DataMembers{{"name", body.region.name},
+                                 {"triangles", static_cast<double>(body.body.triangles.size())},
+                                 {"volume_mm3", body.volume_mm3},
+                                 {"area_mm2", body.area_mm2}});
+  }
+  console.event("bodies", {{"bodies", bodies}, {"tolerance_mm", made.tolerance_mm}, {"cell_mm", made.cell_mm}});
+}
+
+void warn_of_folds(const Console& console, const compile::MeshedDesign& made) {
+  if (made.report.folded == 0) return;
+  console.warn(
+      format_count(made.report.folded) +
+      " triangles look against the surface, where the design is finer than the cells; choose a smaller --cell");
+}
+
+int mesh(const MeshArguments& a, Session& session) {
+  const compile::MeshRequest request = mesh_request(a);
+  const std::vector<SlicerSetting> settings(a.settings.begin(), a.settings.end());
+  const std::string stem = std::filesystem::path(a.design.design).stem().string();
+  const std::string output = a.output.empty() ? stem + ".3mf" : a.output;
+  const auto format = exporting::mesh_format_of(output);
+  if (!format)
+    throw WrongArgument("-o " + output + " does not say a format; let it end in " + exporting::mesh_endings());
+  refuse_to_overwrite(output, a.force);
+
+  const Stopwatch watch;
+  Diagnostics diagnostics;
+  const InterruptGuard interrupt;
+  const compile::LoadedPtr loaded = load_design(a.design, session, interrupt.flag(), diagnostics);
+  std::optional<compile::MeshedDesign> made;
+  if (loaded) {
+    ProgressLine progress(session.console);
+    made = compile::mesh_design(*loaded, request, diagnostics, &progress, &interrupt.flag());
+  }
+  session.console.diagnose(diagnostics);
+  if (!made || diagnostics.has_errors()) return wrong_input;
+  if (made->bodies.empty()) {
+    session.console.warn("no cell's corner is inside the design: there is nothing to write; choose a smaller --cell");
+    return wrong_input;
+  }
+  tell_bodies(session.console, *made);
+  warn_of_folds(session.console, *made);
+  exporting::write_mesh_file(output, document_of(*made, stem, settings), *format, flavour_of(a.flavour));
+  session.console.say(output + " written in " + format_rounded(watch.seconds(), 3) + " s");
+  session.console.event("done", {{"file", output}, {"seconds", watch.seconds()}});
+  return done;
+}
+
+}  // namespace
+
+Command add_mesh(CLI::App& program, OutputOptions& output) {
+  CLI::App* app = program.add_subcommand("mesh", "Write closed surfaces: STL, 3MF and others");
+  auto arguments = std::make_shared<MeshArguments>();
+  add_arguments(*app, *arguments);
+  add_output_options(*app, output);
+  app->footer(footer);
+  return {app, [arguments](Session& session) { return mesh(*arguments, session); }};
+}
+
+}  // namespace ombre::cli

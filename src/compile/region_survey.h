@@ -1,0 +1,24 @@
+// What a design's regions are like, from samples on a coarse lattice.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/box.h"
+#include "design/design.h"
+#include "surface/partition.h"
+
+namespace ombre::compile {
+
+// The material whose fraction differs most within the design; the first of equals. Nothing when it is empty.
+std::optional<MaterialId> most_varying_material(const design::Design& design, const Box& box, Diagnostics& diagnostics);
+
+// From the least to the greatest value of the first score inside. Nothing when nothing is inside.
+std::optional<Interval> score_range(const surface::Partition& partition, const Box& box);
+
+// The mean of materials' colours by their fractions, for region 1 and so on; grey where no sample fell.
+std::vector<design::Rgba> mean_colours(const design::Design& design, const surface::Partition& partition,
+                                       const Box& box, Diagnostics& diagnostics);
+
+}  // namespace ombre::compile
