@@ -1,8 +1,10 @@
 // Meshes of designs against mathematics.
 #include "compile/mesh_job.h"
 
+#include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "compile/test_designs.h"
 
@@ -10,91 +12,239 @@ namespace ombre::compile {
 namespace {
 
 using std::numbers::pi;
+using Triangle = std::array<uint32_t, 3>;
 
 MeshedDesign mesh_text(const std::string& text, const MeshRequest& request = {}) {
   Diagnostics diagnostics;
   const LoadedPtr loaded = load_text(text, diagnostics);
   auto made = loaded ? mesh_design(*loaded, request, diagnostics) : std::nullopt;
-  EXPECT_FALSE(diagnostics.has_errors());
+  EXPECT_FALSE(diagnostics.has_errors()) << to_text(diagnostics);
   return made ? std::move(*made) : MeshedDesign{};
 }
 
-// Every edge has two triangles, one in each direction, and every vertex one fan.
+MeshRequest cells_of(double cell_mm, double tolerance_mm) {
+  MeshRequest request;
+  request.cell_mm = cell_mm;
+  request.tolerance_mm = tolerance_mm;
+  return request;
+}
+
+// Every edge has two triangles, which run along it in opposite directions, and around every vertex there is one fan.
 void expect_manifold(const surface::Body& body) {
-  std::map<std::pair<uint32_t, uint32_t>, int> directed;
-  for (const auto& t : body.triangles)
-    for (size_t n = 0; n < 3; ++n) ++directed[{t[n], t[(n + 1) % 3]}];
-  for (const auto& [edge, count] : directed) {
-    ASSERT_EQ(count, 1);
-    const auto back = directed.find({edge.second, edge.first});
-    ASSERT_TRUE(back != directed.end());
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> third;  // behind a directed edge
+  std::vector<size_t> triangles_at(body.vertices.size());
+  for (const Triangle& t : body.triangles)
+    for (size_t n = 0; n < 3; ++n) {
+      ASSERT_TRUE(third.emplace(std::pair(t[n], t[(n + 1) % 3]), t[(n + 2) % 3]).second);
+      ++triangles_at[t[n]];
+    }
+  for (const auto& [edge, corner] : third) ASSERT_TRUE(third.contains({edge.second, edge.first}));
+  for (const Triangle& t : body.triangles) {
+    size_t fan = 0;
+    uint32_t next = t[1];
+    do {
+      next = third.at({t[0], next});
+      ++fan;
+    } while (next != t[1]);
+    ASSERT_EQ(fan, triangles_at[t[0]]);
   }
 }
 
-void print(const char* name, const MeshedDesign& made, double volume, double area) {
-  for (const RegionBody& b : made.bodies)
-    std::printf(
-        "%s %s: %zu triangles of %llu, volume %.6f / %.6f (%.2e), area %.5f / %.5f, mean points %llu, folded %llu\n",
-        name, b.region.name.c_str(), b.body.triangles.size(),
-        static_cast<unsigned long long>(made.report.full_triangles), b.volume_mm3, volume, b.volume_mm3 / volume - 1,
-        b.area_mm2, area, static_cast<unsigned long long>(made.report.at_mean_points),
-        static_cast<unsigned long long>(made.report.folded));
+double volume(const MeshedDesign& made) {
+  double sum = 0;
+  for (const RegionBody& body : made.bodies) sum += body.volume_mm3;
+  return sum;
+}
+
+// Calls f with points of each triangle: corners, middles of sides, its middle.
+template <class F>
+void each_point(const surface::Body& body, F f) {
+  for (const Triangle& t : body.triangles) {
+    const Vec3 a = body.vertices[t[0]], b = body.vertices[t[1]], c = body.vertices[t[2]];
+    for (const Vec3 p : {a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (1.0 / 3) * (a + b + c)}) f(p);
+  }
+}
+
+using Place = std::array<double, 3>;
+std::set<Place> places_where(const surface::Body& body, const std::function<bool(Vec3)>& wanted) {
+  std::set<Place> places;
+  for (const Vec3 v : body.vertices)
+    if (wanted(v)) places.insert({v.x, v.y, v.z});
+  return places;
 }
 
 }  // namespace
 
-TEST(MeshJob, Sphere) {
-  for (const bool join : {false, true}) {
-    MeshRequest r;
-    r.join_flat = join;
-    const MeshedDesign made = mesh_text("sphere(10);", r);
-    print("sphere", made, 4 * pi / 3 * 1000, 4 * pi * 100);
-    expect_manifold(made.bodies[0].body);
+TEST(Mesh, OfASphereStaysWithinTheTolerance) {
+  for (const double tolerance : {0.1, 0.02, 0.005}) {
+    const MeshedDesign made = mesh_text("sphere(5);", cells_of(0.2, tolerance));
+    ASSERT_EQ(made.bodies.size(), 1u);
+    const surface::Body& body = made.bodies[0].body;
+    expect_manifold(body);
+    each_point(body, [&](Vec3 p) { EXPECT_NEAR(length(p), 5, tolerance); });
+    EXPECT_NEAR(made.bodies[0].volume_mm3, 4 * pi / 3 * 125, 4 * pi * 25 * tolerance);
+    EXPECT_EQ(made.report.folded, 0u);
   }
 }
 
-TEST(MeshJob, TiltedBox) {
-  for (const bool join : {false, true}) {
-    MeshRequest r;
-    r.join_flat = join;
-    const MeshedDesign made = mesh_text("rotate(33, 12, 7) rectprism(14, 15, 13);", r);
-    print("box", made, 14 * 15 * 13, 2 * (14 * 15 + 14 * 13 + 15 * 13));
-    expect_manifold(made.bodies[0].body);
+// Halving cells divides the error of volume and area by four at least.
+TEST(Mesh, ConvergesWithTheCells) {
+  double volume_error = 1e300, area_error = 1e300;
+  for (const double cell : {0.8, 0.4, 0.2}) {
+    MeshRequest request = cells_of(cell, 1);
+    request.join_flat = false;
+    const RegionBody body = mesh_text("rotate(12, 25, 40) torus(5, 2);", request).bodies.at(0);
+    const double v = std::abs(body.volume_mm3 / (2 * pi * pi * 5 * 4) - 1);
+    const double a = std::abs(body.area_mm2 / (4 * pi * pi * 5 * 2) - 1);
+    EXPECT_LT(v, 0.3 * volume_error);
+    EXPECT_LT(a, 0.3 * area_error);
+    volume_error = v;
+    area_error = a;
   }
 }
 
-TEST(MeshJob, Regions) {
-  for (const bool join : {false, true}) {
-    MeshRequest r;
-    r.join_flat = join;
-    r.bands = {4, {}, "red"};
-    const MeshedDesign made = mesh_text("fgrade([\"x/20+0.5\", \"0.5-x/20\"], [\"red\", \"blue\"]) cube(20);", r);
-    print("cube bands", made, 2000, 2 * (400 + 10 * 20));
-    for (const auto& b : made.bodies) expect_manifold(b.body);
+TEST(Mesh, OfATiltedBoxHasItsEdgesAndCorners) {
+  const double to_corner = std::sqrt(49 + 7.5 * 7.5 + 6.5 * 6.5);
+  for (const bool join_flat : {false, true}) {
+    MeshRequest request = cells_of(0.17, 0.02);
+    request.join_flat = join_flat;
+    const MeshedDesign made = mesh_text("rotate(33, 12, 7) rectprism(14, 15, 13);", request);
+    const surface::Body& body = made.bodies.at(0).body;
+    expect_manifold(body);
+    EXPECT_EQ(places_where(body, [&](Vec3 v) { return std::abs(length(v) - to_corner) < 1e-5; }).size(), 8u);
+    EXPECT_NEAR(made.bodies[0].volume_mm3, 14 * 15 * 13, 1e-5 * 14 * 15 * 13);
+    EXPECT_NEAR(made.bodies[0].area_mm2, 2 * (14 * 15 + 14 * 13 + 15 * 13), 1e-4 * 1174);
   }
 }
 
-TEST(MeshJob, Cube) {
-  for (const char* text : {"cube(20);", "rectprism(20, 10, 10);",
-                           "fgrade([\"x/20+0.5\", \"0.5-x/20\"], [\"red\", \"blue\"]) rectprism(20,10,10);"}) {
-    MeshRequest r;
-    r.join_flat = false;
-    print(text, mesh_text(text, r), 2000, 1000);
-    r.bands = {2, {}, ""};
-    print(text, mesh_text(text, r), 2000, 1000);
+// Faces on round coordinates, cells of a round size.
+TEST(Mesh, OfACubeIsTheCube) {
+  const MeshedDesign made = mesh_text("cube(20);", cells_of(0.5, 0.05));
+  EXPECT_NEAR(made.bodies.at(0).volume_mm3, 8000, 1e-6);
+  EXPECT_NEAR(made.bodies[0].area_mm2, 2400, 1e-6);
+  EXPECT_EQ(made.bodies[0].body.triangles.size(), 12u);
+}
+
+// A cylinder cut askew: the rim of the cut lies on both surfaces.
+TEST(Mesh, OfACutCylinderHasASharpRim) {
+  const MeshedDesign made =
+      mesh_text("intersection() { cylinder(4, 20); rotate(30, 0, 0) rectprism(40, 40, 6); }", cells_of(0.1, 0.01));
+  const surface::Body& body = made.bodies.at(0).body;
+  expect_manifold(body);
+  // The prism's height along the axis times the circle.
+  const double height = 6 / std::cos(pi / 6);
+  EXPECT_NEAR(made.bodies[0].volume_mm3, pi * 16 * height, 1e-3 * pi * 16 * height);
+  EXPECT_NEAR(made.bodies[0].area_mm2, 2 * pi * 4 * height + 2 * pi * 16 / std::cos(pi / 6), 0.3);
+}
+
+TEST(Mesh, OfAGyroidHalvesItsCells) {
+  const MeshedDesign made = mesh_text(
+      "intersection() { cube(8); function(\"sin(pi/2*x)*cos(pi/2*y) + sin(pi/2*y)*cos(pi/2*z) + "
+      "sin(pi/2*z)*cos(pi/2*x)\"); }",
+      cells_of(0.1, 0.01));
+  expect_manifold(made.bodies.at(0).body);
+  EXPECT_NEAR(made.bodies[0].volume_mm3, 256, 1e-4 * 256);
+  // Area of the gyroid in a cell of length 1: 3.0915 (Schnering and Nesper 1991); half of each face of the cube.
+  EXPECT_NEAR(made.bodies[0].area_mm2, 3.0915 * 16 * 8 + 6 * 32, 1e-3 * 587);
+}
+
+// Neighbours share their borders to the last bit, and fill the whole.
+TEST(Mesh, OfBandsSharesTheirBorders) {
+  for (const bool join_flat : {false, true}) {
+    MeshRequest request = cells_of(0.3, 0.02);
+    request.join_flat = join_flat;
+    request.bands = BandRequest{4, {}, "red"};
+    const MeshedDesign made =
+        mesh_text("fgrade([\"x/10+0.5\", \"0.5-x/10\"], [\"red\", \"blue\"]) sphere(5);", request);
+    ASSERT_EQ(made.bodies.size(), 4u);
+    for (const RegionBody& body : made.bodies) expect_manifold(body.body);
+    // A cap of height h: pi h^2 (3 r - h) / 3
+    const double cap = pi * 2.5 * 2.5 * 12.5 / 3;
+    EXPECT_NEAR(made.bodies[0].volume_mm3, cap, 0.5);
+    EXPECT_NEAR(made.bodies[3].volume_mm3, cap, 0.5);
+    for (size_t n = 0; n + 1 < 4; ++n) {
+      const double x = 2.5 * (static_cast<double>(n) - 1);
+      const auto on_border = [&](Vec3 v) { return std::abs(v.x - x) < 1e-6; };
+      const auto left = places_where(made.bodies[n].body, on_border);
+      EXPECT_GT(left.size(), 4u);
+      EXPECT_TRUE(left == places_where(made.bodies[n + 1].body, on_border));
+    }
   }
 }
 
-TEST(MeshJob, Gyroid) {
-  for (const bool join : {false, true}) {
-    MeshRequest r;
-    r.join_flat = join;
-    const MeshedDesign made = mesh_text(
-        "intersection() { cube(8); function(\"sin(pi/2*x)*cos(pi/2*y) + sin(pi/2*y)*cos(pi/2*z) + "
-        "sin(pi/2*z)*cos(pi/2*x)\"); }",
-        r);
-    print("gyroid", made, 256, 3.0915 * 16 * 8 + 6 * 32);
-    expect_manifold(made.bodies[0].body);
+TEST(Mesh, OfRegionsAddsUpToTheWhole) {
+  const std::string text =
+      "fgrade([\"x/10+0.5\", \"0.5-x/10\"], [\"red\", \"blue\"]) rotate(20, 30, 40) torus(4, 1.5);";
+  MeshRequest request = cells_of(0.06, 0.01);
+  request.join_flat = false;
+  const double whole = volume(mesh_text(text, request));
+  request.bands = BandRequest{7, {}, ""};
+  EXPECT_NEAR(volume(mesh_text(text, request)), whole, 2e-4 * whole);
+}
+
+// Materials that jump at a slanted plane: the border is found without a value that goes through zero there.
+TEST(Mesh, OfMaterialsMeetsWhereTheyJump) {
+  MeshRequest request = cells_of(0.3, 0.02);
+  request.by_material = true;
+  const MeshedDesign made = mesh_text(
+      "union() { intersection() { cube(10, \"red\"); rotate(0, 20, 0) translate(10, 0, 0) cube(20, \"red\"); }\n"
+      "difference() { cube(10, \"blue\"); rotate(0, 20, 0) translate(10, 0, 0) cube(20, \"blue\"); } }",
+      request);
+  ASSERT_EQ(made.bodies.size(), 2u);
+  for (const RegionBody& body : made.bodies) {
+    expect_manifold(body.body);
+    EXPECT_NEAR(body.volume_mm3, 500, 0.5);
+    EXPECT_NEAR(body.area_mm2, 300 + 100 / std::cos(pi / 9), 1);
+  }
+  EXPECT_NEAR(volume(made), 1000, 1e-3);
+}
+
+// Cubes that share an edge, and cubes that share a corner.
+TEST(Mesh, OfSolidsThatTouchIsManifold) {
+  for (const char* text :
+       {"union() { cube(4); translate(4, 4, 0) cube(4); }", "union() { cube(4); translate(4, 4, 4) cube(4); }"}) {
+    const MeshedDesign made = mesh_text(text, cells_of(0.25, 0.01));
+    for (const RegionBody& body : made.bodies) expect_manifold(body.body);
+    EXPECT_NEAR(volume(made), 128, 0.3) << text;
+  }
+}
+
+TEST(Mesh, EndsAtTheBoxOfRoot) {
+  const MeshedDesign made =
+      mesh_text("root((-2, -3, -1), (2, 3, 1), (0.1, 0.1, 0.1)) { sphere(50); }", cells_of(0.2, 0.01));
+  EXPECT_NEAR(made.bodies.at(0).volume_mm3, 48, 1e-6);
+}
+
+TEST(Mesh, IsTheSameForAnyNumberOfThreads) {
+  MeshRequest request = cells_of(0.2, 0.01);
+  request.by_material = true;
+  const std::string text = "fgrade([\"x/10+0.5\", \"0.5-x/10\"], [\"red\", \"blue\"]) torus(5, 2);";
+  request.threads = 1;
+  const MeshedDesign one = mesh_text(text, request);
+  request.threads = 3;
+  const MeshedDesign three = mesh_text(text, request);
+  ASSERT_EQ(one.bodies.size(), three.bodies.size());
+  for (size_t n = 0; n < one.bodies.size(); ++n) {
+    EXPECT_TRUE(one.bodies[n].body.vertices == three.bodies[n].body.vertices);
+    EXPECT_TRUE(one.bodies[n].body.triangles == three.bodies[n].body.triangles);
+  }
+}
+
+TEST(Mesh, OfManyPartsKeepsThem) {
+  const MeshedDesign made =
+      mesh_text("union() { for (i = [0:9]) for (j = [0:9]) translate(3 * i, 3 * j, 0) sphere(1, \"red\"); }",
+                cells_of(0.2, 0.02));
+  EXPECT_NEAR(volume(made), 100 * 4 * pi / 3, 100 * 4 * pi * 0.02);
+}
+
+TEST(Mesh, OfNothingIsAnError) {
+  for (const auto& [of, message] : {std::pair("gold", "attribute \"gold\""), std::pair("red", "material \"red\"")}) {
+    MeshRequest request;
+    request.bands = BandRequest{4, {}, of};
+    Diagnostics diagnostics;
+    const LoadedPtr loaded = load_text("sphere(3, \"blue\");", diagnostics);
+    EXPECT_FALSE(mesh_design(*loaded, request, diagnostics));
+    EXPECT_NE(to_text(diagnostics).find(message), std::string::npos) << to_text(diagnostics);
   }
 }
 
