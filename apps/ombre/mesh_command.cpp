@@ -158,14 +158,19 @@ void tell_bodies(const Console& console, const compile::MeshedDesign& made) {
                                  {"volume_mm3", body.volume_mm3},
                                  {"area_mm2", body.area_mm2}});
   }
-  console.event("bodies", {{"bodies", bodies}, {"tolerance_mm", made.tolerance_mm}, {"cell_mm", made.cell_mm}});
+  console.event("bodies", {{"bodies", bodies},
+                           {"tolerance_mm", made.tolerance_mm},
+                           {"cell_mm", made.cell_mm},
+                           {"intersections", static_cast<double>(made.report.intersections)},
+                           {"folded", static_cast<double>(made.report.folded)}});
 }
 
 void warn_of_folds(const Console& console, const compile::MeshedDesign& made) {
-  if (made.report.folded == 0) return;
-  console.warn(
-      format_count(made.report.folded) +
-      " triangles look against the surface, where the design is finer than the cells; choose a smaller --cell");
+  const uint64_t folded = made.report.folded, crossing = made.report.intersections;
+  if (folded + crossing == 0) return;
+  console.warn(format_count(crossing) + " pairs of triangles go through each other and " + format_count(folded) +
+               " look inwards, where the design is finer than the cells of " + format_rounded(made.cell_mm, 3) +
+               " mm; choose a smaller --cell");
 }
 
 int mesh(const MeshArguments& a, Session& session) {

@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "surface/clusters.h"
+#include "surface/intersections.h"
 
 namespace ombre::surface {
 namespace {
 
-constexpr int most_rounds = 40;
+constexpr int most_rounds = 40, most_crossing_rounds = 6;
 
 // The corners of a quad after its vertices were drawn together: 0, 3 or 4 of them.
 struct Polygon {
@@ -36,15 +37,16 @@ class SurfaceMaker {
         tolerance_mm_(tolerance_mm),
         clusters_(cells, crossings, mesh, tolerance_mm) {}
 
-  RegionSurface make() {
-    for (int round = 0; round < most_rounds && mend(); ++round) {
+  RegionSurface make(int threads) {
+    mend_folds();
+    RegionSurface made = build();
+    auto pairs = find_intersections(made.vertices, made.facets, threads);
+    for (int round = 0; round < most_crossing_rounds && !pairs.empty() && mend_intersections(made, pairs); ++round) {
+      mend_folds();
+      made = build();
+      pairs = find_intersections(made.vertices, made.facets, threads);
     }
-    RegionSurface made;
-    number_.assign(clusters_.size(), Cluster::none);
-    for (const DualQuad& quad : mesh_.quads) add(quad, made);
-    made.report.crossings = crossings_.size();
-    made.report.full_triangles = 2 * mesh_.quads.size();
-    made.report.at_mean_points = at_mean_points_;
+    made.report.intersections = pairs.size();
     return made;
   }
 
@@ -60,28 +62,34 @@ class SurfaceMaker {
     return cross(clusters_[t[1]].at - a, clusters_[t[2]].at - a);
   }
 
-  // How well two triangles look along the border's normal.
-  double agreement(const std::array<Triangle, 2>& triangles, Vec3 normal) const {
-    double least = 1;
+  // How well two triangles look along the border's normal, and the least of their heights, mm.
+  struct Fit {
+    double agreement = 1, height = 1e300;
+  };
+  Fit fit_of(const std::array<Triangle, 2>& triangles, Vec3 normal) const {
+    Fit fit;
     for (const Triangle& t : triangles) {
       const Vec3 n = normal_of(t);
-      least = std::min(least, dot(n, normal) / std::max(length(n), 1e-300));
+      double longest = 1e-300;
+      for (size_t side = 0; side < 3; ++side)
+        longest = std::max(longest, length(clusters_[t[(side + 1) % 3]].at - clusters_[t[side]].at));
+      fit.agreement = std::min(fit.agreement, dot(n, normal) / std::max(length(n), 1e-300));
+      fit.height = std::min(fit.height, length(n) / longest);
     }
-    return least;
+    return fit;
   }
 
-  // Cut along the diagonal that follows the border better.
+  // Cut along the diagonal that follows the border better, or leaves no slivers.
   std::vector<Triangle> triangles_of(const Polygon& p, const Crossing& crossing) const {
     const auto& c = p.corners;
     if (p.count == 0) return {};
     if (p.count == 3) return {{c[0], c[1], c[2]}};
     const std::array<Triangle, 2> first{{{c[0], c[1], c[2]}, {c[0], c[2], c[3]}}};
     const std::array<Triangle, 2> second{{{c[0], c[1], c[3]}, {c[1], c[2], c[3]}}};
-    const double a = agreement(first, crossing.normal), b = agreement(second, crossing.normal);
-    const double across =
-        length(clusters_[c[0]].at - clusters_[c[2]].at) - length(clusters_[c[1]].at - clusters_[c[3]].at);
-    constexpr double about_equal = 1e-3;
-    const bool take_first = std::abs(a - b) > about_equal ? a > b : across <= 0;
+    const Fit a = fit_of(first, crossing.normal), b = fit_of(second, crossing.normal);
+    constexpr double about_equal = 0.1;
+    const bool take_first =
+        std::abs(a.agreement - b.agreement) > about_equal ? a.agreement > b.agreement : a.height >= b.height;
     const auto& taken = take_first ? first : second;
     return {taken.begin(), taken.end()};
   }
@@ -97,6 +105,40 @@ class SurfaceMaker {
       const Vec3 n = normal_of(t);
       return std::abs(dot(n, crossing.at - clusters_[t[0]].at)) > tolerance_mm_ * length(n);
     });
+  }
+
+  RegionSurface build() {
+    RegionSurface made;
+    number_.assign(clusters_.size(), Cluster::none);
+    cluster_of_.clear();
+    for (const DualQuad& quad : mesh_.quads) add(quad, made);
+    made.report.crossings = crossings_.size();
+    made.report.full_triangles = 2 * mesh_.quads.size();
+    made.report.at_mean_points = at_mean_points_;
+    return made;
+  }
+
+  void mend_folds() {
+    for (int round = 0; round < most_rounds && mend(); ++round) {
+    }
+  }
+
+  // The same for triangles that go through each other.
+  bool mend_intersections(const RegionSurface& made, const std::vector<std::pair<uint32_t, uint32_t>>& pairs) {
+    std::vector<uint32_t> back;
+    bool is_apart = false;
+    for (const auto& [a, b] : pairs)
+      for (const uint32_t facet : {a, b})
+        for (const uint32_t corner : made.facets[facet].corners) {
+          const uint32_t cluster = cluster_of_[corner];
+          if (clusters_[cluster].level == 0) {
+            back.push_back(cluster);
+          } else {
+            clusters_.split(cluster);
+            is_apart = true;
+          }
+        }
+    return move_back(back) || is_apart;
   }
 
   // Takes clusters apart where the surface folds or lies too far off; single vertices that fold it go to the mean of
@@ -147,6 +189,7 @@ class SurfaceMaker {
     if (number_[cluster] == Cluster::none) {
       number_[cluster] = static_cast<uint32_t>(made.vertices.size());
       made.vertices.push_back(clusters_[cluster].at);
+      cluster_of_.push_back(cluster);
     }
     return number_[cluster];
   }
@@ -155,7 +198,8 @@ class SurfaceMaker {
   const DualMesh& mesh_;
   double tolerance_mm_;
   Clusters clusters_;
-  std::vector<uint32_t> number_;
+  std::vector<uint32_t> number_;      // of a cluster's vertex
+  std::vector<uint32_t> cluster_of_;  // of a vertex
   uint64_t at_mean_points_ = 0;
 };
 
@@ -166,7 +210,7 @@ RegionSurface contour(const Partition& partition, const ContourOptions& options,
   const MixedCells cells = find_mixed_cells(partition.label, options.corners, options.threads, progress, stop);
   const std::vector<Crossing> crossings = find_crossings(partition, cells, options.threads, progress, stop);
   const DualMesh mesh = make_dual_mesh(cells, crossings);
-  RegionSurface made = SurfaceMaker(cells, crossings, mesh, options.tolerance_mm).make();
+  RegionSurface made = SurfaceMaker(cells, crossings, mesh, options.tolerance_mm).make(options.threads);
   made.report.mixed_cells = cells.cells().size();
   return made;
 }

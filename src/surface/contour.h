@@ -23,6 +23,7 @@ struct ContourReport {
   uint64_t full_triangles = 0;  // of a mesh with a vertex for each cell
   uint64_t at_mean_points = 0;  // vertices that would have folded the surface
   uint64_t folded = 0;          // triangles that still look against the surface there
+  uint64_t intersections = 0;   // pairs of triangles that still go through each other
 };
 
 // Facets between any two regions; those around one region enclose it without a gap.
