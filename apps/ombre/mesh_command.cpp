@@ -71,7 +71,7 @@ void add_arguments(CLI::App& app, MeshArguments& a) {
                  "A slicer's setting for the bodies: KEY=VALUE, KEY=FIRST..LAST from the first region to the last, or\n"
                  "KEY=V1,V2,... one by one; may be repeated")
       ->type_name("KEY=VALUE")
-      ->expected(1);
+      ->allow_extra_args(false);
   app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+"""Meshes, made as a user would and judged by CGAL.
+
+    python3 tests/run_meshes.py build/dev/apps/ombre/ombre [build/dev/tests/mesh_checker/check_mesh]
+"""
+import argparse
+import functools
+import json
+import pathlib
+import re
+import signal
+import subprocess
+import tempfile
+import time
+import zipfile
+
+import program
+
+EXAMPLES = sorted((program.SOURCE / "examples").glob("*.vcad"))
+# Its cells shrink to 0.1 mm, finer than what a mesh of the whole wing resolves; ombre mesh says so.
+TOO_FINE = {"graded_wing"}
+# Facets that lie in a line once files round their corners to floats.
+MOST_TOUCHING = 20
+BAR = 'fgrade(["x/20 + 0.5", "0.5 - x/20"], ["red", "blue"]) { rectprism(20, 10, 5); }'
+
+
+class Meshes:
+    """A folder for one check, with a design in it."""
+
+    def __init__(self, ombre, checker, scratch):
+        self.ombre, self.checker, self.folder = ombre, checker, pathlib.Path(scratch)
+        (self.folder / "bar.vcad").write_text(BAR, encoding="utf-8")
+
+    def command(self, *arguments):
+        return [str(self.ombre), *(str(a) for a in arguments)]
+
+    def mesh(self, *arguments, status=0, design="bar.vcad"):
+        result = program.run(self.command("mesh", design, *arguments), cwd=self.folder)
+        expect(result.returncode == status, f"status {result.returncode}, expected {status}: {result.stderr[-1500:]}")
+        return result
+
+    def bodies(self, *arguments, **options):
+        for line in self.mesh(*arguments, "--json", **options).stdout.splitlines():
+            if json.loads(line)["event"] == "bodies":
+                return json.loads(line)
+        raise AssertionError("no bodies were told")
+
+    def judged(self, name):
+        done = program.run([self.checker, name], cwd=self.folder)
+        expect(done.returncode == 0, done.stderr)
+        return json.loads(done.stdout)
+
+    def names(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+
+def expect(good, message):
+    if not good:
+        raise AssertionError(message)
+
+
+def near(a, b, share, what):
+    expect(abs(a - b) <= share * abs(b), f"{what}: {a}, expected {b}")
+
+
+def is_closed_and_as_large_as_its_voxels(design, meshes):
+    """A mesh beside the same design's voxels, of which each face may gain or lose half a layer."""
+    bodies = meshes.bodies("-o", "part.off", design=design)
+    expect(len(bodies["bodies"]) == 1, str(bodies))
+    (body,) = bodies["bodies"]
+    if meshes.checker:
+        found = meshes.judged("part.off")
+        expect(found["manifold"] and found["closed"], str(found))
+        near(found["volume"], body["volume_mm3"], 1e-5, "CGAL's volume")
+        if design.stem not in TOO_FINE:
+            expect(found["intersections"] <= MOST_TOUCHING, str(found))
+    pitch = (body["volume_mm3"] / 3e7) ** (1 / 3)
+    done = program.run(meshes.command("slice", design, "-o", "slices", "--voxel", f"{pitch:.4f}", "--json"),
+                       cwd=meshes.folder)
+    told = [json.loads(line) for line in done.stdout.splitlines()]
+    voxels = sum(m["volume_mm3"] for event in told if event["event"] == "done" for m in event["materials"])
+    error = body["area_mm2"] * pitch / 4 + 1e-3 * voxels
+    if design.stem not in TOO_FINE:
+        expect(abs(voxels - body["volume_mm3"]) < error, f"{body}, {voxels} mm3 of voxels of {pitch} mm")
+
+
+def bands_fill_the_whole(meshes):
+    for name, arguments in [("stl", []), ("off", ["--by", "red", "--borders", "0.25,0.5,0.75"])]:
+        told = meshes.bodies("-o", "bands." + name, "--bands" if not arguments else "--keep-all",
+                             *(["4"] if not arguments else []), *arguments)
+        expect([round(b["volume_mm3"], 4) for b in told["bodies"]] == [250] * 4, str(told))
+        names = [b["name"] for b in told["bodies"]]
+        expect(names == ["red below 25 %", "red 25 to 50 %", "red 50 to 75 %", "red from 75 %"], str(names))
+
+
+def materials_get_a_body_each(meshes):
+    told = meshes.bodies("-o", "materials.3mf", "--by", "materials")
+    expect([b["name"] for b in told["bodies"]] == ["red", "blue"], str(told))
+    for body in told["bodies"]:
+        near(body["volume_mm3"], 500, 1e-6, body["name"])
+
+
+def slicers_get_settings_of_each_band(meshes):
+    if "without libzip" in meshes.mesh("-o", "seat.3mf", "--bands", "4", "--flavour", "prusa", "--setting",
+                                       "fill_density=10%..70%", "--setting", "perimeters=1,2,3,4").stderr:
+        return "skipped: no libzip"
+    with zipfile.ZipFile(meshes.folder / "seat.3mf") as archive:
+        config = archive.read("Metadata/Slic3r_PE_model.config").decode()
+    for key, values in [("fill_density", ["10%", "30%", "50%", "70%"]), ("perimeters", ["1", "2", "3", "4"])]:
+        found = re.findall(f'key="{key}" value="([^"]*)"', config)
+        expect(found == values, f"{key}: {found}")
+    return ""
+
+
+def slips_get_remedies(meshes):
+    for arguments, message in [(["-o", "b.png"], "does not say a format"),
+                               (["--tolerance", "fine"], "write for example --tolerance 0.05"),
+                               (["--by", "materials", "--bands", "3"], "has no bands"),
+                               (["--by", "gold"], 'no attribute "gold"'),
+                               (["--by", "green"], 'no material "green"'),
+                               (["--borders", "0.5,0.2"], "not rising numbers"),
+                               (["--setting", "fill"], "write for example --setting"),
+                               (["--bands", "4", "--setting", "perimeters=1,2"], "lists 2 values, and there are 4"),
+                               (["--cell", "0.0000001"], "too small")]:
+        error = meshes.mesh(*arguments, status=1).stderr
+        expect(message in error, f"{arguments}: {error}")
+    expect(meshes.names() == ["bar.vcad"], str(meshes.names()))
+
+
+def files_are_kept(meshes):
+    (meshes.folder / "bar.3mf").write_text("mine")
+    error = meshes.mesh(status=2).stderr
+    expect("bar.3mf exists already" in error, error)
+    error = meshes.mesh("-o", "missing/bar.stl", status=2).stderr
+    expect("missing" in error, error)
+    expect(meshes.names() == ["bar.3mf", "bar.vcad"], str(meshes.names()))
+
+
+def interrupts_leave_nothing(meshes):
+    job = subprocess.Popen(meshes.command("mesh", "bar.vcad", "-o", "bar.stl", "--cell", "0.005"), cwd=meshes.folder,
+                           env=program.environment(), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                           stderr=subprocess.PIPE, text=True)
+    time.sleep(1)
+    job.send_signal(signal.SIGINT)
+    error = job.communicate(timeout=60)[1]
+    expect(job.returncode == 130, f"status {job.returncode}: {error}")
+    expect(meshes.names() == ["bar.vcad"], str(meshes.names()))
+
+
+CHECKS = [bands_fill_the_whole, materials_get_a_body_each, slicers_get_settings_of_each_band, slips_get_remedies,
+          files_are_kept, interrupts_leave_nothing]
+
+
+def in_a_folder(ombre, checker, check):
+    with tempfile.TemporaryDirectory() as scratch:
+        return check(Meshes(ombre, checker, scratch))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("ombre", type=pathlib.Path)
+    parser.add_argument("checker", type=pathlib.Path, nargs="?")
+    given = parser.parse_args()
+    run = functools.partial(in_a_folder, given.ombre.resolve(), given.checker and given.checker.resolve())
+    checks = [(design.stem, functools.partial(run, functools.partial(is_closed_and_as_large_as_its_voxels, design)))
+              for design in EXAMPLES]
+    return program.check_all(checks + [(check.__name__, functools.partial(run, check)) for check in CHECKS])
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
