@@ -51,7 +51,8 @@ MeshDocument four_fills() {
 
 MeshDocument coloured_box() {
   MeshDocument document{"coloured", materials, {box("box", {-1, -2, -3}, {2, 4, 6}, 1)}};
-  for (uint8_t i = 0; i < 8; ++i) document.bodies[0].vertex_colours.push_back({static_cast<uint8_t>(30 * i), 0, 255, 255});
+  for (uint8_t i = 0; i < 8; ++i)
+    document.bodies[0].vertex_colours.push_back({static_cast<uint8_t>(30 * i), 0, 255, 255});
   return document;
 }
 

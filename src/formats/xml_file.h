@@ -44,7 +44,7 @@ class XmlFile {
   const std::string& name() const { return name_; }
 
  private:
-  [[noreturn]] void fail_at(size_t offset, const std::string& message, const std::string& hint) const;
+  [[noreturn]] void fail_at(size_t begin, size_t end, const std::string& message, const std::string& hint) const;
   void check_size() const;
 
   std::string name_, text_;
