@@ -27,15 +27,14 @@ class Reader {
   }
 
  private:
-  XmlFile xml(const std::string& entry) { return {name_ + '/' + entry, archive_.read(entry), diagnostics_}; }
-
   // The archive's file to which the package points.
   std::string root_model() {
     if (!archive_.has(relationships))
       fail(diagnostics_, name_,
            std::string("this zip archive is not a 3MF file: it has no file \"") + relationships + '"',
            "name it .amf if it is a zipped AMF file");
-    const XmlFile file = xml(relationships);
+    const std::string text = archive_.read(relationships);
+    const XmlFile file(name_ + '/' + relationships, text, diagnostics_);
     for (const pugi::xml_node node : file.root("Relationships").children()) {
       const std::string_view type = file.attribute(node, "Type").value_or("");
       if (local_name(node) != "Relationship" || !type.ends_with(model_relationship)) continue;
@@ -47,7 +46,8 @@ class Reader {
   }
 
   void read_part(const std::string& part, bool is_root) {
-    const XmlFile file = xml(part);
+    const std::string text = archive_.read(part);
+    const XmlFile file(name_ + '/' + part, text, diagnostics_);
     read_.insert(part);
     add_objects(file, part, assembly_, further_);
     if (is_root) add_build(file, part, assembly_, further_);

@@ -27,8 +27,8 @@ std::string_view local_name(const char* name) {
   return colon == std::string_view::npos ? whole : whole.substr(colon + 1);
 }
 
-XmlFile::XmlFile(std::string name, std::string text, Diagnostics& diagnostics)
-    : name_(std::move(name)), text_(std::move(text)), diagnostics_(diagnostics) {
+XmlFile::XmlFile(std::string name, std::string_view text, Diagnostics& diagnostics)
+    : name_(std::move(name)), text_(text), diagnostics_(diagnostics) {
   check_size();
   const pugi::xml_parse_result result = tree_.load_buffer(text_.data(), text_.size(), parse_options);
   if (result) return;

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "base/text.h"
+#include "formats/mesh_writers.h"
 #include "formats/text_scanner.h"
 
 namespace ombre::formats {
@@ -18,6 +19,9 @@ namespace {
 
 // 1980-01-01 00:00, the first date there is.
 constexpr uint16_t first_date = 1 << 5 | 1, midnight = 0;
+
+// A tenth more bytes than at level 9, in an eighth of the time.
+constexpr uint32_t compression_level = 5;
 
 // An entry's bytes as libzip asks for them.
 class EntrySource {
@@ -119,7 +123,9 @@ void add(zip_t* archive, const std::string& name, EntrySource& bytes) {
     zip_source_free(source);
     throw_failure(zip_get_error(archive));
   }
-  if (zip_file_set_dostime(archive, static_cast<zip_uint64_t>(index), midnight, first_date, 0) != 0)
+  const auto entry = static_cast<zip_uint64_t>(index);
+  if (zip_set_file_compression(archive, entry, ZIP_CM_DEFLATE, compression_level) != 0 ||
+      zip_file_set_dostime(archive, entry, midnight, first_date, 0) != 0)
     throw_failure(zip_get_error(archive));
 }
 
@@ -133,6 +139,8 @@ void write_zip(const std::string& path, const std::vector<ZipEntry>& entries) {
   if (zip_close(archive.get()) != 0) throw_failure(zip_get_error(archive.get()));
   static_cast<void>(archive.release());  // closed
 }
+
+bool can_write_3mf() { return true; }
 
 ZipReader::ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
     : name_(name), diagnostics_(diagnostics) {

@@ -14,7 +14,7 @@ constexpr size_t most_exercised = 10'000;
 std::optional<ombre::formats::Mesh> read_model(std::string_view bytes, ombre::Diagnostics& diagnostics) {
   using namespace ombre::formats;
   try {
-    const XmlFile file("fuzz.model", std::string(bytes), diagnostics);
+    const XmlFile file("fuzz.model", bytes, diagnostics);
     Assembly assembly;
     std::set<std::string> further;
     add_objects(file, "fuzz.model", assembly, further);
