@@ -205,6 +205,8 @@ void warn_of_extensions(const XmlFile& file, xml_node model) {
 
 std::string object_key(std::string_view part, uint64_t id) { return std::to_string(id) + " of " + std::string(part); }
 
+std::string id_of_key(const std::string& key) { return key.substr(0, key.find(' ')); }
+
 void add_objects(const XmlFile& file, const std::string& part, Assembly& assembly, std::set<std::string>& further) {
   const xml_node model = file.root("model");
   warn_of_extensions(file, model);

@@ -3,6 +3,8 @@
 
 #include "formats/text_scanner.h"
 #include "formats/three_mf_model.h"
+#include "formats/three_mf_text.h"
+#include "formats/three_mf_volumes.h"
 #include "formats/zip_archive.h"
 
 namespace ombre::formats {
@@ -17,12 +19,15 @@ class Reader {
       : name_(name), diagnostics_(diagnostics), archive_(name, bytes, diagnostics) {}
 
   Mesh read() {
-    read_part(root_model(), true);
+    const std::string root = root_model();
+    read_part(root, true);
     while (!further_.empty()) {
       const std::string part = *further_.begin();
       further_.erase(further_.begin());
       if (!read_.contains(part)) read_part(part, false);
     }
+    apply(prusa_settings_path, apply_prusa_volumes, root);
+    apply(bambu_settings_path, apply_bambu_parts, root);
     return assemble(assembly_, name_, diagnostics_);
   }
 
@@ -51,6 +56,14 @@ class Reader {
     read_.insert(part);
     add_objects(file, part, assembly_, further_);
     if (is_root) add_build(file, part, assembly_, further_);
+  }
+
+  // What a slicer's file says, if the archive has it.
+  void apply(const char* entry, void (*settings)(const XmlFile&, const std::string&, Assembly&),
+             const std::string& root) {
+    if (!archive_.has(entry)) return;
+    const std::string text = archive_.read(entry);
+    settings(XmlFile(name_ + '/' + entry, text, diagnostics_), root, assembly_);
   }
 
   const std::string& name_;

@@ -90,9 +90,8 @@ TEST(ThreeMf, NamesMaterialsAndColoursComeBack) {
     EXPECT_EQ(mesh.groups[0].triangle_count, 4u);
     EXPECT_EQ(mesh.groups[0].colour, (Rgba{255, 0, 0, 255}));
     EXPECT_EQ(mesh.groups[1].colour, (Rgba{0, 0, 255, 51}));
-    const bool is_joint = flavour == SlicerFlavour::prusa;
-    EXPECT_EQ(mesh.groups[1].name, is_joint ? "pair" : "right");
-    EXPECT_EQ(mesh.groups[1].object, is_joint ? "" : "pair");
+    EXPECT_EQ(mesh.groups[1].name, "right");
+    EXPECT_EQ(mesh.groups[1].object, "pair");
     // Bambu Studio takes colours alone.
     EXPECT_EQ(mesh.groups[1].material, flavour == SlicerFlavour::bambu ? "" : "clear blue");
   }
@@ -159,6 +158,50 @@ TEST(ThreeMf, ObjectsMayLieInOtherParts) {
   EXPECT_EQ(mesh.vertices[1], (Vec3{25.4, 0, 0}));
   expect_message(zipped({relationships(), {"3D/a.model", root}}),
                  "the archive's file \"3D/Objects/b.model\" is missing");
+}
+
+std::string prusa_config(const std::string& volumes) {
+  return "<config><object id=\"1\">" + volumes + "</object></config>";
+}
+
+// A volume that takes all but the last triangle, one that is the last.
+TEST(ThreeMf, VolumesOfPrusaSlicerAreGroups) {
+  const auto with = [](const std::string& volumes) {
+    return zipped({relationships(),
+                   {"3D/a.model", model(object(1, "name=\"whole\""))},
+                   {"Metadata/Slic3r_PE_model.config", prusa_config(volumes)}});
+  };
+  const std::string first = "<volume firstid=\"0\" lastid=\"2\"><metadata key=\"name\" value=\"body\"/></volume>";
+  const auto last = [](const std::string& type) {
+    return "<volume firstid=\"3\" lastid=\"3\"><metadata key=\"name\" value=\"more\"/>"
+           "<metadata key=\"volume_type\" value=\"" +
+           type + "\"/></volume>";
+  };
+  const Mesh both = read(with(first + last("ModelPart")));
+  ASSERT_EQ(both.groups.size(), 2u);
+  EXPECT_EQ(both.groups[0].name, "body");
+  EXPECT_EQ(both.groups[1].name, "more");
+  EXPECT_EQ(both.groups[1].object, "whole");
+  EXPECT_EQ(read(with(first + last("ParameterModifier"))).triangles.size(), 3u);
+  expect_message(with(last("ModelPart") + first), "volumes follow each other");
+  Diagnostics diagnostics;
+  EXPECT_TRUE(read_3mf("a.3mf", with(first + last("NegativeVolume")), diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("the negative volume \"more\" is left out"), std::string::npos);
+}
+
+TEST(ThreeMf, PartsOfBambuStudioHaveNames) {
+  const std::string config =
+      "<config><object id=\"3\"><metadata key=\"name\" value=\"all\"/>"
+      "<part id=\"1\" subtype=\"normal_part\"><metadata key=\"name\" value=\"lid\"/></part>"
+      "<part id=\"2\" subtype=\"modifier_part\"/></object></config>";
+  const std::string resources =
+      object(1) + object(2) + components(3, "<component objectid=\"1\"/><component objectid=\"2\"/>");
+  const Mesh mesh = read(zipped({relationships(),
+                                 {"3D/a.model", model(resources, "<item objectid=\"3\"/>")},
+                                 {"Metadata/model_settings.config", config}}));
+  ASSERT_EQ(mesh.groups.size(), 1u);
+  EXPECT_EQ(mesh.groups[0].name, "lid");
+  EXPECT_EQ(mesh.groups[0].object, "all");
 }
 
 TEST(ThreeMf, SupportsAreNoPart) {
