@@ -152,7 +152,8 @@ ZipReader::ZipReader(const std::string& name, std::string_view bytes, Diagnostic
   zip_error_fini(&error);
   if (!archive_) {
     if (source) zip_source_free(source);
-    fail(diagnostics, name, "this zip archive is damaged or cut short: " + problem, "save or copy it again");
+    fail(diagnostics, name, "this zip archive is damaged or cut short (libzip: " + to_lower(problem) + ")",
+         "save or copy it again");
   }
   const zip_int64_t count = zip_get_num_entries(archive_, 0);
   for (zip_int64_t i = 0; i < std::min<zip_int64_t>(count, most_entries); ++i)
