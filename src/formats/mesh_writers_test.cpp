@@ -189,6 +189,10 @@ TEST_F(Glb, ColoursAreLinear) {
   EXPECT_EQ(factor[0], 1);
   EXPECT_EQ(factor[3], 0.2);
   EXPECT_EQ(*at("materials", 0).find("alphaMode")->string(), "BLEND");
+  // Which colours of vertices would multiply.
+  EXPECT_EQ(number(at("meshes", 0).find("primitives")->list()->at(0), "material"), 2);
+  const Data& white = *at("materials", 2).find("pbrMetallicRoughness");
+  EXPECT_EQ(list(white, "baseColorFactor"), (std::vector<double>{1, 1, 1, 1}));
   const auto offset = static_cast<size_t>(number(at("bufferViews", 1), "byteOffset"));
   EXPECT_EQ(u32_at(bytes_, numbers_ + offset), 0xFFFFu | 14146u << 16);  // 65535 * 0.2158605
   EXPECT_EQ(u32_at(bytes_, numbers_ + offset + 4), 199u | 0xFFFF0000u);  // 65535 * 10 / 255 / 12.92 = 198.9
