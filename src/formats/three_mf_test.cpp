@@ -251,6 +251,8 @@ TEST(ThreeMf, ObjectsThatMultiplyAreStopped) {
   std::string deep = object(1);
   for (int id = 2; id <= 60; ++id) deep += components(id, "<component objectid=\"" + std::to_string(id - 1) + "\"/>");
   expect_message(archive(model(deep, "<item objectid=\"60\"/>")), "go deeper than 32 levels");
+  // Nor step by step, where what lies below is known already.
+  expect_message(archive(model(deep, "<item objectid=\"30\"/><item objectid=\"60\"/>")), "go deeper than 32 levels");
 }
 
 TEST(ThreeMf, WrongPackagesAreExplained) {
