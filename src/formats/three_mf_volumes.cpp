@@ -26,10 +26,21 @@ AssemblyObject* object_of(const XmlFile& file, xml_node node, const std::string&
   return found == assembly.objects.end() ? nullptr : &found->second;
 }
 
-void warn_of_negative(const XmlFile& file, const std::string& name) {
-  file.diagnostics().warning(
-      {}, file.name() + ": the negative volume " + quoted(name) + " is left out, not taken away from the others");
-}
+// Volumes that slicers take away from the others.
+struct Negatives {
+  std::string first;  // its name
+  size_t count = 0;
+
+  void add(const std::string& name) {
+    if (count++ == 0) first = name;
+  }
+  void warn(const XmlFile& file) const {
+    if (count == 0) return;
+    const std::string more = count > 1 ? " and " + format_count(count - 1) + " more are" : " is";
+    file.diagnostics().warning({}, file.name() + ": the negative volume " + quoted(first) + more +
+                                       " left out, not taken away from the others");
+  }
+};
 
 // A range of an object's triangles that is a solid of its own.
 struct Volume {
@@ -37,7 +48,7 @@ struct Volume {
   uint32_t begin = 0, end = 0;
 };
 
-std::vector<Volume> read_volumes(const XmlFile& file, xml_node object, size_t triangles) {
+std::vector<Volume> read_volumes(const XmlFile& file, xml_node object, size_t triangles, Negatives& negatives) {
   std::vector<Volume> volumes;
   for (const xml_node node : object.children("volume")) {
     const uint64_t first = file.count(node, file.required(node, "firstid"), "the number of a triangle");
@@ -51,7 +62,7 @@ std::vector<Volume> read_volumes(const XmlFile& file, xml_node object, size_t tr
     const std::string type = metadata(node, "volume_type");
     const bool is_solid = (type.empty() || type == "ModelPart") && metadata(node, "modifier") != "1";
     if (!is_solid) volumes.back().begin = volumes.back().end;
-    if (type == "NegativeVolume") warn_of_negative(file, volumes.back().name);
+    if (type == "NegativeVolume") negatives.add(volumes.back().name);
   }
   return volumes;
 }
@@ -90,12 +101,12 @@ struct Part {
 };
 
 // By the number of the component's object.
-std::map<std::string, Part> read_parts(const XmlFile& file, xml_node object) {
+std::map<std::string, Part> read_parts(const XmlFile& file, xml_node object, Negatives& negatives) {
   std::map<std::string, Part> parts;
   for (const xml_node node : object.children("part")) {
     const std::string_view subtype = node.attribute("subtype").value();
     const Part part{metadata(node, "name"), subtype.empty() || subtype == "normal_part"};
-    if (subtype == "negative_part") warn_of_negative(file, part.name);
+    if (subtype == "negative_part") negatives.add(part.name);
     parts.emplace(file.required(node, "id"), part);
   }
   return parts;
@@ -113,23 +124,27 @@ bool apply_part(const std::map<std::string, Part>& parts, const Placement& compo
 }  // namespace
 
 void apply_prusa_volumes(const XmlFile& settings, const std::string& part, Assembly& assembly) {
+  Negatives negatives;
   for (const xml_node node : settings.root("config").children("object")) {
     AssemblyObject* const object = object_of(settings, node, part, assembly);
     if (!object || object->mesh.triangles.empty()) continue;
-    const std::vector<Volume> volumes = read_volumes(settings, node, object->mesh.triangles.size());
+    const std::vector<Volume> volumes = read_volumes(settings, node, object->mesh.triangles.size(), negatives);
     if (!volumes.empty()) cut(object->mesh, volumes);
   }
+  negatives.warn(settings);
 }
 
 void apply_bambu_parts(const XmlFile& settings, const std::string& part, Assembly& assembly) {
+  Negatives negatives;
   for (const xml_node node : settings.root("config").children("object")) {
     AssemblyObject* const object = object_of(settings, node, part, assembly);
     if (!object) continue;
     if (const std::string name = metadata(node, "name"); !name.empty()) object->name = name;
-    const std::map<std::string, Part> parts = read_parts(settings, node);
+    const std::map<std::string, Part> parts = read_parts(settings, node, negatives);
     std::erase_if(object->components,
                   [&](const Placement& component) { return apply_part(parts, component, assembly); });
   }
+  negatives.warn(settings);
 }
 
 }  // namespace ombre::formats

@@ -93,11 +93,9 @@ class EntrySource {
 };
 
 [[noreturn]] void throw_failure(zip_error_t* error) {
-  const int system = zip_error_system_type(error) == ZIP_ET_SYS ? zip_error_code_system(error) : 0;
-  const std::string message = zip_error_strerror(error);
-  zip_error_fini(error);
-  if (system != 0) throw std::system_error(system, std::generic_category());
-  throw std::runtime_error(message);
+  if (zip_error_system_type(error) == ZIP_ET_SYS && zip_error_code_system(error) != 0)
+    throw std::system_error(zip_error_code_system(error), std::generic_category());
+  throw std::runtime_error(zip_error_strerror(error));
 }
 
 // An archive that is not written unless it is closed.
