@@ -12,7 +12,6 @@ import pathlib
 import re
 import shutil
 import struct
-import subprocess
 import tempfile
 import xml.etree.ElementTree as ElementTree
 import zipfile
@@ -141,8 +140,8 @@ class Gcode:
 
     def __init__(self, folder, name, *options):
         out = folder / (name + ".gcode")
-        result = subprocess.run(["prusa-slicer", "--export-gcode", folder / name, "-o", out, "--nozzle-diameter", "0.4,0.4",
-                                 "--skirts", "0", "--dont-arrange", *options], capture_output=True, text=True, timeout=120, check=False)
+        result = program.run(["prusa-slicer", "--export-gcode", folder / name, "-o", out, "--nozzle-diameter",
+                              "0.4,0.4", "--skirts", "0", "--dont-arrange", *options])
         expect(result.returncode == 0, f"{name}: {result.stderr[-1000:]}")
         self.text = out.read_text(encoding="utf-8")
 
@@ -198,8 +197,8 @@ def slicers_fill_less(folder):
 
 
 CHECKS = [archives_are_packages, regions_are_objects_of_one_part, prusa_gets_ranges_of_triangles,
-          bambu_gets_parts_and_colours, vertices_have_colours, amf_is_one_object, glb_is_in_metres, slicers_change_tools,
-          slicers_fill_less]
+          bambu_gets_parts_and_colours, vertices_have_colours, amf_is_one_object, glb_is_in_metres,
+          slicers_change_tools, slicers_fill_less]
 
 
 def main():

@@ -68,7 +68,7 @@ bool choose_object(const std::string& path, formats::Mesh& mesh, const std::stri
   if (is_cut) names.resize(most_listed);
   if (hint.empty())
     hint = names.empty() ? "its objects have no names: leave object out"
-                         : "there are " + join(names, ", ") + (is_cut ? " and more" : "");
+                         : "there are \"" + join(names, "\", \"") + '"' + (is_cut ? " and more" : "");
   diagnostics.error(where, "the mesh \"" + path + "\" has no object \"" + object + '"', hint);
   return false;
 }

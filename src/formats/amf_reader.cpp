@@ -163,10 +163,10 @@ std::string unpacked(const std::string& name, std::string_view bytes, Diagnostic
 std::optional<Mesh> read_amf(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
   try {
     if (bytes.empty()) fail(diagnostics, name, "the file is empty");
+    const std::string text = is_zip(bytes) ? unpacked(name, bytes, diagnostics) : "";
+    const XmlFile file(name, is_zip(bytes) ? text : bytes, diagnostics);
     Assembly assembly;
-    Reader(XmlFile(name, is_zip(bytes) ? unpacked(name, bytes, diagnostics) : std::string(bytes), diagnostics),
-           assembly)
-        .read();
+    Reader(file, assembly).read();
     return assemble(assembly, name, diagnostics);
   } catch (const DesignError&) {
     return std::nullopt;

@@ -10,18 +10,25 @@ namespace ombre::formats {
 namespace {
 
 constexpr size_t most_levels = 32;
-// Of what repeated objects come to; the file itself says the numbers of others.
-constexpr uint64_t most_instances = 1'000'000, most_triangles = 50'000'000, most_vertices = 50'000'000;
+// Of what repeated objects come to; what a file lists one by one may be more.
+constexpr uint64_t most_instances = 1'000'000, most_groups = 1'000'000;
+constexpr uint64_t most_triangles = 50'000'000, most_vertices = 50'000'000;
 
 struct Amount {
-  uint64_t instances = 0, vertices = 0, triangles = 0;
+  uint64_t instances = 0, groups = 0, vertices = 0, triangles = 0;
+  size_t levels = 0;
+
+  // An object without its components.
+  static Amount of(const Mesh& mesh) { return {1, mesh.groups.size(), mesh.vertices.size(), mesh.triangles.size(), 0}; }
 
   // Each is cut off beyond all limits, so that sums of sums stay numbers.
   void add(const Amount& other) {
     constexpr uint64_t beyond = uint64_t{1} << 40;
     instances = std::min(instances + other.instances, beyond);
+    groups = std::min(groups + other.groups, beyond);
     vertices = std::min(vertices + other.vertices, beyond);
     triangles = std::min(triangles + other.triangles, beyond);
+    levels = std::max(levels, other.levels);
   }
 };
 
@@ -49,12 +56,21 @@ class Assembler {
     return found->second;
   }
 
+  // Every object once.
+  Amount listed() const {
+    Amount amount;
+    for (const auto& [key, object] : assembly_.objects) amount.add(Amount::of(object.mesh));
+    return amount;
+  }
+
   Amount measure_build() {
     Amount amount;
-    for (const Placement& item : assembly_.build) amount.add(measure(item.object, 0));
-    const bool repeats = amount.instances > assembly_.objects.size();
-    if (amount.instances > most_instances ||
-        (repeats && (amount.triangles > most_triangles || amount.vertices > most_vertices)))
+    for (const Placement& item : assembly_.build) amount.add(measure(item.object, 1));
+    const Amount once = listed();
+    if (amount.instances > std::max(most_instances, once.instances) ||
+        amount.groups > std::max(most_groups, once.groups) ||
+        amount.triangles > std::max(most_triangles, once.triangles) ||
+        amount.vertices > std::max(most_vertices, once.vertices))
       fail(diagnostics_, file_,
            "its objects are repeated too often: to " + format_count(amount.triangles) + " triangles in " +
                format_count(amount.instances) + " places; at most " + format_count(most_triangles) + " in " +
@@ -72,13 +88,18 @@ class Assembler {
       if (known->second.instances == 0) fail(diagnostics_, file_, "the object " + key + " consists of itself");
       return known->second;
     }
-    if (level > most_levels)
-      fail(diagnostics_, file_, "objects within objects go deeper than " + std::to_string(most_levels) + " levels");
+    if (level > most_levels) fail_deep();
     const AssemblyObject& object = find(key);
     amounts_[key] = {};  // on the way
-    Amount amount{1, object.mesh.vertices.size(), object.mesh.triangles.size()};
+    Amount amount = Amount::of(object.mesh);
     for (const Placement& component : object.components) amount.add(measure(component.object, level + 1));
+    // What was measured before may stand deeper here.
+    if (++amount.levels > most_levels) fail_deep();
     return amounts_[key] = amount;
+  }
+
+  [[noreturn]] void fail_deep() const {
+    fail(diagnostics_, file_, "objects within objects go deeper than " + std::to_string(most_levels) + " levels");
   }
 
   void place(const AssemblyObject& object, const Affine& mm_from_object, const std::string& whole) {

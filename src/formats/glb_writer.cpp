@@ -24,7 +24,7 @@ double linear(uint8_t srgb) {
   return v <= 0.04045 ? v / 12.92 : math::pow((v + 0.055) / 1.055, 2.4);
 }
 
-Data material_of(const MeshMaterial& material) {
+Data material_of(const MeshMaterial& material, bool is_translucent) {
   const auto& [red, green, blue, alpha] = material.colour;
   DataMembers members{
       {"name", material.name},
@@ -32,7 +32,7 @@ Data material_of(const MeshMaterial& material) {
        DataMembers{{"baseColorFactor", DataList{linear(red), linear(green), linear(blue), alpha / 255.0}},
                    {"metallicFactor", 0.0},
                    {"roughnessFactor", 0.7}}}};
-  if (alpha < 255) members.emplace_back("alphaMode", "BLEND");
+  if (is_translucent) members.emplace_back("alphaMode", "BLEND");
   return members;
 }
 
@@ -53,14 +53,38 @@ std::pair<Vec3, Vec3> extent(const std::vector<Vec3>& points) {
 
 Data list(Vec3 p) { return DataList{p.x, p.y, p.z}; }
 
+bool has_translucent_vertices(const MeshDocument& document) {
+  const auto is_translucent = [](const Rgba& colour) { return colour[3] < 255; };
+  return std::any_of(document.bodies.begin(), document.bodies.end(), [&](const MeshBody& body) {
+    return std::any_of(body.vertex_colours.begin(), body.vertex_colours.end(), is_translucent);
+  });
+}
+
+// The document's materials. Colours of vertices multiply their material's, so bodies that have them share a white one
+// behind the others.
+DataList materials_of(const MeshDocument& document) {
+  DataList materials;
+  for (const MeshMaterial& material : document.materials)
+    materials.push_back(material_of(material, material.colour[3] < 255));
+  if (std::any_of(document.bodies.begin(), document.bodies.end(),
+                  [](const MeshBody& body) { return !body.vertex_colours.empty(); }))
+    materials.push_back(material_of({"colours of vertices", {255, 255, 255, 255}}, has_translucent_vertices(document)));
+  return materials;
+}
+
 // Describes bodies one after the other: their nodes, meshes and where their numbers lie.
 class Scene {
  public:
+  explicit Scene(const MeshDocument& document) : material_count_(document.materials.size()) {}
+
   void add(const MeshBody& body) {
     DataMembers attributes{{"POSITION", add_positions(body)}};
     if (!body.vertex_colours.empty()) attributes.emplace_back("COLOR_0", add_colours(body));
     DataMembers primitive{{"attributes", attributes}, {"indices", add_indices(body)}};
-    if (body.material) primitive.emplace_back("material", number(*body.material));
+    if (!body.vertex_colours.empty())
+      primitive.emplace_back("material", number(material_count_));
+    else if (body.material)
+      primitive.emplace_back("material", number(*body.material));
     nodes_.push_back(DataMembers{{"name", body.name}, {"mesh", number(meshes_.size())}});
     meshes_.push_back(DataMembers{{"name", body.name}, {"primitives", DataList{primitive}}});
   }
@@ -68,8 +92,7 @@ class Scene {
   uint64_t binary_bytes() const { return bytes_; }
 
   std::string json(const MeshDocument& document) const {
-    DataList materials;
-    for (const MeshMaterial& material : document.materials) materials.push_back(material_of(material));
+    const DataList materials = materials_of(document);
     DataMembers members{{"asset", DataMembers{{"version", "2.0"}, {"generator", "ombre"}}},
                         {"scene", 0.0},
                         {"scenes", DataList{DataMembers{{"nodes", DataList{number(nodes_.size())}}}}},
@@ -130,6 +153,7 @@ class Scene {
   }
 
   DataList nodes_, meshes_, accessors_, views_;
+  size_t material_count_;
   uint64_t bytes_ = 0;
 };
 
@@ -169,7 +193,7 @@ std::string words(std::initializer_list<uint64_t> values) {
 }  // namespace
 
 LazyBytes glb_bytes(const MeshDocument& document) {
-  Scene scene;
+  Scene scene(document);
   LazyBytes numbers;
   for (const MeshBody& body : document.bodies) {
     if (body.triangles.empty()) continue;

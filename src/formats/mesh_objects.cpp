@@ -1,6 +1,7 @@
 #include "formats/mesh_objects.h"
 
-#include <algorithm>
+#include <set>
+#include <string_view>
 
 namespace ombre::formats {
 namespace {
@@ -34,8 +35,9 @@ void append_range(std::vector<T>& to, const std::vector<T>& from, const MeshGrou
 
 std::vector<std::string> object_names(const Mesh& mesh) {
   std::vector<std::string> names;
-  const auto add = [&names](const std::string& name) {
-    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  std::set<std::string_view> known;
+  const auto add = [&](const std::string& name) {
+    if (!name.empty() && known.insert(name).second) names.push_back(name);
   };
   for (const MeshGroup& group : mesh.groups) {
     add(group.object);

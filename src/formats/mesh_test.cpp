@@ -148,7 +148,7 @@ TEST(Mesh, EveryFormatGivesTheSameTriangles) {
 
 TEST(Mesh, UnknownFormatsAreNamed) {
   expect_message("a.xyz", "1 2 3\n", "neither the name nor the content tells which mesh format this is");
-  expect_message("a.3mf", "PK\x03\x04 rest", "save the mesh as STL, OBJ, PLY or OFF");
+  expect_message("a.glb", "glTF", "name the file .stl, .obj, .ply, .off, .3mf or .amf");
 }
 
 TEST(Mesh, EmptyFilesAreNamed) {

@@ -34,7 +34,9 @@ enum class SlicerFlavour {
   bambu,    // Bambu Studio and OrcaSlicer: as generic, with colours in the form that these read
 };
 
-// Throws what the standard library throws, std::system_error where the disk fails; Error in builds without libzip.
+// Not in builds without libzip.
+bool can_write_3mf();
+// Throws what the standard library throws, std::system_error where the disk fails; Error where it cannot be written.
 void write_3mf(const std::string& path, const MeshDocument& document, SlicerFlavour flavour);
 
 }  // namespace ombre::formats

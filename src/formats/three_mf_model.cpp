@@ -3,6 +3,7 @@
 
 #include "formats/three_mf_model.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "base/text.h"
@@ -36,14 +37,24 @@ xml_node child_of(xml_node node, std::string_view name) {
   return {};
 }
 
+// Takes the next word off the text; empty at the end.
+std::string_view next_word(std::string_view& text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(blanks));
+  text.remove_prefix(word.size());
+  return word;
+}
+
 // Twelve numbers, column by column of our matrices: 3MF multiplies rows by matrices.
 Affine parse_transform(const XmlFile& file, xml_node node) {
-  const auto text = file.attribute(node, "transform");
+  auto text = file.attribute(node, "transform");
   if (!text) return {};
-  std::vector<double> m;
-  for (const std::string& word : split(std::string(trim(*text)), ' '))
-    if (!word.empty()) m.push_back(file.number(node, word, "a number of a transform"));
-  if (m.size() != 12) file.fail_at(node, "a transform has 12 numbers, this one has " + std::to_string(m.size()));
+  std::array<double, 12> m{};
+  size_t count = 0;
+  for (std::string_view word = next_word(*text); !word.empty(); word = next_word(*text), ++count)
+    if (count < m.size()) m[count] = file.number(node, word, "a number of a transform");
+  if (count != m.size()) file.fail_at(node, "a transform has 12 numbers, this one has " + std::to_string(count));
   const Affine map{{Vec3{m[0], m[3], m[6]}, Vec3{m[1], m[4], m[7]}, Vec3{m[2], m[5], m[8]}}, {m[9], m[10], m[11]}};
   if (determinant(map) == 0) file.fail_at(node, "a transform squeezes its object flat: its determinant is 0");
   return map;
@@ -189,21 +200,25 @@ void read_unit(const XmlFile& file, xml_node model, Assembly& assembly) {
   assembly.mm_per_unit = *mm;
 }
 
-// Extensions whose absence changes the shape.
+// Names the first extension whose absence changes the shape.
 void warn_of_extensions(const XmlFile& file, xml_node model) {
-  for (const std::string& prefix : split(std::string(file.attribute(model, "requiredextensions").value_or("")), ' ')) {
-    const std::string_view space = model.attribute(("xmlns:" + prefix).c_str()).value();
+  std::string_view prefixes = file.attribute(model, "requiredextensions").value_or("");
+  for (std::string_view prefix = next_word(prefixes); !prefix.empty(); prefix = next_word(prefixes)) {
+    const std::string_view space = model.attribute(("xmlns:" + std::string(prefix)).c_str()).value();
     const bool is_known =
         space.find("/material/") != std::string_view::npos || space.find("/production/") != std::string_view::npos;
-    if (!prefix.empty() && !is_known)
-      file.diagnostics().warning({}, file.name() + ": what the 3MF extension " + quoted(prefix) + " adds is not read" +
-                                         (space.empty() ? "" : " (" + std::string(space) + ")"));
+    if (is_known) continue;
+    file.diagnostics().warning({}, file.name() + ": what the 3MF extension " + quoted(prefix) + " adds is not read" +
+                                       (space.empty() ? "" : ": " + quoted(space)));
+    return;
   }
 }
 
 }  // namespace
 
 std::string object_key(std::string_view part, uint64_t id) { return std::to_string(id) + " of " + std::string(part); }
+
+std::string id_of_key(const std::string& key) { return key.substr(0, key.find(' ')); }
 
 void add_objects(const XmlFile& file, const std::string& part, Assembly& assembly, std::set<std::string>& further) {
   const xml_node model = file.root("model");

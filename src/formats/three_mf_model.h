@@ -10,6 +10,7 @@ namespace ombre::formats {
 
 // The key of an object in an assembly.
 std::string object_key(std::string_view part, uint64_t id);
+std::string id_of_key(const std::string& key);
 
 // Adds the objects of a model file, which is called `part` in the package, and to `further` the parts that it
 // refers to.

@@ -3,6 +3,8 @@
 
 #include "formats/text_scanner.h"
 #include "formats/three_mf_model.h"
+#include "formats/three_mf_text.h"
+#include "formats/three_mf_volumes.h"
 #include "formats/zip_archive.h"
 
 namespace ombre::formats {
@@ -17,25 +19,27 @@ class Reader {
       : name_(name), diagnostics_(diagnostics), archive_(name, bytes, diagnostics) {}
 
   Mesh read() {
-    read_part(root_model(), true);
+    const std::string root = root_model();
+    read_part(root, true);
     while (!further_.empty()) {
       const std::string part = *further_.begin();
       further_.erase(further_.begin());
       if (!read_.contains(part)) read_part(part, false);
     }
+    apply(prusa_settings_path, apply_prusa_volumes, root);
+    apply(bambu_settings_path, apply_bambu_parts, root);
     return assemble(assembly_, name_, diagnostics_);
   }
 
  private:
-  XmlFile xml(const std::string& entry) { return {name_ + '/' + entry, archive_.read(entry), diagnostics_}; }
-
   // The archive's file to which the package points.
   std::string root_model() {
     if (!archive_.has(relationships))
       fail(diagnostics_, name_,
            std::string("this zip archive is not a 3MF file: it has no file \"") + relationships + '"',
            "name it .amf if it is a zipped AMF file");
-    const XmlFile file = xml(relationships);
+    const std::string text = archive_.read(relationships);
+    const XmlFile file(name_ + '/' + relationships, text, diagnostics_);
     for (const pugi::xml_node node : file.root("Relationships").children()) {
       const std::string_view type = file.attribute(node, "Type").value_or("");
       if (local_name(node) != "Relationship" || !type.ends_with(model_relationship)) continue;
@@ -47,10 +51,19 @@ class Reader {
   }
 
   void read_part(const std::string& part, bool is_root) {
-    const XmlFile file = xml(part);
+    const std::string text = archive_.read(part);
+    const XmlFile file(name_ + '/' + part, text, diagnostics_);
     read_.insert(part);
     add_objects(file, part, assembly_, further_);
     if (is_root) add_build(file, part, assembly_, further_);
+  }
+
+  // What a slicer's file says, if the archive has it.
+  void apply(const char* entry, void (*settings)(const XmlFile&, const std::string&, Assembly&),
+             const std::string& root) {
+    if (!archive_.has(entry)) return;
+    const std::string text = archive_.read(entry);
+    settings(XmlFile(name_ + '/' + entry, text, diagnostics_), root, assembly_);
   }
 
   const std::string& name_;

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "formats/mesh.h"
+#include "formats/mesh_writers.h"
 #include "formats/zip_archive.h"
 
 namespace ombre::formats {
@@ -25,6 +26,8 @@ std::optional<Mesh> read_3mf(const std::string& name, std::string_view, Diagnost
 std::optional<Mesh> read_amf(const std::string& name, std::string_view, Diagnostics& diagnostics) {
   return report(name, "AMF", diagnostics);
 }
+
+bool can_write_3mf() { return false; }
 
 void write_zip(const std::string& path, const std::vector<ZipEntry>&) {
   throw Error("cannot write " + path + ": " + missing + "; " + remedy + ", or write another format");

@@ -27,13 +27,13 @@ std::string_view local_name(const char* name) {
   return colon == std::string_view::npos ? whole : whole.substr(colon + 1);
 }
 
-XmlFile::XmlFile(std::string name, std::string text, Diagnostics& diagnostics)
-    : name_(std::move(name)), text_(std::move(text)), diagnostics_(diagnostics) {
+XmlFile::XmlFile(std::string name, std::string_view text, Diagnostics& diagnostics)
+    : name_(std::move(name)), text_(text), diagnostics_(diagnostics) {
   check_size();
   const pugi::xml_parse_result result = tree_.load_buffer(text_.data(), text_.size(), parse_options);
   if (result) return;
-  fail_at(static_cast<size_t>(std::max<ptrdiff_t>(result.offset, 0)),
-          std::string("this is not XML: ") + to_lower(result.description()), "the file may be cut short");
+  const auto place = static_cast<size_t>(std::max<ptrdiff_t>(result.offset, 0));
+  fail_at(place, place, std::string("this is not XML: ") + to_lower(result.description()), "the file may be cut short");
 }
 
 // Each element begins with <, as does each end; each attribute has its =.
@@ -92,12 +92,15 @@ uint64_t XmlFile::count(pugi::xml_node node, std::string_view text, std::string_
 }
 
 void XmlFile::fail_at(pugi::xml_node node, const std::string& message, const std::string& hint) const {
-  fail_at(static_cast<size_t>(std::max<ptrdiff_t>(node.offset_debug(), 0)), message, hint);
+  // The place of its name, behind <.
+  const auto name_begin = static_cast<size_t>(std::max<ptrdiff_t>(node.offset_debug(), 1));
+  fail_at(name_begin - 1, name_begin + std::string_view(node.name()).size(), message, hint);
 }
 
-void XmlFile::fail_at(size_t offset, const std::string& message, const std::string& hint) const {
-  const size_t at = std::min(offset, text_.size());
-  TextScanner(name_, text_, diagnostics_).fail_at(at, at, message, hint);
+// Places in a text that was converted from UTF-16 may lie behind its end.
+void XmlFile::fail_at(size_t begin, size_t end, const std::string& message, const std::string& hint) const {
+  TextScanner(name_, text_, diagnostics_)
+      .fail_at(std::min(begin, text_.size()), std::min(end, text_.size()), message, hint);
 }
 
 }  // namespace ombre::formats

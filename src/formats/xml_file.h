@@ -19,11 +19,11 @@ inline std::string_view local_name(pugi::xml_node node) { return local_name(node
 // by DesignError.
 class XmlFile {
  public:
-  // For the tree; the text comes to it twice over.
+  // For the tree; a copy of the text comes to it.
   static constexpr uint64_t most_tree_bytes = uint64_t{4} << 30;
 
-  // `name` is for messages.
-  XmlFile(std::string name, std::string text, Diagnostics& diagnostics);
+  // `name` is for messages. The text must live as long.
+  XmlFile(std::string name, std::string_view text, Diagnostics& diagnostics);
 
   // Its outermost element, which must have that name.
   pugi::xml_node root(std::string_view wanted) const;
@@ -44,10 +44,11 @@ class XmlFile {
   const std::string& name() const { return name_; }
 
  private:
-  [[noreturn]] void fail_at(size_t offset, const std::string& message, const std::string& hint) const;
+  [[noreturn]] void fail_at(size_t begin, size_t end, const std::string& message, const std::string& hint) const;
   void check_size() const;
 
-  std::string name_, text_;
+  std::string name_;
+  std::string_view text_;
   Diagnostics& diagnostics_;
   pugi::xml_document tree_;
 };

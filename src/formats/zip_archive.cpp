@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "base/text.h"
+#include "formats/mesh_writers.h"
 #include "formats/text_scanner.h"
 
 namespace ombre::formats {
@@ -18,6 +19,9 @@ namespace {
 
 // 1980-01-01 00:00, the first date there is.
 constexpr uint16_t first_date = 1 << 5 | 1, midnight = 0;
+
+// A tenth more bytes than at level 9, in an eighth of the time.
+constexpr uint32_t compression_level = 5;
 
 // An entry's bytes as libzip asks for them.
 class EntrySource {
@@ -89,11 +93,9 @@ class EntrySource {
 };
 
 [[noreturn]] void throw_failure(zip_error_t* error) {
-  const int system = zip_error_system_type(error) == ZIP_ET_SYS ? zip_error_code_system(error) : 0;
-  const std::string message = zip_error_strerror(error);
-  zip_error_fini(error);
-  if (system != 0) throw std::system_error(system, std::generic_category());
-  throw std::runtime_error(message);
+  if (zip_error_system_type(error) == ZIP_ET_SYS && zip_error_code_system(error) != 0)
+    throw std::system_error(zip_error_code_system(error), std::generic_category());
+  throw std::runtime_error(zip_error_strerror(error));
 }
 
 // An archive that is not written unless it is closed.
@@ -119,7 +121,9 @@ void add(zip_t* archive, const std::string& name, EntrySource& bytes) {
     zip_source_free(source);
     throw_failure(zip_get_error(archive));
   }
-  if (zip_file_set_dostime(archive, static_cast<zip_uint64_t>(index), midnight, first_date, 0) != 0)
+  const auto entry = static_cast<zip_uint64_t>(index);
+  if (zip_set_file_compression(archive, entry, ZIP_CM_DEFLATE, compression_level) != 0 ||
+      zip_file_set_dostime(archive, entry, midnight, first_date, 0) != 0)
     throw_failure(zip_get_error(archive));
 }
 
@@ -134,6 +138,8 @@ void write_zip(const std::string& path, const std::vector<ZipEntry>& entries) {
   static_cast<void>(archive.release());  // closed
 }
 
+bool can_write_3mf() { return true; }
+
 ZipReader::ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
     : name_(name), diagnostics_(diagnostics) {
   zip_error_t error;
@@ -144,7 +150,8 @@ ZipReader::ZipReader(const std::string& name, std::string_view bytes, Diagnostic
   zip_error_fini(&error);
   if (!archive_) {
     if (source) zip_source_free(source);
-    fail(diagnostics, name, "this zip archive is damaged or cut short: " + problem, "save or copy it again");
+    fail(diagnostics, name, "this zip archive is damaged or cut short (libzip: " + to_lower(problem) + ")",
+         "save or copy it again");
   }
   const zip_int64_t count = zip_get_num_entries(archive_, 0);
   for (zip_int64_t i = 0; i < std::min<zip_int64_t>(count, most_entries); ++i)

@@ -19,7 +19,7 @@ struct Mesh {
   static Spec<Mesh> spec() {
     return {"mesh",
             "imported",
-            "Solid bounded by the triangles of a file: STL, OBJ, PLY, OFF, 3MF or AMF, in mm.",
+            "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF or AMF in their own unit.",
             {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
              {"material", &Mesh::material, "Its material"},
              {"inside", &Mesh::inside_rule,

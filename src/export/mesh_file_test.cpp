@@ -1,0 +1,118 @@
+#include "export/mesh_file.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "formats/file.h"
+
+namespace ombre::exporting {
+namespace {
+
+namespace fs = std::filesystem;
+
+formats::MeshDocument triangle() {
+  return {"t", {{"red", {255, 0, 0, 255}}}, {{"t", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, 0}}};
+}
+
+class MeshFile : public testing::Test {
+ protected:
+  MeshFile() : folder_(fs::path(testing::TempDir()) / ("mesh_file_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~MeshFile() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  fs::path folder_;
+};
+
+std::string failure(const std::string& path, const formats::MeshDocument& document, MeshFormat format) {
+  try {
+    write_mesh_file(path, document, format);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MeshFormat, IsTheEnding) {
+  EXPECT_EQ(mesh_format_of("a/b.STL"), MeshFormat::stl);
+  EXPECT_EQ(mesh_format_of("b.3mf"), MeshFormat::three_mf);
+  EXPECT_EQ(mesh_format_of("b.png"), std::nullopt);
+  EXPECT_EQ(mesh_format_of("3mf"), std::nullopt);
+  EXPECT_EQ(mesh_endings(), ".3mf, .amf, .glb, .obj, .off, .ply, .stl");
+}
+
+TEST_F(MeshFile, HasItsNameAndNoOther) {
+  std::vector<std::string> written{"a.amf", "a.glb", "a.off", "a.ply", "a.stl"};
+  if (formats::can_write_3mf()) written.insert(written.begin(), "a.3mf");
+  for (const std::string& name : written) write_mesh_file(path(name), triangle(), *mesh_format_of(name));
+  EXPECT_EQ(names(), written);
+}
+
+TEST_F(MeshFile, ObjHasItsMaterialsBeside) {
+  write_mesh_file(path("a.b.obj"), triangle(), MeshFormat::obj);
+  EXPECT_EQ(names(), (std::vector<std::string>{"a.b.mtl", "a.b.obj"}));
+  EXPECT_NE(formats::read_file(path("a.b.obj")).find("mtllib a.b.mtl\n"), std::string::npos);
+  formats::MeshDocument plain = triangle();
+  plain.materials.clear();
+  plain.bodies[0].material.reset();
+  write_mesh_file(path("plain.obj"), plain, MeshFormat::obj);
+  EXPECT_EQ(names().size(), 3u);
+}
+
+TEST_F(MeshFile, FailuresNameThePathAndLeaveWhatWasThere) {
+  for (const std::string name : {"a.3mf", "a.obj", "a.stl"}) {
+    if (name == "a.3mf" && !formats::can_write_3mf()) continue;
+    const std::string missing = path("none/" + name);
+    EXPECT_EQ(failure(missing, triangle(), *mesh_format_of(name)),
+              "cannot write " + (*mesh_format_of(name) == MeshFormat::obj ? material_library_path(missing) : missing) +
+                  ": No such file or directory; the folder is missing");
+    std::ofstream(path(name)) << "mine";
+    EXPECT_NE(failure(path(name), {}, *mesh_format_of(name)).find("there are no triangles"), std::string::npos);
+    EXPECT_EQ(formats::read_file(path(name)), "mine");
+  }
+}
+
+// /dev/full takes no byte, as a full disk does.
+TEST_F(MeshFile, FullDisksAreTold) {
+  for (const char* name : {"a.stl", "a.amf", "a.obj"}) {
+    fs::create_symlink("/dev/full", path(name) + ".part");
+    EXPECT_NE(failure(path(name), triangle(), *mesh_format_of(name)).find("No space left on device; free some space"),
+              std::string::npos)
+        << name;
+  }
+  EXPECT_TRUE(names().empty());
+}
+
+// What a process may write is cut to a few bytes.
+TEST_F(MeshFile, FullDisksLeaveNoArchive) {
+  if (!formats::can_write_3mf()) GTEST_SKIP() << "no 3MF in this build";
+  rlimit usual{};
+  getrlimit(RLIMIT_FSIZE, &usual);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit few{100, usual.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &few);
+  const std::string told = failure(path("a.3mf"), triangle(), MeshFormat::three_mf);
+  setrlimit(RLIMIT_FSIZE, &usual);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(told, "cannot write " + path("a.3mf") + ": File too large");
+  EXPECT_TRUE(names().empty());
+}
+
+}  // namespace
+}  // namespace ombre::exporting

@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+
+#include "formats/mesh_writers.h"
+#include "formats/test_documents.h"
+
+#ifdef OMBRE_3MF
+
+namespace ombre::formats {
+namespace {
+
+using namespace test;
+
+Mesh read(const std::string& bytes) {
+  Diagnostics diagnostics;
+  const auto mesh = read_mesh("a.amf", bytes, diagnostics);
+  EXPECT_TRUE(mesh && diagnostics.list().empty()) << to_text(diagnostics);
+  return mesh.value_or(Mesh{});
+}
+
+std::string message(const std::string& bytes) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_amf("a.amf", bytes, diagnostics));
+  EXPECT_EQ(diagnostics.error_count(), 1u);
+  return to_text(diagnostics);
+}
+
+void expect_message(const std::string& bytes, const std::string& part) {
+  const std::string text = message(bytes);
+  EXPECT_NE(text.find(part), std::string::npos) << "expected: " << part << "\nfound: " << text;
+}
+
+// An object by hand.
+std::string object(const std::string& corner = "0") {
+  std::string text = "<object id=\"1\"><metadata type=\"name\">t</metadata><mesh><vertices>";
+  for (const std::string& point : {"<x>" + corner + "</x><y>0</y><z>0</z>", std::string("<x>1</x><y>0</y><z>0</z>"),
+                                   std::string("<x>0</x><y>2</y><z>0</z>"), std::string("<x>0</x><y>0</y><z>4</z>")})
+    text += "<vertex><coordinates>" + point + "</coordinates></vertex>\n";
+  text += "</vertices><volume>";
+  for (const char* triangle : {"<v1>0</v1><v2>2</v2><v3>1</v3>", "<v1>0</v1><v2>1</v2><v3>3</v3>",
+                               "<v1>1</v1><v2>2</v2><v3>3</v3>", "<v1>0</v1><v2>3</v2><v3>2</v3>"})
+    text += std::string("<triangle>") + triangle + "</triangle>\n";
+  return text + "</volume></mesh></object>\n";
+}
+
+std::string amf(const std::string& inner, const std::string& unit = "millimeter") {
+  return "<?xml version=\"1.0\"?>\n<amf unit=\"" + unit + "\">\n" + inner + "</amf>\n";
+}
+
+TEST(Amf, NamesMaterialsAndColoursComeBack) {
+  const Mesh mesh = read(whole(amf_bytes(pair())));
+  EXPECT_NEAR(volume(mesh), 2 * tetrahedron_mm3, 1e-12);
+  ASSERT_EQ(mesh.groups.size(), 2u);
+  EXPECT_EQ(mesh.groups[0].name, "left");
+  EXPECT_EQ(mesh.groups[1].material, "clear blue");
+  EXPECT_EQ(mesh.groups[1].object, "pair");
+  EXPECT_EQ(mesh.groups[1].colour, (Rgba{0, 0, 255, 51}));
+}
+
+TEST(Amf, VolumesTellSlicersTheirSettings) {
+  MeshDocument document = pair();
+  document.bodies[1].settings = {{"fill_density", "15%"}};
+  const std::string text = whole(amf_bytes(document));
+  EXPECT_NE(text.find("<volume materialid=\"2\">\n<metadata type=\"name\">right</metadata>\n"
+                      "<metadata type=\"slic3r.extruder\">2</metadata>\n"
+                      "<metadata type=\"slic3r.fill_density\">15%</metadata>\n<triangle><v1>4</v1>"),
+            std::string::npos)
+      << text;
+}
+
+TEST(Amf, WhatXmlCannotHoldIsReplaced) {
+  MeshDocument document = pair();
+  document.bodies[0].name = "a<b>&\"c\"\x01\xFF \xC3\xA4";
+  EXPECT_EQ(read(whole(amf_bytes(document))).groups[0].name, "a<b>&\"c\"?? \xC3\xA4");
+}
+
+TEST(Amf, UnitsBecomeMillimetres) {
+  EXPECT_NEAR(volume(read(amf(object(), "inch"))), tetrahedron_mm3 * 25.4 * 25.4 * 25.4, 1e-6);
+  EXPECT_NEAR(volume(read(amf(object(), "micron"))), tetrahedron_mm3 * 1e-9, 1e-18);
+  expect_message(amf(object(), "parsec"), "there is no unit \"parsec\"; it can be millimeter");
+}
+
+TEST(Amf, ConstellationsPlaceObjects) {
+  const Mesh mesh =
+      read(amf(object() + "<constellation id=\"c\"><instance objectid=\"1\"><deltax>5</deltax><rz>90</rz></instance>"
+                          "<instance objectid=\"1\"><rx>90</rx></instance></constellation>"));
+  EXPECT_NEAR(volume(mesh), 2 * tetrahedron_mm3, 1e-12);
+  EXPECT_EQ(mesh.vertices[1], (Vec3{5, 1, 0}));  // x turned to y, and moved
+  EXPECT_EQ(mesh.vertices[6], (Vec3{0, 0, 2}));  // y turned to z
+  EXPECT_EQ(mesh.groups[0].object, "constellation c");
+}
+
+TEST(Amf, WrongFilesAreExplained) {
+  expect_message("", "the file is empty");
+  expect_message("<amf><object", "a.amf:1:");
+  expect_message("<svg/>", "expected the element <amf>, found \"svg\"");
+  expect_message(amf(object("nan")), "expected a coordinate of a vertex, found \"nan\"");
+  expect_message(amf(object("1e16")), "is too large");
+  expect_message(amf(object("")), "expected a coordinate of a vertex, found \"\"");
+  expect_message(amf(object() + object()), "there are two objects with the id \"1\"");
+  expect_message(amf(""), "nothing that is built has triangles");
+  expect_message(amf(object() + "<constellation id=\"c\"><instance objectid=\"7\"/></constellation>"),
+                 "there is no object 7");
+  expect_message(amf("<constellation id=\"c\"><instance objectid=\"c\"/></constellation>" + object() +
+                     "<constellation id=\"d\"><instance objectid=\"c\"/></constellation>"),
+                 "the object c consists of itself");
+  std::string wrong = amf(object());
+  wrong.replace(wrong.find("<v3>3"), 5, "<v3>9");
+  expect_message(wrong, "a.amf:8:1: error: the triangle uses vertex 9, but the 4 vertices of its object");
+}
+
+TEST(Amf, EntitiesDoNotGrow) {
+  std::string laughs = "<?xml version=\"1.0\"?>\n<!DOCTYPE amf [<!ENTITY a \"0000000000\">";
+  for (char c = 'b'; c <= 'j'; ++c) {
+    laughs += "<!ENTITY " + std::string(1, c) + " \"";
+    for (int i = 0; i < 10; ++i) laughs += "&" + std::string(1, static_cast<char>(c - 1)) + ";";
+    laughs += "\">";
+  }
+  expect_message(laughs + "]>\n<amf>" + object("&j;") + "</amf>", "expected a coordinate of a vertex, found \"&j;\"");
+}
+
+TEST(Amf, EveryTruncationIsAMeshOrAMessage) {
+  const std::string bytes = whole(amf_bytes(pair()));
+  for (size_t size = 0; size < bytes.size(); ++size) {
+    Diagnostics diagnostics;
+    const auto mesh = read_amf("a.amf", bytes.substr(0, size), diagnostics);
+    ASSERT_NE(mesh.has_value(), diagnostics.has_errors()) << "cut to " << size;
+  }
+}
+
+}  // namespace
+}  // namespace ombre::formats
+
+#endif

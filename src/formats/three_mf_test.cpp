@@ -1,0 +1,303 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "formats/file.h"
+#include "formats/mesh_writers.h"
+#include "formats/test_documents.h"
+#include "formats/zip_archive.h"
+
+#ifdef OMBRE_3MF
+
+namespace ombre::formats {
+namespace {
+
+using namespace test;
+
+// What a writer writes to a path.
+template <class Write>
+std::string written(const Write& write) {
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("three_mf_test_" + std::to_string(getpid()))).string();
+  write(path);
+  std::string bytes = read_file(path);
+  std::filesystem::remove(path);
+  return bytes;
+}
+
+std::string package(const MeshDocument& document, SlicerFlavour flavour) {
+  return written([&](const std::string& path) { write_3mf(path, document, flavour); });
+}
+
+std::string zipped(const std::vector<std::pair<std::string, std::string>>& files) {
+  std::vector<ZipEntry> entries;
+  for (const auto& [name, text] : files) {
+    entries.push_back({name, {}});
+    entries.back().bytes.add(text);
+  }
+  return written([&](const std::string& path) { write_zip(path, entries); });
+}
+
+std::pair<std::string, std::string> relationships(const std::string& target = "/3D/a.model") {
+  return {"_rels/.rels",
+          "<Relationships><Relationship Id=\"r\" Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\" "
+          "Target=\"" +
+              target + "\"/></Relationships>"};
+}
+
+std::string archive(const std::string& model) { return zipped({relationships(), {"3D/a.model", model}}); }
+
+std::string object(int id, const std::string& attributes = "", const std::string& triangle = "") {
+  return "<object id=\"" + std::to_string(id) + "\" " + attributes +
+         "><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"2\" "
+         "z=\"0\"/><vertex x=\"0\" y=\"0\" z=\"4\"/></vertices>\n<triangles><triangle v1=\"0\" v2=\"2\" v3=\"1\" " +
+         triangle +
+         "/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/><triangle v1=\"1\" v2=\"2\" v3=\"3\"/>"
+         "<triangle v1=\"0\" v2=\"3\" v3=\"2\"/></triangles></mesh></object>\n";
+}
+
+std::string components(int id, const std::string& inner) {
+  return "<object id=\"" + std::to_string(id) + "\"><components>" + inner + "</components></object>\n";
+}
+
+std::string model(const std::string& resources, const std::string& build = "<item objectid=\"1\"/>",
+                  const std::string& attributes = "unit=\"millimeter\"") {
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model " + attributes + ">\n<resources>\n" + resources +
+         "</resources>\n<build>" + build + "</build>\n</model>\n";
+}
+
+Mesh read(const std::string& bytes) {
+  Diagnostics diagnostics;
+  const auto mesh = read_mesh("a.3mf", bytes, diagnostics);
+  EXPECT_TRUE(mesh && diagnostics.list().empty()) << to_text(diagnostics);
+  return mesh.value_or(Mesh{});
+}
+
+void expect_message(const std::string& bytes, const std::string& part) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_3mf("a.3mf", bytes, diagnostics));
+  EXPECT_EQ(diagnostics.error_count(), 1u);
+  EXPECT_NE(to_text(diagnostics).find(part), std::string::npos)
+      << "expected: " << part << "\nfound: " << to_text(diagnostics);
+}
+
+TEST(ThreeMf, NamesMaterialsAndColoursComeBack) {
+  for (const auto flavour : {SlicerFlavour::generic, SlicerFlavour::prusa, SlicerFlavour::bambu}) {
+    const Mesh mesh = read(package(pair(), flavour));
+    EXPECT_NEAR(volume(mesh), 2 * tetrahedron_mm3, 1e-12);
+    ASSERT_EQ(mesh.groups.size(), 2u);
+    EXPECT_EQ(mesh.groups[0].triangle_count, 4u);
+    EXPECT_EQ(mesh.groups[0].colour, (Rgba{255, 0, 0, 255}));
+    EXPECT_EQ(mesh.groups[1].colour, (Rgba{0, 0, 255, 51}));
+    EXPECT_EQ(mesh.groups[1].name, "right");
+    EXPECT_EQ(mesh.groups[1].object, "pair");
+    // Bambu Studio takes colours alone.
+    EXPECT_EQ(mesh.groups[1].material, flavour == SlicerFlavour::bambu ? "" : "clear blue");
+  }
+}
+
+TEST(ThreeMf, EqualDocumentsGiveEqualBytes) {
+  EXPECT_EQ(package(pair(), SlicerFlavour::generic), package(pair(), SlicerFlavour::generic));
+}
+
+TEST(ThreeMf, UnitsBecomeMillimetres) {
+  for (const auto& [unit, mm] :
+       {std::pair{"micron", 0.001}, {"centimeter", 10.0}, {"inch", 25.4}, {"foot", 304.8}, {"meter", 1000.0}}) {
+    const Mesh mesh = read(archive(model(object(1), "<item objectid=\"1\"/>", "unit=\"" + std::string(unit) + '"')));
+    EXPECT_EQ(mesh.vertices[3], (Vec3{0, 0, 4 * mm})) << unit;
+  }
+  EXPECT_EQ(read(archive(model(object(1), "<item objectid=\"1\"/>", ""))).vertices[1], (Vec3{1, 0, 0}));
+  expect_message(archive(model(object(1), "", "unit=\"mile\"")),
+                 "a.3mf/3D/a.model:2:1: error: there is no unit \"mile\"");
+}
+
+// Rows of the matrix are where x, y, z go: here to y, z, x. Then the outer matrix doubles, then the item moves.
+TEST(ThreeMf, TransformsMultiplyFromTheInside) {
+  const std::string resources = object(1, "name=\"inner\"") +
+                                components(2, "<component objectid=\"1\" transform=\"0 1 0 0 0 1 1 0 0 10 0 0\"/>") +
+                                components(3, "<component objectid=\"2\" transform=\"2 0 0 0 2 0 0 0 2 0 0 0\"/>");
+  const Mesh mesh = read(archive(model(resources, "<item objectid=\"3\" transform=\"1 0 0 0 1 0 0 0 1 0 0 5\"/>")));
+  EXPECT_EQ(mesh.vertices[0], (Vec3{20, 0, 5}));
+  EXPECT_EQ(mesh.vertices[1], (Vec3{20, 2, 5}));  // x went to y
+  EXPECT_EQ(mesh.vertices[2], (Vec3{20, 0, 9}));  // y went to z
+  EXPECT_EQ(mesh.vertices[3], (Vec3{28, 0, 5}));  // z went to x
+  EXPECT_NEAR(volume(mesh), 8 * tetrahedron_mm3, 1e-12);
+  EXPECT_EQ(mesh.groups[0].name, "inner");
+  EXPECT_EQ(mesh.groups[0].object, "object 3");
+}
+
+TEST(ThreeMf, MirroredObjectsStillFaceOutward) {
+  const Mesh mesh = read(archive(model(object(1), "<item objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 0 0 0\"/>")));
+  EXPECT_NEAR(volume(mesh), tetrahedron_mm3, 1e-12);
+}
+
+TEST(ThreeMf, TrianglesHaveTheirOwnMaterials) {
+  const std::string resources =
+      "<basematerials id=\"5\"><base name=\"a\" displaycolor=\"#102030\"/><base name=\"b\"/></basematerials>"
+      "<m:colorgroup id=\"6\"><m:color color=\"#01020304\"/></m:colorgroup>" +
+      object(1, "name=\"t\" pid=\"5\" pindex=\"0\"", "pid=\"6\" p1=\"0\"");
+  const Mesh mesh = read(archive(model(resources)));
+  ASSERT_EQ(mesh.groups.size(), 2u);
+  EXPECT_EQ(mesh.groups[0].colour, (Rgba{1, 2, 3, 4}));
+  EXPECT_EQ(mesh.groups[0].material, "");
+  EXPECT_EQ(mesh.groups[1].material, "a");
+  EXPECT_EQ(mesh.groups[1].colour, (Rgba{16, 32, 48, 255}));
+  EXPECT_EQ(mesh.groups[1].first_triangle, 1u);
+  const std::string beyond =
+      "<basematerials id=\"5\"><base name=\"a\"/></basematerials>" + object(1, "pid=\"5\" pindex=\"1\"");
+  expect_message(archive(model(beyond)), "the triangle uses property 1 of resource 5, which has 1 numbered from 0");
+}
+
+TEST(ThreeMf, ObjectsMayLieInOtherParts) {
+  const std::string root =
+      model(components(4, "<component p:path=\"/3D/Objects/b.model\" objectid=\"1\"/>"), "<item objectid=\"4\"/>",
+            "unit=\"inch\" requiredextensions=\"p\" "
+            "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\"");
+  const Mesh mesh = read(zipped({relationships(), {"3D/a.model", root}, {"3D/Objects/b.model", model(object(1), "")}}));
+  EXPECT_EQ(mesh.vertices[1], (Vec3{25.4, 0, 0}));
+  expect_message(zipped({relationships(), {"3D/a.model", root}}),
+                 "the archive's file \"3D/Objects/b.model\" is missing");
+}
+
+std::string prusa_config(const std::string& volumes) {
+  return "<config><object id=\"1\">" + volumes + "</object></config>";
+}
+
+// A volume that takes all but the last triangle, one that is the last.
+TEST(ThreeMf, VolumesOfPrusaSlicerAreGroups) {
+  const auto with = [](const std::string& volumes) {
+    return zipped({relationships(),
+                   {"3D/a.model", model(object(1, "name=\"whole\""))},
+                   {"Metadata/Slic3r_PE_model.config", prusa_config(volumes)}});
+  };
+  const std::string first = "<volume firstid=\"0\" lastid=\"2\"><metadata key=\"name\" value=\"body\"/></volume>";
+  const auto last = [](const std::string& type) {
+    return "<volume firstid=\"3\" lastid=\"3\"><metadata key=\"name\" value=\"more\"/>"
+           "<metadata key=\"volume_type\" value=\"" +
+           type + "\"/></volume>";
+  };
+  const Mesh both = read(with(first + last("ModelPart")));
+  ASSERT_EQ(both.groups.size(), 2u);
+  EXPECT_EQ(both.groups[0].name, "body");
+  EXPECT_EQ(both.groups[1].name, "more");
+  EXPECT_EQ(both.groups[1].object, "whole");
+  EXPECT_EQ(read(with(first + last("ParameterModifier"))).triangles.size(), 3u);
+  expect_message(with(last("ModelPart") + first), "volumes follow each other");
+  Diagnostics diagnostics;
+  EXPECT_TRUE(read_3mf("a.3mf", with(first + last("NegativeVolume")), diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("the negative volume \"more\" is left out"), std::string::npos);
+}
+
+TEST(ThreeMf, PartsOfBambuStudioHaveNames) {
+  const std::string config =
+      "<config><object id=\"3\"><metadata key=\"name\" value=\"all\"/>"
+      "<part id=\"1\" subtype=\"normal_part\"><metadata key=\"name\" value=\"lid\"/></part>"
+      "<part id=\"2\" subtype=\"modifier_part\"/></object></config>";
+  const std::string resources =
+      object(1) + object(2) + components(3, "<component objectid=\"1\"/><component objectid=\"2\"/>");
+  const Mesh mesh = read(zipped({relationships(),
+                                 {"3D/a.model", model(resources, "<item objectid=\"3\"/>")},
+                                 {"Metadata/model_settings.config", config}}));
+  ASSERT_EQ(mesh.groups.size(), 1u);
+  EXPECT_EQ(mesh.groups[0].name, "lid");
+  EXPECT_EQ(mesh.groups[0].object, "all");
+}
+
+TEST(ThreeMf, SupportsAreNoPart) {
+  const std::string resources = object(1) + object(2, "type=\"support\"");
+  EXPECT_EQ(read(archive(model(resources, "<item objectid=\"1\"/><item objectid=\"2\"/>"))).triangles.size(), 4u);
+}
+
+TEST(ThreeMf, UnknownExtensionsAreTold) {
+  Diagnostics diagnostics;
+  EXPECT_TRUE(read_3mf(
+      "a.3mf", archive(model(object(1), "<item objectid=\"1\"/>", "requiredextensions=\"b\" xmlns:b=\"x/beams\"")),
+      diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("what the 3MF extension \"b\" adds is not read: \"x/beams\""), std::string::npos);
+}
+
+TEST(ThreeMf, WrongModelsAreExplained) {
+  expect_message(archive(model(object(1), "")), "nothing that is built has triangles");
+  expect_message(archive(model(object(1), "<item objectid=\"7\"/>")), "there is no object 7 of 3D/a.model");
+  expect_message(archive(model(object(1) + object(1))), "there are two objects with the number 1");
+  expect_message(archive(model(components(1, "<component objectid=\"1\"/>"))), "consists of itself");
+  expect_message(archive(model(object(1, "", "v3=\"1\""), "<item objectid=\"1\" transform=\"1 2 3\"/>")),
+                 "a transform has 12 numbers, this one has 3");
+  expect_message(archive(model(object(1), "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 0 0 0 0\"/>")),
+                 "squeezes its object flat");
+  expect_message(archive(model(object(1), "<item objectid=\"1\" transform=\"1e9 0 0 0 1e9 0 0 0 1e9 1e15 0 1e16\"/>")),
+                 "comes to lie too far away");
+  std::string text = model(object(1));
+  text.replace(text.find("v2=\"2\""), 6, "v2=\"4\"");
+  expect_message(archive(text), "a.3mf/3D/a.model:5:12: error: the triangle uses vertex 4, but the 4 vertices");
+  text = model(object(1));
+  text.replace(text.find("x=\"1\""), 5, "x=\"nan\"");
+  expect_message(archive(text), "expected a coordinate of a vertex, found \"nan\"");
+  text = model(object(1));
+  text.replace(text.find("x=\"1\""), 5, "");
+  expect_message(archive(text), "<vertex> lacks the attribute x");
+  expect_message(archive(text.substr(0, 200)), "this is not XML");
+}
+
+TEST(ThreeMf, ObjectsThatMultiplyAreStopped) {
+  std::string resources = object(1);
+  for (int id = 2; id <= 21; ++id) {
+    std::string ten;
+    for (int i = 0; i < 10; ++i) ten += "<component objectid=\"" + std::to_string(id - 1) + "\"/>";
+    resources += components(id, ten);
+  }
+  expect_message(archive(model(resources, "<item objectid=\"21\"/>")), "its objects are repeated too often");
+  std::string deep = object(1);
+  for (int id = 2; id <= 60; ++id) deep += components(id, "<component objectid=\"" + std::to_string(id - 1) + "\"/>");
+  expect_message(archive(model(deep, "<item objectid=\"60\"/>")), "go deeper than 32 levels");
+  // Nor step by step, where what lies below is known already.
+  expect_message(archive(model(deep, "<item objectid=\"30\"/><item objectid=\"60\"/>")), "go deeper than 32 levels");
+}
+
+TEST(ThreeMf, WrongPackagesAreExplained) {
+  expect_message("", "the file is empty");
+  expect_message("text", "this is not a 3MF file: those are zip archives");
+  expect_message("PK\x03\x04 rest", "this zip archive is damaged or cut short");
+  expect_message(zipped({{"hello.txt", "hello"}}),
+                 "this zip archive is not a 3MF file: it has no file \"_rels/.rels\"");
+  expect_message(zipped({{"_rels/.rels", "<Relationships/>"}}), "says nowhere which of its files is the model");
+  expect_message(zipped({relationships("/../../etc/passwd")}), "the archive's file \"../../etc/passwd\" is missing");
+}
+
+TEST(ThreeMf, BombsAreNotUnpacked) {
+  const std::string text = model(object(1)) + std::string(size_t{40} << 20, ' ');
+  expect_message(archive(text), "is packed more tightly than 200 to 1");
+}
+
+TEST(ThreeMf, EncryptedFilesAreExplained) {
+  std::string bytes = package(pair(), SlicerFlavour::generic);
+  // Bit 0 of the flags in local headers and in the directory says so.
+  for (size_t at = bytes.find("PK\x03\x04"); at != std::string::npos; at = bytes.find("PK\x03\x04", at + 4))
+    bytes[at + 6] |= 1;
+  for (size_t at = bytes.find("PK\x01\x02"); at != std::string::npos; at = bytes.find("PK\x01\x02", at + 4))
+    bytes[at + 8] |= 1;
+  expect_message(bytes, "the archive's file \"_rels/.rels\" is encrypted; save it without a password");
+}
+
+TEST(ThreeMf, EveryTruncationIsAMessage) {
+  const std::string bytes = package(pair(), SlicerFlavour::generic);
+  for (size_t size = 0; size < bytes.size(); ++size) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(read_3mf("a.3mf", bytes.substr(0, size), diagnostics)) << "cut to " << size;
+    EXPECT_TRUE(diagnostics.has_errors());
+  }
+}
+
+TEST(ThreeMf, ZippedAmfIsRead) {
+  const std::string bytes = zipped({{"part.amf", whole(amf_bytes(pair()))}});
+  Diagnostics diagnostics;
+  const auto mesh = read_mesh("a.amf", bytes, diagnostics);
+  ASSERT_TRUE(mesh) << to_text(diagnostics);
+  EXPECT_EQ(mesh->groups[1].name, "right");
+}
+
+}  // namespace
+}  // namespace ombre::formats
+
+#endif

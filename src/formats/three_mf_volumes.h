@@ -1,0 +1,16 @@
+// What slicers' own files in a 3MF package say of its objects. Only for files that are built with pugixml.
+#pragma once
+
+#include "formats/assembly.h"
+#include "formats/xml_file.h"
+
+namespace ombre::formats {
+
+// PrusaSlicer keeps several volumes in one mesh: they get their names, and those that are no solid (modifiers, places
+// for supports) go. `part` is the package's main model file.
+void apply_prusa_volumes(const XmlFile& settings, const std::string& part, Assembly& assembly);
+
+// Bambu Studio and OrcaSlicer: the same of the components of an object.
+void apply_bambu_parts(const XmlFile& settings, const std::string& part, Assembly& assembly);
+
+}  // namespace ombre::formats

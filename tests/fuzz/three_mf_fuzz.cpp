@@ -1,0 +1,74 @@
+// Any bytes as 3MF: an archive, or else the model file or a slicer's settings within one. A mesh that can be used, or a
+// message.
+#include <cstdint>
+#include <cstdlib>
+
+#include "formats/mesh.h"
+#include "formats/three_mf_model.h"
+#include "formats/three_mf_volumes.h"
+#include "import/exercise_mesh.h"
+
+namespace {
+
+// Repeated objects make large meshes of few bytes.
+constexpr size_t most_exercised = 10'000;
+
+std::optional<ombre::formats::Mesh> read_model(std::string_view bytes, ombre::Diagnostics& diagnostics) {
+  using namespace ombre::formats;
+  try {
+    const XmlFile file("fuzz.model", bytes, diagnostics);
+    Assembly assembly;
+    std::set<std::string> further;
+    add_objects(file, "fuzz.model", assembly, further);
+    add_build(file, "fuzz.model", assembly, further);
+    return assemble(assembly, "fuzz.3mf", diagnostics);
+  } catch (const ombre::DesignError&) {
+    return std::nullopt;
+  }
+}
+
+// An object of three triangles, and one that holds it.
+ombre::formats::Assembly small_assembly() {
+  using namespace ombre::formats;
+  Assembly assembly;
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 1}, {0, 1, 2}};
+  mesh.groups = {{"", 0, 1}, {"", 1, 2}};
+  assembly.objects[object_key("", 1)] = {"one", mesh, {}};
+  assembly.objects[object_key("", 2)] = {"two", {}, {{object_key("", 1), {}}}};
+  assembly.build = {{object_key("", 1), {}}, {object_key("", 2), {}}};
+  return assembly;
+}
+
+std::optional<ombre::formats::Mesh> read_settings(std::string_view bytes, ombre::Diagnostics& diagnostics) {
+  using namespace ombre::formats;
+  try {
+    const XmlFile file("fuzz.config", bytes, diagnostics);
+    Assembly assembly = small_assembly();
+    apply_prusa_volumes(file, "", assembly);
+    apply_bambu_parts(file, "", assembly);
+    return assemble(assembly, "fuzz.3mf", diagnostics);
+  } catch (const ombre::DesignError&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<ombre::formats::Mesh> read(std::string_view bytes, ombre::Diagnostics& diagnostics) {
+  if (bytes.starts_with("PK")) return ombre::formats::read_3mf("fuzz.3mf", bytes, diagnostics);
+  return bytes.starts_with("<config") ? read_settings(bytes, diagnostics) : read_model(bytes, diagnostics);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  ombre::Diagnostics diagnostics;
+  auto mesh = read(bytes, diagnostics);
+  if (mesh.has_value() == diagnostics.has_errors()) std::abort();
+  if (!mesh)
+    ombre::to_text(diagnostics);
+  else if (mesh->triangles.size() <= most_exercised)
+    ombre::importing::test::exercise(std::move(*mesh));
+  return 0;
+}
