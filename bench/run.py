@@ -22,6 +22,7 @@ import jobs
 import measure
 import meshes
 import programs
+import surfaces
 from table import Table, rate, seconds
 
 
@@ -32,6 +33,7 @@ class Programs:
         self.ombre = programs.Ombre(build / "apps/ombre/ombre")
         self.baseline = self._optional(build / "bench/baseline/bench_baseline")
         self.probe = self._optional(build / "bench/bench_probe")
+        self.volume_to_mesh = self._optional(build / "bench/bench_volume_to_mesh")
 
     @staticmethod
     def _optional(path):
@@ -132,6 +134,8 @@ def measure_all(a, programs_of, chosen, scratch):
             print(f"{job.name} FAILED: {problem}", flush=True)
     if not a.only and not a.no_growth:
         results["growth"] = show_laws(programs_of, a, results["rows"], limits, scratch)
+    if not a.only:
+        results["meshes"] = surfaces.measure(programs_of.ombre, programs_of.volume_to_mesh, a.size, scratch)
     print()
     results["probe_after"] = probe(programs_of.probe)
     return results

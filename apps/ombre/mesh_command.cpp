@@ -182,6 +182,9 @@ int mesh(const MeshArguments& a, Session& session) {
   if (!format)
     throw WrongArgument("-o " + output + " does not say a format; let it end in " + exporting::mesh_endings());
   refuse_to_overwrite(output, a.force);
+  if (*format == exporting::MeshFormat::obj) refuse_to_overwrite(exporting::material_library_path(output), a.force);
+  if (*format == exporting::MeshFormat::three_mf && !formats::can_write_3mf())
+    throw WrongArgument("this ombre was built without libzip, which .3mf files need; write -o " + stem + ".amf");
 
   const Stopwatch watch;
   Diagnostics diagnostics;

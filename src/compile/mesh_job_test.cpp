@@ -237,6 +237,13 @@ TEST(Mesh, OfManyPartsKeepsThem) {
   EXPECT_NEAR(volume(made), 100 * 4 * pi / 3, 100 * 4 * pi * 0.02);
 }
 
+// Within a tolerance larger than the parts, whole surfaces hang together up to the largest cell.
+TEST(Mesh, OfPartsSmallerThanTheToleranceEnds) {
+  const MeshedDesign made = mesh_text("union() { sphere(0.3); translate(20, 0, 0) sphere(0.3); }", cells_of(0.2, 5));
+  EXPECT_EQ(made.bodies.size(), 1u);
+  expect_manifold(made.bodies[0].body);
+}
+
 TEST(Mesh, OfNothingIsAnError) {
   for (const auto& [of, message] : {std::pair("gold", "attribute \"gold\""), std::pair("red", "material \"red\"")}) {
     MeshRequest request;

@@ -246,7 +246,10 @@ Clusters::Clusters(const MixedCells& cells, const std::vector<Crossing>& crossin
   }
   if (tolerance_mm <= 0) return;
   LevelBuilder builder(cells, crossings, mesh, tolerance_mm, clusters_);
-  for (int level = 1; builder.build(level); ++level) {
+  const auto& count = cells.lattice().count;
+  const auto longest = static_cast<uint64_t>(std::max({count[0], count[1], count[2]}));
+  const auto levels = static_cast<int>(std::bit_width(longest));  // what hangs together in the whole grid ends there
+  for (int level = 1; level <= levels && builder.build(level); ++level) {
   }
 }
 

@@ -60,24 +60,63 @@ EdgeSearch edge_of(const Crossing& crossing, const MixedCells& cells) {
   return search;
 }
 
-void find_block(const Partition& partition, const MixedCells& cells, const std::vector<uint32_t>& block,
-                std::vector<Crossing>& crossings) {
-  const Vec3 cell_mm = cell_size(cells.lattice());
-  std::vector<EdgeSearch> searches;
-  Box box;
-  for (const uint32_t n : block) {
-    searches.push_back(edge_of(crossings[n], cells));
-    box = hull(box, {searches.back().point(0), searches.back().point(1)});
+// Finds the crossings of a block, in parts where its program is long: in a smaller box less of it matters.
+class BlockFinder {
+ public:
+  BlockFinder(const Partition& partition, const MixedCells& cells, std::vector<Crossing>& crossings,
+              const StopFlag* stop)
+      : partition_(partition), cells_(cells), crossings_(crossings), stop_(stop) {
+    const Vec3 cell_mm = cell_size(cells.lattice());
+    margin_ = normals_reach * std::max({cell_mm.x, cell_mm.y, cell_mm.z});
   }
-  PointAsker asker;
-  asker.begin(partition, box.expanded(normals_reach * std::max({cell_mm.x, cell_mm.y, cell_mm.z})));
-  search_edges(searches, asker);
-  const std::vector<Vec3> normals = border_normals(searches, cell_mm, asker);
-  for (size_t m = 0; m < block.size(); ++m) {
-    crossings[block[m]].at = searches[m].point(searches[m].t);
-    crossings[block[m]].normal = normals[m];
+
+  void find(const program::Program& details, std::vector<uint32_t> block, int32_t cells_a_side) {
+    if (stop_ && stop_->requested()) throw Cancelled();
+    const program::Program program = shortened_for(details, box_of(block).expanded(margin_));
+    if (cells_a_side > 1 && block.size() * program.code.size() > most_work) return cut(program, block, cells_a_side / 2);
+    std::vector<EdgeSearch> searches;
+    for (const uint32_t n : block) searches.push_back(edge_of(crossings_[n], cells_));
+    PointAsker asker;
+    asker.begin(partition_, program);
+    search_edges(searches, asker);
+    const std::vector<Vec3> normals = border_normals(searches, cell_size(cells_.lattice()), asker);
+    for (size_t m = 0; m < block.size(); ++m) {
+      crossings_[block[m]].at = searches[m].point(searches[m].t);
+      crossings_[block[m]].normal = normals[m];
+    }
   }
-}
+
+ private:
+  // Crossings times operations; asking intervals of a part costs some ten points.
+  static constexpr size_t most_work = 20000;
+
+  Box box_of(const std::vector<uint32_t>& block) const {
+    Box box;
+    for (const uint32_t n : block) {
+      const EdgeSearch edge = edge_of(crossings_[n], cells_);
+      box = hull(box, {edge.point(0), edge.point(1)});
+    }
+    return box;
+  }
+
+  void cut(const program::Program& program, const std::vector<uint32_t>& block, int32_t cells_a_side) {
+    std::array<std::vector<uint32_t>, 8> parts;
+    for (const uint32_t n : block) {
+      const CellPlace& at = cells_.cells()[crossings_[n].cell].at;
+      size_t part = 0;
+      for (size_t axis = 0; axis < 3; ++axis) part |= static_cast<size_t>(at[axis] / cells_a_side % 2) << axis;
+      parts[part].push_back(n);
+    }
+    for (std::vector<uint32_t>& part : parts)
+      if (!part.empty()) find(program, std::move(part), cells_a_side);
+  }
+
+  const Partition& partition_;
+  const MixedCells& cells_;
+  std::vector<Crossing>& crossings_;
+  const StopFlag* stop_;
+  double margin_ = 0;
+};
 
 }  // namespace
 
@@ -88,8 +127,7 @@ std::vector<Crossing> find_crossings(const Partition& partition, const MixedCell
   const Stopwatch watch;
   std::atomic<uint64_t> done = 0;
   run_parallel(blocks.size(), threads, [&](size_t n) {
-    if (stop && stop->requested()) throw Cancelled();
-    find_block(partition, cells, blocks[n], crossings);
+    BlockFinder(partition, cells, crossings, stop).find(partition.details, blocks[n], block_cells);
     const uint64_t now = ++done;
     if (!progress) return;
     const double left = watch.seconds() * static_cast<double>(blocks.size() - now) / static_cast<double>(now);

@@ -6,17 +6,21 @@
 
 namespace ombre::surface {
 
-void PointAsker::begin(const Partition& partition, const Box& box) {
-  partition_ = &partition;
+program::Program shortened_for(const program::Program& details, const Box& box) {
   std::vector<Interval> values, kept;
-  program::evaluate_intervals(partition.details, box, values);
-  program_ = program::shorten(partition.details, values, &kept);
-  if (program_.has_parts()) program_ = program::expand_parts(program_, kept, program::Precision::reference);
+  program::evaluate_intervals(details, box, values);
+  program::Program shorter = program::shorten(details, values, &kept);
+  return shorter.has_parts() ? program::expand_parts(shorter, kept, program::Precision::reference) : shorter;
+}
+
+void PointAsker::begin(const Partition& partition, const program::Program& program) {
+  partition_ = &partition;
+  program_ = &program;
 }
 
 void PointAsker::ask(const std::vector<Vec3>& points) {
   count_ = points.size();
-  answers_.resize(program_.outputs.size() * count_);
+  answers_.resize(program_->outputs.size() * count_);
   for (size_t begin = 0; begin < count_; begin += width) {
     const size_t n = std::min(width, count_ - begin);
     for (int axis = 0; axis < 3; ++axis) {
@@ -24,9 +28,9 @@ void PointAsker::ask(const std::vector<Vec3>& points) {
       for (size_t i = 0; i < n; ++i) coordinates_[axis][i] = points[begin + i][axis];
     }
     rows_.set_points(coordinates_[0], coordinates_[1], coordinates_[2]);
-    rows_.run(program_, 0, program_.code.size(), nullptr);
-    for (size_t output = 0; output < program_.outputs.size(); ++output)
-      std::ranges::copy(rows_.values(program_.outputs[output]),
+    rows_.run(*program_, 0, program_->code.size(), nullptr);
+    for (size_t output = 0; output < program_->outputs.size(); ++output)
+      std::ranges::copy(rows_.values(program_->outputs[output]),
                         answers_.begin() + static_cast<std::ptrdiff_t>(output * count_ + begin));
   }
 }

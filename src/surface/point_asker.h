@@ -1,4 +1,4 @@
-// Asks the details of a partition at scattered points of a box, in double precision.
+// Asks the details of a partition at scattered points, in double precision.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,13 @@
 
 namespace ombre::surface {
 
+// The program for a box of points: what is settled there is left out.
+program::Program shortened_for(const program::Program& details, const Box& box);
+
 class PointAsker {
  public:
-  // Points will lie in `box`. What is settled there is left out of the program.
-  void begin(const Partition& partition, const Box& box);
+  // `program` gives the partition's details in a region that holds all points.
+  void begin(const Partition& partition, const program::Program& program);
   // The answers replace those of the last call.
   void ask(const std::vector<Vec3>& points);
 
@@ -25,7 +28,7 @@ class PointAsker {
   double value(size_t output, size_t n) const { return answers_[output * count_ + n]; }
 
   const Partition* partition_ = nullptr;
-  program::Program program_;
+  const program::Program* program_ = nullptr;
   eval::RowEvaluator rows_{width};
   std::vector<double> coordinates_[3], answers_;
   size_t count_ = 0;
