@@ -13,13 +13,11 @@ namespace {
 using program::Field;
 using program::Point;
 
-// The design's point that the program's inputs stand for.
-Point design_point(program::Builder& builder, const render::Camera& camera) {
-  const Affine map = camera.design_from_view();
+// What the program's inputs stand for in a perspective view: a depth, and a place (right, down) at that depth.
+Point in_perspective(program::Builder& builder, const render::Camera& camera) {
   const Point view = Point::origin_frame(builder);
-  if (camera.is_orthographic()) return view.mapped(map);
   const Field stretch = (view.x + camera.distance_mm) / camera.distance_mm;
-  return Point::of(view.x, view.y * stretch, view.z * stretch).mapped(map);
+  return Point::of(view.x, view.y * stretch, view.z * stretch);
 }
 
 Field within_cuts(Field inside, const Point& p, const SceneOptions& options) {
@@ -69,14 +67,14 @@ struct Shown {
   bool is_translucent = false;
 };
 
-template <class PointOf>
-std::optional<Shown> lower(const design::Design& design, const SceneOptions& options, PointOf point_of,
-                           Diagnostics& diagnostics) {
+using Outputs = std::vector<std::pair<std::string, Field>>;
+
+// At the design's point that the builder's inputs stand for. `further` follow the outputs.
+std::optional<Shown> lower(const design::Design& design, const SceneOptions& options, program::Builder& builder,
+                           const Point& p, const Outputs& further, Diagnostics& diagnostics) {
   const design::NodePtr solid = whole_solid(design);
   design::LoweringContext context(design.materials, {solid});
-  program::Builder builder;
   design::Lowering lowering(context, builder);
-  const Point p = point_of(builder);
   const Field inside = within_cuts(lowering.inside(*solid, p), p, options);
   const design::Composition composition = lowering.composition(*solid, p, design::Demand::inside);
 
@@ -91,13 +89,14 @@ std::optional<Shown> lower(const design::Design& design, const SceneOptions& opt
     return mean(composition, p, [&](MaterialId id) { return static_cast<double>(linear(id).*part); });
   };
   context.finish_bodies();
-  const program::Program called = builder.finish({{"inside", inside},
-                                                  {"opaque", opaque},
-                                                  {"red", channel(&render::Colour::red)},
-                                                  {"green", channel(&render::Colour::green)},
-                                                  {"blue", channel(&render::Colour::blue)},
-                                                  {"opacity", opacity}});
-  auto flat = flatten(called, design.parts[0].solid->where(), diagnostics);
+  Outputs outputs{{"inside", inside},
+                  {"opaque", opaque},
+                  {"red", channel(&render::Colour::red)},
+                  {"green", channel(&render::Colour::green)},
+                  {"blue", channel(&render::Colour::blue)},
+                  {"opacity", opacity}};
+  outputs.insert(outputs.end(), further.begin(), further.end());
+  auto flat = flatten(builder.finish(outputs), design.parts[0].solid->where(), diagnostics);
   if (!flat) return std::nullopt;
   shown.program = std::move(*flat);
   return shown;
@@ -118,10 +117,17 @@ Box scene_box(const Box& design_box, const SceneOptions& options) {
 
 std::optional<render::Scene> make_scene(const design::Design& design, const Box& box, const render::Camera& camera,
                                         const SceneOptions& options, Diagnostics& diagnostics) {
-  auto shown = lower(
-      design, options, [&](program::Builder& builder) { return design_point(builder, camera); }, diagnostics);
+  program::Builder builder;
+  Point view = Point::origin_frame(builder);
+  Outputs base;
+  if (!camera.is_orthographic()) {
+    view = in_perspective(builder, camera);
+    base = {{"depth", view.x}, {"right", view.y}, {"down", view.z}};
+  }
+  auto shown = lower(design, options, builder, view.mapped(camera.design_from_view()), base, diagnostics);
   if (!shown) return std::nullopt;
   render::Scene scene;
+  scene.eye_mm = camera.distance_mm;
   scene.program = std::move(shown->program);
   scene.is_translucent = shown->is_translucent;
   find_depths(scene, box, camera);
@@ -132,10 +138,10 @@ std::optional<render::Scene> make_scene(const design::Design& design, const Box&
 std::shared_ptr<const render::Section> make_section(const design::Design& design, const render::Camera& camera,
                                                     const render::Film& film, const SceneOptions& options,
                                                     Diagnostics& diagnostics) {
-  const Affine design_from_film = render::Section::design_from_film(camera, film);
-  auto shown = lower(
-      design, options, [&](program::Builder& builder) { return Point::origin_frame(builder).mapped(design_from_film); },
-      diagnostics);
+  program::Builder builder;
+  const Point film_point = Point::origin_frame(builder);
+  auto shown = lower(design, options, builder, film_point.mapped(render::Section::design_from_film(camera, film)), {},
+                     diagnostics);
   if (!shown) return nullptr;
   program::Program& program = shown->program;
   using render::Scene;

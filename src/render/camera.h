@@ -19,7 +19,7 @@ struct Camera {
   double distance_mm = 0;  // of the eye from the target; 0: infinite, an orthographic view
 
   bool is_orthographic() const { return distance_mm == 0; }
-  Affine design_from_view() const;  // of orthographic views
+  Affine design_from_view() const;  // without perspective
   // By how much a length at this depth shrinks in the picture.
   double stretch_at(double depth) const { return is_orthographic() ? 1 : (distance_mm + depth) / distance_mm; }
   // A point of the picture plane (right, down), followed to a depth; in the view's frame without perspective.

@@ -43,10 +43,8 @@ struct RayLattice {
   static int64_t fine_of(int64_t step) { return step * fine_per_step + fine_per_step / 2; }
   double depth(int64_t fine) const { return near_mm + (static_cast<double>(fine) + 0.5) * fine_mm; }
   float sample(int64_t fine) const { return static_cast<float>(depth(fine)); }
-  Affine view_from_index() const {
-    return {{Vec3{fine_mm, 0, 0}, Vec3{0, film.pixel_mm, 0}, Vec3{0, 0, film.pixel_mm}},
-            {depth(0), film.right_of(0), film.down_of(0)}};
-  }
+  Vec3 first() const { return {depth(0), film.right_of(0), film.down_of(0)}; }
+  Vec3 step() const { return {fine_mm, film.pixel_mm, film.pixel_mm}; }
 };
 
 // The share of light that comes through some steps, by opacity in thousandths or so.
@@ -334,6 +332,19 @@ class RayCaster {
   std::vector<RaySamples::Ray> surfaces_, ends_;
 };
 
+// Drops the outputs that are there for this alone.
+voxel::RowSamplers place_sources(program::Program& program, const Scene& scene, const RayLattice& lattice) {
+  if (scene.eye_mm == 0) {
+    Affine view_from_index = Affine::scaling(lattice.step());
+    view_from_index.offset = lattice.first();
+    return voxel::place_sources(program, view_from_index);
+  }
+  const std::vector<program::ValueId> base(program.outputs.begin() + Scene::output_count, program.outputs.end());
+  program.outputs.resize(Scene::output_count);
+  program.output_names.resize(Scene::output_count);
+  return voxel::place_sources(program, program::RayLattice{scene.eye_mm, lattice.first(), lattice.step()}, base);
+}
+
 }  // namespace
 
 RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t end, int threads,
@@ -342,7 +353,7 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
   const RayLattice lattice(scene, film);
   const Clarity clarity(film.pixel_mm / steps_per_pixel / scene.clarity_mm);
   program::Program reference = scene.program;
-  const auto samplers = voxel::place_sources(reference, lattice.view_from_index());
+  const auto samplers = place_sources(reference, scene, lattice);
   const program::Program batch = fuse(sign_only(reference));
   RayBand band{begin, end, film.width, std::vector<RayHit>(static_cast<size_t>(film.width * (end - begin)))};
   const int64_t across = (film.width + tile_edge - 1) / tile_edge, down = (end - begin + tile_edge - 1) / tile_edge;
