@@ -30,7 +30,7 @@ struct Camera {
 struct ViewOptions {
   double azimuth_deg = -35, elevation_deg = 25;  // of the eye: 0 is in front (at -y), 90 at +x; above the horizon
   double field_of_view_deg = 0;                  // vertical; 0: orthographic
-  double zoom = 1;
+  double zoom = 1;                               // enlarges the picture's middle; the eye stays where it is
 };
 
 // front, back, left, right, top, bottom, iso.
