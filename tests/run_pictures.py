@@ -27,8 +27,8 @@ FURTHER = {
     "wing_perspective": ("graded_wing", "--perspective", "60", "--zoom", "1.5"),
     "overlap_translucent": ("overlap", "--opacity", "blue=0.1", "--opacity", "red=0.3"),
     "cone_and_sphere_top": ("cone_and_sphere", "--view", "top", "--aa", "1"),
-    "knob_annotated": ("knob", "--annotate", "--size", "320x240"),
-    "gear_annotated": ("gear", "--perspective", "30", "--annotate", "--background", "black", "--size", "320x240"),
+    "knob_annotated": ("knob", "--annotate"),
+    "gear_annotated": ("gear", "--perspective", "30", "--annotate", "--background", "black"),
 }
 CASES = {example.stem: (example.stem,) for example in sorted(EXAMPLES.glob("*.vcad"))} | FURTHER
 
@@ -36,7 +36,8 @@ CASES = {example.stem: (example.stem,) for example in sorted(EXAMPLES.glob("*.vc
 def render(ombre, name, picture):
     """Returns what keeps it from being compared, or nothing."""
     example, *options = CASES[name]
-    result = program.run([ombre, "render", EXAMPLES / f"{example}.vcad", "-o", picture, "--force", "--size", "200x150",
+    size = "320x240" if "--annotate" in options else "200x150"
+    result = program.run([ombre, "render", EXAMPLES / f"{example}.vcad", "-o", picture, "--force", "--size", size,
                           *options])
     if "without FreeType" in result.stderr or "no font" in result.stderr or "DejaVu" in result.stderr:
         return "skipped: " + result.stderr.strip()
@@ -115,7 +116,7 @@ def main():
     parser.add_argument("ombre", type=pathlib.Path, help="the program")
     parser.add_argument("names", nargs="*", help="only these")
     parser.add_argument("--renew", action="store_true", help="make the golden pictures anew")
-    a = parser.parse_args()
+    a = parser.parse_intermixed_args()
     ombre, names = a.ombre.resolve(), a.names or list(CASES)
     if a.renew:
         return renew(ombre, names)
