@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/math.h"
@@ -25,9 +27,10 @@ constexpr int64_t finer = 16, fine_per_step = finer * finer;
 constexpr int64_t leaf_steps = 32, leaf_columns = 16, leaf_rows = 8;
 // Within translucent material, where no surface is, one sample stands for so many steps.
 constexpr int64_t murky_steps = 8;
-constexpr int64_t tile_edge = 32;  // of the picture's tiles, in pixels
-constexpr size_t many_parts = 4;   // while so many reach a tile, it is cut before they are written out
-constexpr float dark = 0.01F;      // less light than that is none
+constexpr int64_t tile_edge = 32;              // of the picture's tiles, in pixels
+constexpr size_t many_parts = 4;               // while so many reach a tile, it is cut before they are written out
+constexpr int64_t behind = fine_per_step / 2;  // a surface, its colour is taken
+constexpr float dark = 0.01F;                  // less light than that is none
 
 // Samples along rays, one after the other; places are counted in fine steps, of which a step has 256.
 struct RayLattice {
@@ -89,13 +92,23 @@ class RaySamples : public eval::SourceRows {
   }
 };
 
+// For batches. While surfaces are looked for, colours matter in translucent material only.
+struct Programs {
+  program::Program whole, walk;
+  Programs(const Scene& scene, const program::Program& reference) : whole(fuse(sign_only(reference))), walk(whole) {
+    if (scene.is_translucent) return;
+    walk.outputs.resize(Scene::red);
+    walk.output_names.resize(Scene::red);
+  }
+};
+
 // One thread's.
 class RayCaster {
  public:
-  RayCaster(const Scene& scene, const program::Program& batch, const RayLattice& lattice, const Clarity& clarity,
+  RayCaster(const Scene& scene, const Programs& programs, const RayLattice& lattice, const Clarity& clarity,
             RayBand& hits)
       : scene_(scene),
-        program_(batch),
+        programs_(programs),
         lattice_(lattice),
         clarity_(clarity),
         batch_(eval::kernel_sets().front()),
@@ -103,10 +116,17 @@ class RayCaster {
 
   void cast(const TileBox& tile, const StripSources& sources) {
     samples_.sources = &sources;
-    descend(program_, tile);
+    descend(programs_.walk, tile);
+    colour_ends();
   }
 
  private:
+  // Where a ray ends in opaque material.
+  struct End {
+    RaySamples::Ray ray;
+    int64_t row = 0;
+  };
+
   // Tiles are boxes of steps, columns and rows. Samples that look closer lie up to a step before the first.
   Box points_of(const TileBox& tile) const {
     const Film& film = lattice_.film;
@@ -306,21 +326,72 @@ class RayCaster {
       RayHit& found = hit(ray.column, samples_.row);
       const float depth = lattice_.sample(ray.first);
       if (what == Scene::inside) found.surface = depth;
-      if (is_end) found.end = depth;
+      if (!is_end) continue;
+      found.end = depth;
+      ends_met_.push_back({ray, samples_.row});
     }
-    if (is_end) take_colours();
+  }
+
+  // The ends of rays that were found in opaque material get its colour, those that lie together at a time.
+  void colour_ends() {
+    const auto block = [](const End& end) {
+      return std::tuple(end.row / leaf_rows, end.ray.column / leaf_columns,
+                        end.ray.first / (leaf_steps * fine_per_step));
+    };
+    std::sort(ends_met_.begin(), ends_met_.end(), [&](const End& a, const End& b) {
+      return std::tuple(block(a), a.row, a.ray.column) < std::tuple(block(b), b.row, b.ray.column);
+    });
+    for (auto begin = ends_met_.begin(); begin != ends_met_.end();) {
+      const auto end =
+          std::find_if(begin, ends_met_.end(), [&](const End& other) { return block(other) != block(*begin); });
+      colour_block({begin, end});
+      begin = end;
+    }
+    ends_met_.clear();
+  }
+
+  void colour_block(std::span<const End> ends) {
+    TileBox fine{{ends[0].ray.first, ends[0].ray.column, ends[0].row}, {}};
+    for (const End& end : ends) {
+      const int64_t first[] = {end.ray.first, end.ray.column, end.row};
+      const int64_t last[] = {end.ray.first + behind, end.ray.column, end.row};
+      for (size_t axis = 0; axis < 3; ++axis) {
+        fine.lo[axis] = std::min(fine.lo[axis], first[axis]);
+        fine.hi[axis] = std::max(fine.hi[axis], last[axis] + 1);
+      }
+    }
+    std::vector<Interval> kept;
+    program::Program program = shortened(programs_.whole, fine, kept);
+    if (program.has_parts())
+      program = shortened(program::expand_parts(program, kept, program::Precision::batch), fine, kept);
+    batch_.compile(program, kept, static_cast<size_t>(leaf_columns * leaf_steps), 1, samples_);
+    for (size_t n = 0; n < ends.size();) {
+      samples_.row = ends[n].row;
+      samples_.rays.clear();
+      for (; n < ends.size() && ends[n].row == samples_.row; ++n) samples_.rays.push_back(ends[n].ray);
+      take_colours();
+    }
+  }
+
+  program::Program shortened(const program::Program& program, const TileBox& fine, std::vector<Interval>& kept) {
+    const Film& film = lattice_.film;
+    const Box points{{lattice_.depth(fine.lo[0]), film.right_of(fine.lo[1]), film.down_of(fine.lo[2])},
+                     {lattice_.depth(fine.hi[0] - 1), film.right_of(fine.hi[1] - 1), film.down_of(fine.hi[2] - 1)}};
+    std::vector<Interval> values;
+    evaluate_intervals(program, points, values, samples_.sources->ranges(fine), program::Precision::batch);
+    return program::shorten(program, values, &kept);
   }
 
   // A little behind the surface, if the solid is thick enough: where surfaces of two materials coincide, rounding
   // decides which is met first.
   void take_colours() {
-    evaluate(fine_per_step / 2, 2, true);
+    evaluate(behind, 2, true);
     for (size_t n = 0; n < samples_.rays.size(); ++n)
       hit(samples_.rays[n].column, samples_.row).at_end = colour(n, value(Scene::opaque, n, 1) != 0 ? 1 : 0);
   }
 
   const Scene& scene_;
-  const program::Program& program_;
+  const Programs& programs_;
   const RayLattice& lattice_;
   const Clarity& clarity_;
   eval::BatchEvaluator batch_;
@@ -330,6 +401,7 @@ class RayCaster {
   std::vector<float> depths_;  // of the samples at work
   std::vector<eval::PointRow> rows_;
   std::vector<RaySamples::Ray> surfaces_, ends_;
+  std::vector<End> ends_met_;
 };
 
 // Drops the outputs that are there for this alone.
@@ -354,7 +426,7 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
   const Clarity clarity(film.pixel_mm / steps_per_pixel / scene.clarity_mm);
   program::Program reference = scene.program;
   const auto samplers = place_sources(reference, scene, lattice);
-  const program::Program batch = fuse(sign_only(reference));
+  const Programs programs(scene, reference);
   RayBand band{begin, end, film.width, std::vector<RayHit>(static_cast<size_t>(film.width * (end - begin)))};
   const int64_t across = (film.width + tile_edge - 1) / tile_edge, down = (end - begin + tile_edge - 1) / tile_edge;
   run_parallel(static_cast<size_t>(across * down), threads, [&](size_t n) {
@@ -366,7 +438,7 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
     TileBox strip = tile;
     strip.hi[0] = lattice.steps * fine_per_step;
     const StripSources sources(samplers, strip);
-    RayCaster(scene, batch, lattice, clarity, band).cast(tile, sources);
+    RayCaster(scene, programs, lattice, clarity, band).cast(tile, sources);
   });
   return band;
 }
