@@ -112,6 +112,9 @@ void set_view(const RenderArguments& a, compile::PictureRequest& request) {
     request.view.azimuth_deg = angles[0];
     request.view.elevation_deg = angles[1];
   }
+  // Ranges let what is no number pass.
+  if (std::isnan(a.perspective)) throw WrongArgument("--perspective is no number; write for example --perspective 40");
+  if (std::isnan(a.zoom)) throw WrongArgument("--zoom is no number; write for example --zoom 2");
   request.view.field_of_view_deg = a.perspective;
   request.view.zoom = a.zoom;
 }
@@ -178,6 +181,10 @@ compile::PictureRequest picture_request(const RenderArguments& a) {
 std::vector<std::string> output_files(const RenderArguments& a) {
   namespace fs = std::filesystem;
   const fs::path path(a.output.empty() ? fs::path(a.design.design).stem().string() + ".png" : a.output);
+  if (const std::string ending = to_lower(path.extension().string());
+      !ending.empty() && ending != ".png" && a.output != "-")
+    throw WrongArgument("-o " + a.output + ": pictures are PNG files; write for example -o " +
+                        fs::path(path).replace_extension(".png").string());
   if (a.frames == 1) return {path.string()};
   std::vector<std::string> files;
   const size_t digits = std::to_string(a.frames - 1).size();

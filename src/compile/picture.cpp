@@ -1,5 +1,7 @@
 #include "compile/picture.h"
 
+#include <algorithm>
+
 #include "base/text.h"
 #include "compile/build.h"
 #include "compile/picture_labels.h"
@@ -53,9 +55,13 @@ class Studio {
     for (int frame = 0; frame < request_.frames; ++frame) {
       const auto shot = request_.slice ? section() : turned_solid(frame);
       if (!shot) return false;
+      is_empty_ = true;
       Picture picture{expose(*shot), shot->film.pixel_mm * static_cast<double>(request_.samples)};
       if (labels_) labels_->add_to(picture, shot->camera);
       take(frame, picture);
+      if (is_empty_ && frame == 0)
+        diagnostics_.warning({loaded_.source, 0, 0}, "there is nothing to be seen in the picture",
+                             "look elsewhere: the design lies in " + extents());
     }
     return true;
   }
@@ -77,7 +83,7 @@ class Studio {
   }
 
   bool make_room() {
-    aim_cuts(camera_around(whole_, request_.view));
+    aim_cuts(camera_around(whole_, view_of(0)));
     const Box box = scene_box(whole_, options_);
     if (box.is_empty()) return nothing_left();
     labels_ = PictureLabels::make(loaded_, request_, request_.slice ? plane(box) : box, diagnostics_);
@@ -92,6 +98,14 @@ class Studio {
     return render::camera_around(box, view, aspect());
   }
 
+  render::ViewOptions view_of(int frame) const {
+    if (!request_.slice) return turned(request_.view, frame, request_.frames);
+    constexpr const char* views[] = {"right", "front", "top"};
+    render::ViewOptions view = *render::named_view(views[request_.slice->axis]);
+    view.zoom = request_.view.zoom;
+    return view;
+  }
+
   void aim_cuts(const render::Camera& towards) {
     options_.cuts.clear();
     for (const CutRequest& cut : request_.cuts) {
@@ -102,7 +116,7 @@ class Studio {
 
   bool nothing_left() {
     diagnostics_.error({loaded_.source, 0, 0}, "nothing of the design is left by the cuts",
-                       "move them: the design lies in " + extent(0) + ", " + extent(1) + ", " + extent(2) + " mm");
+                       "move them: the design lies in " + extents());
     return false;
   }
   std::string extent(int axis) const {
@@ -110,11 +124,13 @@ class Studio {
            format_rounded(whole_.hi[axis]);
   }
 
+  std::string extents() const { return extent(0) + ", " + extent(1) + ", " + extent(2) + " mm"; }
+
   // The height that every frame fits into.
   double common_height(const Box& box) const {
     double height = 0;
     for (int frame = 0; frame < request_.frames; ++frame)
-      height = std::max(height, camera_around(box, turned(request_.view, frame, request_.frames)).height_mm);
+      height = std::max(height, camera_around(box, view_of(frame)).height_mm);
     return height;
   }
 
@@ -124,7 +140,7 @@ class Studio {
   }
 
   std::optional<Shot> turned_solid(int frame) {
-    const render::ViewOptions view = turned(request_.view, frame, request_.frames);
+    const render::ViewOptions view = view_of(frame);
     aim_cuts(camera_around(whole_, view));
     const Box box = scene_box(whole_, options_);
     if (box.is_empty()) {
@@ -150,15 +166,14 @@ class Studio {
 
   std::optional<Shot> section() {
     const SliceView& slice = *request_.slice;
+    const render::ViewOptions view = view_of(0);
+    aim_cuts(camera_around(whole_, view));
     const Box box = scene_box(whole_, options_);
     if (box.is_empty() || slice.mm < box.lo[slice.axis] || slice.mm > box.hi[slice.axis]) {
       diagnostics_.error({loaded_.source, 0, 0}, "the slice does not meet the design",
-                         "move it: the design lies in " + extent(0) + ", " + extent(1) + ", " + extent(2) + " mm");
+                         "move it: the design lies in " + extents());
       return std::nullopt;
     }
-    constexpr const char* views[] = {"right", "front", "top"};
-    render::ViewOptions view = *render::named_view(views[slice.axis]);
-    view.zoom = request_.view.zoom;
     Shot shot;
     shot.camera = camera_around(plane(box), view);
     shot.film = film_of(shot.camera);
@@ -170,7 +185,7 @@ class Studio {
   }
 
   // Some rows after the other, so that large pictures fit into memory.
-  std::vector<uint8_t> expose(const Shot& shot) const {
+  std::vector<uint8_t> expose(const Shot& shot) {
     constexpr int64_t most_rays = 4'000'000;
     const int64_t samples = request_.samples, rows = std::max<int64_t>(1, most_rays / (shot.film.width * samples));
     std::vector<uint8_t> pixels;
@@ -179,6 +194,9 @@ class Studio {
       const int64_t end = std::min(begin + rows, height_);
       const auto band = shot.cast(begin * samples, end * samples);
       if (stop_.requested()) throw Cancelled();
+      is_empty_ = is_empty_ && std::ranges::none_of(band.hits, [](const render::RayHit& ray) {
+                    return ray.surface != render::RayHit::none;
+                  });
       render::shade(band, shot.film, shot.camera, shot.lighting, samples, request_.background, begin, end, pixels);
     }
     return pixels;
@@ -192,6 +210,7 @@ class Studio {
   SceneOptions options_;
   int64_t width_ = 0, height_ = 0;  // of what is shown, pixels
   std::optional<PictureLabels> labels_;
+  bool is_empty_ = true;  // the frame at work
 };
 
 }  // namespace

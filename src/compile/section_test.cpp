@@ -78,20 +78,41 @@ TEST(Sections, MixColoursByFraction) {
   }
 }
 
-TEST(Sections, OfMeshesAndCutsAndThreads) {
+TEST(Sections, OfMeshesAndOfWhatIsCut) {
   PictureRequest request;
   request.background.is_transparent = true;
-  request.cuts = {{0, '>', 0}};
   const std::string gear = "mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");";
   request.threads = 1;
   const Picture one = slice(gear, {2, 2}, request);
   request.threads = 2;
   EXPECT_EQ(one.rgba, slice(gear, {2, 2}, request).rgba);
-  size_t inside = 0;
-  for (size_t n = 3; n < one.rgba.size(); n += 4) inside += one.rgba[n] == 255;
-  EXPECT_GT(inside, 5000U);
-  // Of the left half there is all, up to its edge at x = 0 on the right.
-  EXPECT_EQ(at(one, 60, 30)[3] + at(one, 199, 100)[3], 255);
+  // The gear's own sections by z are all alike.
+  const auto covered = [](const Picture& picture) {
+    double area = 0;
+    for (size_t n = 3; n < picture.rgba.size(); n += 4) area += picture.rgba[n] / 255.0;
+    return area * picture.pixel_mm * picture.pixel_mm;
+  };
+  const double whole = covered(one);
+  EXPECT_NEAR(covered(slice(gear, {2, 3}, request)) / whole, 1, 1e-3);
+  // Cuts leave the half of a disc, and move it to the middle of the picture.
+  request.cuts = {{0, '>', 0}};
+  const Picture half = slice("sphere(10, \"red\");", {2, 0}, request);
+  EXPECT_NEAR(covered(half) / (50 * 3.14159265358979), 1, 0.004);
+  EXPECT_EQ(at(half, 140, 100)[3], 255);  // x from -10 to 0: 0 lies 5 mm right of the middle
+  EXPECT_EQ(at(half, 150, 100)[3], 0);
+}
+
+TEST(Sections, OfNothingAreSaidToBeEmpty) {
+  Diagnostics diagnostics;
+  const LoadedPtr loaded = load_text("difference() { cube(20); sphere(9); cylinder(3, 40); }", diagnostics);
+  PictureRequest request;
+  request.width = request.height = 50;
+  request.slice = {{2, 0}};
+  request.box = Box{{-1, -1, -10}, {1, 1, 10}};
+  const StopFlag stop;
+  EXPECT_TRUE(take_pictures(
+      *loaded, request, stop, [](int, const Picture&) {}, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("nothing to be seen"), std::string::npos);
 }
 
 TEST(Sections, AreReadAsPeopleWriteThem) {
