@@ -28,7 +28,7 @@ Shot shoot(const std::string& text, render::ViewOptions view, SceneOptions optio
   shot.film = {edge, edge, shot.camera.height_mm / static_cast<double>(edge)};
   const auto scene = make_scene(loaded->design, box, shot.camera, options, diagnostics);
   EXPECT_TRUE(scene) << to_text(diagnostics);
-  shot.band = render::cast_rays(*scene, shot.film, 0, edge, threads, nullptr);
+  shot.band = render::cast_rays(*scene, shot.film, 0, edge, threads, [] { return false; });
   return shot;
 }
 
@@ -160,9 +160,9 @@ TEST(Pictures, DoNotDependOnBands) {
   const render::Camera camera = render::camera_around(box, view("iso"), 1);
   const render::Film film{100, 100, camera.height_mm / 100};
   const auto scene = make_scene(loaded->design, box, camera, {}, diagnostics);
-  const render::RayBand whole = render::cast_rays(*scene, film, 0, 100, 1, nullptr);
+  const render::RayBand whole = render::cast_rays(*scene, film, 0, 100, 1, [] { return false; });
   for (const int64_t begin : {0, 13, 77}) {
-    const render::RayBand part = render::cast_rays(*scene, film, begin, begin + 20, 1, nullptr);
+    const render::RayBand part = render::cast_rays(*scene, film, begin, begin + 20, 1, [] { return false; });
     for (int64_t row = begin; row < begin + 20; ++row) {
       for (int64_t column = 0; column < film.width; ++column) {
         ASSERT_EQ(whole.at(column, row).surface, part.at(column, row).surface);
@@ -199,7 +199,7 @@ TEST_P(EveryPicture, ShowsWhatTheReferenceFinds) {
   const render::Camera camera = render::camera_around(box, options, 1);
   const render::Film film{160, 160, camera.height_mm / 160};
   const auto scene = make_scene(loaded->design, box, camera, {}, diagnostics);
-  const auto hits = render::cast_rays(*scene, film, 0, film.height, 2, nullptr).hits;
+  const auto hits = render::cast_rays(*scene, film, 0, film.height, 2, [] { return false; }).hits;
   const program::Program program =
       program::expand_parts(scene->program, std::vector<Interval>(scene->program.code.size(), Interval(-1e4, 1e4)),
                             program::Precision::reference);

@@ -106,11 +106,12 @@ struct Programs {
 class RayCaster {
  public:
   RayCaster(const Scene& scene, const Programs& programs, const RayLattice& lattice, const Clarity& clarity,
-            RayBand& hits)
+            const std::function<bool()>& is_stopped, RayBand& hits)
       : scene_(scene),
         programs_(programs),
         lattice_(lattice),
         clarity_(clarity),
+        is_stopped_(is_stopped),
         batch_(eval::kernel_sets().front()),
         hits_(hits) {}
 
@@ -152,7 +153,7 @@ class RayCaster {
   }
 
   void descend(const program::Program& program, const TileBox& tile) {
-    if (is_hidden(tile)) return;
+    if (is_hidden(tile) || is_stopped_()) return;
     const TileBox fine = fine_box(tile);
     std::vector<Interval> values, kept;
     evaluate_intervals(program, points_of(tile), values, samples_.sources->ranges(fine), program::Precision::batch);
@@ -341,7 +342,7 @@ class RayCaster {
     std::sort(ends_met_.begin(), ends_met_.end(), [&](const End& a, const End& b) {
       return std::tuple(block(a), a.row, a.ray.column) < std::tuple(block(b), b.row, b.ray.column);
     });
-    for (auto begin = ends_met_.begin(); begin != ends_met_.end();) {
+    for (auto begin = ends_met_.begin(); begin != ends_met_.end() && !is_stopped_();) {
       const auto end =
           std::find_if(begin, ends_met_.end(), [&](const End& other) { return block(other) != block(*begin); });
       colour_block({begin, end});
@@ -394,6 +395,7 @@ class RayCaster {
   const Programs& programs_;
   const RayLattice& lattice_;
   const Clarity& clarity_;
+  const std::function<bool()>& is_stopped_;
   eval::BatchEvaluator batch_;
   RaySamples samples_;
   RayBand& hits_;
@@ -430,7 +432,7 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
   RayBand band{begin, end, film.width, std::vector<RayHit>(static_cast<size_t>(film.width * (end - begin)))};
   const int64_t across = (film.width + tile_edge - 1) / tile_edge, down = (end - begin + tile_edge - 1) / tile_edge;
   run_parallel(static_cast<size_t>(across * down), threads, [&](size_t n) {
-    if (is_stopped && is_stopped()) return;
+    if (is_stopped()) return;
     const int64_t column = static_cast<int64_t>(n) % across * tile_edge,
                   row = begin + static_cast<int64_t>(n) / across * tile_edge;
     const TileBox tile{{0, column, row},
@@ -438,7 +440,7 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
     TileBox strip = tile;
     strip.hi[0] = lattice.steps * fine_per_step;
     const StripSources sources(samplers, strip);
-    RayCaster(scene, programs, lattice, clarity, band).cast(tile, sources);
+    RayCaster(scene, programs, lattice, clarity, is_stopped, band).cast(tile, sources);
   });
   return band;
 }
