@@ -39,7 +39,8 @@ void lay_spans(int y, int count, const FT_Span* spans, void* user) {
   const Ink& ink = *static_cast<const Ink*>(user);
   uint8_t* const row = ink.canvas->rgba->data() + (ink.canvas->height - 1 - y) * ink.canvas->width * 4;
   for (int n = 0; n < count; ++n)
-    for (int x = spans[n].x; x < spans[n].x + spans[n].len; ++x) lay_over(row + 4 * x, ink.colour, spans[n].coverage);
+    for (ptrdiff_t x = spans[n].x; x < spans[n].x + spans[n].len; ++x)
+      lay_over(row + 4 * x, ink.colour, spans[n].coverage);
 }
 
 void render(FT_Library library, FT_Outline& outline, const Canvas& canvas, Rgb colour) {
