@@ -77,6 +77,28 @@ def check(ombre, name):
             f"python3 tests/run_pictures.py {ombre} --renew {name}")
 
 
+MISTAKES = [
+    (["--zoom", "nan"], "--zoom is no number"),
+    (["--perspective", "nan"], "--perspective is no number"),
+    (["--from", "nan,0"], "azimuth,elevation"),
+    (["--slice", "z"], "--slice z=3.2"),
+    (["--slice", "z=50"], "z -15 to 10 mm"),
+    (["--slice", "z=0", "--view", "top"], "excludes"),
+    (["--cut", "x<50"], "nothing of the design is left"),
+    (["--size", "20000x1"], "at most 16384"),
+    (["--output", "picture.jpg"], "PNG"),
+]
+
+
+def mistakes_are_explained(ombre):
+    with tempfile.TemporaryDirectory() as scratch:
+        for arguments, part in MISTAKES:
+            result = program.run([ombre, "render", EXAMPLES / "knob.vcad", *arguments], cwd=scratch)
+            if result.returncode != 1 or part not in result.stderr:
+                return f"{arguments}: status {result.returncode}, {result.stderr}"
+        return "it wrote all the same" if any(pathlib.Path(scratch).iterdir()) else ""
+
+
 # ---- what the comparison must see
 
 
@@ -122,6 +144,7 @@ def main():
         return renew(ombre, names)
     checks = [(name, lambda n=name: check(ombre, n)) for name in names]
     if not a.names:
+        checks += [("mistakes are explained", lambda: mistakes_are_explained(ombre))]
         checks += [(f"changes of {n} are seen", lambda n=n: changes_are_seen(n)) for n in ("gear", "knob", "mug")]
     return program.check_all(checks)
 
