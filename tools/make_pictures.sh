@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws examples/pictures/NAME.png for every example, and the pictures of the documents.
+# Draws examples/pictures/NAME.png for every example, and the pictures of the documents; writes docs/examples.md.
 #
 #   tools/make_pictures.sh PATH_OF_OMBRE [NAME ...]
 set -euo pipefail
@@ -42,6 +42,13 @@ draw_layers() {
   echo "$picture"
 }
 
+# What an example's first lines say of it, and its picture.
+describe() {
+  printf '\n## [%s](../examples/%s.vcad)\n\n' "$1" "$1"
+  sed -n '/^\/\//!q; s/^\/\/ \?//; s/[*<]/\\&/g; s/^\(From\|After\|Try\):/\n&/; p' "examples/$1.vcad"
+  printf '\n![%s](../examples/pictures/%s.png)\n' "$1" "$1"
+}
+
 mkdir -p examples/pictures
 for file in examples/*.vcad; do
   name=$(basename "$file" .vcad)
@@ -50,7 +57,17 @@ for file in examples/*.vcad; do
   render "$name" "examples/pictures/$name.png" 640x480 "${chosen[@]}"
 done
 if [[ $# -eq 0 || " $* " == *" docs "* ]]; then
+  {
+    printf '# Examples\n\nWhat their first lines say, and pictures by `ombre render`. tools/make_pictures.sh writes this page.\n'
+    for file in examples/*.vcad; do describe "$(basename "$file" .vcad)"; done
+  } >docs/examples.md
+  echo docs/examples.md
   render graded_wing docs/hero.png 1000x360 --from -20,35 --aa 3
+  render gear docs/picture_labels.png 480x320 --annotate
+  render knob docs/picture_slice.png 480x320 --slice x=0 --annotate
+  render mug docs/picture_perspective.png 480x320 --perspective 70 --from 40,35
+  render knob docs/picture_translucent.png 480x320 --opacity magenta=0.1
+  render soft_actuator docs/picture_box.png 480x320 --box=-2,-2,-1,0,2,1 --background "#203040"
   draw_layers graded_wing docs/wing_layers.png 6 --layers 18:48
   draw_layers knob docs/knob_layers.png 8 --voxel 0.2
 fi

@@ -20,11 +20,11 @@ namespace {
 
 struct RenderArguments {
   DesignArguments design;
-  std::string output, size = "800x600", view = "iso", from, box, background = "white";
+  std::string output, size = "800x600", view = "iso", from, slice, box, background = "white", font;
   std::vector<std::string> cuts, opacity;
   double perspective = 0, zoom = 1;
   int samples = 2, frames = 1, threads = 0;
-  bool force = false;
+  bool axes = false, scale_bar = false, legend = false, annotate = false, force = false;
 };
 
 constexpr const char* footer =
@@ -33,6 +33,7 @@ constexpr const char* footer =
     "  ombre render part.vcad -o part.png\n"
     "  ombre render part.vcad --cut x=0 --view right        cut open, seen from the right\n"
     "  ombre render part.vcad --opacity clear=0.1           what the clear material hides\n"
+    "  ombre render part.vcad --slice z=3.2 --annotate      the materials in a plane, with scale bar and legend\n"
     "  ombre render part.vcad --frames 36 -o turn.png       turn_00.png to turn_35.png, all around the part\n";
 
 constexpr int64_t most_pixels = 16384;
@@ -46,12 +47,14 @@ void add_arguments(CLI::App& app, RenderArguments& a) {
       app.add_option("--view", a.view, "From where: iso (default), front, back, left, right, top or bottom")
           ->check(CLI::IsMember(render::view_names()))
           ->type_name("NAME");
-  app.add_option("--from", a.from, "From where, as angles: azimuth (0 in front, 90 from the right), elevation")
-      ->excludes(view)
-      ->type_name("AZ,EL");
-  app.add_option("--perspective", a.perspective, "Vertical field of view; degrees (default 0: parallel rays)")
-      ->check(CLI::Range(0.0, 120.0))
-      ->type_name("DEG");
+  CLI::Option* from =
+      app.add_option("--from", a.from, "From where, as angles: azimuth (0 in front, 90 from the right), elevation")
+          ->excludes(view)
+          ->type_name("AZ,EL");
+  CLI::Option* perspective =
+      app.add_option("--perspective", a.perspective, "Vertical field of view; degrees (default 0: parallel rays)")
+          ->check(CLI::Range(0.0, 120.0))
+          ->type_name("DEG");
   app.add_option("--zoom", a.zoom, "Enlarge the middle of the picture")
       ->check(CLI::Range(0.01, 1000.0))
       ->type_name("X");
@@ -60,18 +63,28 @@ void add_arguments(CLI::App& app, RenderArguments& a) {
       ->allow_extra_args(false)
       ->type_name("PLANE");
   app.add_option("--box", a.box, "Show only what is within this box; mm")->type_name("X0,Y0,Z0,X1,Y1,Z1");
-  app.add_option("--opacity", a.opacity, "Of a material, 0 (clear) to 1, in place of its own; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("MATERIAL=N");
+  CLI::Option* opacity =
+      app.add_option("--opacity", a.opacity, "Of a material, 0 (clear) to 1, in place of its own; may be repeated")
+          ->allow_extra_args(false)
+          ->type_name("MATERIAL=N");
   app.add_option("--background", a.background, "white (default), black, gray, transparent or #rrggbb")
       ->type_name("COLOUR");
   app.add_option("--aa", a.samples, "Rays along the edge of a pixel, which smooth edges (default 2)")
       ->check(CLI::Range(1, 8))
       ->type_name("N");
-  app.add_option("--frames", a.frames, "Pictures all around the part, numbered (default 1)")
-      ->check(CLI::Range(1, 3600))
-      ->type_name("N");
+  CLI::Option* frames = app.add_option("--frames", a.frames, "Pictures all around the part, numbered (default 1)")
+                            ->check(CLI::Range(1, 3600))
+                            ->type_name("N");
   app.add_option("--threads", a.threads, "Threads (default: all cores)")->check(CLI::Range(0, 1024))->type_name("N");
+  app.add_option("--slice", a.slice, "The plane x, y or z = mm in place of a view: flat, in the materials' colours")
+      ->excludes(view, from, perspective, opacity, frames)
+      ->type_name("PLANE");
+  app.add_flag("--axes", a.axes, "Draw the directions x, y and z in the corner");
+  app.add_flag("--scale-bar", a.scale_bar, "Draw a length in mm; in perspective it holds at the part's middle");
+  app.add_flag("--legend", a.legend, "List the materials and their colours");
+  app.add_flag("--annotate", a.annotate, "Axes, scale bar and legend");
+  app.add_option("--font", a.font, "Of what is written (default: DejaVu Sans, or another of the system's)")
+      ->type_name("FILE");
   app.add_flag("--force", a.force, "Replace pictures that are there");
 }
 
@@ -99,6 +112,9 @@ void set_view(const RenderArguments& a, compile::PictureRequest& request) {
     request.view.azimuth_deg = angles[0];
     request.view.elevation_deg = angles[1];
   }
+  // Ranges let what is no number pass.
+  if (std::isnan(a.perspective)) throw WrongArgument("--perspective is no number; write for example --perspective 40");
+  if (std::isnan(a.zoom)) throw WrongArgument("--zoom is no number; write for example --zoom 2");
   request.view.field_of_view_deg = a.perspective;
   request.view.zoom = a.zoom;
 }
@@ -111,7 +127,7 @@ uint8_t hex_byte(std::string_view digits) {
 }
 
 void set_background(const std::string& text, compile::PictureRequest& request) {
-  const auto plain = [&](render::Rgba8 colour) { request.background.top = request.background.bottom = colour; };
+  const auto plain = [&](render::Rgba8 colour) { request.background.colour = colour; };
   if (text == "white") return plain({255, 255, 255, 255});
   if (text == "black") return plain({0, 0, 0, 255});
   if (text == "gray") return plain({128, 128, 128, 255});
@@ -141,6 +157,11 @@ compile::PictureRequest picture_request(const RenderArguments& a) {
       throw WrongArgument("--cut " + text + " is not a plane; write for example --cut x=0 or --cut \"z>3.5\" (mm)");
     request.cuts.push_back(*cut);
   }
+  if (!a.slice.empty()) {
+    request.slice = compile::parse_slice(a.slice);
+    if (!request.slice)
+      throw WrongArgument("--slice " + a.slice + " is not a plane; write for example --slice z=3.2 (mm)");
+  }
   for (const std::string& text : a.opacity) {
     const auto sign = text.rfind('=');
     const auto value = sign == std::string::npos ? std::nullopt : parse_number(text.substr(sign + 1));
@@ -149,6 +170,7 @@ compile::PictureRequest picture_request(const RenderArguments& a) {
                           "--opacity clear=0.2");
     request.opacity.emplace_back(text.substr(0, sign), *value);
   }
+  request.annotations = {a.axes || a.annotate, a.scale_bar || a.annotate, a.legend || a.annotate, a.font};
   request.samples = a.samples;
   request.frames = a.frames;
   request.threads = a.threads;
@@ -159,6 +181,10 @@ compile::PictureRequest picture_request(const RenderArguments& a) {
 std::vector<std::string> output_files(const RenderArguments& a) {
   namespace fs = std::filesystem;
   const fs::path path(a.output.empty() ? fs::path(a.design.design).stem().string() + ".png" : a.output);
+  if (const std::string ending = to_lower(path.extension().string());
+      !ending.empty() && ending != ".png" && a.output != "-")
+    throw WrongArgument("-o " + a.output + ": pictures are PNG files; write for example -o " +
+                        fs::path(path).replace_extension(".png").string());
   if (a.frames == 1) return {path.string()};
   std::vector<std::string> files;
   const size_t digits = std::to_string(a.frames - 1).size();

@@ -1,7 +1,10 @@
 #include "compile/picture.h"
 
+#include <algorithm>
+
 #include "base/text.h"
 #include "compile/build.h"
+#include "compile/picture_labels.h"
 
 namespace ombre::compile {
 namespace {
@@ -34,31 +37,181 @@ render::ViewOptions turned(render::ViewOptions view, int frame, int frames) {
   return view;
 }
 
-// The height that every frame fits into.
-double common_height(const Box& box, const PictureRequest& request, double aspect) {
-  double height = 0;
-  for (int frame = 0; frame < request.frames; ++frame)
-    height =
-        std::max(height, render::camera_around(box, turned(request.view, frame, request.frames), aspect).height_mm);
-  return height;
-}
+// What the camera sees, and what makes rays of it.
+struct Shot {
+  render::Camera camera;
+  render::Film film;
+  render::Lighting lighting = render::Lighting::from_the_eye;
+  std::function<render::RayBand(int64_t begin, int64_t end)> cast;
+};
 
-// Some rows after the other, so that large pictures fit into memory.
-std::vector<uint8_t> expose(const render::Scene& scene, const render::Film& film, const render::Camera& camera,
-                            const PictureRequest& request, const StopFlag& stop) {
-  constexpr int64_t most_rays = 4'000'000;
-  const int64_t samples = request.samples, rows = std::max<int64_t>(1, most_rays / (film.width * samples));
-  std::vector<uint8_t> pixels;
-  pixels.reserve(static_cast<size_t>(request.width * request.height * 4));
-  for (int64_t begin = 0; begin < request.height; begin += rows) {
-    const int64_t end = std::min(begin + rows, request.height);
-    const auto band = render::cast_rays(scene, film, begin * samples - 1, end * samples + 1, request.threads,
-                                        [&] { return stop.requested(); });
-    if (stop.requested()) throw Cancelled();
-    render::shade(band, film, camera, samples, request.background, begin, end, pixels);
+class Studio {
+ public:
+  Studio(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop, Diagnostics& diagnostics)
+      : loaded_(loaded), request_(request), stop_(stop), diagnostics_(diagnostics) {}
+
+  bool take_all(const std::function<void(int, const Picture&)>& take) {
+    if (!prepare()) return false;
+    for (int frame = 0; frame < request_.frames; ++frame) {
+      const auto shot = request_.slice ? section() : turned_solid(frame);
+      if (!shot) return false;
+      is_empty_ = true;
+      Picture picture{expose(*shot), shot->film.pixel_mm * static_cast<double>(request_.samples)};
+      if (labels_) labels_->add_to(picture, shot->camera);
+      take(frame, picture);
+      if (is_empty_ && frame == 0)
+        diagnostics_.warning({loaded_.source, 0, 0}, "there is nothing to be seen in the picture",
+                             "look elsewhere: the design lies in " + extents());
+    }
+    return true;
   }
-  return pixels;
-}
+
+ private:
+  bool prepare() {
+    const auto whole = design_box(loaded_.design, diagnostics_);
+    if (!whole) return false;
+    whole_ = *whole;
+    auto options = scene_options(loaded_, request_, diagnostics_);
+    if (!options) return false;
+    options_ = std::move(*options);
+    // What lies outside of the box that is sampled is not part of the job.
+    if (loaded_.design.sampling) options_.box = options_.box ? intersect(*options_.box, whole_) : whole_;
+    width_ = request_.width;
+    height_ = request_.height;
+    const AnnotationRequest& wanted = request_.annotations;
+    return !(wanted.axes || wanted.scale_bar || wanted.legend) || make_room();
+  }
+
+  bool make_room() {
+    aim_cuts(camera_around(whole_, view_of(0)));
+    const Box box = scene_box(whole_, options_);
+    if (box.is_empty()) return nothing_left();
+    labels_ = PictureLabels::make(loaded_, request_, request_.slice ? plane(box) : box, diagnostics_);
+    if (!labels_) return false;
+    width_ = labels_->layout().width;
+    height_ = labels_->layout().height;
+    return true;
+  }
+
+  double aspect() const { return static_cast<double>(width_) / static_cast<double>(height_); }
+  render::Camera camera_around(const Box& box, const render::ViewOptions& view) const {
+    return render::camera_around(box, view, aspect());
+  }
+
+  render::ViewOptions view_of(int frame) const {
+    if (!request_.slice) return turned(request_.view, frame, request_.frames);
+    constexpr const char* views[] = {"right", "front", "top"};
+    render::ViewOptions view = *render::named_view(views[request_.slice->axis]);
+    view.zoom = request_.view.zoom;
+    return view;
+  }
+
+  void aim_cuts(const render::Camera& towards) {
+    options_.cuts.clear();
+    for (const CutRequest& cut : request_.cuts) {
+      const int sign = cut.removed == '>' ? 1 : cut.removed == '<' ? -1 : side_of_eye(cut.axis, towards);
+      options_.cuts.push_back({cut.axis, cut.mm, sign});
+    }
+  }
+
+  bool nothing_left() {
+    diagnostics_.error({loaded_.source, 0, 0}, "nothing of the design is left by the cuts",
+                       "move them: the design lies in " + extents());
+    return false;
+  }
+  std::string extent(int axis) const {
+    return std::string(1, static_cast<char>('x' + axis)) + " " + format_rounded(whole_.lo[axis]) + " to " +
+           format_rounded(whole_.hi[axis]);
+  }
+
+  std::string extents() const { return extent(0) + ", " + extent(1) + ", " + extent(2) + " mm"; }
+
+  // The height that every frame fits into.
+  double common_height(const Box& box) const {
+    double height = 0;
+    for (int frame = 0; frame < request_.frames; ++frame)
+      height = std::max(height, camera_around(box, view_of(frame)).height_mm);
+    return height;
+  }
+
+  render::Film film_of(const render::Camera& camera) const {
+    const int64_t height = height_ * request_.samples;
+    return {width_ * request_.samples, height, camera.height_mm / static_cast<double>(height)};
+  }
+
+  std::optional<Shot> turned_solid(int frame) {
+    const render::ViewOptions view = view_of(frame);
+    aim_cuts(camera_around(whole_, view));
+    const Box box = scene_box(whole_, options_);
+    if (box.is_empty()) {
+      nothing_left();
+      return std::nullopt;
+    }
+    Shot shot;
+    shot.camera = camera_around(box, view);
+    if (request_.frames > 1) shot.camera.height_mm = common_height(box);
+    shot.film = film_of(shot.camera);
+    auto scene = make_scene(loaded_.design, box, shot.camera, options_, diagnostics_);
+    if (!scene) return std::nullopt;
+    shot.cast = [this, film = shot.film, scene = std::move(*scene)](int64_t begin, int64_t end) {
+      return render::cast_rays(scene, film, begin - 1, end + 1, request_.threads, [&] { return stop_.requested(); });
+    };
+    return shot;
+  }
+
+  Box plane(Box box) const {
+    box.lo[request_.slice->axis] = box.hi[request_.slice->axis] = request_.slice->mm;
+    return box;
+  }
+
+  std::optional<Shot> section() {
+    const SliceView& slice = *request_.slice;
+    const render::ViewOptions view = view_of(0);
+    aim_cuts(camera_around(whole_, view));
+    const Box box = scene_box(whole_, options_);
+    if (box.is_empty() || slice.mm < box.lo[slice.axis] || slice.mm > box.hi[slice.axis]) {
+      diagnostics_.error({loaded_.source, 0, 0}, "the slice does not meet the design",
+                         "move it: the design lies in " + extents());
+      return std::nullopt;
+    }
+    Shot shot;
+    shot.camera = camera_around(plane(box), view);
+    shot.film = film_of(shot.camera);
+    shot.lighting = render::Lighting::none;
+    const auto made = make_section(loaded_.design, shot.camera, shot.film, options_, diagnostics_);
+    if (!made) return std::nullopt;
+    shot.cast = [this, made](int64_t begin, int64_t end) { return made->cast(begin, end, request_.threads, stop_); };
+    return shot;
+  }
+
+  // Some rows after the other, so that large pictures fit into memory.
+  std::vector<uint8_t> expose(const Shot& shot) {
+    constexpr int64_t most_rays = 4'000'000;
+    const int64_t samples = request_.samples, rows = std::max<int64_t>(1, most_rays / (shot.film.width * samples));
+    std::vector<uint8_t> pixels;
+    pixels.reserve(static_cast<size_t>(width_ * height_ * 4));
+    for (int64_t begin = 0; begin < height_; begin += rows) {
+      const int64_t end = std::min(begin + rows, height_);
+      const auto band = shot.cast(begin * samples, end * samples);
+      if (stop_.requested()) throw Cancelled();
+      is_empty_ = is_empty_ && std::ranges::none_of(band.hits, [](const render::RayHit& ray) {
+                    return ray.surface != render::RayHit::none;
+                  });
+      render::shade(band, shot.film, shot.camera, shot.lighting, samples, request_.background, begin, end, pixels);
+    }
+    return pixels;
+  }
+
+  const Loaded& loaded_;
+  const PictureRequest& request_;
+  const StopFlag& stop_;
+  Diagnostics& diagnostics_;
+  Box whole_;
+  SceneOptions options_;
+  int64_t width_ = 0, height_ = 0;  // of what is shown, pixels
+  std::optional<PictureLabels> labels_;
+  bool is_empty_ = true;  // the frame at work
+};
 
 }  // namespace
 
@@ -71,42 +224,15 @@ std::optional<CutRequest> parse_cut(std::string_view text) {
   return CutRequest{axis[0] - 'x', text[sign], *mm};
 }
 
+std::optional<SliceView> parse_slice(std::string_view text) {
+  const auto plane = parse_cut(text);
+  if (!plane || plane->removed != '=') return std::nullopt;
+  return SliceView{plane->axis, plane->mm};
+}
+
 bool take_pictures(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop,
                    const std::function<void(int, const Picture&)>& take, Diagnostics& diagnostics) {
-  const auto whole = design_box(loaded.design, diagnostics);
-  if (!whole) return false;
-  auto options = scene_options(loaded, request, diagnostics);
-  if (!options) return false;
-  // What lies outside of the box that is sampled is not part of the job.
-  if (loaded.design.sampling) options->box = options->box ? intersect(*options->box, *whole) : *whole;
-  const double aspect = static_cast<double>(request.width) / static_cast<double>(request.height);
-  const render::Film film{request.width * request.samples, request.height * request.samples, 0};
-  for (int frame = 0; frame < request.frames; ++frame) {
-    const render::ViewOptions view = turned(request.view, frame, request.frames);
-    const render::Camera towards = render::camera_around(*whole, view, aspect);
-    options->cuts.clear();
-    for (const CutRequest& cut : request.cuts) {
-      const int sign = cut.removed == '>' ? 1 : cut.removed == '<' ? -1 : side_of_eye(cut.axis, towards);
-      options->cuts.push_back({cut.axis, cut.mm, sign});
-    }
-    const Box box = scene_box(*whole, *options);
-    if (box.is_empty()) {
-      diagnostics.error({loaded.source, 0, 0}, "nothing of the design is left by the cuts",
-                        "move them: the design lies in x " + format_rounded(whole->lo.x) + " to " +
-                            format_rounded(whole->hi.x) + ", y " + format_rounded(whole->lo.y) + " to " +
-                            format_rounded(whole->hi.y) + ", z " + format_rounded(whole->lo.z) + " to " +
-                            format_rounded(whole->hi.z) + " mm");
-      return false;
-    }
-    render::Camera camera = render::camera_around(box, view, aspect);
-    if (request.frames > 1) camera.height_mm = common_height(box, request, aspect);
-    const auto scene = make_scene(loaded.design, box, camera, *options, diagnostics);
-    if (!scene) return false;
-    render::Film sharp = film;
-    sharp.pixel_mm = camera.height_mm / static_cast<double>(sharp.height);
-    take(frame, {expose(*scene, sharp, camera, request, stop), sharp.pixel_mm * static_cast<double>(request.samples)});
-  }
-  return true;
+  return Studio(loaded, request, stop, diagnostics).take_all(take);
 }
 
 }  // namespace ombre::compile

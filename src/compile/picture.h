@@ -24,14 +24,30 @@ struct CutRequest {
 // "x=0", "z>3.5", "y < -2".
 std::optional<CutRequest> parse_cut(std::string_view text);
 
+// A plane x, y or z = mm, seen flat: from the right, from the front or from above.
+struct SliceView {
+  int axis = 2;
+  double mm = 0;
+};
+// "z=3.2".
+std::optional<SliceView> parse_slice(std::string_view text);
+
+// What is drawn beside the part, for which it makes room.
+struct AnnotationRequest {
+  bool axes = false, scale_bar = false, legend = false;
+  std::string font_file;  // empty: one of the system's
+};
+
 struct PictureRequest {
   int64_t width = 800, height = 600;  // pixels
   int64_t samples = 2;                // rays for each pixel: samples x samples
   render::ViewOptions view;
+  std::optional<SliceView> slice;  // in place of the view; of that its zoom counts
   std::vector<CutRequest> cuts;
   std::optional<Box> box;
   std::vector<std::pair<std::string, double>> opacity;  // by the name of the material
   render::Background background;
+  AnnotationRequest annotations;
   int frames = 1;  // around the part
   int threads = 0;
 };
@@ -41,7 +57,8 @@ struct Picture {
   double pixel_mm = 0;        // at the part's middle
 };
 
-// Calls `take` with each frame. False, and diagnostics, when there is nothing to see. Throws Cancelled.
+// Calls `take` with each frame. False, and diagnostics, when there is nothing to see. Throws Cancelled, and Error where
+// annotations cannot be drawn.
 bool take_pictures(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop,
                    const std::function<void(int frame, const Picture&)>& take, Diagnostics& diagnostics);
 

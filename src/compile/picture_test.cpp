@@ -28,7 +28,7 @@ Shot shoot(const std::string& text, render::ViewOptions view, SceneOptions optio
   shot.film = {edge, edge, shot.camera.height_mm / static_cast<double>(edge)};
   const auto scene = make_scene(loaded->design, box, shot.camera, options, diagnostics);
   EXPECT_TRUE(scene) << to_text(diagnostics);
-  shot.band = render::cast_rays(*scene, shot.film, 0, edge, threads, nullptr);
+  shot.band = render::cast_rays(*scene, shot.film, 0, edge, threads, [] { return false; });
   return shot;
 }
 
@@ -91,6 +91,36 @@ TEST(Pictures, MeshesAndCallsAndManyPartsAreSeenToo) {
   EXPECT_NEAR(static_cast<double>(seen) * many.film.pixel_mm * many.film.pixel_mm, 40 * 3.14159265, 1.5);
 }
 
+// From far away, perspective is none.
+TEST(Pictures, MeshesFromAFarEyeAreThoseOfParallelRays) {
+  const std::string mesh = "rotate(10, 20, 30) mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");";
+  render::ViewOptions far = view("iso");
+  far.field_of_view_deg = 0.001;
+  const Shot perspective = shoot(mesh, far), parallel = shoot(mesh, view("iso"));
+  EXPECT_NEAR(perspective.film.pixel_mm / parallel.film.pixel_mm, 1, 1e-4);
+  size_t seen = 0, other = 0;
+  for (size_t n = 0; n < parallel.band.hits.size(); ++n) {
+    const float a = parallel.band.hits[n].surface, b = perspective.band.hits[n].surface;
+    seen += a != none;
+    other += (a == none) != (b == none) || (a != none && std::abs(a - b) > parallel.film.pixel_mm / 10);
+  }
+  EXPECT_GT(seen, 4000U);
+  EXPECT_LT(other, seen / 200);
+}
+
+// What lies beside the eye is no part of the picture, but the mesh reaches there.
+TEST(Pictures, TheEyeMayStandWithinAMesh) {
+  const std::string gear = "mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");";
+  SceneOptions options;
+  options.box = Box{{7, -1, -1}, {9, 1, 1}};  // within the gear's body, and its eye too
+  render::ViewOptions close = view("right");
+  close.field_of_view_deg = 100;
+  const Shot shot = shoot(gear, close, options);
+  // The face of the box towards the eye, at x = 9, is 1 mm before its middle.
+  EXPECT_NEAR(shot.at(100, 100).surface, -1, shot.film.pixel_mm / 100);
+  EXPECT_NEAR(shot.at(40, 100).surface, -1, shot.film.pixel_mm / 100);
+}
+
 TEST(Pictures, CutsShowTheInside) {
   SceneOptions options;
   options.cuts = {{1, 0, -1}};  // what lies at y < 0 is left away
@@ -130,9 +160,9 @@ TEST(Pictures, DoNotDependOnBands) {
   const render::Camera camera = render::camera_around(box, view("iso"), 1);
   const render::Film film{100, 100, camera.height_mm / 100};
   const auto scene = make_scene(loaded->design, box, camera, {}, diagnostics);
-  const render::RayBand whole = render::cast_rays(*scene, film, 0, 100, 1, nullptr);
+  const render::RayBand whole = render::cast_rays(*scene, film, 0, 100, 1, [] { return false; });
   for (const int64_t begin : {0, 13, 77}) {
-    const render::RayBand part = render::cast_rays(*scene, film, begin, begin + 20, 1, nullptr);
+    const render::RayBand part = render::cast_rays(*scene, film, begin, begin + 20, 1, [] { return false; });
     for (int64_t row = begin; row < begin + 20; ++row) {
       for (int64_t column = 0; column < film.width; ++column) {
         ASSERT_EQ(whole.at(column, row).surface, part.at(column, row).surface);
@@ -154,19 +184,22 @@ TEST(Pictures, DoNotDependOnThreads) {
   }
 }
 
-class EveryPicture : public testing::TestWithParam<std::string> {};
+class EveryPicture : public testing::TestWithParam<std::tuple<std::string, double>> {};
 
 // Where a ray ends, the reference finds the same material, but for rays that meet an edge.
 TEST_P(EveryPicture, ShowsWhatTheReferenceFinds) {
   use_source_data();
   Diagnostics diagnostics;
-  const LoadedPtr loaded = load_design(OMBRE_SOURCE_DIR "/examples/" + GetParam() + ".vcad", {}, diagnostics);
+  const LoadedPtr loaded =
+      load_design(OMBRE_SOURCE_DIR "/examples/" + std::get<0>(GetParam()) + ".vcad", {}, diagnostics);
   ASSERT_TRUE(loaded) << to_text(diagnostics);
   const Box box = *design_box(loaded->design, diagnostics);
-  const render::Camera camera = render::camera_around(box, view("iso"), 1);
+  render::ViewOptions options = view("iso");
+  options.field_of_view_deg = std::get<1>(GetParam());
+  const render::Camera camera = render::camera_around(box, options, 1);
   const render::Film film{160, 160, camera.height_mm / 160};
   const auto scene = make_scene(loaded->design, box, camera, {}, diagnostics);
-  const auto hits = render::cast_rays(*scene, film, 0, film.height, 2, nullptr).hits;
+  const auto hits = render::cast_rays(*scene, film, 0, film.height, 2, [] { return false; }).hits;
   const program::Program program =
       program::expand_parts(scene->program, std::vector<Interval>(scene->program.code.size(), Interval(-1e4, 1e4)),
                             program::Precision::reference);
@@ -193,11 +226,13 @@ TEST_P(EveryPicture, ShowsWhatTheReferenceFinds) {
   EXPECT_LT(wrong, seen / 100) << "of " << seen;
 }
 
-INSTANTIATE_TEST_SUITE_P(Examples, EveryPicture,
-                         testing::Values("calibration_sheet", "cone_and_sphere", "gear", "graded_cube", "graded_wing",
-                                         "knob", "mug", "overlap", "parametric_hook", "soft_actuator",
-                                         "tensile_bar_prob", "tensile_bar_thresh", "tetrahedron"),
-                         [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(
+    Examples, EveryPicture,
+    testing::Combine(testing::Values("calibration_sheet", "cone_and_sphere", "gear", "graded_cube", "graded_wing",
+                                     "knob", "mug", "overlap", "parametric_hook", "soft_actuator", "tensile_bar_prob",
+                                     "tensile_bar_thresh", "tetrahedron"),
+                     testing::Values(0.0, 50.0)),
+    [](const auto& test) { return std::get<0>(test.param) + (std::get<1>(test.param) > 0 ? "_in_perspective" : ""); });
 
 TEST(Pictures, PlanesAreReadAsPeopleWriteThem) {
   EXPECT_EQ(parse_cut("x=0")->axis, 0);
@@ -218,13 +253,10 @@ TEST(Pictures, WhatIsWrongIsSaid) {
   EXPECT_FALSE(take_pictures(*loaded, request, stop, ignore, diagnostics));
   EXPECT_NE(to_text(diagnostics).find("there is no material \"glass\""), std::string::npos);
   request.opacity.clear();
-  Diagnostics none_yet;
-  const LoadedPtr mesh = load_text("mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");", none_yet);
-  ASSERT_TRUE(mesh);
-  request.view.field_of_view_deg = 30;
-  EXPECT_FALSE(take_pictures(*mesh, request, stop, ignore, diagnostics));
-  EXPECT_NE(to_text(diagnostics).find("leave out --perspective"), std::string::npos);
-  request.view.field_of_view_deg = 0;
+  request.slice = {{2, 10.5}};
+  EXPECT_FALSE(take_pictures(*loaded, request, stop, ignore, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("the slice does not meet the design"), std::string::npos);
+  request.slice.reset();
   request.cuts = {{0, '>', -11}};
   EXPECT_FALSE(take_pictures(*loaded, request, stop, ignore, diagnostics));
   EXPECT_NE(to_text(diagnostics).find("nothing of the design is left by the cuts"), std::string::npos);

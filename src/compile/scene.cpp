@@ -13,13 +13,11 @@ namespace {
 using program::Field;
 using program::Point;
 
-// The design's point that the program's inputs stand for.
-Point design_point(program::Builder& builder, const render::Camera& camera) {
-  const Affine map = camera.design_from_view();
+// What the program's inputs stand for in a perspective view: a depth, and a place (right, down) at that depth.
+Point in_perspective(program::Builder& builder, const render::Camera& camera) {
   const Point view = Point::origin_frame(builder);
-  if (camera.is_orthographic()) return view.mapped(map);
   const Field stretch = (view.x + camera.distance_mm) / camera.distance_mm;
-  return Point::of(view.x, view.y * stretch, view.z * stretch).mapped(map);
+  return Point::of(view.x, view.y * stretch, view.z * stretch);
 }
 
 Field within_cuts(Field inside, const Point& p, const SceneOptions& options) {
@@ -63,6 +61,47 @@ void find_depths(render::Scene& scene, const Box& box, const render::Camera& cam
   if (!camera.is_orthographic()) scene.near_mm = std::max(scene.near_mm, -0.99 * camera.distance_mm);
 }
 
+// What is to be seen, as a program of all of Scene's outputs.
+struct Shown {
+  program::Program program;
+  bool is_translucent = false;
+};
+
+using Outputs = std::vector<std::pair<std::string, Field>>;
+
+// At the design's point that the builder's inputs stand for. `further` follow the outputs.
+std::optional<Shown> lower(const design::Design& design, const SceneOptions& options, program::Builder& builder,
+                           const Point& p, const Outputs& further, Diagnostics& diagnostics) {
+  const design::NodePtr solid = whole_solid(design);
+  design::LoweringContext context(design.materials, {solid});
+  design::Lowering lowering(context, builder);
+  const Field inside = within_cuts(lowering.inside(*solid, p), p, options);
+  const design::Composition composition = lowering.composition(*solid, p, design::Demand::inside);
+
+  Shown shown;
+  for (const auto& [id, fraction] : composition.fractions)
+    if (opacity_of(design.materials.all()[id], options) < 1) shown.is_translucent = true;
+  const auto linear = [&](MaterialId id) { return render::linear(design.materials.all()[id].colour); };
+  const Field opacity =
+      mean(composition, p, [&](MaterialId id) { return opacity_of(design.materials.all()[id], options); });
+  const Field opaque = shown.is_translucent ? logical_and(inside, less_equal(p.constant(0.5), opacity)) : inside;
+  const auto channel = [&](float render::Colour::*part) {
+    return mean(composition, p, [&](MaterialId id) { return static_cast<double>(linear(id).*part); });
+  };
+  context.finish_bodies();
+  Outputs outputs{{"inside", inside},
+                  {"opaque", opaque},
+                  {"red", channel(&render::Colour::red)},
+                  {"green", channel(&render::Colour::green)},
+                  {"blue", channel(&render::Colour::blue)},
+                  {"opacity", opacity}};
+  outputs.insert(outputs.end(), further.begin(), further.end());
+  auto flat = flatten(builder.finish(outputs), design.parts[0].solid->where(), diagnostics);
+  if (!flat) return std::nullopt;
+  shown.program = std::move(*flat);
+  return shown;
+}
+
 }  // namespace
 
 Box scene_box(const Box& design_box, const SceneOptions& options) {
@@ -78,42 +117,46 @@ Box scene_box(const Box& design_box, const SceneOptions& options) {
 
 std::optional<render::Scene> make_scene(const design::Design& design, const Box& box, const render::Camera& camera,
                                         const SceneOptions& options, Diagnostics& diagnostics) {
-  const design::NodePtr solid = whole_solid(design);
-  design::LoweringContext context(design.materials, {solid});
   program::Builder builder;
-  design::Lowering lowering(context, builder);
-  const Point p = design_point(builder, camera);
-  const Field inside = within_cuts(lowering.inside(*solid, p), p, options);
-  const design::Composition composition = lowering.composition(*solid, p, design::Demand::inside);
-
-  render::Scene scene;
-  for (const auto& [id, fraction] : composition.fractions)
-    if (opacity_of(design.materials.all()[id], options) < 1) scene.is_translucent = true;
-  const auto linear = [&](MaterialId id) { return render::linear(design.materials.all()[id].colour); };
-  const Field opacity =
-      mean(composition, p, [&](MaterialId id) { return opacity_of(design.materials.all()[id], options); });
-  const Field opaque = scene.is_translucent ? logical_and(inside, less_equal(p.constant(0.5), opacity)) : inside;
-  const auto channel = [&](float render::Colour::*part) {
-    return mean(composition, p, [&](MaterialId id) { return static_cast<double>(linear(id).*part); });
-  };
-  context.finish_bodies();
-  const program::Program called = builder.finish({{"inside", inside},
-                                                  {"opaque", opaque},
-                                                  {"red", channel(&render::Colour::red)},
-                                                  {"green", channel(&render::Colour::green)},
-                                                  {"blue", channel(&render::Colour::blue)},
-                                                  {"opacity", opacity}});
-  auto flat = flatten(called, design.parts[0].solid->where(), diagnostics);
-  if (!flat) return std::nullopt;
-  scene.program = std::move(*flat);
-  if (!camera.is_orthographic() && !scene.program.reads.empty()) {
-    diagnostics.error(design.parts[0].solid->where(), "a design with meshes cannot be shown in perspective",
-                      "leave out --perspective");
-    return std::nullopt;
+  Point view = Point::origin_frame(builder);
+  Outputs base;
+  if (!camera.is_orthographic()) {
+    view = in_perspective(builder, camera);
+    base = {{"depth", view.x}, {"right", view.y}, {"down", view.z}};
   }
+  auto shown = lower(design, options, builder, view.mapped(camera.design_from_view()), base, diagnostics);
+  if (!shown) return std::nullopt;
+  render::Scene scene;
+  scene.eye_mm = camera.distance_mm;
+  scene.program = std::move(shown->program);
+  scene.is_translucent = shown->is_translucent;
   find_depths(scene, box, camera);
   scene.clarity_mm = length(box.size()) / 4;
   return scene;
+}
+
+std::shared_ptr<const render::Section> make_section(const design::Design& design, const render::Camera& camera,
+                                                    const render::Film& film, const SceneOptions& options,
+                                                    Diagnostics& diagnostics) {
+  program::Builder builder;
+  const Point film_point = Point::origin_frame(builder);
+  auto shown = lower(design, options, builder, film_point.mapped(render::Section::design_from_film(camera, film)), {},
+                     diagnostics);
+  if (!shown) return nullptr;
+  program::Program& program = shown->program;
+  using render::Scene;
+  program.outputs = {program.outputs[Scene::inside], program.outputs[Scene::red], program.outputs[Scene::green],
+                     program.outputs[Scene::blue]};
+  program.output_names = {"inside", "red", "green", "blue"};
+  return std::make_shared<render::Section>(std::move(program), film);
+}
+
+std::optional<std::vector<MaterialId>> materials_within(const design::Design& design, const Box& box,
+                                                        Diagnostics& diagnostics) {
+  auto built = build_flat_program(design, diagnostics);
+  if (!built) return std::nullopt;
+  leave_out_impossible(*built, box);
+  return built->materials.materials;
 }
 
 }  // namespace ombre::compile

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "design/design.h"
 #include "render/camera.h"
 #include "render/scene.h"
+#include "render/section.h"
 
 namespace ombre::compile {
 
@@ -31,5 +33,14 @@ Box scene_box(const Box& design_box, const SceneOptions& options);
 // `box` holds all that is to be seen. Nothing, and diagnostics, when the design does not fit into memory.
 std::optional<render::Scene> make_scene(const design::Design& design, const Box& box, const render::Camera& camera,
                                         const SceneOptions& options, Diagnostics& diagnostics);
+
+// Of the plane through the camera's target that faces it; all materials are opaque. Null, and diagnostics, like above.
+std::shared_ptr<const render::Section> make_section(const design::Design& design, const render::Camera& camera,
+                                                    const render::Film& film, const SceneOptions& options,
+                                                    Diagnostics& diagnostics);
+
+// Those that may occur in the box, alone or in mixtures; ascending.
+std::optional<std::vector<MaterialId>> materials_within(const design::Design& design, const Box& box,
+                                                        Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

@@ -73,6 +73,14 @@ class MeshSource final : public program::FieldSource {
     return std::make_unique<RowWinding>(surface_, source_from_index, rule_);
   }
 
+  std::unique_ptr<program::RowSampler> rays(int channel, const program::RayLattice& rays,
+                                            const Affine& source_from_view) const override {
+    if (channel != inside_channel || rule_ == InsideRule::generalized) return nullptr;
+    const double volume = determinant(source_from_view);
+    if (volume == 0 || !std::isfinite(volume)) return nullptr;
+    return std::make_unique<RowWinding>(*surface_, rays, source_from_view, rule_);
+  }
+
  private:
   bool contains(Vec3 p) const {
     if (!bounds_.contains(p)) return false;

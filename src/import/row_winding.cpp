@@ -56,10 +56,11 @@ DyadicBins bin_by_layer(const Surface& surface, const std::vector<Vec3>& vertice
   return {ranges, {static_cast<uint32_t>(cells), 1}};
 }
 
-// Spans where the crossings' sum is inside. A row that does not close ends at its last crossing.
-void append_spans(std::span<Crossing> row, InsideRule rule, std::vector<Span>& spans) {
+// Spans where the crossings' sum is inside; it begins with `winding`. A row that does not close ends at its last
+// crossing.
+void append_spans(std::span<Crossing> row, int64_t winding, InsideRule rule, std::vector<Span>& spans) {
   std::sort(row.begin(), row.end(), [](const Crossing& a, const Crossing& b) { return a.voxel < b.voxel; });
-  int64_t winding = 0, begin = 0;
+  int64_t begin = 0;
   for (size_t i = 0; i < row.size();) {
     const int64_t voxel = row[i].voxel;
     const bool was_inside = is_inside(winding, rule);
@@ -71,6 +72,13 @@ void append_spans(std::span<Crossing> row, InsideRule rule, std::vector<Span>& s
       begin = voxel;
   }
   if (is_inside(winding, rule) && !row.empty() && row.back().voxel > begin) spans.push_back({begin, row.back().voxel});
+}
+
+// What lies at the eye is cut off, so rays are counted from their far ends.
+int64_t winding_at_eye(std::span<const Crossing> row) {
+  int64_t winding = 0;
+  for (const Crossing& crossing : row) winding -= crossing.winding;
+  return winding;
 }
 
 // Buffers that one thread uses from call to call.
@@ -94,6 +102,15 @@ RowWinding::RowWinding(SurfacePtr surface, const Affine& source_from_index, Insi
     : id_(next_id()),
       surface_(std::move(surface)),
       vertices_(place(*surface_, source_from_index)),
+      rule_(rule),
+      by_layer_(bin_by_layer(*surface_, vertices_)) {}
+
+RowWinding::RowWinding(const Surface& surface, const program::RayLattice& rays, const Affine& source_from_view,
+                       InsideRule rule)
+    : id_(next_id()),
+      surface_(std::make_shared<Surface>(seen_in_perspective(surface, rays, source_from_view))),
+      vertices_(surface_->vertices),
+      depth_(rays),
       rule_(rule),
       by_layer_(bin_by_layer(*surface_, vertices_)) {}
 
@@ -122,14 +139,15 @@ const std::vector<Segment>& RowWinding::outline(int64_t k) const {
 }
 
 void RowWinding::cross_rows(const Segment& segment, int64_t j_begin, int64_t j_end, int64_t width,
-                            std::vector<Crossing>& found) {
+                            std::vector<Crossing>& found) const {
   const auto [lowest, highest] = std::minmax(segment.from.y, segment.to.y);
   const int64_t begin = ceil_within(lowest, j_begin, j_end), end = ceil_within(highest, j_begin, j_end);
   for (int64_t j = begin; j < end; ++j) {
     const auto row = static_cast<double>(j);
     const int winding_here = winding(segment, row);
     if (winding_here == 0) continue;  // only where coordinates are not numbers
-    found.push_back({j, ceil_within(cross_row(segment, row), 0, width), winding_here});
+    const double x = cross_row(segment, row);
+    found.push_back({j, ceil_within(depth_ ? depth_->voxel(x) : x, 0, width), winding_here});
   }
 }
 
@@ -156,7 +174,8 @@ void RowWinding::layer(int64_t k, int64_t j_begin, int64_t j_end, int64_t width,
   sort_by_row(scratch, j_begin, row_count);
   for (size_t r = 0; r < row_count; ++r) {
     const size_t begin = scratch.ends[r], end = scratch.ends[r + 1];
-    append_spans(std::span(scratch.sorted).subspan(begin, end - begin), rule_, rows[r]);
+    const std::span<Crossing> row(scratch.sorted.data() + begin, end - begin);
+    append_spans(row, depth_ ? winding_at_eye(row) : 0, rule_, rows[r]);
   }
 }
 

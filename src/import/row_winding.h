@@ -3,6 +3,7 @@
 
 #include "import/crossings.h"
 #include "import/dyadic_bins.h"
+#include "import/perspective.h"
 #include "import/surface.h"
 #include "program/field_source.h"
 
@@ -18,11 +19,13 @@ inline bool is_inside(int64_t winding, InsideRule rule) {
   return rule == InsideRule::parity ? (winding & 1) != 0 : winding != 0;
 }
 
-// One placement of a surface on a voxel lattice; voxel (i, j, k) is the point (i, j, k).
+// One placement of a surface on a voxel lattice; voxel (i, j, k) is the point (i, j, k) of a parallel one.
 class RowWinding final : public program::RowSampler {
  public:
   // The map must be invertible. The rule is nonzero or parity.
   RowWinding(SurfacePtr surface, const Affine& source_from_index, InsideRule rule);
+  // On rays; source_from_view must be invertible.
+  RowWinding(const Surface& surface, const program::RayLattice& rays, const Affine& source_from_view, InsideRule rule);
 
   // Where row j of a layer changes: from this voxel on, the winding number is greater by `winding`.
   struct Crossing {
@@ -39,12 +42,13 @@ class RowWinding final : public program::RowSampler {
  private:
   struct Outline;
   const std::vector<Segment>& outline(int64_t k) const;
-  static void cross_rows(const Segment& segment, int64_t j_begin, int64_t j_end, int64_t width,
-                         std::vector<Crossing>& found);
+  void cross_rows(const Segment& segment, int64_t j_begin, int64_t j_end, int64_t width,
+                  std::vector<Crossing>& found) const;
 
   uint64_t id_;  // no two alike
   SurfacePtr surface_;
-  std::vector<Vec3> vertices_;  // in index space
+  std::vector<Vec3> vertices_;  // in index space; on rays x is a perspective depth
+  std::optional<PerspectiveDepth> depth_;
   InsideRule rule_;
   DyadicBins by_layer_;
 };

@@ -149,6 +149,38 @@ TEST(RowWinding, AnyAffineMapAgreesWithSamples) {
   }
 }
 
+// Rays from an eye, of which some begin within the mesh: what it says at each of their points.
+TEST(RowWinding, RaysAgreeWithSamples) {
+  std::mt19937 random(5);
+  const Lattice size{60, 20, 20};
+  size_t inside_at_all = 0;
+  for (int turn = 0; turn < 20; ++turn) {
+    const Affine map = random_affine(random);
+    const double eye = turn % 2 == 0 ? 20 : 4;
+    const program::RayLattice rays{eye, {-0.95 * eye, -5.1, -4.9}, {0.4, 0.5, 0.5}};
+    const Mesh mesh = turn % 3 == 0 ? cuboid({-5, -6, -7}, {6, 5, 4}) : torus(5, 2, 24, 12);
+    const auto source = make_mesh_source("m", mesh, {});
+    const auto sampler = source->rays(0, rays, map);
+    ASSERT_TRUE(sampler);
+    std::vector<std::vector<Span>> rows;
+    for (int64_t k = 0; k < size.z; ++k) {
+      sampler->layer(k, 0, size.y, size.x, rows);
+      for (int64_t j = 0; j < size.y; ++j)
+        for (int64_t i = 0; i < size.x; ++i) {
+          const double depth = rays.first.x + rays.step.x * double(i), grow = (eye + depth) / eye;
+          const Vec3 p = map({depth, grow * (rays.first.y + rays.step.y * double(j)),
+                              grow * (rays.first.z + rays.step.z * double(k))});
+          const bool found =
+              std::any_of(rows[j].begin(), rows[j].end(), [&](Span s) { return s.begin <= i && i < s.end; });
+          inside_at_all += found;
+          if (found == (source->sample(0, p) == 1)) continue;
+          ASSERT_LT(std::abs(source->sample(1, p)), 1e-9) << turn << ": " << i << " " << j << " " << k;
+        }
+    }
+  }
+  EXPECT_GT(inside_at_all, 1000U);
+}
+
 TEST(RowWinding, AgreesWithSamplesExactlyWhereTheMapIsTheIdentity) {
   std::mt19937 random(2);
   const Lattice size{9, 9, 9};
@@ -175,6 +207,22 @@ TEST(RowWinding, RowsOfClosedMeshesNeverLeak) {
     for (int64_t k = -10; k <= 10; ++k) {
       std::vector<RowWinding::Crossing> found;
       winding.find_crossings(k, -12, 12, 1000, found);
+      std::map<int64_t, int64_t> sums;
+      for (const auto& crossing : found) sums[crossing.row] += crossing.winding;
+      for (const auto& [row, sum] : sums) ASSERT_EQ(sum, 0) << "turn " << turn << " layer " << k << " row " << row;
+    }
+  }
+}
+
+TEST(RowWinding, RaysOfClosedMeshesNeverLeak) {
+  std::mt19937 random(6);
+  for (int turn = 0; turn < 500; ++turn) {
+    const Mesh mesh = random_on_lattice(random, turn % 7 + 2);
+    const program::RayLattice rays{30, {-20, -12, -12}, {0.1, 1, 1}};
+    const RowWinding winding(*surface_of(mesh), rays, {}, InsideRule::nonzero);
+    for (int64_t k = 0; k <= 24; ++k) {
+      std::vector<RowWinding::Crossing> found;
+      winding.find_crossings(k, 0, 24, 1000, found);
       std::map<int64_t, int64_t> sums;
       for (const auto& crossing : found) sums[crossing.row] += crossing.winding;
       for (const auto& [row, sum] : sums) ASSERT_EQ(sum, 0) << "turn " << turn << " layer " << k << " row " << row;

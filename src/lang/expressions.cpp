@@ -1,8 +1,8 @@
 // Expressions without calls.
 #include <cmath>
 
+#include "base/utf8.h"
 #include "lang/interpreter.h"
-#include "lang/utf8.h"
 
 namespace ombre::lang {
 

@@ -1,8 +1,8 @@
 // Loops over values, shared by statements and list comprehensions.
 #pragma once
 
+#include "base/utf8.h"
 #include "lang/interpreter.h"
-#include "lang/utf8.h"
 
 namespace ombre::lang {
 

@@ -1,8 +1,8 @@
 // Builtin functions of lists.
 #include <cmath>
 
+#include "base/utf8.h"
 #include "lang/builtins.h"
-#include "lang/utf8.h"
 
 namespace ombre::lang {
 namespace {

@@ -27,6 +27,14 @@ class RowSampler {
                      std::vector<std::vector<Span>>& rows) const = 0;
 };
 
+// Rows that meet in an eye, as the rays of a picture do. Voxel (i, j, k) has its centre at i * step + first: a depth
+// behind the picture plane, and the place (right, down) where its ray meets that plane. All in mm of a space whose
+// origin lies in the picture plane, with the eye at the depth -eye_mm.
+struct RayLattice {
+  double eye_mm = 0;
+  Vec3 first, step;
+};
+
 // A source has channels, each a scalar field over its own space (mm). Thread-safe once built;
 // what is expensive and not always needed (a search tree) is built on first use.
 class FieldSource {
@@ -42,6 +50,11 @@ class FieldSource {
   // coordinates (voxel (i, j, k) has its centre at index (i, j, k)) to the source's space.
   // Null if the source cannot.
   virtual std::unique_ptr<RowSampler> rows(int, const Affine& /*source_from_index*/) const { return nullptr; }
+  // The same for rays; nothing is said of what lies within a two-hundredth of the way from the eye to the picture
+  // plane.
+  virtual std::unique_ptr<RowSampler> rays(int, const RayLattice&, const Affine& /*source_from_view*/) const {
+    return nullptr;
+  }
 };
 
 using SourceField = std::shared_ptr<const FieldSource>;

@@ -83,10 +83,7 @@ Camera camera_around(const Box& box, const ViewOptions& options, double aspect) 
   if (options.field_of_view_deg > 0) {
     const double half = options.field_of_view_deg * 3.14159265358979323846 / 360;
     // Far enough that the ball around the box is in view.
-    camera.distance_mm = std::max(radius / std::sin(half), 1.01 * radius) / options.zoom;
-    camera.height_mm = 2 * camera.distance_mm * std::tan(half);
-    if (options.zoom == 1) camera.height_mm = border * height_for(camera, box, aspect);
-    return camera;
+    camera.distance_mm = std::max(radius / std::sin(half), 1.01 * radius);
   }
   camera.height_mm = border * height_for(camera, box, aspect) / options.zoom;
   return camera;

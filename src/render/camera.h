@@ -19,7 +19,7 @@ struct Camera {
   double distance_mm = 0;  // of the eye from the target; 0: infinite, an orthographic view
 
   bool is_orthographic() const { return distance_mm == 0; }
-  Affine design_from_view() const;  // of orthographic views
+  Affine design_from_view() const;  // without perspective
   // By how much a length at this depth shrinks in the picture.
   double stretch_at(double depth) const { return is_orthographic() ? 1 : (distance_mm + depth) / distance_mm; }
   // A point of the picture plane (right, down), followed to a depth; in the view's frame without perspective.
@@ -30,7 +30,7 @@ struct Camera {
 struct ViewOptions {
   double azimuth_deg = -35, elevation_deg = 25;  // of the eye: 0 is in front (at -y), 90 at +x; above the horizon
   double field_of_view_deg = 0;                  // vertical; 0: orthographic
-  double zoom = 1;
+  double zoom = 1;                               // enlarges the picture's middle; the eye stays where it is
 };
 
 // front, back, left, right, top, bottom, iso.

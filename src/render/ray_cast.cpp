@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
+#include <tuple>
 
 #include "base/error.h"
-#include "base/math.h"
 #include "eval/batch/batch.h"
 #include "program/passes/passes.h"
+#include "render/ray_steps.h"
 #include "voxel/place_sources.h"
 #include "voxel/tile.h"
 
@@ -18,59 +20,12 @@ namespace {
 using voxel::StripSources;
 using voxel::TileBox;
 
-// Rays are sampled in steps. Where one finds a surface, sixteenths of the step are tried, and sixteenths of those.
-constexpr double steps_per_pixel = 4;
-constexpr int64_t finer = 16, fine_per_step = finer * finer;
 // Tiles of rays that are sampled without further questions.
 constexpr int64_t leaf_steps = 32, leaf_columns = 16, leaf_rows = 8;
-// Within translucent material, where no surface is, one sample stands for so many steps.
-constexpr int64_t murky_steps = 8;
-constexpr int64_t tile_edge = 32;  // of the picture's tiles, in pixels
-constexpr size_t many_parts = 4;   // while so many reach a tile, it is cut before they are written out
-constexpr float dark = 0.01F;      // less light than that is none
-
-// Samples along rays, one after the other; places are counted in fine steps, of which a step has 256.
-struct RayLattice {
-  double near_mm = 0, fine_mm = 0;
-  int64_t steps = 0;
-  Film film;
-
-  RayLattice(const Scene& scene, const Film& of_film) : near_mm(scene.near_mm), film(of_film) {
-    const double step = film.pixel_mm / steps_per_pixel;
-    fine_mm = step / static_cast<double>(fine_per_step);
-    steps = static_cast<int64_t>(std::ceil((scene.far_mm - scene.near_mm) / step)) + 1;
-  }
-  static int64_t fine_of(int64_t step) { return step * fine_per_step + fine_per_step / 2; }
-  double depth(int64_t fine) const { return near_mm + (static_cast<double>(fine) + 0.5) * fine_mm; }
-  float sample(int64_t fine) const { return static_cast<float>(depth(fine)); }
-  Affine view_from_index() const {
-    return {{Vec3{fine_mm, 0, 0}, Vec3{0, film.pixel_mm, 0}, Vec3{0, 0, film.pixel_mm}},
-            {depth(0), film.right_of(0), film.down_of(0)}};
-  }
-};
-
-// The share of light that comes through some steps, by opacity in thousandths or so.
-class Clarity {
- public:
-  // What a material lets through whose opacity is o: 1 - o along a way of 1 / `step` steps.
-  explicit Clarity(double step) {
-    for (size_t n = 0; n < one_.size(); ++n) {
-      const double clear = 1 - static_cast<double>(n) / grades;
-      one_[n] = static_cast<float>(math::pow(clear, step));
-      some_[n] = static_cast<float>(math::pow(clear, step * murky_steps));
-    }
-  }
-  float through(float opacity, int64_t steps) const {
-    const auto n = static_cast<size_t>(std::lround(std::clamp(opacity, 0.0F, 1.0F) * grades));
-    if (steps == 1) return one_[n];
-    if (steps == murky_steps) return some_[n];
-    return static_cast<float>(math::pow(static_cast<double>(one_[n]), static_cast<double>(steps)));
-  }
-
- private:
-  static constexpr float grades = 1024;
-  std::array<float, 1025> one_, some_;
-};
+constexpr int64_t tile_edge = 32;              // of the picture's tiles, in pixels
+constexpr size_t many_parts = 4;               // while so many reach a tile, it is cut before they are written out
+constexpr int64_t behind = fine_per_step / 2;  // a surface, its colour is taken
+constexpr float dark = 0.01F;                  // less light than that is none
 
 // Samples of the rays at work.
 class RaySamples : public eval::SourceRows {
@@ -91,37 +46,55 @@ class RaySamples : public eval::SourceRows {
   }
 };
 
+// For batches. While surfaces are looked for, colours matter in translucent material only.
+struct Programs {
+  program::Program whole, walk;
+  Programs(const Scene& scene, const program::Program& reference) : whole(fuse(sign_only(reference))), walk(whole) {
+    if (scene.is_translucent) return;
+    walk.outputs.resize(Scene::red);
+    walk.output_names.resize(Scene::red);
+  }
+};
+
 // One thread's.
 class RayCaster {
  public:
-  RayCaster(const Scene& scene, const program::Program& batch, const RayLattice& lattice, const Clarity& clarity,
-            RayBand& hits)
+  RayCaster(const Scene& scene, const Programs& programs, const RaySteps& steps, const Clarity& clarity,
+            const std::function<bool()>& is_stopped, RayBand& hits)
       : scene_(scene),
-        program_(batch),
-        lattice_(lattice),
+        programs_(programs),
+        steps_(steps),
         clarity_(clarity),
+        is_stopped_(is_stopped),
         batch_(eval::kernel_sets().front()),
         hits_(hits) {}
 
   void cast(const TileBox& tile, const StripSources& sources) {
     samples_.sources = &sources;
-    descend(program_, tile);
+    descend(programs_.walk, tile);
+    colour_ends();
   }
 
  private:
-  // Tiles are boxes of steps, columns and rows. Samples that look closer lie up to a step before the first.
-  Box points_of(const TileBox& tile) const {
-    const Film& film = lattice_.film;
-    return {{lattice_.depth(RayLattice::fine_of(tile.lo[0] - 1)), film.right_of(tile.lo[1]), film.down_of(tile.lo[2])},
-            {lattice_.depth(RayLattice::fine_of(tile.hi[0] - 1)), film.right_of(tile.hi[1] - 1),
-             film.down_of(tile.hi[2] - 1)}};
-  }
+  // Where a ray ends in opaque material.
+  struct End {
+    RaySamples::Ray ray;
+    int64_t row = 0;
+  };
 
+  // Tiles are boxes of steps, columns and rows. Samples that look closer lie up to a step before the first.
   static TileBox fine_box(const TileBox& tile) {
     TileBox fine = tile;
-    fine.lo[0] = RayLattice::fine_of(tile.lo[0] - 1);
-    fine.hi[0] = RayLattice::fine_of(tile.hi[0] - 1) + 1;
+    fine.lo[0] = RaySteps::fine_of(tile.lo[0] - 1);
+    fine.hi[0] = RaySteps::fine_of(tile.hi[0] - 1) + 1;
     return fine;
+  }
+
+  void find_ranges(const program::Program& program, const TileBox& fine, std::vector<Interval>& values) {
+    const Film& film = steps_.film;
+    const Box points{{steps_.depth(fine.lo[0]), film.right_of(fine.lo[1]), film.down_of(fine.lo[2])},
+                     {steps_.depth(fine.hi[0] - 1), film.right_of(fine.hi[1] - 1), film.down_of(fine.hi[2] - 1)}};
+    evaluate_intervals(program, points, values, samples_.sources->ranges(fine), program::Precision::batch);
   }
 
   RayHit& hit(int64_t column, int64_t row) { return hits_.at(column, row); }
@@ -134,10 +107,9 @@ class RayCaster {
   }
 
   void descend(const program::Program& program, const TileBox& tile) {
-    if (is_hidden(tile)) return;
-    const TileBox fine = fine_box(tile);
+    if (is_hidden(tile) || is_stopped_()) return;
     std::vector<Interval> values, kept;
-    evaluate_intervals(program, points_of(tile), values, samples_.sources->ranges(fine), program::Precision::batch);
+    find_ranges(program, fine_box(tile), values);
     const auto range = [&](Scene::Output output) { return values[program.outputs[output]]; };
     if (range(Scene::inside) == Interval(0)) return;
     const bool is_murky = range(Scene::inside) == Interval(1) && range(Scene::opaque) == Interval(0);
@@ -168,7 +140,7 @@ class RayCaster {
   void absorb_all(const TileBox& tile, Range range) {
     const auto value = [&](Scene::Output output) { return static_cast<float>(range(output).lo); };
     const Colour colour{value(Scene::red), value(Scene::green), value(Scene::blue)};
-    const float depth = lattice_.sample(RayLattice::fine_of(tile.lo[0]));
+    const float depth = steps_.sample(RaySteps::fine_of(tile.lo[0]));
     const float through = clarity_.through(value(Scene::opacity), tile.size(0));
     for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row)
       for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column)
@@ -199,7 +171,7 @@ class RayCaster {
     samples_.row = row;
     samples_.rays.clear();
     for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column)
-      if (is_open(column, row)) samples_.rays.push_back({column, RayLattice::fine_of(tile.lo[0])});
+      if (is_open(column, row)) samples_.rays.push_back({column, RaySteps::fine_of(tile.lo[0])});
   }
 
   // The near half first, which may hide the other one.
@@ -235,10 +207,10 @@ class RayCaster {
     for (size_t n = 0; n < samples_.rays.size(); ++n) {
       float* const depths = depths_.data() + n * stride_;
       for (size_t i = 0; i < stride_; ++i)
-        depths[i] = lattice_.sample(samples_.rays[n].first + stride * static_cast<int64_t>(std::min(i, width - 1)));
-      rows_.push_back({depths, static_cast<float>(lattice_.film.right_of(samples_.rays[n].column))});
+        depths[i] = steps_.sample(samples_.rays[n].first + stride * static_cast<int64_t>(std::min(i, width - 1)));
+      rows_.push_back({depths, static_cast<float>(steps_.film.right_of(samples_.rays[n].column))});
     }
-    const auto down = static_cast<float>(lattice_.film.down_of(samples_.row));
+    const auto down = static_cast<float>(steps_.film.down_of(samples_.row));
     batch_.place({rows_, {&down, 1}, width});
     batch_.begin_layer(0);
     batch_.begin_row(0);
@@ -264,7 +236,7 @@ class RayCaster {
       for (size_t i = 0; i < width_; ++i) {
         if (value(Scene::inside, n, i) == 0) continue;
         const RaySamples::Ray before{samples_.rays[n].column,
-                                     RayLattice::fine_of(tile.lo[0] + static_cast<int64_t>(i) - 1)};
+                                     RaySteps::fine_of(tile.lo[0] + static_cast<int64_t>(i) - 1)};
         if (is_new) surfaces_.push_back(before);
         is_new = false;
         if (!scene_.is_translucent) break;
@@ -306,25 +278,74 @@ class RayCaster {
     const bool is_end = what == Scene::opaque || !scene_.is_translucent;
     for (const RaySamples::Ray& ray : samples_.rays) {
       RayHit& found = hit(ray.column, samples_.row);
-      const float depth = lattice_.sample(ray.first);
+      const float depth = steps_.sample(ray.first);
       if (what == Scene::inside) found.surface = depth;
-      if (is_end) found.end = depth;
+      if (!is_end) continue;
+      found.end = depth;
+      ends_met_.push_back({ray, samples_.row});
     }
-    if (is_end) take_colours();
+  }
+
+  // The ends of rays that were found in opaque material get its colour, those that lie together at a time.
+  void colour_ends() {
+    const auto block = [](const End& end) {
+      return std::tuple(end.row / leaf_rows, end.ray.column / leaf_columns,
+                        end.ray.first / (leaf_steps * fine_per_step));
+    };
+    std::sort(ends_met_.begin(), ends_met_.end(), [&](const End& a, const End& b) {
+      return std::tuple(block(a), a.row, a.ray.column) < std::tuple(block(b), b.row, b.ray.column);
+    });
+    for (auto begin = ends_met_.begin(); begin != ends_met_.end() && !is_stopped_();) {
+      const auto end =
+          std::find_if(begin, ends_met_.end(), [&](const End& other) { return block(other) != block(*begin); });
+      colour_block({begin, end});
+      begin = end;
+    }
+    ends_met_.clear();
+  }
+
+  void colour_block(std::span<const End> ends) {
+    TileBox fine{{ends[0].ray.first, ends[0].ray.column, ends[0].row}, {}};
+    for (const End& end : ends) {
+      const int64_t first[] = {end.ray.first, end.ray.column, end.row};
+      const int64_t last[] = {end.ray.first + behind, end.ray.column, end.row};
+      for (size_t axis = 0; axis < 3; ++axis) {
+        fine.lo[axis] = std::min(fine.lo[axis], first[axis]);
+        fine.hi[axis] = std::max(fine.hi[axis], last[axis] + 1);
+      }
+    }
+    std::vector<Interval> kept;
+    program::Program program = shortened(programs_.whole, fine, kept);
+    if (program.has_parts())
+      program = shortened(program::expand_parts(program, kept, program::Precision::batch), fine, kept);
+    batch_.compile(program, kept, static_cast<size_t>(leaf_columns * leaf_steps), 1, samples_);
+    for (size_t n = 0; n < ends.size();) {
+      samples_.row = ends[n].row;
+      samples_.rays.clear();
+      for (; n < ends.size() && ends[n].row == samples_.row; ++n) samples_.rays.push_back(ends[n].ray);
+      take_colours();
+    }
+  }
+
+  program::Program shortened(const program::Program& program, const TileBox& fine, std::vector<Interval>& kept) {
+    std::vector<Interval> values;
+    find_ranges(program, fine, values);
+    return program::shorten(program, values, &kept);
   }
 
   // A little behind the surface, if the solid is thick enough: where surfaces of two materials coincide, rounding
   // decides which is met first.
   void take_colours() {
-    evaluate(fine_per_step / 2, 2, true);
+    evaluate(behind, 2, true);
     for (size_t n = 0; n < samples_.rays.size(); ++n)
       hit(samples_.rays[n].column, samples_.row).at_end = colour(n, value(Scene::opaque, n, 1) != 0 ? 1 : 0);
   }
 
   const Scene& scene_;
-  const program::Program& program_;
-  const RayLattice& lattice_;
+  const Programs& programs_;
+  const RaySteps& steps_;
   const Clarity& clarity_;
+  const std::function<bool()>& is_stopped_;
   eval::BatchEvaluator batch_;
   RaySamples samples_;
   RayBand& hits_;
@@ -332,30 +353,44 @@ class RayCaster {
   std::vector<float> depths_;  // of the samples at work
   std::vector<eval::PointRow> rows_;
   std::vector<RaySamples::Ray> surfaces_, ends_;
+  std::vector<End> ends_met_;
 };
+
+// Drops the outputs that are there for this alone.
+voxel::RowSamplers place_sources(program::Program& program, const Scene& scene, const RaySteps& steps) {
+  if (scene.eye_mm == 0) {
+    Affine view_from_index = Affine::scaling(steps.step());
+    view_from_index.offset = steps.first();
+    return voxel::place_sources(program, view_from_index);
+  }
+  const std::vector<program::ValueId> base(program.outputs.begin() + Scene::output_count, program.outputs.end());
+  program.outputs.resize(Scene::output_count);
+  program.output_names.resize(Scene::output_count);
+  return voxel::place_sources(program, program::RayLattice{scene.eye_mm, steps.first(), steps.step()}, base);
+}
 
 }  // namespace
 
 RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t end, int threads,
                   const std::function<bool()>& is_stopped) {
   if (eval::kernel_sets().empty()) throw Error("pictures need a processor with hardware multiply-add");
-  const RayLattice lattice(scene, film);
+  const RaySteps steps(scene, film);
   const Clarity clarity(film.pixel_mm / steps_per_pixel / scene.clarity_mm);
   program::Program reference = scene.program;
-  const auto samplers = voxel::place_sources(reference, lattice.view_from_index());
-  const program::Program batch = fuse(sign_only(reference));
+  const auto samplers = place_sources(reference, scene, steps);
+  const Programs programs(scene, reference);
   RayBand band{begin, end, film.width, std::vector<RayHit>(static_cast<size_t>(film.width * (end - begin)))};
   const int64_t across = (film.width + tile_edge - 1) / tile_edge, down = (end - begin + tile_edge - 1) / tile_edge;
   run_parallel(static_cast<size_t>(across * down), threads, [&](size_t n) {
-    if (is_stopped && is_stopped()) return;
+    if (is_stopped()) return;
     const int64_t column = static_cast<int64_t>(n) % across * tile_edge,
                   row = begin + static_cast<int64_t>(n) / across * tile_edge;
     const TileBox tile{{0, column, row},
-                       {lattice.steps, std::min(column + tile_edge, film.width), std::min(row + tile_edge, end)}};
+                       {steps.steps, std::min(column + tile_edge, film.width), std::min(row + tile_edge, end)}};
     TileBox strip = tile;
-    strip.hi[0] = lattice.steps * fine_per_step;
+    strip.hi[0] = steps.steps * fine_per_step;
     const StripSources sources(samplers, strip);
-    RayCaster(scene, batch, lattice, clarity, band).cast(tile, sources);
+    RayCaster(scene, programs, steps, clarity, is_stopped, band).cast(tile, sources);
   });
   return band;
 }

@@ -92,16 +92,16 @@ Colour linear(Rgba8 srgb) {
           static_cast<float>(to_linear(srgb[2]))};
 }
 
-void shade(const RayBand& band, const Film& film, const Camera& camera, int64_t samples, const Background& background,
-           int64_t begin, int64_t end, std::vector<uint8_t>& pixels) {
+void shade(const RayBand& band, const Film& film, const Camera& camera, Lighting lighting, int64_t samples,
+           const Background& background, int64_t begin, int64_t end, std::vector<uint8_t>& pixels) {
   const Relief outer(band, film, camera, &RayHit::surface), inner(band, film, camera, &RayHit::end);
-  const int64_t width = film.width / samples, height = film.height / samples;
-  const Colour top = linear(background.top), bottom = linear(background.bottom);
+  const int64_t width = film.width / samples;
+  const Colour behind = linear(background.colour);
+  const auto light = [&](const Relief& relief, int64_t column, int64_t row) {
+    return lighting == Lighting::none ? Light{} : light_on(relief.normal(column, row));
+  };
   const double rays = static_cast<double>(samples * samples);
   for (int64_t y = begin; y < end; ++y) {
-    const auto down = static_cast<float>((static_cast<double>(y) + 0.5) / static_cast<double>(height));
-    const auto mixed = [&](float a, float b) { return a + (b - a) * down; };
-    const Colour behind{mixed(top.red, bottom.red), mixed(top.green, bottom.green), mixed(top.blue, bottom.blue)};
     for (int64_t x = 0; x < width; ++x) {
       Sum sum;
       for (int64_t row = y * samples; row < (y + 1) * samples; ++row) {
@@ -109,13 +109,13 @@ void shade(const RayBand& band, const Film& film, const Camera& camera, int64_t 
           const RayHit& ray = band.at(column, row);
           double left = 1;
           if (ray.surface != RayHit::none && ray.surface != ray.end) {
-            const Light light = light_on(outer.normal(column, row));
-            sum.add(ray.veil, light.share, light.shine);
+            const Light here = light(outer, column, row);
+            sum.add(ray.veil, here.share, here.shine);
             left = static_cast<double>(ray.passes);
           }
           if (ray.end != RayHit::none) {
-            const Light light = light_on(inner.normal(column, row));
-            sum.add(ray.at_end, left * light.share, left * light.shine);
+            const Light here = light(inner, column, row);
+            sum.add(ray.at_end, left * here.share, left * here.shine);
             left = 0;
           }
           sum.cover += 1 - left;

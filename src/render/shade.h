@@ -16,13 +16,18 @@ using Rgba8 = std::array<uint8_t, 4>;
 Colour linear(Rgba8 srgb);
 
 struct Background {
-  Rgba8 top{255, 255, 255, 255}, bottom{255, 255, 255, 255};
+  Rgba8 colour{255, 255, 255, 255};
   bool is_transparent = false;
 };
 
+enum class Lighting {
+  from_the_eye,  // from its side, from above on the left
+  none,          // the materials' own colours
+};
+
 // Appends rows [begin, end) of pixels, RGBA from left to right: the mean of samples x samples rays each. The band has
-// their rays, and a row more above and below. Light comes from the eye's side, from above on the left.
-void shade(const RayBand& band, const Film& film, const Camera& camera, int64_t samples, const Background& background,
-           int64_t begin, int64_t end, std::vector<uint8_t>& pixels);
+// their rays, and for light a row more above and below.
+void shade(const RayBand& band, const Film& film, const Camera& camera, Lighting lighting, int64_t samples,
+           const Background& background, int64_t begin, int64_t end, std::vector<uint8_t>& pixels);
 
 }  // namespace ombre::render

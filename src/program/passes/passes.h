@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "program/program.h"
 
@@ -40,7 +41,9 @@ size_t order_for_first(Program& program);
 // How many instructions inline_bodies would give, at most; may be far beyond what memory holds.
 double inlined_size(const Program& program);
 
-// The affine map that takes (x, y, z) to operands a, b, c of the given instruction, if there is one.
-std::optional<Affine> affine_operands(const Program& program, const Instruction& instruction);
+// The affine map that takes (x, y, z) to operands a, b, c of the given instruction, if there is one. `base`: three
+// values that stand for x, y and z; by default the inputs.
+std::optional<Affine> affine_operands(const Program& program, const Instruction& instruction,
+                                      std::span<const ValueId> base = {});
 
 }  // namespace ombre::program

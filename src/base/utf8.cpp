@@ -1,8 +1,8 @@
-#include "lang/utf8.h"
+#include "base/utf8.h"
 
 #include <cmath>
 
-namespace ombre::lang {
+namespace ombre {
 namespace {
 
 uint32_t byte(std::string_view text, size_t at) { return static_cast<unsigned char>(text[at]); }
@@ -68,4 +68,4 @@ size_t count_code_points(std::string_view text) {
   return count;
 }
 
-}  // namespace ombre::lang
+}  // namespace ombre

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace ombre::lang {
+namespace ombre {
 
 // Bytes of the code point that begins at `at`; 0 when no valid one does.
 size_t code_point_size(std::string_view text, size_t at);
@@ -16,4 +16,4 @@ void append_code_point(std::string& text, uint32_t code);
 bool is_code_point(double code);
 size_t count_code_points(std::string_view text);
 
-}  // namespace ombre::lang
+}  // namespace ombre

@@ -1,0 +1,70 @@
+// Axes, scale bar and legend of a design's pictures.
+#include "compile/picture_labels.h"
+
+#include <algorithm>
+
+namespace ombre::compile {
+namespace {
+
+constexpr int64_t smallest_part = 16;  // pixels that are left for it, each way
+
+void check_letters(const std::vector<render::Swatch>& legend, const draw::Pen& pen, const SourceRange& where,
+                   Diagnostics& diagnostics) {
+  for (const render::Swatch& swatch : legend) {
+    if (pen.has_letters(swatch.name)) continue;
+    diagnostics.warning(where, pen.font_file() + " lacks letters of the material \"" + swatch.name + "\"",
+                        "name a font that has them by --font");
+    return;
+  }
+}
+
+// The part's pixels in the left upper corner of a larger picture.
+std::vector<uint8_t> on_background(const std::vector<uint8_t>& part, const render::Layout& layout,
+                                   const PictureRequest& request) {
+  render::Rgba8 colour = request.background.colour;
+  if (request.background.is_transparent) colour = {};
+  std::vector<uint8_t> pixels(static_cast<size_t>(request.width * request.height * 4));
+  for (size_t n = 0; n < pixels.size(); ++n) pixels[n] = colour[n % 4];
+  for (int64_t row = 0; row < layout.height; ++row)
+    std::copy_n(part.data() + row * layout.width * 4, layout.width * 4, pixels.data() + row * request.width * 4);
+  return pixels;
+}
+
+}  // namespace
+
+std::optional<PictureLabels> PictureLabels::make(const Loaded& loaded, const PictureRequest& request, const Box& box,
+                                                 Diagnostics& diagnostics) {
+  const AnnotationRequest& wanted = request.annotations;
+  const SourceRange where{loaded.source, 0, 0};
+  PictureLabels labels(request, draw::Pen(wanted.font_file));
+  labels.annotations_.axes = wanted.axes;
+  labels.annotations_.scale_bar = wanted.scale_bar;
+  if (wanted.legend) {
+    const auto materials = materials_within(loaded.design, box, diagnostics);
+    if (!materials) return std::nullopt;
+    for (const MaterialId id : *materials) {
+      const design::Material& material = loaded.design.materials.all()[id];
+      labels.annotations_.legend.push_back({material.name, material.colour});
+    }
+  }
+  labels.layout_ = render::lay_out(request.width, request.height, labels.annotations_, labels.pen_);
+  if (std::min(labels.layout_.width, labels.layout_.height) < smallest_part) {
+    diagnostics.error(where, "the picture is too small for what is to be written on it",
+                      "make it larger by --size, or leave out axes, scale bar or legend");
+    return std::nullopt;
+  }
+  if (wanted.font_file.empty() && !labels.pen_.is_usual_font())
+    diagnostics.warning(
+        where, "there is no DejaVu Sans, the usual font; the picture is labelled in " + labels.pen_.font_file(),
+        "install fonts-dejavu-core for the same picture everywhere");
+  check_letters(labels.annotations_.legend, labels.pen_, where, diagnostics);
+  return labels;
+}
+
+void PictureLabels::add_to(Picture& picture, const render::Camera& camera) {
+  picture.rgba = on_background(picture.rgba, layout_, *request_);
+  const draw::Canvas canvas{request_->width, request_->height, &picture.rgba};
+  render::annotate(canvas, layout_, annotations_, camera, picture.pixel_mm, request_->background, pen_);
+}
+
+}  // namespace ombre::compile

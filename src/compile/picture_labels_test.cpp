@@ -1,0 +1,137 @@
+// Axes, scale bars and legends of pictures, by the pixels they must have.
+#include "compile/picture_labels.h"
+
+#include <cmath>
+
+#include "compile/test_designs.h"
+
+namespace ombre::compile {
+namespace {
+
+constexpr int64_t width = 400, height = 300;
+
+class Labels : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!draw::can_draw()) GTEST_SKIP() << "built without FreeType";
+  }
+
+  std::optional<Picture> take(const std::string& text, PictureRequest request) {
+    const LoadedPtr loaded = load_text(text, diagnostics);
+    EXPECT_TRUE(loaded) << to_text(diagnostics);
+    if (request.width == 800) {
+      request.width = width;
+      request.height = height;
+    }
+    std::optional<Picture> picture;
+    const StopFlag stop;
+    take_pictures(
+        *loaded, request, stop, [&](int, const Picture& taken) { picture = taken; }, diagnostics);
+    return picture;
+  }
+
+  Diagnostics diagnostics;
+};
+
+struct Pixel {
+  int red, green, blue;
+  bool is_ink() const { return red < 100 && green < 100 && blue < 100; }
+  bool is_white() const { return red == 255 && green == 255 && blue == 255; }
+};
+
+Pixel at(const Picture& picture, int64_t column, int64_t row) {
+  const uint8_t* p = picture.rgba.data() + (row * width + column) * 4;
+  return {p[0], p[1], p[2]};
+}
+
+std::string balls(int count) {
+  std::string text = "union() {";
+  static const char* names[] = {"red", "green", "blue", "gray", "white", "black", "cyan", "magenta", "yellow", "pink"};
+  for (int n = 0; n < count; ++n)
+    text += "translate(" + std::to_string(3 * n) + ", 0, 0) sphere(1, \"" + names[n] + "\");";
+  return text + "}";
+}
+
+}  // namespace
+
+TEST(RoundLengths, AreTheLongestThatFit) {
+  for (const auto& [most, expected] : std::vector<std::pair<double, double>>{
+           {1, 1}, {1.99, 1}, {2, 2}, {4.9, 2}, {5, 5}, {9.99, 5}, {10, 10}, {777, 500}, {0.3, 0.2}, {0.099, 0.05}})
+    EXPECT_NEAR(render::round_length(most), expected, 1e-12 * expected) << most;
+}
+
+TEST_F(Labels, ScaleBarsAreAsLongAsTheySay) {
+  PictureRequest request;
+  request.annotations.scale_bar = true;
+  for (const double radius : {0.3, 4.0, 77.0}) {
+    const auto picture = take("sphere(" + std::to_string(radius) + ", \"red\");", request);
+    ASSERT_TRUE(picture);
+    // The bar is the longest run of ink.
+    int64_t longest = 0;
+    for (int64_t row = 0; row < height; ++row)
+      for (int64_t column = 0, run = 0; column < width; ++column) {
+        run = at(*picture, column, row).is_ink() ? run + 1 : 0;
+        longest = std::max(longest, run);
+      }
+    const double length = render::round_length(0.3 * width * picture->pixel_mm);
+    EXPECT_NEAR(static_cast<double>(longest) * picture->pixel_mm, length, 1.01 * picture->pixel_mm) << radius;
+  }
+}
+
+// From the front, x goes to the right and z up, and y is seen from its end.
+TEST_F(Labels, AxesPointWhereTheDesignDoes) {
+  PictureRequest request;
+  request.annotations.axes = true;
+  request.view = *render::named_view("front");
+  const auto picture = take("sphere(5, \"gray\");", request);
+  ASSERT_TRUE(picture);
+  const int64_t unit = 11, left = 3 * unit, down = height - 3 * unit;
+  const Pixel x = at(*picture, left + unit, down), z = at(*picture, left, down - unit);
+  EXPECT_GT(x.red, x.blue + 40);
+  EXPECT_GT(z.blue, z.red + 40);
+  EXPECT_TRUE(at(*picture, left + unit, down - unit).is_white());
+  EXPECT_TRUE(at(*picture, left - 2 * unit, down).is_white());
+  EXPECT_TRUE(at(*picture, left, down + 2 * unit).is_white());
+}
+
+TEST_F(Labels, LegendsHaveTheColours) {
+  PictureRequest request;
+  request.annotations.legend = true;
+  const auto picture = take("union() { sphere(5, \"blue\"); translate(9, 0, 0) sphere(5, \"green\"); }", request);
+  ASSERT_TRUE(picture);
+  std::vector<Pixel> swatches;  // on the right, by rows of 1.6 lines
+  for (const int64_t row : {16, 34}) {
+    for (int64_t column = width - 1; column > 0; --column) {
+      const Pixel p = at(*picture, column, row);
+      if (std::abs(p.green - p.red) < 60 && std::abs(p.blue - p.red) < 60) continue;
+      swatches.push_back(p);
+      break;
+    }
+  }
+  ASSERT_EQ(swatches.size(), 2U);
+  EXPECT_EQ(swatches[0].green, 160);  // by their order in the file of materials
+  EXPECT_EQ(swatches[1].blue, 255);
+}
+
+TEST_F(Labels, MakeRoomForThemselves) {
+  PictureRequest request;
+  const auto plain = take(balls(3), request);
+  request.annotations = {true, true, true, ""};
+  const auto labelled = take(balls(3), request);
+  ASSERT_TRUE(plain && labelled);
+  EXPECT_GT(labelled->pixel_mm, plain->pixel_mm);
+  EXPECT_EQ(plain->rgba.size(), labelled->rgba.size());
+}
+
+TEST_F(Labels, FitIntoSmallPicturesOrSaySo) {
+  PictureRequest request;
+  request.width = 120;
+  request.height = 90;
+  request.annotations.legend = true;
+  EXPECT_TRUE(take(balls(10), request));
+  request.width = request.height = 1;
+  EXPECT_FALSE(take(balls(10), request));
+  EXPECT_NE(to_text(diagnostics).find("the picture is too small"), std::string::npos) << to_text(diagnostics);
+}
+
+}  // namespace ombre::compile

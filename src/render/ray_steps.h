@@ -1,0 +1,60 @@
+// Where rays are sampled, and what light loses from sample to sample.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/math.h"
+#include "render/ray_cast.h"
+
+namespace ombre::render {
+
+// Rays are sampled in steps. Where one finds a surface, sixteenths of the step are tried, and sixteenths of those.
+inline constexpr double steps_per_pixel = 4;
+inline constexpr int64_t finer = 16, fine_per_step = finer * finer;
+// Within translucent material, where no surface is, one sample stands for so many steps.
+inline constexpr int64_t murky_steps = 8;
+
+// Samples along rays, one after the other; places are counted in fine steps, of which a step has 256.
+struct RaySteps {
+  double near_mm = 0, fine_mm = 0;
+  int64_t steps = 0;
+  Film film;
+
+  RaySteps(const Scene& scene, const Film& of_film) : near_mm(scene.near_mm), film(of_film) {
+    const double step = film.pixel_mm / steps_per_pixel;
+    fine_mm = step / static_cast<double>(fine_per_step);
+    steps = static_cast<int64_t>(std::ceil((scene.far_mm - scene.near_mm) / step)) + 1;
+  }
+  static int64_t fine_of(int64_t step) { return step * fine_per_step + fine_per_step / 2; }
+  double depth(int64_t fine) const { return near_mm + (static_cast<double>(fine) + 0.5) * fine_mm; }
+  float sample(int64_t fine) const { return static_cast<float>(depth(fine)); }
+  Vec3 first() const { return {depth(0), film.right_of(0), film.down_of(0)}; }
+  Vec3 step() const { return {fine_mm, film.pixel_mm, film.pixel_mm}; }
+};
+
+// The share of light that comes through some steps, by opacity in thousandths or so.
+class Clarity {
+ public:
+  // What a material lets through whose opacity is o: 1 - o along a way of 1 / `step` steps.
+  explicit Clarity(double step) {
+    for (size_t n = 0; n < one_.size(); ++n) {
+      const double clear = 1 - static_cast<double>(n) / grades;
+      one_[n] = static_cast<float>(math::pow(clear, step));
+      some_[n] = static_cast<float>(math::pow(clear, step * murky_steps));
+    }
+  }
+  float through(float opacity, int64_t steps) const {
+    const auto n = static_cast<size_t>(std::lround(std::clamp(opacity, 0.0F, 1.0F) * grades));
+    if (steps == 1) return one_[n];
+    if (steps == murky_steps) return some_[n];
+    return static_cast<float>(math::pow(static_cast<double>(one_[n]), static_cast<double>(steps)));
+  }
+
+ private:
+  static constexpr float grades = 1024;
+  std::array<float, 1025> one_, some_;
+};
+
+}  // namespace ombre::render
