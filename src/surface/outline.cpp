@@ -130,8 +130,9 @@ LayerOutline Outliner::layer(int64_t k, const StopFlag* stop) const {
   OutlineGraph graph = trace_cells(corners);
   find_outline_crossings(partition_, corners_, k, graph, stop);
   place_outline_vertices(corners_, graph);
-  const std::vector<OutlineChain> chains = find_chains(graph);
-  untangle(graph, chains);
+  std::vector<OutlineChain> chains = find_chains(graph);
+  leave_out_hairpins(corners_, graph, chains);
+  untangle(corners_, graph, chains);
   return Assembler(graph, simplify(graph, chains, simplifying_share * tolerance_mm_)).assemble(partition_.regions);
 }
 

@@ -55,10 +55,33 @@ void find_block(const voxel::Lattice& corners, int64_t k, std::span<const uint32
   }
 }
 
-bool is_near(const voxel::Lattice& corners, const OutlineVertex& v, Vec3 p) {
-  const double room = room_cells * corners.pitch[0].mm();
+bool is_near(const voxel::Lattice& corners, const OutlineVertex& v, Vec2 p, double room_mm) {
   const Vec3 lo = corners.center(v.i, v.j, 0), hi = corners.center(v.i + 1, v.j + 1, 0);
-  return lo.x - room <= p.x && p.x <= hi.x + room && lo.y - room <= p.y && p.y <= hi.y + room;
+  return lo.x - room_mm <= p.x && p.x <= hi.x + room_mm && lo.y - room_mm <= p.y && p.y <= hi.y + room_mm;
+}
+
+// The sum of squared distances from the borders through a vertex's crossings.
+double misfit(const OutlineGraph& graph, const OutlineVertex& vertex, Vec2 p) {
+  double sum = 0;
+  for (size_t n = 0; n < vertex.count; ++n) {
+    const OutlineCrossing& crossing = graph.crossings[vertex.crossings[n]];
+    const double distance = dot(crossing.normal, p - crossing.at);
+    sum += distance * distance;
+  }
+  return sum;
+}
+
+// Where the misfit is least between two points.
+Vec2 best_between(const OutlineGraph& graph, const OutlineVertex& vertex, Vec2 a, Vec2 b) {
+  double slope = 0, curvature = 0;
+  for (size_t n = 0; n < vertex.count; ++n) {
+    const OutlineCrossing& crossing = graph.crossings[vertex.crossings[n]];
+    const double rise = dot(crossing.normal, b - a);
+    slope += rise * dot(crossing.normal, a - crossing.at);
+    curvature += rise * rise;
+  }
+  const double t = curvature > 0 ? std::clamp(-slope / curvature, 0.0, 1.0) : 0.5;
+  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
 }
 
 }  // namespace
@@ -88,6 +111,21 @@ Vec2 mean_point(const OutlineGraph& graph, const OutlineVertex& vertex) {
   return {sum.x / vertex.count, sum.y / vertex.count};
 }
 
+Vec2 point_on_cell(const voxel::Lattice& corners, const OutlineGraph& graph, const OutlineVertex& vertex) {
+  const Vec3 lo = corners.center(vertex.i, vertex.j, 0), hi = corners.center(vertex.i + 1, vertex.j + 1, 0);
+  const std::array<Vec2, 4> around{{{lo.x, lo.y}, {hi.x, lo.y}, {hi.x, hi.y}, {lo.x, hi.y}}};
+  Vec2 best = around[0];
+  for (size_t n = 0; n < 4; ++n) {
+    const Vec2 p = best_between(graph, vertex, around[n], around[(n + 1) % 4]);
+    if (misfit(graph, vertex, p) < misfit(graph, vertex, best)) best = p;
+  }
+  return best;
+}
+
+bool is_in_cell(const voxel::Lattice& corners, const OutlineVertex& vertex) {
+  return is_near(corners, vertex, vertex.at, 0);
+}
+
 void place_outline_vertices(const voxel::Lattice& corners, OutlineGraph& graph) {
   for (OutlineVertex& vertex : graph.vertices) {
     Quadric planes;
@@ -96,7 +134,9 @@ void place_outline_vertices(const voxel::Lattice& corners, OutlineGraph& graph) 
       planes.add({crossing.at.x, crossing.at.y, 0}, {crossing.normal.x, crossing.normal.y, 0});
     }
     const Vec3 best = planes.least().at;
-    vertex.at = is_near(corners, vertex, best) ? Vec2{best.x, best.y} : mean_point(graph, vertex);
+    vertex.at = {best.x, best.y};
+    const bool is_usable = is_near(corners, vertex, vertex.at, room_cells * corners.pitch[0].mm());
+    if (!is_usable) vertex.at = point_on_cell(corners, graph, vertex);
   }
 }
 

@@ -13,8 +13,11 @@ void find_outline_crossings(const Partition& partition, const voxel::Lattice& co
 
 // The mean of a vertex's crossings, which lies in its cell.
 Vec2 mean_point(const OutlineGraph& graph, const OutlineVertex& vertex);
+// Of the points around its cell, the one nearest to the borders through its crossings.
+Vec2 point_on_cell(const voxel::Lattice& corners, const OutlineGraph& graph, const OutlineVertex& vertex);
+bool is_in_cell(const voxel::Lattice& corners, const OutlineVertex& vertex);
 
-// Puts vertices where the borders through their crossings meet, as far as that is near their cells; else at means.
+// Puts vertices where the borders through their crossings meet; if that is more than a cell away, on their cells.
 void place_outline_vertices(const voxel::Lattice& corners, OutlineGraph& graph);
 
 }  // namespace ombre::surface

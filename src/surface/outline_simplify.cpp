@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "surface/outline_crossings.h"
 #include "surface/outline_overlaps.h"
@@ -78,26 +79,48 @@ bool is_ring(const OutlineGraph& graph, const OutlineChain& chain) {
   return chain.is_closed() && !graph.vertices[chain.nodes.front()].is_junction();
 }
 
+bool goes_back(const OutlineGraph& graph, uint32_t a, uint32_t b, uint32_t c) {
+  return dot(point_of(graph, b) - point_of(graph, a), point_of(graph, c) - point_of(graph, b)) < 0;
+}
+
+void leave_out_hairpins_ahead(const voxel::Lattice& corners, const OutlineGraph& graph, std::vector<uint32_t>& nodes) {
+  std::vector<uint32_t> kept{nodes.front()};
+  for (size_t n = 1; n < nodes.size(); ++n) {
+    const uint32_t last = kept.back();
+    const bool is_outside = !is_crossing(graph, last) && !is_in_cell(corners, graph.vertices[last]);
+    const bool is_hairpin = is_outside && n + 1 < nodes.size() && goes_back(graph, last, nodes[n], nodes[n + 1]);
+    if (!is_hairpin) kept.push_back(nodes[n]);
+  }
+  nodes = std::move(kept);
+}
+
 bool has_collapsed(const OutlineChain& chain) { return chain.is_closed() && chain.nodes.size() < 4; }
 
 }  // namespace
 
-size_t untangle(OutlineGraph& graph, const std::vector<OutlineChain>& chains) {
-  std::vector<bool> is_moved(graph.vertices.size());
-  size_t moved = 0;
-  const auto move = [&](uint32_t node) {
-    if (is_crossing(graph, node) || is_moved[node]) return false;
-    graph.vertices[node].at = mean_point(graph, graph.vertices[node]);
-    is_moved[node] = true;
-    ++moved;
+void leave_out_hairpins(const voxel::Lattice& corners, const OutlineGraph& graph, std::vector<OutlineChain>& chains) {
+  for (OutlineChain& chain : chains)
+    for (int way = 0; way < 2; ++way) {
+      leave_out_hairpins_ahead(corners, graph, chain.nodes);
+      std::ranges::reverse(chain.nodes);
+    }
+}
+
+void untangle(const voxel::Lattice& corners, OutlineGraph& graph, const std::vector<OutlineChain>& chains) {
+  std::vector<bool> is_settled(graph.vertices.size());
+  const auto draw_in = [&](uint32_t node) {
+    if (is_crossing(graph, node) || is_settled[node]) return false;
+    OutlineVertex& vertex = graph.vertices[node];
+    is_settled[node] = is_in_cell(corners, vertex);
+    vertex.at = is_settled[node] ? mean_point(graph, vertex) : point_on_cell(corners, graph, vertex);
     return true;
   };
   for (bool has_changed = true; has_changed;) {
+    std::set<uint32_t> nodes;
+    for (const auto& [s, o] : find_overlaps(graph, chains)) nodes.insert({s.a, s.b, o.a, o.b});
     has_changed = false;
-    for (const auto& [s, o] : find_overlaps(graph, chains))
-      for (const uint32_t node : {s.a, s.b, o.a, o.b}) has_changed = move(node) || has_changed;
+    for (const uint32_t node : nodes) has_changed = draw_in(node) || has_changed;
   }
-  return moved;
 }
 
 std::vector<OutlineChain> simplify(const OutlineGraph& graph, const std::vector<OutlineChain>& chains,

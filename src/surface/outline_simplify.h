@@ -2,12 +2,16 @@
 #pragma once
 
 #include "surface/outline_chains.h"
+#include "voxel/lattice.h"
 
 namespace ombre::surface {
 
-// Vertices that lead a chain across another go to the means of their crossings, where none does.
-// Returns how many went there.
-size_t untangle(OutlineGraph& graph, const std::vector<OutlineChain>& chains);
+// A vertex outside of its cell may lie beyond the next points of its chain: those are left out.
+void leave_out_hairpins(const voxel::Lattice& corners, const OutlineGraph& graph, std::vector<OutlineChain>& chains);
+
+// Vertices that lead a chain across another go back to their cells, and if that is not enough to the means of their
+// crossings, where no chain crosses another.
+void untangle(const voxel::Lattice& corners, OutlineGraph& graph, const std::vector<OutlineChain>& chains);
 
 // Leaves points out, none farther than the tolerance from what stays. The ends of chains stay, so what meets there
 // meets still; no chain crosses another that did not before. What would collapse keeps more of its points.
