@@ -14,7 +14,7 @@ namespace ombre::surface {
 namespace {
 
 constexpr int32_t block_cells = 32;  // along each side of a block that shares a shortened program
-constexpr double room_cells = 1;     // that a corner may lie outside of its cell
+constexpr double room_cells = 2;     // that a corner may lie outside of its cell
 // Borders that are nearly level have no direction in the plane.
 constexpr double least_in_plane = 1e-6;
 

@@ -17,7 +17,7 @@ Vec2 mean_point(const OutlineGraph& graph, const OutlineVertex& vertex);
 Vec2 point_on_cell(const voxel::Lattice& corners, const OutlineGraph& graph, const OutlineVertex& vertex);
 bool is_in_cell(const voxel::Lattice& corners, const OutlineVertex& vertex);
 
-// Puts vertices where the borders through their crossings meet; if that is more than a cell away, on their cells.
+// Puts vertices where the borders through their crossings meet; if that is cells away, on their own cells.
 void place_outline_vertices(const voxel::Lattice& corners, OutlineGraph& graph);
 
 }  // namespace ombre::surface

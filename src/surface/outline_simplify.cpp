@@ -107,12 +107,14 @@ void leave_out_hairpins(const voxel::Lattice& corners, const OutlineGraph& graph
 }
 
 void untangle(const voxel::Lattice& corners, OutlineGraph& graph, const std::vector<OutlineChain>& chains) {
-  std::vector<bool> is_settled(graph.vertices.size());
+  enum class Place : uint8_t { best, on_cell, mean };
+  std::vector<Place> places(graph.vertices.size(), Place::best);
   const auto draw_in = [&](uint32_t node) {
-    if (is_crossing(graph, node) || is_settled[node]) return false;
+    if (is_crossing(graph, node) || places[node] == Place::mean) return false;
     OutlineVertex& vertex = graph.vertices[node];
-    is_settled[node] = is_in_cell(corners, vertex);
-    vertex.at = is_settled[node] ? mean_point(graph, vertex) : point_on_cell(corners, graph, vertex);
+    const bool goes_on_cell = places[node] == Place::best && !is_in_cell(corners, vertex);
+    places[node] = goes_on_cell ? Place::on_cell : Place::mean;
+    vertex.at = goes_on_cell ? point_on_cell(corners, graph, vertex) : mean_point(graph, vertex);
     return true;
   };
   for (bool has_changed = true; has_changed;) {
