@@ -153,9 +153,9 @@ TEST(ContourJob, RingHasAHole) {
 TEST(ContourJob, HalvesShareTheirBorder) {
   ContourRequest request = at(0.2, 0.02);
   request.by_material = true;
-  const Drawn drawn = draw(
-      R"(fgrade(["0.5 + (x + 2*sin(y))/40", "0.5 - (x + 2*sin(y))/40"], ["red", "blue"]) rectprism(20, 14, 4);)",
-      request);
+  const Drawn drawn =
+      draw(R"(fgrade(["0.5 + (x + 2*sin(y))/40", "0.5 - (x + 2*sin(y))/40"], ["red", "blue"]) rectprism(20, 14, 4);)",
+           request);
   ASSERT_EQ(drawn.layers.size(), 1U);
   ASSERT_EQ(drawn.layers[0].size(), 2U);
   const Borders borders = borders_of(drawn.layers[0]);

@@ -13,7 +13,8 @@ void append_float(std::string& text, double value) {
 
 void append_decimal(std::string& text, double value) {
   char digits[352];
-  std::string_view written(digits, std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, 6).ptr);
+  std::string_view written(digits,
+                           std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, 6).ptr);
   written = written.substr(0, written.find_last_not_of('0') + 1);
   if (written.ends_with('.')) written.remove_suffix(1);
   text += written == "-0" ? "0" : written;

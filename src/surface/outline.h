@@ -29,7 +29,7 @@ double area_mm2(const std::vector<Polygon>& polygons);
 class Outliner {
  public:
   // Layer k is the plane of corners k; cells are squares. The outermost corners along x and y count as void. Borders
-  // lie within the tolerance where they curve in arcs of 16 cells or more.
+  // lie within the tolerance where it is an eighth of a cell or more and radii are four cells or more.
   Outliner(const Partition& partition, const voxel::Lattice& corners, double tolerance_mm);
 
   // Thread-safe. Throws Cancelled.

@@ -16,7 +16,9 @@ struct SquareParts {
 // Labels of corners 00, 10, 01, 11.
 using Square = std::array<Label, 4>;
 
-std::array<bool, edges> crossed_edges(const Square& q) { return {q[0] != q[1], q[2] != q[3], q[0] != q[2], q[1] != q[3]}; }
+std::array<bool, edges> crossed_edges(const Square& q) {
+  return {q[0] != q[1], q[2] != q[3], q[0] != q[2], q[1] != q[3]};
+}
 
 SquareParts find_parts(const Square& q, const std::array<bool, edges>& crossed) {
   const bool all = crossed[bottom] && crossed[top] && crossed[left] && crossed[right];
