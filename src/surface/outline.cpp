@@ -61,7 +61,7 @@ class Assembler {
       if (polygon.size() >= 3) made.regions[sides_[n].region - 1U].push_back(std::move(polygon));
     }
     for (auto& polygons : made.regions)
-      std::ranges::stable_partition(polygons, [](const Polygon& p) { return area_mm2(p) > 0; });
+      std::stable_partition(polygons.begin(), polygons.end(), [](const Polygon& p) { return area_mm2(p) > 0; });
     return made;
   }
 
@@ -130,9 +130,7 @@ LayerOutline Outliner::layer(int64_t k, const StopFlag* stop) const {
   OutlineGraph graph = trace_cells(corners);
   find_outline_crossings(partition_, corners_, k, graph, stop);
   place_outline_vertices(corners_, graph);
-  std::vector<OutlineChain> chains = find_chains(graph);
-  leave_out_hairpins(corners_, graph, chains);
-  untangle(corners_, graph, chains);
+  const std::vector<OutlineChain> chains = untangle(corners_, graph);
   return Assembler(graph, simplify(graph, chains, simplifying_share * tolerance_mm_)).assemble(partition_.regions);
 }
 

@@ -14,7 +14,8 @@ namespace ombre::surface {
 namespace {
 
 constexpr int32_t block_cells = 32;  // along each side of a block that shares a shortened program
-constexpr double room_cells = 2;     // that a corner may lie outside of its cell
+constexpr double rounding_cells = 1e-9;
+constexpr double room_cells = 2;  // that a corner may lie outside of its cell
 // Borders that are nearly level have no direction in the plane.
 constexpr double least_in_plane = 1e-6;
 
@@ -123,7 +124,7 @@ Vec2 point_on_cell(const voxel::Lattice& corners, const OutlineGraph& graph, con
 }
 
 bool is_in_cell(const voxel::Lattice& corners, const OutlineVertex& vertex) {
-  return is_near(corners, vertex, vertex.at, 0);
+  return is_near(corners, vertex, vertex.at, rounding_cells * corners.pitch[0].mm());
 }
 
 void place_outline_vertices(const voxel::Lattice& corners, OutlineGraph& graph) {

@@ -11,8 +11,7 @@
 namespace ombre::surface {
 namespace {
 
-constexpr int most_rounds = 8;
-constexpr int rounds_of_halving = 5;  // then all points stay that are not in line
+constexpr int most_rounds = 12;  // of halving the tolerance
 
 double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
   const Vec2 along = b - a, to = p - a;
@@ -71,7 +70,7 @@ void turn_ring(const OutlineGraph& graph, OutlineChain& ring) {
     return dot(p, p) < dot(q, q);
   };
   ring.nodes.pop_back();
-  std::ranges::rotate(ring.nodes, std::ranges::max_element(ring.nodes, farther));
+  std::rotate(ring.nodes.begin(), std::ranges::max_element(ring.nodes, farther), ring.nodes.end());
   ring.nodes.push_back(ring.nodes.front());
 }
 
@@ -94,10 +93,7 @@ void leave_out_hairpins_ahead(const voxel::Lattice& corners, const OutlineGraph&
   nodes = std::move(kept);
 }
 
-bool has_collapsed(const OutlineChain& chain) { return chain.is_closed() && chain.nodes.size() < 4; }
-
-}  // namespace
-
+// A vertex outside of its cell may lie beyond the next points of its chain.
 void leave_out_hairpins(const voxel::Lattice& corners, const OutlineGraph& graph, std::vector<OutlineChain>& chains) {
   for (OutlineChain& chain : chains)
     for (int way = 0; way < 2; ++way) {
@@ -106,22 +102,48 @@ void leave_out_hairpins(const voxel::Lattice& corners, const OutlineGraph& graph
     }
 }
 
-void untangle(const voxel::Lattice& corners, OutlineGraph& graph, const std::vector<OutlineChain>& chains) {
-  enum class Place : uint8_t { best, on_cell, mean };
-  std::vector<Place> places(graph.vertices.size(), Place::best);
-  const auto draw_in = [&](uint32_t node) {
-    if (is_crossing(graph, node) || places[node] == Place::mean) return false;
-    OutlineVertex& vertex = graph.vertices[node];
-    const bool goes_on_cell = places[node] == Place::best && !is_in_cell(corners, vertex);
-    places[node] = goes_on_cell ? Place::on_cell : Place::mean;
-    vertex.at = goes_on_cell ? point_on_cell(corners, graph, vertex) : mean_point(graph, vertex);
-    return true;
-  };
-  for (bool has_changed = true; has_changed;) {
+class Untangler {
+ public:
+  Untangler(const voxel::Lattice& corners, OutlineGraph& graph)
+      : corners_(corners), graph_(graph), places_(graph.vertices.size(), Place::best) {}
+
+  // False when no vertex could be moved.
+  bool draw_in(const std::vector<std::pair<ChainSegment, ChainSegment>>& overlaps) {
     std::set<uint32_t> nodes;
-    for (const auto& [s, o] : find_overlaps(graph, chains)) nodes.insert({s.a, s.b, o.a, o.b});
-    has_changed = false;
+    for (const auto& [s, o] : overlaps) nodes.insert({s.a, s.b, o.a, o.b});
+    bool has_changed = false;
     for (const uint32_t node : nodes) has_changed = draw_in(node) || has_changed;
+    return has_changed;
+  }
+
+ private:
+  enum class Place : uint8_t { best, on_cell, mean };
+
+  bool draw_in(uint32_t node) {
+    if (is_crossing(graph_, node) || places_[node] == Place::mean) return false;
+    OutlineVertex& vertex = graph_.vertices[node];
+    const bool goes_on_cell = places_[node] == Place::best && !is_in_cell(corners_, vertex);
+    places_[node] = goes_on_cell ? Place::on_cell : Place::mean;
+    vertex.at = goes_on_cell ? point_on_cell(corners_, graph_, vertex) : mean_point(graph_, vertex);
+    return true;
+  }
+
+  const voxel::Lattice& corners_;
+  OutlineGraph& graph_;
+  std::vector<Place> places_;
+};
+
+bool has_collapsed(const OutlineChain& chain) { return chain.is_closed() && chain.nodes.size() < 4; }
+
+}  // namespace
+
+std::vector<OutlineChain> untangle(const voxel::Lattice& corners, OutlineGraph& graph) {
+  const std::vector<OutlineChain> full = find_chains(graph);
+  Untangler untangler(corners, graph);
+  for (;;) {
+    std::vector<OutlineChain> chains = full;
+    leave_out_hairpins(corners, graph, chains);
+    if (!untangler.draw_in(find_overlaps(graph, chains))) return chains;
   }
 }
 
@@ -133,7 +155,7 @@ std::vector<OutlineChain> simplify(const OutlineGraph& graph, const std::vector<
   std::vector<OutlineChain> simple = full;
   std::vector<bool> is_wrong(chains.size(), true);
   for (int round = 0; round < most_rounds; ++round) {
-    const double tolerance = round < rounds_of_halving ? std::ldexp(tolerance_mm, -round) : 0;
+    const double tolerance = std::ldexp(tolerance_mm, -round);
     for (size_t n = 0; n < full.size(); ++n)
       if (is_wrong[n]) simple[n].nodes = Thinner(graph, full[n].nodes, tolerance).thin();
     is_wrong.assign(chains.size(), false);

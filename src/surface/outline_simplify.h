@@ -6,12 +6,9 @@
 
 namespace ombre::surface {
 
-// A vertex outside of its cell may lie beyond the next points of its chain: those are left out.
-void leave_out_hairpins(const voxel::Lattice& corners, const OutlineGraph& graph, std::vector<OutlineChain>& chains);
-
-// Vertices that lead a chain across another go back to their cells, and if that is not enough to the means of their
-// crossings, where no chain crosses another.
-void untangle(const voxel::Lattice& corners, OutlineGraph& graph, const std::vector<OutlineChain>& chains);
+// The chains of a graph. Vertices that lead a chain across another go back to their cells, and if that is not enough
+// to the means of their crossings, where no chain crosses another.
+std::vector<OutlineChain> untangle(const voxel::Lattice& corners, OutlineGraph& graph);
 
 // Leaves points out, none farther than the tolerance from what stays. The ends of chains stay, so what meets there
 // meets still; no chain crosses another that did not before. What would collapse keeps more of its points.
