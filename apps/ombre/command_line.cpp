@@ -27,10 +27,10 @@ class CommandLine {
     program_.footer(footer);
     program_.set_version_flag("--version", "ombre " OMBRE_VERSION);
     program_.require_subcommand(0, 1);
-    commands_ = {add_slice(program_, output_),    add_layer(program_, output_), add_render(program_, output_),
-                 add_voxels(program_, output_),   add_mesh(program_, output_),  add_sheet(program_, output_),
-                 add_probe(program_, output_),    add_nodes(program_, output_), add_printers(program_, output_),
-                 add_materials(program_, output_)};
+    commands_ = {add_slice(program_, output_),    add_layer(program_, output_),    add_render(program_, output_),
+                 add_voxels(program_, output_),   add_mesh(program_, output_),     add_contours(program_, output_),
+                 add_sheet(program_, output_),    add_probe(program_, output_),    add_nodes(program_, output_),
+                 add_printers(program_, output_), add_materials(program_, output_)};
   }
 
   int run(int argc, const char* const* argv) {

@@ -1,7 +1,5 @@
 // ombre mesh: a design as closed surfaces for slicers and other programs.
-#include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <memory>
 
 #include "base/error.h"
@@ -9,13 +7,13 @@
 #include "base/text.h"
 #include "compile/mesh_job.h"
 #include "export/mesh_file.h"
-#include "ombre/arguments.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/interrupt.h"
 #include "ombre/job_arguments.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
+#include "ombre/region_arguments.h"
 #include "ombre/slicer_settings.h"
 
 namespace ombre::cli {
@@ -23,9 +21,10 @@ namespace {
 
 struct MeshArguments {
   DesignArguments design;
-  std::string output, tolerance, cell, by, borders, flavour = "generic";
+  RegionArguments regions;
+  std::string output, flavour = "generic";
   std::vector<std::string> settings;
-  int bands = 0, threads = 0;
+  int threads = 0;
   bool keep_all = false, force = false;
 };
 
@@ -49,20 +48,7 @@ void add_arguments(CLI::App& app, MeshArguments& a) {
   app.add_option("-o,--output", a.output,
                  "The file to write; its ending says the format (default: the design's name and .3mf)")
       ->type_name("FILE");
-  app.add_option("--tolerance", a.tolerance,
-                 "Largest distance to the design's surface; mm (default: a two-thousandth of its longest side)")
-      ->type_name("MM");
-  app.add_option("--cell", a.cell, "Edge of the smallest cells; mm (default: 8 times the tolerance)")->type_name("MM");
-  app.add_option("--by", a.by,
-                 "A body for each of the materials, or for bands of a material's fraction or an attribute")
-      ->type_name("materials|NAME");
-  auto* bands =
-      app.add_option("--bands", a.bands, "Number of bands of equal width (default 4, of the fraction that varies most)")
-          ->check(CLI::Range(2, 1000))
-          ->type_name("N");
-  app.add_option("--borders", a.borders, "Values between bands: fractions from 0 to 1, or the attribute's")
-      ->excludes(bands)
-      ->type_name("V1,V2,...");
+  add_region_arguments(app, a.regions, "A body");
   app.add_flag("--keep-all", a.keep_all, "Keep the triangles of all cells, also where the surface is flat");
   app.add_option("--flavour,--flavor", a.flavour, "Whom a .3mf is for: generic (default), prusa or bambu")
       ->check(CLI::IsMember({"generic", "prusa", "bambu"}))
@@ -78,35 +64,10 @@ void add_arguments(CLI::App& app, MeshArguments& a) {
   app.add_flag("--force", a.force, "Replace the file if it is there");
 }
 
-std::optional<double> length_of(const std::string& option, const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  const std::optional<Pitch> length = Pitch::parse(text);
-  if (!length)
-    throw WrongArgument(option + " " + text + " is not a length; write for example " + option + " 0.05 (mm)");
-  return length->mm();
-}
-
-std::vector<double> borders_of(const std::string& text) {
-  if (text.empty()) return {};
-  const std::vector<double> borders = parse_numbers(text);
-  const bool rises = std::ranges::adjacent_find(borders, std::greater_equal<>()) == borders.end();
-  if (!borders.empty() && rises) return borders;
-  throw WrongArgument("--borders " + text + " are not rising numbers; write for example --borders 0.25,0.5,0.75");
-}
-
 compile::MeshRequest mesh_request(const MeshArguments& a) {
-  compile::MeshRequest request;
-  request.tolerance_mm = length_of("--tolerance", a.tolerance);
-  request.cell_mm = length_of("--cell", a.cell);
+  compile::MeshRequest request{region_request(a.regions)};
   request.join_flat = !a.keep_all;
   request.threads = a.threads;
-  request.by_material = a.by == "materials";
-  const std::vector<double> borders = borders_of(a.borders);
-  const bool has_bands = a.bands > 0 || !borders.empty();
-  if (request.by_material && has_bands)
-    throw WrongArgument("--by materials has no bands; leave out --bands and --borders, or name a material: --by red");
-  if (has_bands || (!a.by.empty() && !request.by_material))
-    request.bands = compile::BandRequest{a.bands > 0 ? a.bands : 4, borders, a.by};
   return request;
 }
 

@@ -6,6 +6,15 @@
 
 namespace ombre {
 
+struct Vec2 {
+  double x = 0, y = 0;
+  bool operator==(const Vec2&) const = default;
+};
+
+inline Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 

@@ -2,32 +2,19 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/progress.h"
 #include "compile/load.h"
-#include "compile/partition_program.h"
+#include "compile/region_request.h"
 #include "surface/bodies.h"
 
 namespace ombre::compile {
 
-// How many bands a value is cut into, or where; of a material or an attribute, or of the material that varies most.
-struct BandRequest {
-  int count = 4;                // of equal width: of fractions from 0 to 1, of attributes from least to greatest
-  std::vector<double> borders;  // instead, if there are any
-  std::string of;               // empty: the fraction that varies most
-};
-
-struct MeshRequest {
-  bool by_material = false;            // a body for each material
-  std::optional<BandRequest> bands;    // or for each band; else one for all
-  std::optional<double> tolerance_mm;  // else a two-thousandth of the longest side, rounded
-  std::optional<double> cell_mm;       // else cells_of_tolerance times the tolerance
-  bool join_flat = true;               // cells are joined where the surface is flat
+struct MeshRequest : RegionRequest {
+  bool join_flat = true;  // cells are joined where the surface is flat
   int threads = 0;
 };
-constexpr double cells_of_tolerance = 8;
 
 struct RegionBody {
   Region region;

@@ -1,6 +1,7 @@
 #include "formats/append_numbers.h"
 
 #include <charconv>
+#include <string_view>
 
 namespace ombre::formats {
 
@@ -8,6 +9,15 @@ void append_float(std::string& text, double value) {
   char digits[32];
   const float single = static_cast<float>(value) + 0.0f;  // -0 becomes 0
   text.append(digits, std::to_chars(digits, digits + sizeof digits, single).ptr);
+}
+
+void append_decimal(std::string& text, double value) {
+  char digits[352];
+  std::string_view written(digits,
+                           std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, 6).ptr);
+  written = written.substr(0, written.find_last_not_of('0') + 1);
+  if (written.ends_with('.')) written.remove_suffix(1);
+  text += written == "-0" ? "0" : written;
 }
 
 void append_point(std::string& text, Vec3 p) {

@@ -11,6 +11,8 @@ namespace ombre::formats {
 
 // The shortest decimal that reads back to the same float; 0 for -0.
 void append_float(std::string& text, double value);
+// With at most six decimals: millimetres to the nanometre.
+void append_decimal(std::string& text, double value);
 // "x y z".
 void append_point(std::string& text, Vec3 p);
 void append_count(std::string& text, uint64_t value);

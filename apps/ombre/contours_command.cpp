@@ -1,0 +1,177 @@
+// ombre contours: outlines of layers for machines that draw them.
+#include <filesystem>
+#include <memory>
+
+#include "base/error.h"
+#include "base/stopwatch.h"
+#include "base/text.h"
+#include "compile/contour_job.h"
+#include "export/outline_files.h"
+#include "ombre/arguments.h"
+#include "ombre/command_line.h"
+#include "ombre/commands.h"
+#include "ombre/interrupt.h"
+#include "ombre/job_arguments.h"
+#include "ombre/overwrite.h"
+#include "ombre/progress_line.h"
+#include "ombre/region_arguments.h"
+
+namespace ombre::cli {
+namespace {
+
+using exporting::OutlineFormat;
+
+struct ContoursArguments {
+  DesignArguments design;
+  RegionArguments regions;
+  std::string output, layer_height, z;
+  int threads = 0;
+  bool force = false;
+};
+
+constexpr const char* footer =
+    "Lengths are millimetres.\n\n"
+    "An output that ends in .cli is one file of all layers (Common Layer Interface 2.0, ASCII). One that ends in .svg\n"
+    "is the layer at --z. Any other is a folder, with layer_0000.svg and so on.\n\n"
+    "Borders are drawn in the middles of layers. Regions share them exactly: no gaps, no overlaps. What is thinner\n"
+    "than a cell may be lost.\n\n"
+    "Examples:\n"
+    "  ombre contours part.vcad -o part/ --layer-height 0.05\n"
+    "  ombre contours part.vcad -o part.cli --by materials\n"
+    "  ombre contours part.vcad -o cut.svg --z 3.2 --bands 4\n";
+
+void add_arguments(CLI::App& app, ContoursArguments& a) {
+  add_design_arguments(app, a.design);
+  app.add_option("-o,--output", a.output, "The folder or file to write; a file's ending says the format")
+      ->required()
+      ->type_name("FOLDER|FILE");
+  app.add_option("--layer-height", a.layer_height, "Height of layers; mm (default: the design's own, else 0.1)")
+      ->type_name("MM");
+  app.add_option("--z", a.z, "Only one layer: what is cut at this height; mm")->type_name("MM");
+  add_region_arguments(app, a.regions, "An outline");
+  app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  app.add_flag("--force", a.force, "Replace files that are there");
+}
+
+compile::ContourRequest contour_request(const ContoursArguments& a) {
+  compile::ContourRequest request{region_request(a.regions), {}, {}};
+  if (!a.layer_height.empty()) request.layer_height = parse_layer_height(a.layer_height);
+  if (a.z.empty()) return request;
+  request.z_mm = parse_number(a.z);
+  if (!request.z_mm) throw WrongArgument("--z " + a.z + " is not a height; write for example --z 3.2 (mm)");
+  return request;
+}
+
+void refuse_to_overwrite_layers(const ContoursArguments& a, OutlineFormat format) {
+  if (format != OutlineFormat::svg_folder) return refuse_to_overwrite(a.output, a.force);
+  std::error_code ignored;
+  const auto status = std::filesystem::status(a.output, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
+    throw Error(a.output + " is no folder; choose another name, or let it end in .cli or .svg");
+  if (!a.force && exporting::has_outline_layers(a.output))
+    throw Error(a.output + " has layers already; replace them with --force, or choose another folder");
+}
+
+formats::OutlineDocument document_of(const compile::ContourPlan& plan, const std::string& title) {
+  formats::OutlineDocument document{title, plan.box, {}};
+  for (const compile::ContourRegion& region : plan.regions)
+    document.regions.push_back({region.region.name.empty() ? title : region.region.name, region.colour});
+  return document;
+}
+
+// What was drawn so far.
+struct Totals {
+  explicit Totals(size_t regions) : volumes_mm3(regions) {}
+  uint64_t polygons = 0, points = 0;
+  std::vector<double> volumes_mm3;
+
+  void add(const compile::LayerRegions& regions, double height_mm) {
+    for (size_t n = 0; n < regions.size(); ++n) {
+      polygons += regions[n].size();
+      for (const surface::Polygon& polygon : regions[n]) points += polygon.size();
+      volumes_mm3[n] += surface::area_mm2(regions[n]) * height_mm;
+    }
+  }
+};
+
+void tell_plan(const Console& console, const compile::ContourPlan& plan) {
+  const auto& pitch = plan.corners.pitch;
+  console.event("plan", {{"layers", static_cast<double>(plan.layers())},
+                         {"layer_height_mm", pitch[2].mm()},
+                         {"tolerance_mm", plan.tolerance_mm},
+                         {"cell_mm", pitch[0].mm()}});
+}
+
+void tell_totals(const Console& console, const ContoursArguments& a, const formats::OutlineDocument& document,
+                 const compile::ContourPlan& plan, const Totals& totals, double seconds) {
+  DataList regions;
+  for (size_t n = 0; n < document.regions.size(); ++n) {
+    console.say(document.regions[n].name + ": " + format_rounded(totals.volumes_mm3[n], 6) + " mm3");
+    regions.push_back(DataMembers{{"name", document.regions[n].name}, {"volume_mm3", totals.volumes_mm3[n]}});
+  }
+  if (totals.polygons == 0)
+    console.warn("no cell's corner is inside the design: there is nothing drawn; choose a smaller --cell");
+  console.say(a.output + " written: " + format_count(static_cast<uint64_t>(plan.layers())) + " layers, " +
+              format_count(totals.polygons) + " polygons, " + format_count(totals.points) + " points, in " +
+              format_rounded(seconds, 3) + " s");
+  console.event("done", {{"output", a.output},
+                         {"layers", static_cast<double>(plan.layers())},
+                         {"polygons", static_cast<double>(totals.polygons)},
+                         {"points", static_cast<double>(totals.points)},
+                         {"regions", regions},
+                         {"seconds", seconds}});
+}
+
+int write(const ContoursArguments& a, OutlineFormat format, const compile::ContourPlan& plan, Session& session,
+          const StopFlag& stop) {
+  const Stopwatch watch;
+  tell_plan(session.console, plan);
+  const auto document = document_of(plan, std::filesystem::path(a.design.design).stem().string());
+  Totals totals(plan.regions.size());
+  const auto files = exporting::begin_outline_files(
+      {a.output, format, static_cast<uint64_t>(plan.layers()), plan.face_mm(0)}, document);
+  ProgressLine progress(session.console);
+  compile::draw_contours(
+      plan, a.threads,
+      [&](int64_t layer, const compile::LayerRegions& regions) {
+        files->add(plan.middle_mm(layer), plan.face_mm(layer + 1), regions);
+        totals.add(regions, plan.corners.pitch[2].mm());
+      },
+      &progress, &stop);
+  files->commit();
+  progress.finish();
+  tell_totals(session.console, a, document, plan, totals, watch.seconds());
+  return done;
+}
+
+int contours(const ContoursArguments& a, Session& session) {
+  const compile::ContourRequest request = contour_request(a);
+  const OutlineFormat format = exporting::outline_format_of(a.output);
+  if (format == OutlineFormat::svg && !request.z_mm)
+    throw WrongArgument("-o " + a.output + " holds one layer; say which with --z, or name a folder: -o " +
+                        std::filesystem::path(a.output).stem().string() + "/");
+  refuse_to_overwrite_layers(a, format);
+
+  Diagnostics diagnostics;
+  const InterruptGuard interrupt;
+  const compile::LoadedPtr loaded = load_design(a.design, session, interrupt.flag(), diagnostics);
+  const auto plan = loaded ? compile::plan_contours(*loaded, request, diagnostics) : std::nullopt;
+  session.console.diagnose(diagnostics);
+  if (!plan || diagnostics.has_errors()) return wrong_input;
+  return write(a, format, *plan, session, interrupt.flag());
+}
+
+}  // namespace
+
+Command add_contours(CLI::App& program, OutputOptions& output) {
+  CLI::App* app = program.add_subcommand("contours", "Write outlines of layers: SVG, CLI");
+  auto arguments = std::make_shared<ContoursArguments>();
+  add_arguments(*app, *arguments);
+  add_output_options(*app, output);
+  app->footer(footer);
+  return {app, [arguments](Session& session) { return contours(*arguments, session); }};
+}
+
+}  // namespace ombre::cli

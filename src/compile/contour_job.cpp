@@ -1,0 +1,106 @@
+// From a design to outlines, layer by layer.
+#include "compile/contour_job.h"
+
+#include <cmath>
+
+#include "base/stopwatch.h"
+#include "base/tasks.h"
+#include "base/text.h"
+#include "compile/build.h"
+
+namespace ombre::compile {
+namespace {
+
+constexpr int64_t most_corners = int64_t{1} << 30;  // of a layer
+constexpr int64_t most_layers = int64_t{1} << 30;
+
+Pitch chosen_height(const design::Design& design, const ContourRequest& request) {
+  if (request.layer_height) return *request.layer_height;
+  return design.sampling ? design.sampling->pitch[2] : default_layer_height;
+}
+
+voxel::Lattice corners_over(const Box& box, Pitch cell, Pitch height, std::optional<double> z_mm) {
+  voxel::Lattice lattice;
+  lattice.pitch = {cell, cell, height};
+  const double h = cell.mm(), first = margin_cells + 0.5;  // the first corner is the centre of the first voxel
+  lattice.origin = {box.lo.x - first * h, box.lo.y - first * h, z_mm ? *z_mm - 0.5 * height.mm() : box.lo.z};
+  for (int axis = 0; axis < 2; ++axis)
+    lattice.count[static_cast<size_t>(axis)] =
+        static_cast<int64_t>(std::ceil(box.size()[axis] / h + 2 * margin_cells)) + 1;
+  lattice.count[2] = z_mm ? 1 : voxel::voxels_along(box.size().z, height);
+  return lattice;
+}
+
+std::string mm(double value) { return format_rounded(value, 6); }
+
+bool is_sensible(const ContourPlan& plan, const ContourRequest& request, const SourceRange& where,
+                 Diagnostics& diagnostics) {
+  const Box& box = plan.box;
+  if (request.z_mm && (*request.z_mm < box.lo.z || *request.z_mm > box.hi.z))
+    diagnostics.error(where, "--z " + mm(*request.z_mm) + " is beside the part, which lies from z " + mm(box.lo.z) +
+                                 " to " + mm(box.hi.z) + " mm");
+  else if (plan.corners.count[0] * plan.corners.count[1] > most_corners)
+    diagnostics.error(where, "cells of " + mm(plan.corners.pitch[0].mm()) +
+                                 " mm are too small for layers of this part; choose a larger --cell or --tolerance");
+  else
+    return true;
+  return false;
+}
+
+bool is_high_enough(const Box& box, Pitch height, const SourceRange& where, Diagnostics& diagnostics) {
+  if (box.size().z / height.mm() <= static_cast<double>(most_layers)) return true;
+  diagnostics.error(where, "layers of " + height.text() + " mm are too thin for a part of " + mm(box.size().z) +
+                               " mm; choose a larger --layer-height");
+  return false;
+}
+
+LayerRegions regions_of(const ContourPlan& plan, surface::LayerOutline outline) {
+  LayerRegions regions;
+  for (const ContourRegion& region : plan.regions)
+    regions.push_back(std::move(outline.regions[static_cast<size_t>(region.label) - 1]));
+  return regions;
+}
+
+}  // namespace
+
+std::optional<ContourPlan> plan_contours(const Loaded& loaded, const ContourRequest& request,
+                                         Diagnostics& diagnostics) {
+  const std::optional<Box> box = design_box(loaded.design, diagnostics);
+  if (!box) return std::nullopt;
+  const SourceRange where = loaded.design.parts[0].solid->where();
+  const Pitch height = chosen_height(loaded.design, request);
+  const auto fineness = choose_fineness(loaded.design, *box, request, diagnostics);
+  if (!fineness || !is_high_enough(*box, height, where, diagnostics)) return std::nullopt;
+  ContourPlan plan;
+  plan.box = *box;
+  plan.tolerance_mm = fineness->tolerance_mm;
+  plan.corners = corners_over(*box, fineness->cell, height, request.z_mm);
+  if (!is_sensible(plan, request, where, diagnostics)) return std::nullopt;
+  auto program = build_regions(loaded.design, *box, request, diagnostics);
+  if (!program) return std::nullopt;
+  const auto colours = region_colours(loaded.design, *program, *box, diagnostics);
+  for (size_t n = 0; n < program->regions.size(); ++n)
+    if (!is_void(program->regions[n]))
+      plan.regions.push_back({static_cast<surface::Label>(n + 1), program->regions[n], colours[n]});
+  plan.partition = std::move(program->partition);
+  return plan;
+}
+
+void draw_contours(const ContourPlan& plan, int threads, const std::function<void(int64_t, const LayerRegions&)>& take,
+                   Progress* progress, const StopFlag* stop) {
+  const surface::Outliner outliner(plan.partition, plan.corners, plan.tolerance_mm);
+  const auto layers = static_cast<size_t>(plan.layers());
+  const Stopwatch watch;
+  run_ordered<LayerRegions>(
+      layers, threads, 2 * static_cast<size_t>(threads > 0 ? threads : core_count()),
+      [&](size_t n) { return regions_of(plan, outliner.layer(static_cast<int64_t>(n), stop)); },
+      [&](size_t n, const LayerRegions& regions) {
+        if (stop && stop->requested()) throw Cancelled();
+        take(static_cast<int64_t>(n), regions);
+        if (!progress) return;
+        const double left = watch.seconds() * static_cast<double>(layers - n - 1) / static_cast<double>(n + 1);
+        progress->update({n + 1, layers, left});
+      });
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,92 @@
+// How a design is to be cut into regions, and how finely.
+#include "compile/region_request.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "compile/region_survey.h"
+
+namespace ombre::compile {
+namespace {
+
+constexpr double sides_of_tolerance = 2000;
+constexpr MaterialId void_material = 0;
+constexpr int64_t most_cells = int64_t{1} << 20;  // along an axis
+
+// 0.0234 becomes 0.02.
+double one_digit(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)));
+  return std::floor(value / unit) * unit;
+}
+
+double longest(const Box& box) {
+  const Vec3 size = box.size();
+  return std::max({size.x, size.y, size.z});
+}
+
+std::vector<double> equal_borders(Interval range, int bands) {
+  std::vector<double> borders;
+  for (int n = 1; n < bands; ++n) borders.push_back(range.lo + (range.hi - range.lo) * n / bands);
+  return borders;
+}
+
+// A material's fraction, an attribute, or the fraction that varies most. Names of materials go first.
+std::optional<RegionRule> band_rule(const design::Design& design, const Box& box, const BandRequest& bands,
+                                    Diagnostics& diagnostics) {
+  RegionRule rule{RegionRule::Kind::fraction, bands.of, bands.borders};
+  if (bands.of.empty()) {
+    const auto most = most_varying_material(design, box, diagnostics);
+    if (!most) return std::nullopt;
+    rule.of = design.materials.all()[*most].name;
+  } else if (!design.materials.find(bands.of)) {
+    rule.kind = RegionRule::Kind::attribute;
+  }
+  if (!rule.borders.empty()) return rule;
+  if (rule.kind == RegionRule::Kind::fraction) {
+    rule.borders = equal_borders({0, 1}, bands.count);
+    return rule;
+  }
+  const auto whole = build_region_program(design, box, rule, diagnostics);
+  const auto range = whole ? score_range(whole->partition, box) : std::nullopt;
+  if (range) rule.borders = equal_borders(*range, bands.count);
+  return whole ? std::optional(rule) : std::nullopt;
+}
+
+std::optional<RegionRule> region_rule(const design::Design& design, const Box& box, const RegionRequest& request,
+                                      Diagnostics& diagnostics) {
+  if (request.bands) return band_rule(design, box, *request.bands, diagnostics);
+  return RegionRule{request.by_material ? RegionRule::Kind::materials : RegionRule::Kind::whole, "", {}};
+}
+
+}  // namespace
+
+std::optional<Fineness> choose_fineness(const design::Design& design, const Box& box, const RegionRequest& request,
+                                        Diagnostics& diagnostics) {
+  const double tolerance = request.tolerance_mm.value_or(one_digit(longest(box) / sides_of_tolerance));
+  const double cell_mm = request.cell_mm.value_or(cells_of_tolerance * tolerance);
+  const std::optional<Pitch> cell = Pitch::from_mm(cell_mm);
+  if (cell && longest(box) / cell_mm <= static_cast<double>(most_cells)) return Fineness{tolerance, *cell};
+  diagnostics.error(design.parts[0].solid->where(),
+                    "cells of " + format_rounded(cell_mm, 3) + " mm are too small for a part of " +
+                        format_rounded(longest(box), 4) + " mm; choose a larger --cell or --tolerance");
+  return std::nullopt;
+}
+
+std::optional<RegionProgram> build_regions(const design::Design& design, const Box& box, const RegionRequest& request,
+                                           Diagnostics& diagnostics) {
+  const auto rule = region_rule(design, box, request, diagnostics);
+  return rule ? build_region_program(design, box, *rule, diagnostics) : std::nullopt;
+}
+
+bool is_void(const Region& region) { return region.material == void_material; }
+
+std::vector<design::Rgba> region_colours(const design::Design& design, const RegionProgram& program, const Box& box,
+                                         Diagnostics& diagnostics) {
+  std::vector<design::Rgba> colours = mean_colours(design, program.partition, box, diagnostics);
+  for (size_t n = 0; n < colours.size(); ++n)
+    if (const auto material = program.regions[n].material) colours[n] = design.materials.all()[*material].colour;
+  return colours;
+}
+
+}  // namespace ombre::compile

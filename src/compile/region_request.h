@@ -1,0 +1,50 @@
+// How a design is to be cut into regions, and how finely: what its surfaces and its outlines have in common.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/pitch.h"
+#include "compile/partition_program.h"
+
+namespace ombre::compile {
+
+// How many bands a value is cut into, or where; of a material or an attribute, or of the material that varies most.
+struct BandRequest {
+  int count = 4;                // of equal width: of fractions from 0 to 1, of attributes from least to greatest
+  std::vector<double> borders;  // instead, if there are any
+  std::string of;               // empty: the fraction that varies most
+};
+
+struct RegionRequest {
+  bool by_material = false;            // a region for each material
+  std::optional<BandRequest> bands;    // or for each band; else one for all
+  std::optional<double> tolerance_mm;  // else a two-thousandth of the longest side, rounded
+  std::optional<double> cell_mm;       // else cells_of_tolerance times the tolerance
+};
+constexpr double cells_of_tolerance = 8;
+// Corners begin so many cells before the box; an odd part, so that faces of round coordinates do not run through them.
+constexpr double margin_cells = 1.37;
+
+struct Fineness {
+  double tolerance_mm = 0;
+  Pitch cell;
+};
+
+// Nothing, and diagnostics, when there would be too many cells.
+std::optional<Fineness> choose_fineness(const design::Design& design, const Box& box, const RegionRequest& request,
+                                        Diagnostics& diagnostics);
+
+// Nothing, and diagnostics, when the design cannot be cut so.
+std::optional<RegionProgram> build_regions(const design::Design& design, const Box& box, const RegionRequest& request,
+                                           Diagnostics& diagnostics);
+
+// Nothing is printed there.
+bool is_void(const Region& region);
+
+// Of region 1 and so on: the material's, or the mean of what is mixed there.
+std::vector<design::Rgba> region_colours(const design::Design& design, const RegionProgram& program, const Box& box,
+                                         Diagnostics& diagnostics);
+
+}  // namespace ombre::compile
