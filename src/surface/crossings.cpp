@@ -73,7 +73,8 @@ class BlockFinder {
   void find(const program::Program& details, std::vector<uint32_t> block, int32_t cells_a_side) {
     if (stop_ && stop_->requested()) throw Cancelled();
     const program::Program program = shortened_for(details, box_of(block).expanded(margin_));
-    if (cells_a_side > 1 && block.size() * program.code.size() > most_work) return cut(program, block, cells_a_side / 2);
+    if (cells_a_side > 1 && block.size() * program.code.size() > most_work)
+      return cut(program, block, cells_a_side / 2);
     std::vector<EdgeSearch> searches;
     for (const uint32_t n : block) searches.push_back(edge_of(crossings_[n], cells_));
     PointAsker asker;
