@@ -146,7 +146,8 @@ class RegionBuilder {
 
   static std::string range_text(const Region& region, double scale) {
     const auto text = [&](double value) { return format_rounded(value * scale, 4); };
-    if (region.least && region.greatest) return " " + text(*region.least) + " to " + text(*region.greatest);
+    if (region.least && region.greatest)
+      return std::string(" ").append(text(*region.least)).append(" to ").append(text(*region.greatest));
     if (region.least) return " from " + text(*region.least);
     return region.greatest ? " below " + text(*region.greatest) : "";
   }

@@ -27,7 +27,9 @@ constexpr std::array<int, 3> start_of_edge(int edge) {
   return start;
 }
 constexpr size_t corner_number(const std::array<int, 3>& offsets) {
-  return static_cast<size_t>(offsets[0] + 2 * offsets[1] + 4 * offsets[2]);
+  size_t number = 0;
+  for (size_t axis = 0; axis < 3; ++axis) number += static_cast<size_t>(offsets[axis]) << axis;
+  return number;
 }
 constexpr size_t first_corner(int edge) { return corner_number(start_of_edge(edge)); }
 constexpr size_t second_corner(int edge) { return first_corner(edge) + (size_t{1} << axis_of_edge(edge)); }

@@ -52,13 +52,12 @@ struct Candidate {
 // The edges around each face of a cell.
 constexpr std::array<uint16_t, 6> edges_of_faces() {
   std::array<uint16_t, 6> faces{};
-  for (int axis = 0; axis < 3; ++axis)
-    for (int side = 0; side < 2; ++side)
-      for (int n = 0; n < 2; ++n) {
-        auto& face = faces[static_cast<size_t>(2 * axis + side)];
-        face = static_cast<uint16_t>(face | 1 << edge_number((axis + 1) % 3, n, side) |
-                                     1 << edge_number((axis + 2) % 3, side, n));
-      }
+  for (size_t face = 0; face < 6; ++face)
+    for (int n = 0; n < 2; ++n) {
+      const int axis = static_cast<int>(face) / 2, side = static_cast<int>(face) % 2;
+      faces[face] = static_cast<uint16_t>(faces[face] | 1 << edge_number((axis + 1) % 3, n, side) |
+                                          1 << edge_number((axis + 2) % 3, side, n));
+    }
   return faces;
 }
 

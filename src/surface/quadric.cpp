@@ -51,7 +51,8 @@ Quadric::Least Quadric::least() const {
   const Vec3 m = mean();
   const Eigen::Vector3d middle(m.x, m.y, m.z), linear(linear_.x, linear_.y, linear_.z);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(a);
-  const Eigen::Vector3d values = solver.eigenvalues(), rest = solver.eigenvectors().transpose() * (linear - a * middle);
+  const Eigen::Vector3d& values = solver.eigenvalues();
+  const Eigen::Vector3d rest = solver.eigenvectors().transpose() * (linear - a * middle);
   Eigen::Vector3d step = Eigen::Vector3d::Zero();
   for (int n = 0; n < 3; ++n)
     if (values[n] > least_share * values[2]) step += rest[n] / values[n] * solver.eigenvectors().col(n);
