@@ -139,7 +139,7 @@ class RegionBuilder {
       Region region;
       if (n > 0) region.least = rule_.borders[n - 1];
       if (n + 1 < bands) region.greatest = rule_.borders[n];
-      region.name = subject + range_text(region, scale) + unit;
+      region.name = std::string(subject).append(range_text(region, scale)).append(unit);
       made_.regions.push_back(region);
     }
   }
