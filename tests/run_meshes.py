@@ -106,7 +106,8 @@ def slicers_get_settings_of_each_band(meshes):
         return "skipped: no libzip"
     with zipfile.ZipFile(meshes.folder / "seat.3mf") as archive:
         config = archive.read("Metadata/Slic3r_PE_model.config").decode()
-    for key, values in [("fill_density", ["10%", "30%", "50%", "70%"]), ("perimeters", ["1", "2", "3", "4"])]:
+    for key, values in [("fill_density", ["10%", "30%", "50%", "70%"]), ("perimeters", ["1", "2", "3", "4"]),
+                        ("extruder", ["1", "1", "1", "1"])]:
         found = re.findall(f'key="{key}" value="([^"]*)"', config)
         expect(found == values, f"{key}: {found}")
     return ""

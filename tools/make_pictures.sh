@@ -49,6 +49,18 @@ describe() {
   printf '\n![%s](../examples/pictures/%s.png)\n' "$1" "$1"
 }
 
+# The bodies of a gear's bands, one above the other.
+draw_bands() {
+  "$ombre" mesh examples/gear.vcad --bands 3 --by green -o "$scratch/gear.3mf" --force --quiet
+  cat >"$scratch/bands.vcad" <<'DESIGN'
+translate(0, 0, 24) mesh("gear.3mf", blue, object="green below 33.33 %");
+translate(0, 0, 12) mesh("gear.3mf", cyan, object="green 33.33 to 66.67 %");
+mesh("gear.3mf", green, object="green from 66.67 %");
+DESIGN
+  "$ombre" render "$scratch/bands.vcad" -o "$1" --size 480x400 --from -50,30 --force --quiet
+  echo "$1"
+}
+
 mkdir -p examples/pictures
 for file in examples/*.vcad; do
   name=$(basename "$file" .vcad)
@@ -68,6 +80,7 @@ if [[ $# -eq 0 || " $* " == *" docs "* ]]; then
   render mug docs/picture_perspective.png 480x320 --perspective 70 --from 40,35
   render knob docs/picture_translucent.png 480x320 --opacity magenta=0.1
   render soft_actuator docs/picture_box.png 480x320 --box=-2,-2,-1,0,2,1 --background "#203040"
+  draw_bands docs/mesh_bands.png
   draw_layers graded_wing docs/wing_layers.png 6 --layers 18:48
   draw_layers knob docs/knob_layers.png 8 --voxel 0.2
 fi

@@ -1,4 +1,5 @@
 // ombre mesh: a design as closed surfaces for slicers and other programs.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -30,8 +31,7 @@ struct MeshArguments {
 
 constexpr const char* footer =
     "Lengths are millimetres.\n\n"
-    "FILE ends in .3mf (default), .stl, .obj, .ply, .off, .amf or .glb. Bodies share their borders exactly: no gaps, "
-    "no\n"
+    "FILE ends in .3mf (default), .stl, .obj, .ply, .off, .amf or .glb. Bodies share their borders exactly: no gaps, no "
     "overlaps.\n\n"
     "What is thinner than a cell may be lost. Triangles are drawn together where the surface is flat within the\n"
     "tolerance.\n\n"
@@ -85,10 +85,12 @@ std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<S
                           " values, and there are " + std::to_string(made.bodies.size()) + " bodies");
     values.emplace_back(setting.key(), setting.value(body, made.bodies[body].share));
   }
+  // Bodies of materials print with an extruder each, in the order of the materials; bands with the same.
+  const bool is_given = std::ranges::any_of(settings, [](const SlicerSetting& s) { return s.key() == "extruder"; });
+  if (!is_given && !made.bodies[body].region.material) values.emplace_back("extruder", "1");
   return values;
 }
 
-// Bodies of materials print with an extruder each, bands of one material with the same.
 formats::MeshDocument document_of(compile::MeshedDesign& made, const std::string& title,
                                   const std::vector<SlicerSetting>& settings) {
   formats::MeshDocument document;
