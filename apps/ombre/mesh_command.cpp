@@ -31,7 +31,8 @@ struct MeshArguments {
 
 constexpr const char* footer =
     "Lengths are millimetres.\n\n"
-    "FILE ends in .3mf (default), .stl, .obj, .ply, .off, .amf or .glb. Bodies share their borders exactly: no gaps, no "
+    "FILE ends in .3mf (default), .stl, .obj, .ply, .off, .amf or .glb. Bodies share their borders exactly: no gaps, "
+    "no "
     "overlaps.\n\n"
     "What is thinner than a cell may be lost. Triangles are drawn together where the surface is flat within the\n"
     "tolerance.\n\n"

@@ -159,6 +159,7 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   if (!box) return std::nullopt;
   const auto lattice = LatticePlanner(*loaded, options, *box, diagnostics).run();
   if (!lattice) return std::nullopt;
+  const Hash design_hash = design::hash(design);  // before there are programs: both take memory
   auto built = build_flat_program(design, diagnostics);
   if (!built) return std::nullopt;
   leave_out_impossible(*built, lattice->box());
@@ -168,7 +169,7 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   SliceRequest& request = plan.request;
   use_printer(request, options.printer, options.image);
   request.program = options.program;
-  request.design_hash = design::hash(design).hex();
+  request.design_hash = design_hash.hex();
   request.lattice = *lattice;
   request.dither = options.dither;
   request.seed = options.seed;

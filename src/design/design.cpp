@@ -1,6 +1,7 @@
 #include "design/design.h"
 
 #include <map>
+#include <unordered_map>
 
 #include "base/json.h"
 #include "base/text.h"
@@ -68,15 +69,15 @@ Data to_data(const Design& design) {
 
 Hash hash(const Design& design) {
   // Each node's hash covers its inputs' hashes, so equal sub-designs count as one.
-  std::map<const Node*, std::string> hashes;
+  std::unordered_map<const Node*, Hash> hashes;
   for (const Node* node : topological(design.roots())) {
     std::string text = node->type().name + print_json_line(node_parameters(*node, true));
-    for (const NodePtr& input : node->inputs()) text += hashes.at(input.get());
-    hashes.emplace(node, hash_bytes(text).hex());
+    for (const NodePtr& input : node->inputs()) text += hashes.at(input.get()).hex();
+    hashes.emplace(node, hash_bytes(text));
   }
   DataList parts;
   for (const Part& part : design.parts)
-    parts.emplace_back(DataList{Data(part.name), Data(hashes.at(part.solid.get()))});
+    parts.emplace_back(DataList{Data(part.name), Data(hashes.at(part.solid.get()).hex())});
   DataMembers members{
       {"version", Data(format_version)}, {"materials", design.materials.to_data()}, {"parts", Data(std::move(parts))}};
   if (design.sampling) members.emplace_back("sampling", sampling_data(*design.sampling));

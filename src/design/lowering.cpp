@@ -1,5 +1,7 @@
 #include "design/lowering.h"
 
+#include <algorithm>
+
 #include "base/assert.h"
 #include "design/many_parts.h"
 #include "design/registry.h"
@@ -167,13 +169,14 @@ Field Lowering::make_attribute(const Node& node, std::string_view name, const Po
 }
 
 bool Lowering::has_attribute(const Node& node, std::string_view name) {
-  const auto key = std::make_pair(&node, std::string(name));
-  if (const auto known = context_.carries_.find(key); known != context_.carries_.end()) return known->second;
   const auto declared = node.value().declares();
-  bool carries = declared && declared->name == name;
-  for (const NodePtr& input : node.inputs()) carries = carries || has_attribute(*input, name);
-  context_.carries_.emplace(key, carries);
-  return carries;
+  if (declared && declared->name == name) return true;
+  const auto carries = [&](const NodePtr& input) { return has_attribute(*input, name); };
+  if (!context_.is_shared(node)) return std::ranges::any_of(node.inputs(), carries);
+  // Asked once, since there may be very many ways to it.
+  const auto [known, is_new] = context_.carries_.try_emplace({&node, std::string(name)}, false);
+  if (is_new) known->second = std::ranges::any_of(node.inputs(), carries);
+  return known->second;
 }
 
 const AttributeDeclaration* Lowering::declaration(std::string_view name) const {

@@ -8,6 +8,13 @@
 namespace ombre::program {
 namespace {
 
+constexpr size_t most_in_leaf = 4;
+
+// Of a tree that halves until few are left.
+size_t leaves_of(size_t entries) {
+  return entries <= most_in_leaf ? 1 : leaves_of(entries / 2) + leaves_of(entries - entries / 2);
+}
+
 // Everything of a program but the values of its constants.
 void write_structure(const Program& program, const std::vector<int>& slots, std::string& key) {
   key.clear();
@@ -94,13 +101,13 @@ void PartIndex::add(const Box& box, uint32_t part) {
 
 void PartIndex::build() {
   knots_.clear();
-  if (!entries_.empty()) build(0, static_cast<uint32_t>(entries_.size()));
-  knots_.shrink_to_fit();
+  if (entries_.empty()) return;
+  knots_.reserve(2 * leaves_of(entries_.size()) - 1);
+  build(0, static_cast<uint32_t>(entries_.size()));
 }
 
 // Halves at the median of the middles along the longest side.
 uint32_t PartIndex::build(uint32_t begin, uint32_t end) {
-  constexpr uint32_t most_in_leaf = 4;
   const auto number = static_cast<uint32_t>(knots_.size());
   Bounds bounds = entries_[begin].bounds;
   for (uint32_t n = begin; n < end; ++n) {
