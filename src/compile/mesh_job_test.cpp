@@ -237,6 +237,15 @@ TEST(Mesh, OfManyPartsKeepsThem) {
   EXPECT_NEAR(volume(made), 100 * 4 * pi / 3, 100 * 4 * pi * 0.02);
 }
 
+// Boxes whose sides make long decimals.
+TEST(Mesh, OfPartsOfAnySize) {
+  for (const char* side : {"1e-4", "0.0123456789", "1234.56789", "76543.21"}) {
+    const MeshedDesign made = mesh_text("cube(" + std::string(side) + ");");
+    const double volume_of_cube = std::pow(std::stod(side), 3);
+    EXPECT_NEAR(volume(made), volume_of_cube, 1e-6 * volume_of_cube) << side;
+  }
+}
+
 // Within a tolerance larger than the parts, whole surfaces hang together up to the largest cell.
 TEST(Mesh, OfPartsSmallerThanTheToleranceEnds) {
   const MeshedDesign made = mesh_text("union() { sphere(0.3); translate(20, 0, 0) sphere(0.3); }", cells_of(0.2, 5));

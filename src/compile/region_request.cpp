@@ -65,7 +65,8 @@ std::optional<Fineness> choose_fineness(const design::Design& design, const Box&
                                         Diagnostics& diagnostics) {
   const double tolerance = request.tolerance_mm.value_or(one_digit(longest(box) / sides_of_tolerance));
   const double cell_mm = request.cell_mm.value_or(cells_of_tolerance * tolerance);
-  const std::optional<Pitch> cell = Pitch::from_mm(cell_mm);
+  // Without the dust of multiplication.
+  const std::optional<Pitch> cell = Pitch::from_mm(parse_number(format_rounded(cell_mm, 9)).value_or(cell_mm));
   if (cell && longest(box) / cell_mm <= static_cast<double>(most_cells)) return Fineness{tolerance, *cell};
   diagnostics.error(design.parts[0].solid->where(),
                     "cells of " + format_rounded(cell_mm, 3) + " mm are too small for a part of " +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "compile/field_program.h"
 #include "voxel/fields.h"
 
@@ -15,10 +16,11 @@ constexpr double samples_along_longest = 48;
 
 voxel::Lattice coarse_lattice(const Box& box) {
   const Vec3 size = box.size();
-  const double pitch = std::max({size.x, size.y, size.z, 1e-6}) / samples_along_longest;
+  // Short decimals: what has twenty digits is no pitch.
+  const std::string pitch = format_rounded(std::max({size.x, size.y, size.z, 1e-6}) / samples_along_longest, 3);
   voxel::Lattice lattice;
   lattice.origin = box.lo;
-  lattice.pitch.fill(Pitch::from_mm(pitch).value_or(Pitch{}));
+  lattice.pitch.fill(Pitch::from_mm(parse_number(pitch).value()).value());
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
     lattice.count[a] = voxel::voxels_along(size[axis], lattice.pitch[a]);
