@@ -31,7 +31,7 @@ voxel::Lattice coarse_lattice(const Box& box) {
 // An output's values at all samples, x fastest, then y, then z.
 std::vector<std::vector<float>> sample(const program::Program& program, const Box& box) {
   const voxel::Lattice lattice = coarse_lattice(box);
-  const voxel::FieldEvaluator evaluator(program, lattice, voxel::Evaluator::batch);
+  const voxel::FieldEvaluator evaluator(program, lattice, voxel::best_evaluator(lattice));
   std::vector<std::vector<float>> values(program.outputs.size(), std::vector<float>(lattice.voxels()));
   for (const voxel::FieldTile& tile : evaluator.tiles({{0, 0, 0}, lattice.count}))
     for (size_t n = 0; n < values.size(); ++n) {

@@ -97,7 +97,7 @@ uint32_t MixedCells::find(const CellPlace& at) const {
 
 MixedCells find_mixed_cells(const program::Program& label, const Lattice& corners, int threads, Progress* progress,
                             const StopFlag* stop) {
-  const voxel::FieldEvaluator evaluator(label, corners, voxel::Evaluator::batch);
+  const voxel::FieldEvaluator evaluator(label, corners, voxel::best_evaluator(corners));
   const int64_t cell_layers = corners.count[2] - 1;
   const auto slabs = static_cast<size_t>((cell_layers + slab_layers - 1) / slab_layers);
   const Stopwatch watch;

@@ -118,7 +118,7 @@ double area_mm2(const std::vector<Polygon>& polygons) {
 Outliner::Outliner(const Partition& partition, const voxel::Lattice& corners, double tolerance_mm)
     : partition_(partition),
       corners_(corners),
-      evaluator_(partition.label, corners, voxel::Evaluator::batch),
+      evaluator_(partition.label, corners, voxel::best_evaluator(corners)),
       tolerance_mm_(tolerance_mm) {}
 
 LayerOutline Outliner::layer(int64_t k, const StopFlag* stop) const {
