@@ -13,6 +13,7 @@ namespace {
 using surface::Partition;
 
 constexpr double samples_along_longest = 48;
+constexpr float about_equal = 1e-3f;  // of fractions, which samples know but for rounding
 
 voxel::Lattice coarse_lattice(const Box& box) {
   const Vec3 size = box.size();
@@ -85,7 +86,7 @@ std::optional<MaterialId> most_varying_material(const design::Design& design, co
       least = std::min(least, (*fractions)[m][n]);
       greatest = std::max(greatest, (*fractions)[m][n]);
     }
-    if (greatest - least <= most_spread) continue;
+    if (greatest - least <= most_spread + about_equal) continue;
     most_spread = greatest - least;
     most = ids[m];
   }

@@ -11,7 +11,7 @@
 
 namespace ombre::compile {
 
-// The material whose fraction differs most within the design; the first of equals. Nothing when it is empty.
+// The material whose fraction differs most within the design; of about equals the first. Nothing when it is empty.
 std::optional<MaterialId> most_varying_material(const design::Design& design, const Box& box, Diagnostics& diagnostics);
 
 // From the least to the greatest value of the first score inside. Nothing when nothing is inside.
