@@ -27,7 +27,7 @@ SURFACES = [
     Surface("tilted box", "rotate(33, 12, 7) rectprism(10, 11, 9);", 20, 990),
     Surface("gyroid", 'intersection() { cube(16); function("sin(pi/4*x)*cos(pi/4*y) + sin(pi/4*y)*cos(pi/4*z) + '
                       'sin(pi/4*z)*cos(pi/4*x)"); }', 20, 16 ** 3 / 2),
-    Surface("300 struts", _struts(300), 20),
+    Surface("30 struts", _struts(30), 20),
 ]
 
 CELLS = {"tiny": 32, "quick": 256, "paper": 512}  # along a side
