@@ -19,14 +19,11 @@ Pitch chosen_height(const design::Design& design, const ContourRequest& request)
   return design.sampling ? design.sampling->pitch[2] : default_layer_height;
 }
 
-voxel::Lattice corners_over(const Box& box, Pitch cell, Pitch height, std::optional<double> z_mm) {
-  voxel::Lattice lattice;
-  lattice.pitch = {cell, cell, height};
-  const double h = cell.mm(), first = margin_cells + 0.5;  // the first corner is the centre of the first voxel
-  lattice.origin = {box.lo.x - first * h, box.lo.y - first * h, z_mm ? *z_mm - 0.5 * height.mm() : box.lo.z};
-  for (int axis = 0; axis < 2; ++axis)
-    lattice.count[static_cast<size_t>(axis)] =
-        static_cast<int64_t>(std::ceil(box.size()[axis] / h + 2 * margin_cells)) + 1;
+// Those of cells in the plane of each layer.
+voxel::Lattice corners_in_layers(const Box& box, Pitch cell, Pitch height, std::optional<double> z_mm) {
+  voxel::Lattice lattice = corners_over(box, cell);
+  lattice.pitch[2] = height;
+  lattice.origin.z = z_mm ? *z_mm - 0.5 * height.mm() : box.lo.z;
   lattice.count[2] = z_mm ? 1 : voxel::voxels_along(box.size().z, height);
   return lattice;
 }
@@ -74,7 +71,7 @@ std::optional<ContourPlan> plan_contours(const Loaded& loaded, const ContourRequ
   ContourPlan plan;
   plan.box = *box;
   plan.tolerance_mm = fineness->tolerance_mm;
-  plan.corners = corners_over(*box, fineness->cell, height, request.z_mm);
+  plan.corners = corners_in_layers(*box, fineness->cell, height, request.z_mm);
   if (!is_sensible(plan, request, where, diagnostics)) return std::nullopt;
   auto program = build_regions(loaded.design, *box, request, diagnostics);
   if (!program) return std::nullopt;

@@ -27,7 +27,6 @@ struct RegionBody {
 struct MeshedDesign {
   std::vector<RegionBody> bodies;  // without those that are empty
   double tolerance_mm = 0, cell_mm = 0;
-  std::array<int64_t, 3> cells{};  // along each axis
   surface::ContourReport report;
 };
 

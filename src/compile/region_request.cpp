@@ -12,6 +12,8 @@ namespace {
 
 constexpr double sides_of_tolerance = 2000;
 constexpr MaterialId void_material = 0;
+// Corners begin so many cells before the box; an odd part, so that faces of round coordinates do not run through them.
+constexpr double margin_cells = 1.37;
 constexpr int64_t most_cells = int64_t{1} << 20;  // along an axis
 
 // 0.0234 becomes 0.02.
@@ -78,6 +80,17 @@ std::optional<RegionProgram> build_regions(const design::Design& design, const B
                                            Diagnostics& diagnostics) {
   const auto rule = region_rule(design, box, request, diagnostics);
   return rule ? build_region_program(design, box, *rule, diagnostics) : std::nullopt;
+}
+
+voxel::Lattice corners_over(const Box& box, Pitch cell) {
+  voxel::Lattice lattice;
+  lattice.pitch = {cell, cell, cell};
+  const double h = cell.mm(), first = margin_cells + 0.5;  // the first corner is the centre of the first voxel
+  lattice.origin = box.lo - Vec3{first * h, first * h, first * h};
+  for (int axis = 0; axis < 3; ++axis)
+    lattice.count[static_cast<size_t>(axis)] =
+        static_cast<int64_t>(std::ceil(box.size()[axis] / h + 2 * margin_cells)) + 1;
+  return lattice;
 }
 
 bool is_void(const Region& region) { return region.material == void_material; }

@@ -7,6 +7,7 @@
 
 #include "base/pitch.h"
 #include "compile/partition_program.h"
+#include "voxel/lattice.h"
 
 namespace ombre::compile {
 
@@ -24,8 +25,6 @@ struct RegionRequest {
   std::optional<double> cell_mm;       // else cells_of_tolerance times the tolerance
 };
 constexpr double cells_of_tolerance = 8;
-// Corners begin so many cells before the box; an odd part, so that faces of round coordinates do not run through them.
-constexpr double margin_cells = 1.37;
 
 struct Fineness {
   double tolerance_mm = 0;
@@ -39,6 +38,9 @@ std::optional<Fineness> choose_fineness(const design::Design& design, const Box&
 // Nothing, and diagnostics, when the design cannot be cut so.
 std::optional<RegionProgram> build_regions(const design::Design& design, const Box& box, const RegionRequest& request,
                                            Diagnostics& diagnostics);
+
+// Corners of cells over the box, with void around it.
+voxel::Lattice corners_over(const Box& box, Pitch cell);
 
 // Nothing is printed there.
 bool is_void(const Region& region);

@@ -112,8 +112,6 @@ class SurfaceMaker {
     number_.assign(clusters_.size(), Cluster::none);
     cluster_of_.clear();
     for (const DualQuad& quad : mesh_.quads) add(quad, made);
-    made.report.crossings = crossings_.size();
-    made.report.full_triangles = 2 * mesh_.quads.size();
     made.report.at_mean_points = at_mean_points_;
     return made;
   }
@@ -210,9 +208,7 @@ RegionSurface contour(const Partition& partition, const ContourOptions& options,
   const MixedCells cells = find_mixed_cells(partition.label, options.corners, options.threads, progress, stop);
   const std::vector<Crossing> crossings = find_crossings(partition, cells, options.threads, progress, stop);
   const DualMesh mesh = make_dual_mesh(cells, crossings);
-  RegionSurface made = SurfaceMaker(cells, crossings, mesh, options.tolerance_mm).make(options.threads);
-  made.report.mixed_cells = cells.cells().size();
-  return made;
+  return SurfaceMaker(cells, crossings, mesh, options.tolerance_mm).make(options.threads);
 }
 
 }  // namespace ombre::surface

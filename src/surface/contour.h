@@ -18,9 +18,6 @@ struct Facet {
 };
 
 struct ContourReport {
-  uint64_t mixed_cells = 0;
-  uint64_t crossings = 0;
-  uint64_t full_triangles = 0;  // of a mesh with a vertex for each cell
   uint64_t at_mean_points = 0;  // vertices that would have folded the surface
   uint64_t folded = 0;          // triangles that still look against the surface there
   uint64_t intersections = 0;   // pairs of triangles that still go through each other

@@ -55,24 +55,8 @@ HWY_INLINE V with_unknowns(V a, V b, V c) {
 
 // Do other ops pass NaN on as they are?
 constexpr bool loses_nan(Op op) {
-  switch (op) {
-    case Op::min:
-    case Op::max:
-    case Op::less:
-    case Op::less_equal:
-    case Op::equal:
-    case Op::truth:
-    case Op::logical_not:
-    case Op::logical_and:
-    case Op::logical_or:
-    case Op::select:
-    case Op::is_finite:
-    case Op::share:
-    case Op::pow:
-      return true;
-    default:
-      return false;
-  }
+  return program::gives_truth(op) || op == Op::min || op == Op::max || op == Op::select || op == Op::share ||
+         op == Op::pow;
 }
 
 template <bool is_number>
