@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/steady_pace.h"
 #include "base/stopwatch.h"
 #include "base/tasks.h"
 #include "base/text.h"
@@ -94,9 +95,7 @@ void draw_contours(const ContourPlan& plan, int threads, const std::function<voi
       [&](size_t n, const LayerRegions& regions) {
         if (stop && stop->requested()) throw Cancelled();
         take(static_cast<int64_t>(n), regions);
-        if (!progress) return;
-        const double left = watch.seconds() * static_cast<double>(layers - n - 1) / static_cast<double>(n + 1);
-        progress->update({n + 1, layers, left});
+        if (progress) progress->update(at_steady_pace(n + 1, layers, watch.seconds()));
       });
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/steady_pace.h"
 #include "base/stopwatch.h"
 #include "base/tasks.h"
 #include "compile/build.h"
@@ -124,13 +125,6 @@ std::vector<TileBox> slabs_of(const GridJob& job) {
   return slabs;
 }
 
-// Layers take about the same time each.
-HowFar how_far(uint64_t done, uint64_t total, double seconds) {
-  HowFar how{done, total};
-  if (done > 0) how.seconds_left = seconds * static_cast<double>(total - done) / static_cast<double>(done);
-  return how;
-}
-
 }  // namespace
 
 std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, const GridWishes& wishes,
@@ -174,7 +168,7 @@ void each_slab(const GridJob& job, int threads, const std::function<void(const G
   const size_t window = std::clamp<size_t>(static_cast<size_t>(window_bytes / bytes), 1, wanted);
   const Stopwatch watch;
   uint64_t done = 0;
-  if (progress) progress->update(how_far(0, total, 0));
+  if (progress) progress->update(at_steady_pace(0, total, 0));
   run_ordered<GridSlab>(
       slabs.size(), threads, window,
       [&](size_t n) {
@@ -184,7 +178,7 @@ void each_slab(const GridJob& job, int threads, const std::function<void(const G
         if (stop && stop->requested()) throw Cancelled();
         take(slab);
         done += static_cast<uint64_t>(slab.box.voxels());
-        if (progress) progress->update(how_far(done, total, watch.seconds()));
+        if (progress) progress->update(at_steady_pace(done, total, watch.seconds()));
       });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/steady_pace.h"
 #include "base/stopwatch.h"
 #include "base/tasks.h"
 #include "voxel/fields.h"
@@ -117,9 +118,7 @@ MixedCells find_mixed_cells(const program::Program& label, const Lattice& corner
       [&](size_t n, std::vector<MixedCell>& cells) {
         if (stop && stop->requested()) throw Cancelled();
         all.insert(all.end(), cells.begin(), cells.end());
-        if (progress)
-          progress->update(
-              {n + 1, slabs, watch.seconds() * static_cast<double>(slabs - n - 1) / static_cast<double>(n + 1)});
+        if (progress) progress->update(at_steady_pace(n + 1, slabs, watch.seconds()));
       });
   return {corners, std::move(all)};
 }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/steady_pace.h"
 #include "base/stopwatch.h"
 #include "base/tasks.h"
 #include "surface/border_normals.h"
@@ -130,9 +131,7 @@ std::vector<Crossing> find_crossings(const Partition& partition, const MixedCell
   run_parallel(blocks.size(), threads, [&](size_t n) {
     BlockFinder(partition, cells, crossings, stop).find(partition.details, blocks[n], block_cells);
     const uint64_t now = ++done;
-    if (!progress) return;
-    const double left = watch.seconds() * static_cast<double>(blocks.size() - now) / static_cast<double>(now);
-    progress->update({now, blocks.size(), left});
+    if (progress) progress->update(at_steady_pace(now, blocks.size(), watch.seconds()));
   });
   return crossings;
 }
