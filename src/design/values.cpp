@@ -94,6 +94,10 @@ bool read(const Data& data, const Domain& domain, Number& value, const Reader& r
     value = number;
     return true;
   }
+  if (const auto source = std::dynamic_pointer_cast<const program::FieldSource>(data.host_object())) {
+    value = expr::Expression::of_source(source, data.where.source ? data.where : reader.where);
+    return true;
+  }
   if (!data.number()) return reader.fail(data, "a number" + with_unit(domain) + " or an expression in quotes");
   if (!read(data, domain, number, reader)) return false;
   value = number;

@@ -79,8 +79,8 @@ void RowEvaluator::run_source(const Program& program, const Instruction& in, std
                               const SourceRow& source_row) {
   const program::Read& read = program.reads[in.aux];
   if (source_row && source_row(read, out)) return;
-  const double *a = row(in.a), *b = row(in.b), *c = row(in.c);
-  for (size_t p = 0; p < out.size(); ++p) out[p] = read.source->sample(read.channel, {a[p], b[p], c[p]});
+  const auto operand = [&](program::ValueId id) { return std::span<const double>(row(id), out.size()); };
+  read.source->sample_all(read.channel, operand(in.a), operand(in.b), operand(in.c), out);
 }
 
 }  // namespace ombre::eval

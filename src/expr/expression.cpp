@@ -55,6 +55,8 @@ class Lowerer {
         for (const auto& operand : node.operands) arguments.push_back(lower(*operand));
         return find_function(node.name)->lower(arguments);
       }
+      case Kind::source:
+        return p_.builder().source(node.source, 0, p_.x, p_.y, p_.z);
       case Kind::binary:
         break;
     }
@@ -190,6 +192,17 @@ Expression Expression::constant(double value) {
   return expression;
 }
 
+Expression Expression::of_source(const program::SourceField& source, const SourceRange& where) {
+  Expression expression;
+  auto node = std::make_shared<Node>();
+  node->kind = Kind::source;
+  node->source = source;
+  expression.root_ = node;
+  expression.canonical_ = source->name() + " #" + source->content().hex();
+  expression.where_ = where;
+  return expression;
+}
+
 bool Expression::check_variables(const std::vector<std::string>& known, Diagnostics& diagnostics) const {
   bool all_known = true;
   each_variable(*root_, [&](const Node& node) {
@@ -214,7 +227,7 @@ bool Expression::uses(std::string_view variable) const {
 std::optional<double> Expression::constant_value() const {
   bool has_variables = false;
   each_variable(*root_, [&](const Node&) { has_variables = true; });
-  if (has_variables) return std::nullopt;
+  if (has_variables || is_source()) return std::nullopt;
   Builder builder;
   return builder.constant_value(lower(Point::origin_frame(builder), nullptr));
 }

@@ -14,7 +14,7 @@
 
 namespace ombre::expr {
 
-enum class Kind : uint8_t { number, variable, negate, logical_not, binary, call, conditional };
+enum class Kind : uint8_t { number, variable, negate, logical_not, binary, call, conditional, source };
 enum class Binary : uint8_t {
   add,
   subtract,
@@ -41,6 +41,7 @@ struct Node {
   double number = 0;
   std::string name;  // of a variable or function, lower case
   std::vector<std::shared_ptr<const Node>> operands;
+  program::SourceField source;  // of a value that the host program computes: its channel 0
   uint32_t begin = 0, end = 0;  // bytes of the expression's text
 
   Node() = default;
@@ -59,10 +60,14 @@ class Expression {
   // argument counts are found here, unknown variables by `check_variables`.
   static std::optional<Expression> parse(const std::string& text, const SourceRange& where, Diagnostics& diagnostics);
   static Expression constant(double value);
+  // The first channel of a source at the point, as a function of the host program gives it. Its text tells
+  // functions apart, but cannot be parsed.
+  static Expression of_source(const program::SourceField& source, const SourceRange& where);
 
   // Every variable must be among `known`.
   bool check_variables(const std::vector<std::string>& known, Diagnostics& diagnostics) const;
   bool uses(std::string_view variable) const;
+  bool is_source() const { return root_->kind == Kind::source; }
   // The number, if the expression has no variables.
   std::optional<double> constant_value() const;
 

@@ -397,6 +397,8 @@ std::string print_tree(const Node& node) {
       return format_number(node.number);
     case Kind::variable:
       return node.name;
+    case Kind::source:
+      return node.source->name();
     case Kind::negate:
       return "-" + signed_operand(*node.operands[0]);
     case Kind::logical_not:
