@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "compile/load.h"
 #include "ombre/commands.h"
+#include "ombre/interrupt.h"
 #include "ombre/suggest.h"
 
 namespace ombre::cli {
@@ -23,7 +25,7 @@ constexpr const char* footer =
 
 class CommandLine {
  public:
-  CommandLine() : program_(description, "ombre") {
+  explicit CommandLine(const Host& host) : program_(description, "ombre"), host_(host), console_(host) {
     program_.footer(footer);
     program_.set_version_flag("--version", "ombre " OMBRE_VERSION);
     program_.require_subcommand(0, 1);
@@ -43,7 +45,8 @@ class CommandLine {
     } catch (const CLI::ParseError& error) {
       return wrong(explain(program_, error));
     }
-    console_.set_voice(output_.json ? Voice::programs : output_.quiet ? Voice::quiet : Voice::people);
+    if (!host_.on_event)
+      console_.set_voice(output_.json ? Voice::programs : output_.quiet ? Voice::quiet : Voice::people);
     for (const Command& command : commands_)
       if (program_.got_subcommand(command.app)) return run(command);
     console_.print(program_.help());
@@ -52,7 +55,13 @@ class CommandLine {
 
  private:
   int run(const Command& command) {
-    Session session{console_};
+    if (host_.stop) return run(command, *host_.stop);
+    const InterruptGuard interrupt;
+    return run(command, interrupt.flag());
+  }
+
+  int run(const Command& command, const StopFlag& stop) {
+    Session session{console_, stop, host_.load ? host_.load : compile::load_design};
     try {
       return command.run(session);
     } catch (const WrongArgument& error) {
@@ -75,6 +84,7 @@ class CommandLine {
   }
 
   CLI::App program_;
+  const Host& host_;
   Console console_;
   OutputOptions output_;
   std::vector<Command> commands_;
@@ -87,11 +97,11 @@ void add_output_options(CLI::App& app, OutputOptions& options) {
   app.add_flag("--json", options.json, "For programs: one JSON event a line on stdout")->excludes(quiet);
 }
 
-int run(int argc, const char* const* argv) {
+int run(int argc, const char* const* argv, const Host& host) {
   try {
-    return CommandLine().run(argc, argv);
+    return CommandLine(host).run(argc, argv);
   } catch (const std::exception& error) {
-    Console().error(error.what());
+    Console(host).error(error.what());
     return failed;
   }
 }

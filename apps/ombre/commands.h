@@ -5,6 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "base/progress.h"
+#include "ombre/command_line.h"
 #include "ombre/console.h"
 
 namespace ombre::cli {
@@ -12,6 +14,8 @@ namespace ombre::cli {
 // What a command gets once its arguments are read.
 struct Session {
   Console& console;
+  const StopFlag& stop;
+  DesignLoader load;
 };
 
 // Returns an exit code.

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/json.h"
+#include "ombre/command_line.h"
 
 namespace ombre::cli {
 namespace {
@@ -45,12 +46,15 @@ bool is_set(const char* variable) {
 
 }  // namespace
 
-void Console::print(const std::string& text) const { put_data(text); }
+Console::Console(const Host& host)
+    : voice_(host.on_event ? Voice::programs : Voice::people), on_event_(host.on_event), on_data_(host.on_data) {}
+
+void Console::print(const std::string& text) const { on_data_ ? on_data_(text) : put_data(text); }
 
 void Console::event(const std::string& event_name, DataMembers members) const {
   if (voice_ != Voice::programs) return;
   members.emplace(members.begin(), "event", event_name);
-  put_data(print_json_line(members) + '\n');
+  on_event_ ? on_event_(members) : put_data(print_json_line(members) + '\n');
 }
 
 void Console::say(const std::string& text) const {

@@ -1,9 +1,7 @@
 // What the user sees: data on stdout, everything for people on stderr, or events for programs.
 #pragma once
 
-#include <chrono>
-#include <mutex>
-#include <optional>
+#include <functional>
 #include <string>
 
 #include "base/data.h"
@@ -18,8 +16,12 @@ enum class Voice {
   programs,  // one JSON object a line on stdout
 };
 
+struct Host;
+
 class Console {
  public:
+  Console() = default;
+  explicit Console(const Host& host);
   void set_voice(Voice voice) { voice_ = voice; }
   Voice voice() const { return voice_; }
 
@@ -42,6 +44,8 @@ class Console {
   void report(const char* severity, const char* colour, const std::string& message) const;
 
   Voice voice_ = Voice::people;
+  std::function<void(const DataMembers&)> on_event_;  // in place of stdout
+  std::function<void(const std::string&)> on_data_;
 };
 
 }  // namespace ombre::cli

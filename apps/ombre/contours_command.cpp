@@ -10,7 +10,6 @@
 #include "ombre/arguments.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
-#include "ombre/interrupt.h"
 #include "ombre/job_arguments.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
@@ -155,12 +154,11 @@ int contours(const ContoursArguments& a, Session& session) {
   refuse_to_overwrite_layers(a, format);
 
   Diagnostics diagnostics;
-  const InterruptGuard interrupt;
-  const compile::LoadedPtr loaded = load_design(a.design, session, interrupt.flag(), diagnostics);
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics);
   const auto plan = loaded ? compile::plan_contours(*loaded, request, diagnostics) : std::nullopt;
   session.console.diagnose(diagnostics);
   if (!plan || diagnostics.has_errors()) return wrong_input;
-  return write(a, format, *plan, session, interrupt.flag());
+  return write(a, format, *plan, session, session.stop);
 }
 
 }  // namespace

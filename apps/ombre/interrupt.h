@@ -17,6 +17,8 @@ class InterruptGuard {
 
  private:
   StopFlag flag_;
+  void (*interrupt_before_)(int);
+  void (*terminate_before_)(int);
 };
 
 }  // namespace ombre::cli

@@ -19,7 +19,7 @@ uint64_t parse_seed(const std::string& text) {
 }  // namespace
 
 void add_design_arguments(CLI::App& app, DesignArguments& a) {
-  app.add_option("design", a.design, "The design, a .vcad file")->required()->type_name("FILE");
+  app.add_option("design", a.design, "The design: a .vcad, .json or .py file")->required()->type_name("FILE");
   app.add_option("--materials", a.materials, "Materials file (see: ombre materials)")->type_name("FILE");
   app.add_option("-D,--define", a.definitions, "Set a variable of the design; may be repeated")
       ->allow_extra_args(false)
@@ -78,12 +78,11 @@ std::optional<compile::PlanOptions> plan_options(const JobArguments& a, Diagnost
   return options;
 }
 
-compile::LoadedPtr load_design(const DesignArguments& a, Session& session, const StopFlag& stop,
-                               Diagnostics& diagnostics) {
+compile::LoadedPtr load_design(const DesignArguments& a, Session& session, Diagnostics& diagnostics) {
   compile::LoadOptions options{a.materials, a.definitions};
   options.echo = [&](const std::string& text) { session.console.say(text); };
-  options.stop = &stop;
-  return compile::load_design(a.design, options, diagnostics);
+  options.stop = &session.stop;
+  return session.load(a.design, options, diagnostics);
 }
 
 }  // namespace ombre::cli

@@ -33,7 +33,6 @@ void add_job_arguments(CLI::App& app, JobArguments& arguments);
 std::optional<compile::PlanOptions> plan_options(const JobArguments& arguments, Diagnostics& diagnostics);
 
 // Null, and diagnostics, when the design is wrong.
-compile::LoadedPtr load_design(const DesignArguments& arguments, Session& session, const StopFlag& stop,
-                               Diagnostics& diagnostics);
+compile::LoadedPtr load_design(const DesignArguments& arguments, Session& session, Diagnostics& diagnostics);
 
 }  // namespace ombre::cli

@@ -10,7 +10,6 @@
 #include "ombre/arguments.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
-#include "ombre/interrupt.h"
 #include "ombre/job_arguments.h"
 #include "ombre/overwrite.h"
 #include "ombre/slice_report.h"
@@ -138,8 +137,7 @@ int write_layer(const LayerArguments& a, const compile::Plan& plan, Session& ses
 std::optional<compile::Plan> plan_job(const JobArguments& job, Session& session, Diagnostics& diagnostics) {
   const auto wishes = plan_options(job, diagnostics);
   if (!wishes) return std::nullopt;
-  const InterruptGuard interrupt;
-  const compile::LoadedPtr loaded = load_design(job, session, interrupt.flag(), diagnostics);
+  const compile::LoadedPtr loaded = load_design(job, session, diagnostics);
   return loaded ? compile::plan_slice(loaded, *wishes, diagnostics) : std::nullopt;
 }
 

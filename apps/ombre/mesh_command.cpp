@@ -10,7 +10,6 @@
 #include "export/mesh_file.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
-#include "ombre/interrupt.h"
 #include "ombre/job_arguments.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
@@ -152,12 +151,11 @@ int mesh(const MeshArguments& a, Session& session) {
 
   const Stopwatch watch;
   Diagnostics diagnostics;
-  const InterruptGuard interrupt;
-  const compile::LoadedPtr loaded = load_design(a.design, session, interrupt.flag(), diagnostics);
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics);
   std::optional<compile::MeshedDesign> made;
   if (loaded) {
     ProgressLine progress(session.console);
-    made = compile::mesh_design(*loaded, request, diagnostics, &progress, &interrupt.flag());
+    made = compile::mesh_design(*loaded, request, diagnostics, &progress, &session.stop);
   }
   session.console.diagnose(diagnostics);
   if (!made || diagnostics.has_errors()) return wrong_input;

@@ -5,13 +5,13 @@
 #include "compile/probe.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
+#include "ombre/job_arguments.h"
 
 namespace ombre::cli {
 namespace {
 
-struct ProbeArguments {
-  std::string design, materials;
-  std::vector<std::string> definitions, points;
+struct ProbeArguments : DesignArguments {
+  std::vector<std::string> points;
 };
 
 Vec3 parse_point(const std::string& text) {
@@ -46,11 +46,7 @@ int probe(const ProbeArguments& a, Session& session) {
   std::vector<Vec3> points;
   for (const std::string& text : a.points) points.push_back(parse_point(text));
   Diagnostics diagnostics;
-  compile::LoadOptions options;
-  options.materials = a.materials;
-  options.definitions = a.definitions;
-  options.echo = [&](const std::string& line) { session.console.say(line); };
-  const auto loaded = compile::load_design(a.design, options, diagnostics);
+  const auto loaded = load_design(a, session, diagnostics);
   const auto results = loaded ? compile::probe(*loaded, points, diagnostics) : std::nullopt;
   session.console.diagnose(diagnostics);
   if (!results) return wrong_input;
@@ -78,14 +74,10 @@ Command add_probe(CLI::App& program, OutputOptions& output) {
   CLI::App* app =
       program.add_subcommand("probe", "Say what a design is at single points: distance, materials, attributes");
   auto a = std::make_shared<ProbeArguments>();
-  app->add_option("design", a->design, "The design, a .vcad or .json file")->required()->type_name("FILE");
+  add_design_arguments(*app, *a);
   app->add_option("--at", a->points, "A point, in mm; may be repeated")
       ->required()
       ->type_name("X,Y,Z")
-      ->allow_extra_args(false);
-  app->add_option("--materials", a->materials, "Materials file")->type_name("FILE");
-  app->add_option("-D,--define", a->definitions, "Set a variable of the design; may be repeated")
-      ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   add_output_options(*app, output);
   app->footer("Example:\n  ombre probe part.vcad --at 0,0,2.5 --at 1,0,2.5\n");

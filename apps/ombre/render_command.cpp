@@ -11,7 +11,6 @@
 #include "ombre/arguments.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
-#include "ombre/interrupt.h"
 #include "ombre/job_arguments.h"
 #include "ombre/overwrite.h"
 
@@ -207,8 +206,7 @@ int render_design(const RenderArguments& a, Session& session) {
     for (const std::string& file : files) refuse_to_overwrite(file, a.force);
 
   Diagnostics diagnostics;
-  const InterruptGuard interrupt;
-  const compile::LoadedPtr loaded = load_design(a.design, session, interrupt.flag(), diagnostics);
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics);
   const auto take = [&](int frame, const compile::Picture& picture) {
     const std::string bytes =
         formats::encode_png(static_cast<uint32_t>(request.width), static_cast<uint32_t>(request.height), picture.rgba);
@@ -218,7 +216,7 @@ int render_design(const RenderArguments& a, Session& session) {
     session.console.say("written to " + file + ", " + format_rounded(picture.pixel_mm, 3) + " mm a pixel");
     session.console.event("picture", {{"file", file}, {"pixel_mm", picture.pixel_mm}});
   };
-  const bool is_done = loaded && compile::take_pictures(*loaded, request, interrupt.flag(), take, diagnostics);
+  const bool is_done = loaded && compile::take_pictures(*loaded, request, session.stop, take, diagnostics);
   session.console.diagnose(diagnostics);
   return is_done && !diagnostics.has_errors() ? done : wrong_input;
 }

@@ -9,7 +9,6 @@
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/free_space.h"
-#include "ombre/interrupt.h"
 #include "ombre/job_arguments.h"
 #include "ombre/progress_line.h"
 #include "ombre/slice_report.h"
@@ -145,9 +144,15 @@ int slice(const SliceArguments& a, Session& session) {
   if (!wishes) return diagnosed();
   parse_memory(a.memory);  // a slip is better told before a long load
 
-  const InterruptGuard interrupt;
-  const compile::LoadedPtr loaded = load_design(a.job, session, interrupt.flag(), diagnostics);
+  const compile::LoadedPtr loaded = load_design(a.job, session, diagnostics);
   if (!loaded) return diagnosed();
+  if (const design::Node* node = a.resume || a.emit == "json" ? design::find_host_function(loaded->design) : nullptr) {
+    diagnostics.error(node->where(),
+                      node->type().name + " has a function of the host program, so the design can be neither " +
+                          "written to a file nor resumed: nothing tells what the function is",
+                      "write it as an expression");
+    return diagnosed();
+  }
   if (!a.emit.empty()) {
     session.console.print(compile::emit(*loaded, a.emit));
     return diagnosed();
@@ -157,7 +162,7 @@ int slice(const SliceArguments& a, Session& session) {
 
   const compile::SliceOptions options = slice_options(a, plan->request);
   tell_plan(session.console, plan->request, options);
-  const StopFlag& stop = interrupt.flag();
+  const StopFlag& stop = session.stop;
   return a.dry_run ? dry_run(*plan, options, session, stop) : write_slices(*plan, options, session, stop);
 }
 

@@ -13,7 +13,6 @@
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/free_space.h"
-#include "ombre/interrupt.h"
 #include "ombre/job_arguments.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
@@ -203,10 +202,10 @@ int write(const VoxelsArguments& a, const compile::GridJob& job, const Format& f
 }
 
 std::optional<compile::GridJob> plan_job(const VoxelsArguments& a, const compile::GridWishes& wishes, Session& session,
-                                         const StopFlag& stop, Diagnostics& diagnostics) {
+                                         Diagnostics& diagnostics) {
   const auto options = plan_options(a.job, diagnostics);
   if (!options) return std::nullopt;
-  const compile::LoadedPtr loaded = load_design(a.job, session, stop, diagnostics);
+  const compile::LoadedPtr loaded = load_design(a.job, session, diagnostics);
   if (!loaded) return std::nullopt;
   const auto plan = compile::plan_slice(loaded, *options, diagnostics);
   if (!plan) return std::nullopt;
@@ -218,13 +217,12 @@ int voxels(const VoxelsArguments& a, Session& session) {
   const Format format = chosen_format(a);
   const compile::GridWishes wishes = chosen_grids(a, format);
   if (!a.box.empty()) parse_box(a.box);
-  const InterruptGuard interrupt;
   Diagnostics diagnostics;
-  const auto job = plan_job(a, wishes, session, interrupt.flag(), diagnostics);
+  const auto job = plan_job(a, wishes, session, diagnostics);
   session.console.diagnose(diagnostics);
   if (!job || diagnostics.has_errors()) return wrong_input;
   warn_of_metric(session.console, *job);
-  return write(a, *job, format, session, interrupt.flag());
+  return write(a, *job, format, session, session.stop);
 }
 
 }  // namespace

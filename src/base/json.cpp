@@ -172,6 +172,7 @@ class Printer {
     if (const bool* b = data.boolean()) return *b ? "true" : "false";
     if (const double* n = data.number()) return number_text(*n);
     if (const std::string* s = data.string()) return quoted(*s);
+    if (data.host_object()) return quoted("a function of the host program");  // for people: nothing reads it back
     if (const DataList* list = data.list()) {
       std::vector<std::string> parts;
       bool flat = true;

@@ -1,5 +1,6 @@
 #include "design/design.h"
 
+#include <algorithm>
 #include <map>
 #include <unordered_map>
 
@@ -82,6 +83,27 @@ Hash hash(const Design& design) {
       {"version", Data(format_version)}, {"materials", design.materials.to_data()}, {"parts", Data(std::move(parts))}};
   if (design.sampling) members.emplace_back("sampling", sampling_data(*design.sampling));
   return hash_bytes(print_json_line(Data(std::move(members))));
+}
+
+namespace {
+
+bool holds_host_object(const Data& data) {
+  if (const DataList* list = data.list()) return std::any_of(list->begin(), list->end(), holds_host_object);
+  return data.host_object() != nullptr;
+}
+
+bool has_host_function(const Node& node) {
+  for (size_t i = 0; i < node.type().parameters.size(); ++i)
+    if (holds_host_object(node.type().get(node.value(), i, false))) return true;
+  return false;
+}
+
+}  // namespace
+
+const Node* find_host_function(const Design& design) {
+  for (const Node* node : topological(design.roots()))
+    if (has_host_function(*node)) return node;
+  return nullptr;
 }
 
 namespace {

@@ -41,6 +41,10 @@ std::optional<Design> read_design(const Data& data, const Registry& registry, So
 // out, files named by their content.
 Hash hash(const Design& design);
 
+// A node with a parameter that the host program computes, or null. Nothing tells whether two runs mean the same
+// function, so such designs are not saved, and their jobs are not resumed.
+const Node* find_host_function(const Design& design);
+
 // An indented tree for people, with each solid's kind of distance; shared nodes are printed once.
 std::string to_tree(const Design& design);
 

@@ -236,8 +236,9 @@ bool read(const Data& data, const Domain& domain, std::vector<MaterialName>& val
 }
 
 Data write(double value, bool) { return Data(value); }
-Data write(const Number& value, bool) {
+Data write(const Number& value, bool for_hash) {
   if (const double* number = value.constant()) return Data(*number);
+  if (const auto& source = value.expression()->source(); source && !for_hash) return Data(HostObjectPtr(source));
   return Data(value.expression()->text());
 }
 Data write(const Numbers3& v, bool h) { return Data(DataList{write(v.x, h), write(v.y, h), write(v.z, h)}); }

@@ -227,7 +227,7 @@ bool Expression::uses(std::string_view variable) const {
 std::optional<double> Expression::constant_value() const {
   bool has_variables = false;
   each_variable(*root_, [&](const Node&) { has_variables = true; });
-  if (has_variables || is_source()) return std::nullopt;
+  if (has_variables || source()) return std::nullopt;
   Builder builder;
   return builder.constant_value(lower(Point::origin_frame(builder), nullptr));
 }

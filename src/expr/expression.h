@@ -67,7 +67,7 @@ class Expression {
   // Every variable must be among `known`.
   bool check_variables(const std::vector<std::string>& known, Diagnostics& diagnostics) const;
   bool uses(std::string_view variable) const;
-  bool is_source() const { return root_->kind == Kind::source; }
+  const program::SourceField& source() const { return root_->source; }  // null: it is a formula
   // The number, if the expression has no variables.
   std::optional<double> constant_value() const;
 

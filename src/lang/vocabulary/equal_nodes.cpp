@@ -28,6 +28,7 @@ void append_value(std::string& key, const Data& data) {
     append_bytes(key, list->size());
     for (const Data& element : *list) append_value(key, element);
   }
+  if (const HostObjectPtr object = data.host_object()) append_bytes(key, reinterpret_cast<uintptr_t>(object.get()));
   ASSERT(!data.members() && "no parameter has members");
 }
 

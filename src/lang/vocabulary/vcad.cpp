@@ -5,10 +5,10 @@
 
 #include "base/text.h"
 #include "lang/vocabulary/legacy_forms.h"
+#include "lang/vocabulary/node_calls.h"
 
 namespace ombre::lang {
 
-using design::NamedValue;
 using design::NodePtr;
 using design::NodeType;
 using design::Reader;
@@ -16,49 +16,6 @@ using design::Reader;
 namespace {
 
 constexpr std::string_view axes[] = {"x", "y", "z"};
-
-// A name for every argument: given, or by position. False, and diagnostics, when one has no parameter.
-bool bind_arguments(const NodeType& type, std::vector<Argument> arguments, std::vector<NamedValue>& values,
-                    Diagnostics& diagnostics, const SourceRange& whole) {
-  std::vector<bool> taken(type.parameters.size(), false);
-  bool good = true;
-  size_t position = 0, positional = 0;
-  for (Argument& argument : arguments) {
-    const SourceRange where = argument.name_where.source    ? argument.name_where
-                              : argument.value.where.source ? argument.value.where
-                                                            : whole;
-    int index = -1;
-    if (argument.name.empty()) {
-      ++positional;
-      while (position < taken.size() && taken[position]) ++position;
-      if (position == taken.size()) {
-        diagnostics.error(where, type.name + " takes at most " + std::to_string(type.parameters.size()) +
-                                     " arguments: (" + join(type.parameter_names(), ", ") + ")");
-        return false;
-      }
-      index = static_cast<int>(position);
-    } else {
-      index = type.parameter(argument.name);
-    }
-    if (index < 0) {
-      std::string hint = did_you_mean(argument.name, type.parameter_names());
-      if (hint.empty())
-        hint = type.parameters.empty() ? "it takes none" : "it has " + join(type.parameter_names(), ", ");
-      diagnostics.error(where, type.name + " has no parameter \"" + argument.name + "\"", hint);
-      good = false;
-      continue;
-    }
-    const auto at = static_cast<size_t>(index);
-    if (taken[at]) {
-      diagnostics.error(where, "\"" + type.parameters[at].name + "\" of " + type.name + " is given twice");
-      good = false;
-      continue;
-    }
-    taken[at] = true;
-    if (!argument.value.is_null()) values.push_back({&type.parameters[at], std::move(argument.value)});
-  }
-  return good;
-}
 
 }  // namespace
 
@@ -105,21 +62,16 @@ NodePtr VcadVocabulary::make(Invocation call, Diagnostics& diagnostics) {
 }
 
 NodePtr VcadVocabulary::make_of_type(const NodeType& type, Invocation& call, Diagnostics& diagnostics) {
-  std::vector<NamedValue> values;
-  if (!bind_arguments(type, modern_arguments(type, std::move(call.arguments)), values, diagnostics, call.whole))
-    return nullptr;
   const Reader reader{materials_, diagnostics, loader_, call.whole, type.name, ""};
   std::vector<NodePtr>& children = call.children;
+  const auto values = bound_arguments(type, std::move(call.arguments), reader);
+  if (!values) return nullptr;
   if (children.empty() && call.has_wrong_children && type.inputs.least > 0) return nullptr;  // told already
   if (type.inputs.grouped && call.group_ends.size() < children.size()) {
     children = groups(call, reader);
     if (children.empty()) return nullptr;
   }
-  if (type.inputs.most == 1 && children.size() > 1) {
-    children = {joined(std::move(children), reader)};
-    if (!children[0]) return nullptr;
-  }
-  return known_.first(design::make_node(type, values, std::move(children), reader));
+  return known_.first(make_called(type, *values, std::move(children), registry_, reader));
 }
 
 // As OpenSCAD has it: difference() { for (...) ...; sphere(5); } takes the ball out of all that the loop makes.
@@ -129,15 +81,11 @@ std::vector<NodePtr> VcadVocabulary::groups(const Invocation& call, const Reader
   for (const size_t end : call.group_ends) {
     const auto first = call.children.begin() + static_cast<std::ptrdiff_t>(begin),
                last = call.children.begin() + static_cast<std::ptrdiff_t>(end);
-    result.push_back(known_.first(joined({first, last}, reader)));
+    result.push_back(known_.first(joined({first, last}, registry_, reader)));
     if (!result.back()) return {};
     begin = end;
   }
   return result;
-}
-
-NodePtr VcadVocabulary::joined(std::vector<NodePtr> nodes, const Reader& reader) const {
-  return nodes.size() == 1 ? nodes[0] : design::make_node(*registry_.find("union"), {}, std::move(nodes), reader);
 }
 
 NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnostics) {
@@ -184,7 +132,7 @@ NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnosti
   if (call.children.empty()) return nullptr;  // told of as an empty design
   sampling_ = sampling;
   root_children_ = call.children;
-  return root_ = joined(call.children, {materials_, diagnostics, loader_, call.whole, "root", ""});
+  return root_ = joined(call.children, registry_, {materials_, diagnostics, loader_, call.whole, "root", ""});
 }
 
 std::optional<design::Design> VcadVocabulary::finish(const std::vector<NodePtr>& top_level, const SourceRange& whole,
@@ -219,7 +167,7 @@ std::optional<design::Design> VcadVocabulary::finish(const std::vector<NodePtr>&
     design.parts.push_back({name, solid->inputs()[0]});
   }
   if (!unnamed.empty()) {
-    const NodePtr rest = joined(unnamed, reader);
+    const NodePtr rest = joined(unnamed, registry_, reader);
     if (!rest) return std::nullopt;
     design.parts.insert(design.parts.begin(), {"part", rest});
   }

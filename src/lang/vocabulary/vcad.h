@@ -29,7 +29,6 @@ class VcadVocabulary : public Vocabulary {
   design::NodePtr make_root(const Invocation& call, Diagnostics& diagnostics);
   design::NodePtr make_of_type(const design::NodeType& type, Invocation& call, Diagnostics& diagnostics);
   std::vector<design::NodePtr> groups(const Invocation& call, const design::Reader& reader);
-  design::NodePtr joined(std::vector<design::NodePtr> nodes, const design::Reader& reader) const;
 
   const design::Registry& registry_;
   const design::MaterialTable& materials_;

@@ -1,0 +1,56 @@
+// What a design says at many points at once, in double precision.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "design/design.h"
+#include "program/program.h"
+
+namespace ombre::compile {
+
+struct SampleWishes {
+  bool inside = false;    // 1 inside, 0 outside
+  bool distance = false;  // g, mm; negative inside
+  bool fractions = false;
+  bool parts = false;  // 1 in the part, 0 outside of it
+  std::vector<std::string> attributes;
+};
+
+// Thread-safe. Values have the bits of the reference evaluator.
+class Sampler {
+ public:
+  // What one column of the answer is.
+  struct Column {
+    enum class Kind { inside, distance, fraction, attribute, part } kind;
+    std::string name;  // of the material, attribute or part
+    MaterialId material = 0;
+  };
+
+  // Columns in the order of the wishes; fractions by id. Nothing, and diagnostics, when the design is too large or
+  // has no such attribute.
+  static std::optional<Sampler> build(const design::Design& design, const SampleWishes& wishes,
+                                      Diagnostics& diagnostics);
+
+  const std::vector<Column>& columns() const { return columns_; }
+
+  // columns[c][n] gets column c at points[n], mm. Fractions are meant inside only. On up to `threads` threads, 0 for
+  // all cores. Throws Cancelled.
+  void sample(std::span<const Vec3> points, std::span<double* const> columns, int threads = 0,
+              const StopFlag* stop = nullptr) const;
+
+ private:
+  void sample_block(std::span<const Vec3> points, const uint32_t* order, size_t count,
+                    std::span<double* const> columns) const;
+
+  program::Program program_;
+  std::vector<Column> columns_;
+};
+
+// The attributes that some node of the design declares.
+std::vector<std::string> attribute_names(const design::Design& design);
+
+}  // namespace ombre::compile

@@ -1,0 +1,71 @@
+#include "lang/vocabulary/node_calls.h"
+
+#include "base/text.h"
+#include "lang/vocabulary/legacy_forms.h"
+
+namespace ombre::lang {
+
+using design::NamedValue;
+using design::NodePtr;
+using design::NodeType;
+using design::Reader;
+
+std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std::vector<Argument> arguments,
+                                                      const Reader& reader) {
+  arguments = modern_arguments(type, std::move(arguments));
+  std::vector<NamedValue> values;
+  std::vector<bool> taken(type.parameters.size(), false);
+  bool good = true;
+  size_t position = 0, positional = 0;
+  for (Argument& argument : arguments) {
+    const SourceRange where = argument.name_where.source    ? argument.name_where
+                              : argument.value.where.source ? argument.value.where
+                                                            : reader.where;
+    int index = -1;
+    if (argument.name.empty()) {
+      ++positional;
+      while (position < taken.size() && taken[position]) ++position;
+      if (position == taken.size()) {
+        reader.diagnostics.error(where, type.name + " takes at most " + std::to_string(type.parameters.size()) +
+                                     " arguments: (" + join(type.parameter_names(), ", ") + ")");
+        return std::nullopt;
+      }
+      index = static_cast<int>(position);
+    } else {
+      index = type.parameter(argument.name);
+    }
+    if (index < 0) {
+      std::string hint = did_you_mean(argument.name, type.parameter_names());
+      if (hint.empty())
+        hint = type.parameters.empty() ? "it takes none" : "it has " + join(type.parameter_names(), ", ");
+      reader.diagnostics.error(where, type.name + " has no parameter \"" + argument.name + "\"", hint);
+      good = false;
+      continue;
+    }
+    const auto at = static_cast<size_t>(index);
+    if (taken[at]) {
+      reader.diagnostics.error(where, "\"" + type.parameters[at].name + "\" of " + type.name + " is given twice");
+      good = false;
+      continue;
+    }
+    taken[at] = true;
+    if (!argument.value.is_null()) values.push_back({&type.parameters[at], std::move(argument.value)});
+  }
+  if (!good) return std::nullopt;
+  return values;
+}
+
+NodePtr joined(std::vector<NodePtr> nodes, const design::Registry& registry, const Reader& reader) {
+  return nodes.size() == 1 ? nodes[0] : design::make_node(*registry.find("union"), {}, std::move(nodes), reader);
+}
+
+NodePtr make_called(const NodeType& type, const std::vector<NamedValue>& values, std::vector<NodePtr> inputs,
+                    const design::Registry& registry, const Reader& reader) {
+  if (type.inputs.most == 1 && inputs.size() > 1) {
+    inputs = {joined(std::move(inputs), registry, reader)};
+    if (!inputs[0]) return nullptr;
+  }
+  return design::make_node(type, values, std::move(inputs), reader);
+}
+
+}  // namespace ombre::lang
