@@ -23,6 +23,17 @@ constexpr const char* footer =
     "Exit codes: 0 done, 1 the design or the arguments are wrong, 2 a file or the machine failed,\n"
     "3 a check failed, 130 interrupted.\n";
 
+DataList described_options(const CLI::App& app) {
+  DataList list;
+  for (const CLI::Option* option : app.get_options())
+    list.emplace_back(DataMembers{{"name", option->get_name()},
+                                  {"help", option->get_description()},
+                                  {"type", option->get_type_name()},
+                                  {"is_flag", option->get_items_expected_max() == 0},
+                                  {"is_list", option->get_items_expected_max() > 1}});
+  return list;
+}
+
 class CommandLine {
  public:
   explicit CommandLine(const Host& host) : program_(description, "ombre"), host_(host), console_(host) {
@@ -33,6 +44,15 @@ class CommandLine {
                  add_voxels(program_, output_),   add_mesh(program_, output_),     add_contours(program_, output_),
                  add_sheet(program_, output_),    add_probe(program_, output_),    add_nodes(program_, output_),
                  add_printers(program_, output_), add_materials(program_, output_)};
+  }
+
+  Data describe() const {
+    DataList list;
+    for (const Command& command : commands_)
+      list.emplace_back(DataMembers{{"name", command.app->get_name()},
+                                    {"help", command.app->get_description()},
+                                    {"options", described_options(*command.app)}});
+    return list;
   }
 
   int run(int argc, const char* const* argv) {
@@ -95,6 +115,11 @@ class CommandLine {
 void add_output_options(CLI::App& app, OutputOptions& options) {
   CLI::Option* quiet = app.add_flag("-q,--quiet", options.quiet, "Say nothing but errors");
   app.add_flag("--json", options.json, "For programs: one JSON event a line on stdout")->excludes(quiet);
+}
+
+Data describe_commands() {
+  const Host none;
+  return CommandLine(none).describe();
 }
 
 int run(int argc, const char* const* argv, const Host& host) {

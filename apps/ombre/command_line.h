@@ -38,6 +38,10 @@ struct Host {
   const StopFlag* stop = nullptr;                    // asks a command to stop, in place of Ctrl-C
 };
 
+// [{"name", "help", "options": [{"name", "help", "type", "is_flag", "is_list"}]}]; arguments without dashes are
+// options whose names have none.
+Data describe_commands();
+
 // Runs a whole command and returns its exit code. Throws nothing; nor may what `host` holds.
 int run(int argc, const char* const* argv, const Host& host = {});
 

@@ -57,17 +57,25 @@ std::string describe(const NodeType& type) {
 
 DataMembers event_of(const NodeType& type) {
   DataList parameters;
+  const auto texts = [](const std::vector<std::string>& list) { return DataList(list.begin(), list.end()); };
   for (const ParameterInfo& parameter : type.parameters)
     parameters.emplace_back(DataMembers{{"name", parameter.name},
                                         {"doc", parameter.doc},
                                         {"kind", std::string(parameter.kind)},
                                         {"unit", std::string(parameter.domain.unit)},
                                         {"required", parameter.domain.required},
-                                        {"default", parameter.default_value}});
+                                        {"default", parameter.default_value},
+                                        {"choices", texts(parameter.domain.choices)},
+                                        {"variables", texts(parameter.domain.variables)}});
+  const bool has_many = type.inputs.most == design::many_solids.most;
   return {{"name", type.name},
           {"category", type.category},
           {"sentence", type.sentence},
           {"parameters", parameters},
+          {"inputs",
+           DataMembers{{"least", static_cast<double>(type.inputs.least)},
+                       {"most", has_many ? Data() : Data(static_cast<double>(type.inputs.most))}}},
+          {"gives", std::string(name(type.output))},
           {"example", type.example}};
 }
 

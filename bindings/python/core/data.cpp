@@ -1,0 +1,133 @@
+#include "data.h"
+
+#include <map>
+
+#include "host_function.h"
+
+namespace ombre::python {
+namespace {
+
+// Both are guarded by the interpreter's lock.
+std::string& package_folder() {
+  static std::string folder;
+  return folder;
+}
+
+bool is_own_file(const std::string& file) {
+  return !package_folder().empty() && file.compare(0, package_folder().size(), package_folder()) == 0;
+}
+
+// The text of a file of Python code as messages quote it; notebooks keep theirs in linecache.
+SourcePtr read_source(const std::string& file) {
+  std::string text;
+  for (const py::handle line : py::module_::import("linecache").attr("getlines")(file)) text += py::str(line);
+  return make_source(file, std::move(text));
+}
+
+SourcePtr source_of(const std::string& file) {
+  static auto* const known = new std::map<std::string, SourcePtr>();  // lives as long as the process
+  const auto [entry, is_new] = known->try_emplace(file);
+  if (is_new) entry->second = read_source(file);
+  return entry->second;
+}
+
+SourceRange line_range(const SourcePtr& source, int number) {
+  std::string_view line = source->line(number);
+  const size_t first = line.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {source, 0, 0};
+  line.remove_prefix(first);
+  const auto begin = static_cast<uint32_t>(line.data() - source->text().data());
+  return {source, begin, static_cast<uint32_t>(begin + line.size())};
+}
+
+DataList list_of(const py::handle& values, const SourceRange& where, const std::string& what) {
+  DataList list;
+  for (const py::handle element : values) list.push_back(to_data(element, where, what));
+  return list;
+}
+
+bool has(const py::handle& value, const char* name) { return py::hasattr(value, name); }
+
+}  // namespace
+
+Data to_data(const py::handle& value, const SourceRange& where, const std::string& what) {
+  if (value.is_none()) return {};
+  if (py::isinstance<py::bool_>(value)) return {value.cast<bool>(), where};
+  if (py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value)) return {value.cast<double>(), where};
+  if (py::isinstance<py::str>(value)) return {value.cast<std::string>(), where};
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) return {list_of(value, where, what), where};
+  if (has(value, "_ombre_text_")) return {value.attr("_ombre_text_").cast<std::string>(), where};
+  if (has(value, "_ombre_function_")) {
+    const HostObjectPtr function = std::make_shared<HostFunction>(value.attr("_ombre_function_"), where);
+    return {function, where};
+  }
+  if (has(value, "tolist")) return to_data(value.attr("tolist")(), where, what);  // arrays and scalars of NumPy
+  if (has(value, "__fspath__")) return {py::str(value.attr("__fspath__")()).cast<std::string>(), where};
+  throw py::type_error(what + ": expected a number, a text, a list of these, an expression or a function, found " +
+                       py::str(py::type::of(value).attr("__name__")).cast<std::string>());
+}
+
+py::dict to_python(const DataMembers& members) {
+  py::dict dict;
+  for (const auto& [name, value] : members) dict[py::str(name)] = to_python(value);
+  return dict;
+}
+
+py::object to_python(const Data& data) {
+  if (const bool* b = data.boolean()) return py::bool_(*b);
+  if (const double* n = data.number()) return py::float_(*n);
+  if (const std::string* s = data.string()) return py::str(*s);
+  if (const DataMembers* members = data.members()) return to_python(*members);
+  if (const auto function = std::dynamic_pointer_cast<const HostFunction>(data.host_object()))
+    return function->callable();
+  const DataList* list = data.list();
+  if (!list) return py::none();
+  py::list result;
+  for (const Data& element : *list) result.append(to_python(element));
+  return result;
+}
+
+SourceRange call_site() {
+  auto* frame = reinterpret_cast<PyObject*>(PyThreadState_GetFrame(PyThreadState_Get()));
+  auto held = py::reinterpret_steal<py::object>(frame);
+  while (held) {
+    auto* const here = reinterpret_cast<PyFrameObject*>(held.ptr());
+    const auto code = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(PyFrame_GetCode(here)));
+    const auto file = code.attr("co_filename").cast<std::string>();
+    if (!is_own_file(file)) return line_range(source_of(file), PyFrame_GetLineNumber(here));
+    held = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(PyFrame_GetBack(here)));
+  }
+  return {};
+}
+
+void set_package_folder(const std::string& folder) { package_folder() = folder; }
+
+py::list to_python(const Diagnostics& diagnostics) {
+  py::list list;
+  for (const Diagnostic& diagnostic : diagnostics.list()) {
+    py::dict entry;
+    entry["severity"] = diagnostic.severity == Severity::error     ? "error"
+                        : diagnostic.severity == Severity::warning ? "warning"
+                                                                   : "note";
+    entry["message"] = diagnostic.message;
+    entry["hint"] = diagnostic.hint;
+    if (diagnostic.where.source) {
+      const Place place = diagnostic.where.source->place(diagnostic.where.begin);
+      entry["file"] = diagnostic.where.source->name();
+      entry["line"] = place.line;
+      entry["column"] = place.column;
+    }
+    entry["text"] = to_text(diagnostic);
+    list.append(entry);
+  }
+  return list;
+}
+
+py::object package_member(const char* name) { return py::module_::import("ombre._errors").attr(name); }
+
+void raise_errors(const Diagnostics& diagnostics) {
+  if (diagnostics.list().empty()) return;
+  package_member("report")(to_python(diagnostics));
+}
+
+}  // namespace ombre::python

@@ -1,0 +1,283 @@
+#include "designs.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "base/json.h"
+#include "base/text.h"
+#include "compile/build.h"
+#include "compile/node_registry.h"
+#include "data.h"
+#include "host_function.h"
+
+namespace ombre::python {
+namespace {
+
+using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+template <class F>
+void each_function(const Data& data, const F& f) {
+  if (const DataList* list = data.list())
+    for (const Data& element : *list) each_function(element, f);
+  if (const auto function = std::dynamic_pointer_cast<const HostFunction>(data.host_object())) f(*function);
+}
+
+py::tuple tuple_of(Vec3 v) { return py::make_tuple(v.x, v.y, v.z); }
+
+compile::SampleWishes wishes_for(const std::string& question, const design::Design& design) {
+  compile::SampleWishes wishes;
+  if (question == "inside") wishes.inside = true;
+  if (question == "distance") wishes.distance = true;
+  if (question == "material") wishes.inside = wishes.fractions = true;
+  if (question == "all") wishes = {true, true, true, true, compile::attribute_names(design)};
+  if (question.starts_with("attribute ")) wishes.attributes = {question.substr(10)};
+  return wishes;
+}
+
+const char* name(compile::Sampler::Column::Kind kind) {
+  constexpr const char* names[] = {"inside", "distance", "fraction", "attribute", "part"};
+  return names[static_cast<size_t>(kind)];
+}
+
+// [(kind, name, values)], values as many as points.
+py::list sample(DesignHandle& handle, const Points& points, const std::string& question, int threads) {
+  if (points.ndim() != 2 || points.shape(1) != 3)
+    throw py::value_error("points have the shape (N, 3), mm, not " +
+                          py::str(points.attr("shape")).cast<std::string>());
+  const std::shared_ptr<const compile::Sampler> sampler = handle.sampler(question);
+  std::vector<py::array_t<double>> arrays;
+  std::vector<double*> columns;
+  for (size_t c = 0; c < sampler->columns().size(); ++c) {
+    arrays.emplace_back(points.shape(0));
+    columns.push_back(arrays.back().mutable_data());
+  }
+  const auto* const first = reinterpret_cast<const Vec3*>(points.data());
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  bool has_failed = false;
+  {
+    const py::gil_scoped_release unlocked;
+    try {
+      sampler->sample({first, static_cast<size_t>(points.shape(0))}, columns, threads);
+    } catch (const HostFailure&) {
+      has_failed = true;
+    }
+  }
+  if (has_failed) handle.raise_failures();
+  py::list result;
+  for (size_t c = 0; c < arrays.size(); ++c)
+    result.append(py::make_tuple(name(sampler->columns()[c].kind), sampler->columns()[c].name, arrays[c]));
+  return result;
+}
+
+FactoryPtr make_factory(const std::string& path) {
+  Diagnostics diagnostics;
+  auto materials = compile::load_materials(path, diagnostics);
+  raise_errors(diagnostics);
+  return std::make_shared<compile::NodeFactory>(std::move(*materials));
+}
+
+NodeHandle make_node(const FactoryPtr& factory, const std::string& type, const py::tuple& positional,
+                     const py::dict& named, const std::vector<NodeHandle>& inputs) {
+  const SourceRange where = call_site();
+  compile::NodeFactory::Arguments arguments;
+  for (const py::handle value : positional) arguments.emplace_back("", to_data(value, where, type));
+  for (const auto& [key, value] : named) {
+    const auto parameter = key.cast<std::string>();
+    arguments.emplace_back(parameter, to_data(value, where, parameter + " of " + type));
+  }
+  std::vector<design::NodePtr> nodes;
+  for (const NodeHandle& input : inputs) {
+    if (&input.factory->materials().all() != &factory->materials().all())
+      throw py::value_error(type + ": its inputs were made with other materials; give all of them the same");
+    nodes.push_back(input.node);
+  }
+  Diagnostics diagnostics;
+  design::NodePtr node = factory->make(type, std::move(arguments), std::move(nodes), where, diagnostics);
+  raise_errors(diagnostics);
+  return {std::move(node), factory};
+}
+
+py::dict parameters(const NodeHandle& handle) {
+  const design::NodeType& type = handle.node->type();
+  py::dict result;
+  for (size_t i = 0; i < type.parameters.size(); ++i)
+    result[py::str(type.parameters[i].name)] = to_python(type.get(handle.node->value(), i, false));
+  return result;
+}
+
+std::vector<NodeHandle> inputs(const NodeHandle& handle) {
+  std::vector<NodeHandle> result;
+  for (const design::NodePtr& input : handle.node->inputs()) result.push_back({input, handle.factory});
+  return result;
+}
+
+py::list materials_list(const design::MaterialTable& table) {
+  py::list list;
+  for (const design::Material& material : table.all()) {
+    py::dict entry;
+    entry["name"] = material.name;
+    entry["id"] = static_cast<int>(material.id);
+    entry["colour"] = py::make_tuple(material.colour[0], material.colour[1], material.colour[2], material.colour[3]);
+    entry["properties"] = to_python(material.properties);
+    list.append(entry);
+  }
+  return list;
+}
+
+std::array<Pitch, 3> read_pitches(const std::vector<std::string>& texts) {
+  std::array<Pitch, 3> pitches;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const auto pitch = Pitch::parse(texts.at(axis));
+    if (!pitch) throw py::value_error("\"" + texts[axis] + "\" is not a voxel size in mm; write for example \"0.1\"");
+    pitches[axis] = *pitch;
+  }
+  return pitches;
+}
+
+using PartList = std::vector<std::pair<std::string, NodeHandle>>;
+
+std::unique_ptr<DesignHandle> make_design(const PartList& parts,
+                                          const std::optional<std::vector<std::array<double, 3>>>& box,
+                                          const std::vector<std::string>& voxel) {
+  if (parts.empty()) throw py::value_error("a design has at least one part");
+  const FactoryPtr factory = parts[0].second.factory;
+  design::Design design{factory->materials(), {}, std::nullopt};
+  for (const auto& [part_name, handle] : parts) {
+    if (&handle.factory->materials().all() != &factory->materials().all())
+      throw py::value_error("the parts were made with different materials; give all of them the same");
+    design.parts.push_back({part_name, handle.node});
+  }
+  if (box) {
+    const auto corner = [&](size_t i) { return Vec3{(*box)[i][0], (*box)[i][1], (*box)[i][2]}; };
+    design.sampling = design::Sampling{{corner(0), corner(1)}, read_pitches(voxel)};
+  }
+  const SourceRange where = design.parts[0].solid->where();
+  const SourcePtr source = where.source ? where.source : make_source("design", "");
+  auto loaded = std::make_shared<const compile::Loaded>(compile::Loaded{source->name(), source, std::move(design)});
+  return std::make_unique<DesignHandle>(std::move(loaded), factory);
+}
+
+std::unique_ptr<DesignHandle> load(const std::string& path, const std::string& materials,
+                                   const std::vector<std::string>& definitions) {
+  Diagnostics diagnostics;
+  compile::LoadOptions options;
+  options.materials = materials;
+  options.definitions = definitions;
+  compile::LoadedPtr loaded;
+  {
+    const py::gil_scoped_release unlocked;
+    loaded = compile::load_design(path, options, diagnostics);
+  }
+  raise_errors(diagnostics);
+  return std::make_unique<DesignHandle>(loaded, std::make_shared<compile::NodeFactory>(loaded->design.materials));
+}
+
+std::unique_ptr<DesignHandle> from_json(const std::string& text) {
+  const SourcePtr source = make_source("design.json", text);
+  Diagnostics diagnostics;
+  compile::MeshLoader loader;
+  std::optional<design::Design> design;
+  if (const auto data = parse_json(source, diagnostics))
+    design = design::read_design(*data, compile::node_registry(), &loader, diagnostics);
+  raise_errors(diagnostics);
+  const auto factory = std::make_shared<compile::NodeFactory>(design->materials);
+  auto loaded = std::make_shared<const compile::Loaded>(compile::Loaded{"design.json", source, std::move(*design)});
+  return std::make_unique<DesignHandle>(std::move(loaded), factory);
+}
+
+std::string to_json(const DesignHandle& handle) {
+  if (const design::Node* node = design::find_host_function(handle.design())) {
+    Diagnostics diagnostics;
+    diagnostics.error(node->where(),
+                      node->type().name + " has a Python function, so the design can be neither saved, copied to " +
+                          "another process nor resumed: nothing tells what the function is",
+                      "write it as an expression");
+    raise_errors(diagnostics);
+  }
+  return print_json(design::to_data(handle.design()));
+}
+
+py::tuple bounds(const DesignHandle& handle) {
+  Diagnostics diagnostics;
+  const auto box = compile::design_box(handle.design(), diagnostics);
+  raise_errors(diagnostics);
+  return py::make_tuple(tuple_of(box->lo), tuple_of(box->hi));
+}
+
+py::object sampling(const DesignHandle& handle) {
+  if (!handle.design().sampling) return py::none();
+  const auto& [box, pitch] = *handle.design().sampling;
+  return py::make_tuple(tuple_of(box.lo), tuple_of(box.hi),
+                        py::make_tuple(pitch[0].text(), pitch[1].text(), pitch[2].text()));
+}
+
+py::object place(const NodeHandle& handle) {
+  const SourceRange& where = handle.node->where();
+  if (!where.source) return py::none();
+  return py::make_tuple(where.source->name(), where.source->place(where.begin).line);
+}
+
+}  // namespace
+
+DesignHandle::DesignHandle(compile::LoadedPtr loaded, FactoryPtr factory)
+    : loaded_(std::move(loaded)), factory_(std::move(factory)) {}
+
+std::shared_ptr<const compile::Sampler> DesignHandle::sampler(const std::string& question) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto known = samplers_.find(question); known != samplers_.end()) return known->second;
+  }
+  // Built without the lock: it may call functions of Python. The first one counts.
+  Diagnostics diagnostics;
+  auto built = compile::Sampler::build(design(), wishes_for(question, design()), diagnostics);
+  raise_errors(diagnostics);
+  auto sampler = std::make_shared<const compile::Sampler>(std::move(*built));
+  const std::scoped_lock lock(mutex_);
+  return samplers_.emplace(question, std::move(sampler)).first->second;
+}
+
+void DesignHandle::raise_failures() const {
+  for (const design::Node* node : topological(design().roots()))
+    for (size_t i = 0; i < node->type().parameters.size(); ++i)
+      each_function(node->type().get(node->value(), i, false), [](const HostFunction& f) { f.raise_failure(); });
+}
+
+void add_designs(py::module_& module) {
+  py::class_<compile::NodeFactory, FactoryPtr>(module, "Factory", "Makes nodes that name one table of materials.")
+      .def(py::init(&make_factory), py::arg("path"))
+      .def("make", &make_node)
+      .def_property_readonly("materials", [](const FactoryPtr& f) { return materials_list(f->materials()); });
+  py::class_<NodeHandle>(module, "Node", "A node of a design; never changes.")
+      .def_property_readonly("type", [](const NodeHandle& h) { return h.node->type().name; })
+      .def_property_readonly("metric", [](const NodeHandle& h) { return std::string(name(h.node->metric().kind)); })
+      .def_property_readonly("parameters", &parameters)
+      .def_property_readonly("inputs", &inputs)
+      .def_property_readonly("factory", [](const NodeHandle& h) { return h.factory; })
+      .def_property_readonly("place", &place)
+      .def_property_readonly("address", [](const NodeHandle& h) { return reinterpret_cast<uintptr_t>(h.node.get()); });
+  py::class_<DesignHandle>(module, "Design", "Parts, materials, perhaps a box to sample; never changes.")
+      .def(py::init(&make_design), py::arg("parts"), py::arg("box") = py::none(),
+           py::arg("voxel") = std::vector<std::string>{})
+      .def_static("load", &load, py::arg("path"), py::arg("materials") = "",
+                  py::arg("definitions") = std::vector<std::string>{})
+      .def_static("from_json", &from_json)
+      .def("to_json", &to_json)
+      .def("tree", [](const DesignHandle& h) { return design::to_tree(h.design()); })
+      .def("hash", [](const DesignHandle& h) { return design::hash(h.design()).hex(); })
+      .def("has_functions", [](const DesignHandle& h) { return design::find_host_function(h.design()) != nullptr; })
+      .def_property_readonly("bounds", &bounds)
+      .def_property_readonly("sampling", &sampling)
+      .def_property_readonly("attributes", [](const DesignHandle& h) { return compile::attribute_names(h.design()); })
+      .def_property_readonly("materials", [](const DesignHandle& h) { return materials_list(h.design().materials); })
+      .def_property_readonly("factory", &DesignHandle::factory)
+      .def_property_readonly("parts",
+                             [](const DesignHandle& h) {
+                               PartList parts;
+                               for (const design::Part& part : h.design().parts)
+                                 parts.emplace_back(part.name, NodeHandle{part.solid, h.factory()});
+                               return parts;
+                             })
+      .def("sample", &sample, py::arg("points"), py::arg("question"), py::arg("threads") = 0);
+}
+
+}  // namespace ombre::python

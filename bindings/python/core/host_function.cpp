@@ -1,0 +1,85 @@
+#include "host_function.h"
+
+#include <pybind11/numpy.h>
+
+#include <atomic>
+
+#include "base/text.h"
+#include "data.h"
+
+namespace ombre::python {
+namespace {
+
+Hash next_identity() {
+  static std::atomic<uint64_t> count{0};
+  return hash_bytes("function " + std::to_string(++count));
+}
+
+py::array_t<double> array_of(std::span<const double> values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+std::string name_of(const py::object& callable) {
+  return py::str(py::getattr(callable, "__name__", py::str("function"))).cast<std::string>();
+}
+
+}  // namespace
+
+HostFunction::HostFunction(py::object callable, SourceRange where)
+    : callable_(std::move(callable)), where_(std::move(where)), name_(name_of(callable_)), identity_(next_identity()) {}
+
+HostFunction::~HostFunction() {
+  if (!Py_IsInitialized()) {  // nothing can be given back any more
+    callable_.release();
+    failure_.release();
+    return;
+  }
+  const py::gil_scoped_acquire lock;
+  callable_ = {};
+  failure_ = {};
+}
+
+double HostFunction::sample(int channel, Vec3 p) const {
+  double value = 0;
+  sample_all(channel, {&p.x, 1}, {&p.y, 1}, {&p.z, 1}, {&value, 1});
+  return value;
+}
+
+void HostFunction::sample_all(int, std::span<const double> xs, std::span<const double> ys, std::span<const double> zs,
+                              std::span<double> values) const {
+  if (values.empty()) return;
+  const py::gil_scoped_acquire lock;
+  try {
+    call(xs, ys, zs, values);
+  } catch (py::error_already_set& error) {
+    if (!failure_)
+      failure_ = package_member("function_failure")(error.value(), name_, py::make_tuple(xs[0], ys[0], zs[0]));
+    throw HostFailure();
+  }
+}
+
+void HostFunction::call(std::span<const double> xs, std::span<const double> ys, std::span<const double> zs,
+                        std::span<double> values) const {
+  const py::object result = callable_(array_of(xs), array_of(ys), array_of(zs));
+  const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(result);
+  if (!numbers) throw py::error_already_set();
+  if (numbers.size() == 1) return std::fill(values.begin(), values.end(), *numbers.data());
+  if (numbers.ndim() != 1 || numbers.size() != static_cast<py::ssize_t>(values.size())) {
+    const std::string shape = py::str(numbers.attr("shape")).cast<std::string>();
+    PyErr_SetString(PyExc_ValueError, ("the function gave an array of shape " + shape + " for " +
+                                       std::to_string(values.size()) + " points; one number for each is needed")
+                                          .c_str());
+    throw py::error_already_set();
+  }
+  std::copy_n(numbers.data(), values.size(), values.begin());
+}
+
+void HostFunction::raise_failure() const {
+  if (!failure_) return;
+  const py::object failure = std::move(failure_);
+  failure_ = {};
+  PyErr_SetObject(py::type::of(failure).ptr(), failure.ptr());
+  throw py::error_already_set();
+}
+
+}  // namespace ombre::python

@@ -1,0 +1,54 @@
+// Functions of Python as field sources: slower than expressions, and known to this process alone.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <mutex>
+
+#include "base/source_text.h"
+#include "program/field_source.h"
+
+namespace ombre::python {
+
+namespace py = pybind11;
+
+class HostFunction : public program::FieldSource {
+ public:
+  // `callable` takes three arrays of coordinates, mm, and returns an array of as many numbers, or one number.
+  HostFunction(py::object callable, SourceRange where);
+  ~HostFunction() override;
+  HostFunction(const HostFunction&) = delete;
+  HostFunction& operator=(const HostFunction&) = delete;
+
+  const py::object& callable() const { return callable_; }
+  const SourceRange& where() const { return where_; }
+
+  std::string name() const override { return name_; }
+  Hash content() const override { return identity_; }
+  Box bounds() const override { return Box::everything(); }
+  int channel(std::string_view) const override { return 0; }
+  double sample(int channel, Vec3 p) const override;
+  // Throws HostFailure when the function fails; what it raised is kept for `raise_failure`.
+  void sample_all(int channel, std::span<const double> xs, std::span<const double> ys, std::span<const double> zs,
+                  std::span<double> values) const override;
+
+  // Raises what the function raised, if it did, with where and at which point. Needs the interpreter's lock.
+  void raise_failure() const;
+
+ private:
+  void call(std::span<const double> xs, std::span<const double> ys, std::span<const double> zs,
+            std::span<double> values) const;
+
+  py::object callable_;
+  SourceRange where_;
+  std::string name_;
+  Hash identity_;  // of this object: nothing tells what a function computes
+  mutable py::object failure_;
+};
+
+// Ends a job whose function failed.
+struct HostFailure : std::exception {
+  const char* what() const noexcept override { return "a function of the design failed"; }
+};
+
+}  // namespace ombre::python

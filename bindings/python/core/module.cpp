@@ -1,0 +1,28 @@
+// The compiled part of the package `ombre`.
+#include <pybind11/pybind11.h>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "data.h"
+#include "designs.h"
+
+namespace ombre::python {
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "The compiled part of ombre; use the package.";
+  module.attr("version") = OMBRE_VERSION;
+  module.def("set_package_folder", &set_package_folder);
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer) std::rethrow_exception(pointer);
+    } catch (const Error& error) {
+      PyErr_SetString(package_member("MachineError").ptr(), error.what());
+    } catch (const Cancelled&) {
+      PyErr_SetNone(PyExc_KeyboardInterrupt);
+    }
+  });
+  add_designs(module);
+  add_commands(module);
+}
+
+}  // namespace ombre::python

@@ -1,0 +1,44 @@
+"""Ombre: solids whose material varies through their volume.
+
+    import ombre
+    from ombre import x
+
+    bar = ombre.rectprism((20, 5, 5)).grade({"red": 0.5 + x/20, "blue": 0.5 - x/20})
+    bar.slice("bar/", printer="j750")
+
+Lengths are millimetres, angles degrees; z is up. Every node of `ombre nodes` is a class here, and a method of solids
+where it works on one.
+"""
+import os as _os
+from builtins import __dict__ as _builtin_names
+
+from . import _core
+
+_core.set_package_folder(_os.path.dirname(_os.path.abspath(__file__)))
+if "OMBRE_DATA" not in _os.environ:
+    for _folder in ("data", "../../../..", "../../../../.."):  # a wheel's own, or the sources above a build folder
+        _data = _os.path.normpath(_os.path.join(_os.path.dirname(_os.path.abspath(__file__)), _folder))
+        if _os.path.isdir(_os.path.join(_data, "printers")) and _os.path.isdir(_os.path.join(_data, "materials")):
+            _os.environ["OMBRE_DATA"] = _data
+            break
+
+from ._design import Design, Voxels, _document_jobs, load
+from ._errors import CheckError, DesignError, DesignWarning, FunctionError, MachineError
+from ._expressions import Expression, d, where
+from ._expressions import coordinates as _coordinates, functions as _functions
+from ._functions import pointwise
+from ._materials import Materials
+from ._script import option
+from ._solid import Solid, node_classes as _node_classes
+
+__version__ = _core.version
+
+_nodes = _node_classes()
+_document_jobs()
+# Functions of expressions step back where a node has their name.
+globals().update({**{n: f for n, f in _functions.items() if n != "if"},
+                  **_coordinates, **_nodes})
+
+__all__ = ["Design", "Voxels", "load", "CheckError", "DesignError", "DesignWarning", "FunctionError", "MachineError",
+           "Expression", "d", "where", "pointwise", "Materials", "option", "Solid", *_coordinates, *_nodes,
+           *(n for n in _functions if n != "if" and n not in _builtin_names)]

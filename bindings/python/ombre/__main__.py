@@ -1,0 +1,81 @@
+"""The command line, which runs designs that are Python scripts: python3 -m ombre slice part.py."""
+import json
+import os
+import sys
+import traceback
+
+
+def _definitions(texts):
+    variables = {}
+    for text in texts:
+        name, _, value = text.partition("=")
+        try:
+            variables[name.strip()] = json.loads(value)
+        except ValueError:
+            variables[name.strip()] = value
+    return variables
+
+
+def _load(path, materials, definitions):
+    """For the compiled part: the design, or None once it was told what is wrong."""
+    from ._errors import DesignError
+    from ._script import load_script
+    try:
+        return load_script(path, materials, _definitions(definitions))
+    except DesignError as error:
+        print(error, file=sys.stderr)
+    except SystemExit as end:
+        print(f"{path} ended with sys.exit({end.code!r})", file=sys.stderr)
+    except BaseException:  # also what scripts raise to end themselves
+        kind, error, trace = sys.exc_info()
+        while trace and trace.tb_frame.f_code.co_filename != path:  # the lines above the script's own say nothing
+            trace = trace.tb_next
+        traceback.print_exception(kind, error, trace)
+    return None
+
+
+_commands = {".png": "render", ".stl": "mesh", ".obj": "mesh", ".ply": "mesh", ".off": "mesh", ".amf": "mesh",
+             ".3mf": "mesh", ".glb": "mesh", ".svg": "contours", ".cli": "contours", ".vdb": "voxels",
+             ".nvdb": "voxels", ".npy": "voxels", ".nrrd": "voxels", ".raw": "voxels"}
+
+
+def _run_arguments(arguments):
+    """`run script.py [-- [COMMAND] ARGS]`: the arguments of the command that gets the script as its design."""
+    if not arguments or arguments[0] in ("-h", "--help"):
+        print("Usage: ombre run SCRIPT.py [-- [COMMAND] ARGUMENTS...]\n\n"
+              "Runs a script. With --, its root becomes the design of a command; where none is named, the ending of\n"
+              "-o says which: .png a picture, .stl .3mf ... a mesh, .vdb .npy ... voxels, .svg .cli contours, a folder\n"
+              "slices.\n\nExamples:\n  ombre run part.py\n  ombre run part.py -- -o part.3mf\n"
+              "  ombre run part.py -- slice --printer j750 -o layers/")
+        return None
+    script, rest = arguments[0], arguments[1:]
+    if not rest:
+        return [script]
+    if rest[0] != "--":
+        print(f"ombre: error: write -- before {rest[0]}: ombre run {script} -- {' '.join(rest)}", file=sys.stderr)
+        raise SystemExit(1)
+    rest = rest[1:]
+    if rest and not rest[0].startswith("-"):
+        return [rest[0], script, *rest[1:]]
+    output = next((b for a, b in zip(rest, rest[1:]) if a in ("-o", "--output")), "")
+    return [_commands.get(os.path.splitext(output)[1].lower(), "slice"), script, *rest]
+
+
+def main(arguments=None):
+    from . import _core
+    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    if arguments[:1] == ["run"]:
+        arguments = _run_arguments(arguments[1:])
+        if arguments is None:
+            return 0
+        if len(arguments) == 1:
+            import runpy
+            sys.argv = arguments
+            sys.path.insert(0, os.path.dirname(os.path.abspath(arguments[0])))
+            runpy.run_path(arguments[0], run_name="__main__")
+            return 0
+    return _core.run_main(arguments, _load)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,121 @@
+"""Jobs: the commands of the command line, with their options as keyword arguments."""
+import functools
+import os
+import sys
+
+from . import _core
+from ._errors import CheckError, DesignError, DesignWarning, MachineError
+
+import warnings
+
+
+@functools.lru_cache(maxsize=None)
+def options_of(command):
+    """{keyword: option} of a command; an option has name, help, type, is_flag and is_list."""
+    for known in _core.commands():
+        if known["name"] == command:
+            return {o["name"].lstrip("-").replace("-", "_"): o for o in known["options"] if o["name"].startswith("--")}
+    raise KeyError(command)
+
+
+# What Python has in another way.
+_own = {"help", "quiet", "json", "define", "emit", "output", "materials"}
+
+
+def keywords_of(command):
+    return {name: option for name, option in options_of(command).items() if name not in _own}
+
+
+def _text(value):
+    if isinstance(value, (list, tuple)) or hasattr(value, "tolist"):
+        return ",".join(_text(v) for v in value)
+    if isinstance(value, float):
+        return repr(value)
+    return os.fspath(value) if hasattr(value, "__fspath__") else str(value)
+
+
+def _arguments(command, options):
+    known = keywords_of(command)
+    arguments = []
+    for name, value in options.items():
+        if name not in known:
+            import difflib
+            close = difflib.get_close_matches(name, known, 1)
+            hint = f"did you mean {close[0]!r}?" if close else "it has " + ", ".join(sorted(known))
+            raise TypeError(f"{command} has no option {name!r}; {hint}")
+        option = known[name]
+        if value is None or value is False:
+            continue
+        if option["is_flag"]:
+            if value is not True:
+                raise TypeError(f"{name} of {command} is True or False, not {value!r}")
+            arguments.append(option["name"])
+        elif option["is_list"]:
+            if isinstance(value, dict):
+                value = [f"{key}={_text(v)}" for key, v in value.items()]
+            for element in [value] if isinstance(value, str) else value:
+                arguments += [f"{option['name']}={_text(element)}"]
+        else:
+            arguments += [f"{option['name']}={_text(value)}"]
+    return arguments
+
+
+class Report(dict):
+    """What a job told: the members of its last event, and all `events`."""
+
+    def __init__(self, events):
+        last = [e for e in events if e["event"] not in ("progress", "message")]
+        super().__init__({k: v for event in last for k, v in event.items() if k != "event"})
+        self.events = events
+
+
+def _progress_bar(progress):
+    """A function for the job's events, from True (tqdm where it is installed), a function, or None."""
+    if progress is None or progress is False:
+        return None
+    if callable(progress):
+        return lambda event: progress(event["voxels_done"] / max(event["voxels_total"], 1))
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        return lambda event: print(f"\r{100 * event['voxels_done'] / max(event['voxels_total'], 1):3.0f}%",
+                                   end="", file=sys.stderr, flush=True)
+    bar = tqdm(unit=" voxels", unit_scale=True)
+
+    def update(event):
+        bar.total = event["voxels_total"]
+        bar.update(event["voxels_done"] - bar.n)
+    return update
+
+
+def run(command, arguments, options, design=None, progress=None):
+    """Runs a command. Returns its report and what it would have written to stdout.
+
+    Raises DesignError, MachineError, CheckError, KeyboardInterrupt.
+    """
+    events = []
+    show = _progress_bar(progress)
+
+    def take(event):
+        if event["event"] != "progress":
+            events.append(event)
+        elif show:
+            show(event)
+    words = [command, *([] if design is None else ["design"]), *arguments, *_arguments(command, options)]
+    code, data = _core.run_command(words, design, take)
+    messages = [e for e in events if e["event"] == "message"]
+    if code == 130:
+        raise KeyboardInterrupt
+    if code:
+        text = "\n".join(_message_text(m) for m in messages if m["severity"] != "warning" or code == 3)
+        raise {1: DesignError, 3: CheckError}.get(code, MachineError)(text or f"{command} failed with code {code}")
+    for message in messages:
+        if message["severity"] == "warning":
+            warnings.warn(_message_text(message), DesignWarning, stacklevel=3)
+    return Report(events), data
+
+
+def _message_text(message):
+    place = f"{message['file']}:{message['line']:.0f}: " if "file" in message else ""
+    hint = f"; {message['hint']}" if message.get("hint") else ""
+    return place + message["message"] + hint

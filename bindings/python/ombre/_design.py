@@ -1,0 +1,341 @@
+"""Designs: parts and materials, what can be asked of them, and jobs."""
+import dataclasses
+import html
+import os
+import pathlib
+import tempfile
+import textwrap
+
+import numpy
+
+from . import _core
+from ._commands import keywords_of, run
+from ._errors import DesignError
+from ._solid import Solid, _is_solid, _nodes, wrap
+
+
+@dataclasses.dataclass(frozen=True)
+class Voxels:
+    """A grid of voxels.
+
+    Attributes:
+        values: array of the shape (z, y, x): `values[k, j, i]`. Material ids, fractions or distances (mm).
+        spacing: voxel sizes (x, y, z), mm.
+        origin: centre of voxel (0, 0, 0), mm.
+        about: what else `ombre voxels` says of it.
+    """
+    values: numpy.ndarray
+    spacing: tuple
+    origin: tuple
+    about: dict
+
+    def centers(self):
+        """Centres of the voxels, mm, of the shape (z, y, x, 3)."""
+        axes = [self.origin[a] + self.spacing[a] * numpy.arange(self.values.shape[2 - a]) for a in range(3)]
+        z, y, x = numpy.meshgrid(axes[2], axes[1], axes[0], indexing="ij")
+        return numpy.stack([x, y, z], axis=-1)
+
+
+def _points(points):
+    array = numpy.ascontiguousarray(points, dtype=float)
+    if array.shape[-1:] != (3,):
+        raise ValueError(f"points have the shape (..., 3), mm, not {array.shape}")
+    return array.reshape(-1, 3), array.shape[:-1]
+
+
+class Design:
+    """A design: named parts, each a solid.
+
+    Args:
+        *parts: solids; several are parts that may overlap.
+        box: ((x0, y0, z0), (x1, y1, z1)) to sample, mm; without it, what the solids fill.
+        voxel: voxel size with the box: a length, or three; mm. Strings are exact: "25.4/600".
+        **named: parts by name.
+
+    >>> import ombre
+    >>> case = ombre.Design(lid=ombre.cube(4), body=ombre.sphere(3, "blue"))
+    >>> [name for name, solid in case.parts]
+    ['lid', 'body']
+    """
+
+    __slots__ = ("_core", "_text")
+
+    def __init__(self, *parts, box=None, voxel=None, **named):
+        solids = [(f"part {n + 1}" if len(parts) > 1 else "part", part) for n, part in enumerate(parts)]
+        solids += list(named.items())
+        for name, part in solids:
+            if not _is_solid(part):
+                raise TypeError(f"{name}: expected a solid, found {type(part).__name__}")
+        if (box is None) != (voxel is None):
+            raise TypeError("a box to sample needs a voxel size, and the other way round")
+        self._text = None
+        self._core = _core.Design([(name, _nodes(part)[0]) for name, part in solids],
+                                  None if box is None else [[float(c) for c in corner] for corner in box],
+                                  [] if box is None else _voxel_texts(voxel))
+
+    @classmethod
+    def _of(cls, core):
+        design = object.__new__(cls)
+        design._core, design._text = core, None
+        return design
+
+    @classmethod
+    def from_json(cls, text):
+        """The design of a design file's text."""
+        return cls._of(_core.Design.from_json(text))
+
+    @property
+    def parts(self):
+        """[(name, solid)]"""
+        return [(name, wrap(node)) for name, node in self._core.parts]
+
+    @property
+    def bounds(self):
+        """((x0, y0, z0), (x1, y1, z1)), mm; encloses everything."""
+        return self._core.bounds
+
+    @property
+    def hash(self):
+        """Equal for designs that are the same, however they were written: 32 hexadecimal digits."""
+        return self._core.hash()
+
+    @property
+    def attributes(self):
+        """Names of the attributes that the design gives."""
+        return self._core.attributes
+
+    @property
+    def materials(self):
+        """The materials that the design may name."""
+        from ._materials import Materials
+        return Materials(_factory=self._core.factory)
+
+    def tree(self):
+        """The nodes, indented, for people."""
+        return self._core.tree()
+
+    def to_json(self):
+        """The design file's text. Raises DesignError for a design with Python functions."""
+        return self._core.to_json()
+
+    def save(self, path, force=False):
+        """Writes the design file (JSON), which `load` and the command line read."""
+        path = pathlib.Path(path)
+        text = self.to_json()
+        if path.exists() and not force:
+            raise FileExistsError(f"{path} exists already; replace it with force=True")
+        beside = path.with_name(path.name + f".{os.getpid()}.part")
+        try:
+            beside.write_text(text, encoding="utf-8")
+            os.replace(beside, path)
+        finally:
+            beside.unlink(missing_ok=True)
+
+    def __eq__(self, other):
+        return self.hash == other.hash if isinstance(other, Design) else NotImplemented
+
+    def __hash__(self):
+        return hash(self.hash)
+
+    def __reduce__(self):
+        return Design.from_json, (self.to_json(),)
+
+    def __repr__(self):
+        return f"Design({', '.join(f'{name}={solid!r}' for name, solid in self.parts)})"
+
+    # At points.
+
+    def _sample(self, points, question, threads):
+        flat, shape = _points(points)
+        return [(kind, name, values.reshape(shape)) for kind, name, values in
+                self._core.sample(flat, question, threads)]
+
+    def distance(self, points, threads=0):
+        """Signed distance at points of the shape (..., 3): mm, negative inside; an array of the shape (...).
+
+        >>> import ombre
+        >>> ombre.sphere(10).distance([[15, 0, 0], [0, 0, 0]])
+        array([  5., -10.])
+        """
+        return self._sample(points, "distance", threads)[0][2][()]
+
+    def inside(self, points, threads=0):
+        """Whether points of the shape (..., 3), mm, are inside; an array of truth values."""
+        return (self._sample(points, "inside", threads)[0][2] != 0)[()]
+
+    def material(self, points, threads=0):
+        """{material: volume fraction} at points of the shape (..., 3), mm; all are 0 outside."""
+        columns = self._sample(points, "material", threads)
+        inside = columns[0][2] != 0
+        return {name: numpy.where(inside, values, 0.0)[()] for _, name, values in columns[1:]}
+
+    def attribute(self, name, points, threads=0):
+        """An attribute's values at points of the shape (..., 3), mm."""
+        return self._sample(points, "attribute " + name, threads)[0][2][()]
+
+    def gradient(self, points, step=1e-4, threads=0):
+        """Gradient of the distance at points of the shape (..., 3), by central differences of `step` mm."""
+        flat, shape = _points(points)
+        steps = step * numpy.eye(3)
+        around = numpy.concatenate([flat[:, None, :] + steps, flat[:, None, :] - steps], axis=1)
+        values = self.distance(around, threads)
+        return ((values[:, :3] - values[:, 3:]) / (2 * step)).reshape(*shape, 3)
+
+    def nearest(self, points, steps=30, tolerance=1e-9, threads=0):
+        """Points of the surface near points of the shape (..., 3), mm: the nearest where the distance is exact.
+
+        Where it is not, Newton's steps along the gradient are taken until the distance is below the tolerance (mm).
+        """
+        flat, shape = _points(points)
+        here = flat.copy()
+        for _ in range(steps):
+            values = self.distance(here, threads)
+            far = numpy.abs(values) > tolerance
+            if not far.any():
+                break
+            slope = self.gradient(here[far], threads=threads)
+            square = (slope * slope).sum(axis=1)
+            length = numpy.divide(values[far], square, out=numpy.zeros_like(square), where=square > 1e-12)
+            here[far] -= length[:, None] * slope
+        return here.reshape(*shape, 3)
+
+    # On grids.
+
+    def voxels(self, voxel=None, what="materials", progress=None, **options):
+        """The design on a grid, in memory.
+
+        Args:
+            voxel: size, mm: a length or three; without it, the design's own, or 0.1.
+            what: "materials" (ids as slicing gives them, with its dithering), "distance" (mm), or the name of a
+                material, for its fraction.
+            progress: True for a bar, or a function of the share that is done, 0 to 1.
+            **options: of `ombre voxels`: box, printer, dither, seed, threads, ...
+
+        Returns:
+            Voxels, whose values have the shape (z, y, x).
+        """
+        if voxel is not None:
+            options["voxel"] = ",".join(_voxel_texts(voxel))
+        grids = what if what in ("materials", "distance") else "fractions"
+        import json
+        with tempfile.TemporaryDirectory(prefix="ombre_") as folder:
+            path = os.path.join(folder, "grid.npy")
+            run("voxels", ["-o", path, *_grid_arguments(grids)], options, self._core, progress)
+            files = {json.loads(p.read_text(encoding="utf-8")).get("material", {}).get("name", grids): p
+                     for p in pathlib.Path(folder).glob("*.json")}
+            found = next((p for name, p in files.items() if grids != "fractions" or name.lower() == what.lower()), None)
+            if found is None:
+                raise DesignError(f"{what!r} is neither materials nor distance nor a material of the design, which has "
+                                  + ", ".join(sorted(files)))
+            about = json.loads(found.read_text(encoding="utf-8"))
+            values = numpy.load(found.with_suffix(""))
+        return Voxels(values, tuple(about["spacing_mm"]), tuple(about["origin_mm"]), about)
+
+    def volumes(self, voxel=None, **options):
+        """{material: volume in mm3}, by counting voxels as slicing fills them."""
+        if voxel is None and self._core.sampling is None:
+            (x0, y0, z0), (x1, y1, z1) = self.bounds
+            voxel = max((max(x1 - x0, 1e-9) * max(y1 - y0, 1e-9) * max(z1 - z0, 1e-9) / 8e6) ** (1 / 3), 1e-4)
+            voxel = f"{voxel:.3g}"
+        grid = self.voxels(voxel, **options)
+        counts = numpy.bincount(grid.values.ravel(), minlength=1)
+        size = float(numpy.prod(grid.spacing))
+        names = self.materials.names
+        return {names[i]: int(n) * size for i, n in enumerate(counts) if i and n}
+
+    def volume(self, voxel=None, **options):
+        """Volume in mm3, by counting voxels of the given size (mm); without one, 8 million in the bounds."""
+        return sum(self.volumes(voxel, **options).values())
+
+    # Jobs.
+
+    def _job(self, command, path, progress, options):
+        arguments = [] if path is None else ["-o", os.fspath(path)]
+        return run(command, arguments, options, self._core, progress)[0]
+
+    def slice(self, folder, progress=None, **options):
+        """Writes a printable slice stack to a folder; see `ombre slice`."""
+        if options.get("resume"):
+            self.to_json()  # raises for a design with Python functions, which cannot be resumed
+        return self._job("slice", folder, progress, options)
+
+    def layer(self, path, **options):
+        """Writes one layer as an image, by z=mm or index=n; see `ombre layer`."""
+        return self._job("layer", path, None, options)
+
+    def mesh(self, path, progress=None, **options):
+        """Writes closed surfaces (.stl, .obj, .ply, .off, .amf, .3mf, .glb); see `ombre mesh`."""
+        return self._job("mesh", path, progress, options)
+
+    def contours(self, path, progress=None, **options):
+        """Writes outlines of layers (.svg, .cli); see `ombre contours`."""
+        return self._job("contours", path, progress, options)
+
+    def write_voxels(self, path, progress=None, **options):
+        """Writes a grid (.vdb, .nvdb, .npy, .nrrd, .raw); see `ombre voxels`."""
+        return self._job("voxels", path, progress, options)
+
+    def render(self, path=None, **options):
+        """Writes a picture (.png), or returns it as bytes when there is no path; see `ombre render`."""
+        if path is not None:
+            return self._job("render", path, None, options)
+        with tempfile.TemporaryDirectory(prefix="ombre_") as folder:
+            file = pathlib.Path(folder) / "picture.png"
+            self._job("render", file, None, options)
+            return file.read_bytes()
+
+    def show(self, **options):
+        """Shows a picture: in a notebook there, else by the system's viewer."""
+        from ._show import show_picture
+        return show_picture(self.render(**options))
+
+    def _repr_png_(self):
+        return self.render(size="480x360", legend=True)
+
+    def _repr_html_(self):
+        import base64
+        picture = base64.b64encode(self._repr_png_()).decode("ascii")
+        (x0, y0, z0), (x1, y1, z1) = self.bounds
+        names = html.escape(", ".join(name for name, _ in self.parts))
+        return (f'<div><img alt="{names}" width="480" src="data:image/png;base64,{picture}"/><div>{names}: '
+                f"{x1 - x0:.4g} × {y1 - y0:.4g} × {z1 - z0:.4g} mm</div></div>")
+
+
+def _grid_arguments(grids):
+    return ["--what", grids]
+
+
+def _voxel_texts(voxel):
+    values = voxel.split(",") if isinstance(voxel, str) else list(numpy.atleast_1d(numpy.asarray(voxel, dtype=object)))
+    texts = [v if isinstance(v, str) else repr(float(v)) for v in values]
+    return texts * 3 if len(texts) == 1 else texts
+
+
+def load(path, materials=None, **variables):
+    """The design of a file: .vcad, .json, or a Python script (.py), whose `root` it is.
+
+    Args:
+        path: the file.
+        materials: a materials file, for scripts.
+        **variables: of a script, set before it runs.
+    """
+    path = os.fspath(path)
+    if path.endswith(".py"):
+        from ._script import load_script
+        return Design._of(load_script(path, materials or "", variables))
+    definitions = [f"{name}={_definition(value)}" for name, value in variables.items()]
+    return Design._of(_core.Design.load(path, "" if materials is None else os.fspath(materials), definitions))
+
+
+def _definition(value):
+    import json
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+def _document_jobs():
+    """Adds the commands' options to the jobs' texts."""
+    for method, command in (("slice", "slice"), ("layer", "layer"), ("mesh", "mesh"), ("contours", "contours"),
+                            ("write_voxels", "voxels"), ("render", "render")):
+        function = getattr(Design, method)
+        lines = [f"    {name}: {option['help']}" for name, option in keywords_of(command).items()]
+        function.__doc__ = textwrap.dedent(function.__doc__) + "\n\nOptions:\n" + "\n".join(lines)

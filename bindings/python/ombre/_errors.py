@@ -1,0 +1,59 @@
+"""What goes wrong, and how it is told."""
+import warnings
+
+
+class DesignError(ValueError):
+    """A design, or the arguments of a job, are wrong.
+
+    `diagnostics` lists what was found: dictionaries with severity, message, hint and, where known, file, line and
+    column.
+    """
+
+    def __init__(self, message, diagnostics=()):
+        super().__init__(message)
+        self.diagnostics = list(diagnostics)
+
+    def __reduce__(self):
+        return type(self), (str(self), self.diagnostics)
+
+
+class MachineError(OSError):
+    """A file, a disk or the memory failed."""
+
+
+class CheckError(DesignError):
+    """A check of a strict job failed."""
+
+
+class FunctionError(DesignError):
+    """A Python function of a design failed; `__cause__` is what it raised, `point` where (mm)."""
+
+    def __init__(self, message, point=None):
+        super().__init__(message)
+        self.point = point
+
+    def __reduce__(self):
+        return type(self), (str(self), self.point)
+
+
+class DesignWarning(UserWarning):
+    """Something in a design is allowed, but may not be what was meant."""
+
+
+def report(diagnostics):
+    """Raises the errors among the diagnostics; warns of the others."""
+    errors = [d for d in diagnostics if d["severity"] == "error"]
+    if errors:
+        raise DesignError("\n".join(d["text"].rstrip("\n") for d in diagnostics), diagnostics)
+    for diagnostic in diagnostics:
+        if diagnostic["severity"] == "warning":
+            warnings.warn(diagnostic["text"].rstrip("\n"), DesignWarning, stacklevel=4)
+
+
+def function_failure(cause, name, point):
+    """The exception that stands for one of a design's function."""
+    at = ", ".join(f"{c:.6g}" for c in point)
+    error = FunctionError(f"the function {name} of the design raised {type(cause).__name__}: {cause} "
+                          f"(the first point it was asked about: ({at}) mm)", point)
+    error.__cause__ = cause
+    return error
