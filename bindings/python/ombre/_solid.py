@@ -178,7 +178,9 @@ class Solid:
 
     def __getattr__(self, name):
         from ._design import Design
-        if name.startswith("_") or not hasattr(Design, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        if not hasattr(Design, name):
             raise AttributeError(_no_attribute(self, name))
         return getattr(self.design(), name)
 
