@@ -106,20 +106,23 @@ py::tuple run_command(const std::vector<std::string>& arguments, DesignHandle* d
 // it told what is wrong.
 int run_main(const std::vector<std::string>& arguments, const py::function& load_script) {
   cli::Host host;
-  compile::LoadedPtr kept;
+  py::object script_design = py::none();
   host.load = [&](const std::string& path, const compile::LoadOptions& options, Diagnostics& diagnostics) {
     if (!path.ends_with(".py")) return compile::load_design(path, options, diagnostics);
     const py::gil_scoped_acquire lock;
-    const py::object design = load_script(path, options.materials, options.definitions);
-    if (!design.is_none())
-      kept = design.cast<DesignHandle&>().loaded();
-    else
-      diagnostics.error({}, path + " gives no design");
-    return kept;
+    script_design = load_script(path, options.materials, options.definitions);
+    if (!script_design.is_none()) return script_design.cast<DesignHandle&>().loaded();
+    diagnostics.error({}, path + " gives no design");
+    return compile::LoadedPtr();
   };
   const auto list = pointers(arguments);
-  const py::gil_scoped_release unlocked;
-  return cli::run(static_cast<int>(list.size()), list.data(), host);
+  int code = 0;
+  {
+    const py::gil_scoped_release unlocked;
+    code = cli::run(static_cast<int>(list.size()), list.data(), host);
+  }
+  if (code != cli::done && !script_design.is_none()) script_design.cast<DesignHandle&>().raise_failures();
+  return code;
 }
 
 }  // namespace

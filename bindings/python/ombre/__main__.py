@@ -74,7 +74,13 @@ def main(arguments=None):
             sys.path.insert(0, os.path.dirname(os.path.abspath(arguments[0])))
             runpy.run_path(arguments[0], run_name="__main__")
             return 0
-    return _core.run_main(arguments, _load)
+    from ._errors import FunctionError
+    try:
+        return _core.run_main(arguments, _load)
+    except FunctionError as error:
+        traceback.print_exception(error.__cause__)
+        print(f"ombre: error: {error}", file=sys.stderr)
+        return 1
 
 
 if __name__ == "__main__":

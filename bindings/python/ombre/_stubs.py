@@ -1,0 +1,166 @@
+"""Writes the package's type stub, from the registry of nodes and the commands' options.
+
+    python3 -m ombre._stubs __init__.pyi
+"""
+import keyword
+import sys
+
+import ombre
+
+from . import _solid
+from ._commands import keywords_of
+
+_head = '''# Generated from the registry of nodes; do not edit.
+import os
+from typing import Any, Callable, Iterator, Mapping, Optional, Sequence, Union
+
+import numpy
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[numpy.float64]
+Path = Union[str, "os.PathLike[str]"]
+Number = Union[float, str, "Expression", Callable[..., Any]]
+Numbers = Union[Sequence[Number], NDArray[Any]]
+Material = Union[str, int]
+Argument = Any
+Progress = Union[bool, Callable[[float], object], None]
+Option = Any
+
+__version__: str
+
+class DesignError(ValueError):
+    diagnostics: list[dict[str, Any]]
+    def __init__(self, message: str, diagnostics: Sequence[dict[str, Any]] = ...) -> None: ...
+
+class MachineError(OSError): ...
+class CheckError(DesignError): ...
+
+class FunctionError(DesignError):
+    point: Optional[tuple[float, float, float]]
+
+class DesignWarning(UserWarning): ...
+
+class Expression:
+    def __init__(self, text: str) -> None: ...
+    def __call__(self, points: ArrayLike) -> Floats: ...
+'''
+_operators = ("add", "radd", "sub", "rsub", "mul", "rmul", "truediv", "rtruediv", "mod", "rmod", "pow", "rpow", "and",
+              "rand", "or", "ror", "lt", "le", "gt", "ge")
+
+_middle = '''
+class Voxels:
+    values: NDArray[Any]
+    spacing: tuple[float, float, float]
+    origin: tuple[float, float, float]
+    about: dict[str, Any]
+    def centers(self) -> Floats: ...
+
+class Materials:
+    names: list[str]
+    def __init__(self, path: Optional[Path] = ...) -> None: ...
+    def colour(self, name: Material) -> tuple[int, int, int, int]: ...
+    def use(self) -> "Materials": ...
+    def __getitem__(self, key: Material) -> dict[str, Any]: ...
+    def __contains__(self, key: Material) -> bool: ...
+    def __len__(self) -> int: ...
+    def __enter__(self) -> "Materials": ...
+    def __exit__(self, *error: Any) -> None: ...
+
+def load(path: Path, materials: Optional[Path] = ..., **variables: Any) -> Design: ...
+def option(name: str, default: Any) -> Any: ...
+def pointwise(function: Callable[..., float]) -> Callable[..., Any]: ...
+def where(condition: Number, yes: Number, no: Number) -> Expression: ...
+'''
+# What solids and designs answer alike.
+_questions = '''    bounds: tuple[tuple[float, float, float], tuple[float, float, float]]
+    hash: str
+    attributes: list[str]
+    materials: Materials
+    parts: list[tuple[str, Solid]]
+    def tree(self) -> str: ...
+    def to_json(self) -> str: ...
+    def save(self, path: Path, force: bool = ...) -> None: ...
+    def distance(self, points: ArrayLike, threads: int = ...) -> Floats: ...
+    def inside(self, points: ArrayLike, threads: int = ...) -> NDArray[numpy.bool_]: ...
+    def material(self, points: ArrayLike, threads: int = ...) -> dict[str, Floats]: ...
+    def attribute(self, name: str, points: ArrayLike, threads: int = ...) -> Floats: ...
+    def gradient(self, points: ArrayLike, step: float = ..., threads: int = ...) -> Floats: ...
+    def nearest(self, points: ArrayLike, steps: int = ..., tolerance: float = ..., threads: int = ...) -> Floats: ...
+    def show(self, **options: Option) -> Any: ...
+'''
+_kinds = {"number": "float", "number or field": "Number", "3 numbers or fields": "Numbers", "true or false": "bool",
+          "text": "str", "3 numbers": "Optional[Numbers]", "matrix": "ArrayLike", "material": "Material",
+          "file": "Path", "list of numbers or fields": "Union[Number, Numbers]",
+          "list of materials": "Union[Material, Sequence[Material]]"}
+
+
+def _safe(name):
+    return not keyword.iskeyword(name)
+
+
+def _keywords(info):
+    words = [f"{p['name']}: {_kinds[p['kind']]} = ..." for p in info["parameters"] if _safe(p["name"])]
+    if info["category"] == "transforms":
+        words.append("**components: Number")  # x, y, z; pitch, yaw, roll
+    return "".join(", " + word for word in words)
+
+
+def _docstring(text, indent):
+    pad = " " * indent
+    text = text.replace("\\", "\\\\").replace('"""', "'''")
+    return f'{pad}"""' + ("\n" + pad).join(text.rstrip().splitlines()) + f'\n{pad}"""\n'
+
+
+def _job(name, command, first, result, progress=True):
+    words = "".join(f", {option}: Option = ..." for option in keywords_of(command))
+    bar = ", progress: Progress = ..." if progress else ""
+    return (f"    def {name}(self, {first}{bar}{words}) -> {result}:\n" +
+            _docstring(getattr(ombre.Design, name).__doc__, 8) + "        ...\n")
+
+
+def _jobs():
+    yield _job("slice", "slice", "folder: Path", "dict[str, Any]")
+    yield _job("layer", "layer", "path: Path", "dict[str, Any]", progress=False)
+    yield _job("mesh", "mesh", "path: Path", "dict[str, Any]")
+    yield _job("contours", "contours", "path: Path", "dict[str, Any]")
+    yield _job("write_voxels", "voxels", "path: Path", "dict[str, Any]")
+    yield _job("render", "render", "path: Optional[Path] = ...", "Any", progress=False)
+    words = "".join(f", {o}: Option = ..." for o in keywords_of("voxels") if o not in ("voxel", "what"))
+    for name, result in (("voxels", "Voxels"), ("volumes", "dict[str, float]"), ("volume", "float")):
+        what = ", what: str = ..., progress: Progress = ..." if name == "voxels" else ""
+        yield f"    def {name}(self, voxel: Union[float, str, Sequence[float], None] = ...{what}{words}) -> {result}: ...\n"
+
+
+def stub():
+    """The stub's text."""
+    out = [_head]
+    out += [f"    def __{name}__(self, other: Number) -> Expression: ...\n" for name in _operators]
+    out += [f"    def __{name}__(self) -> Expression: ...\n" for name in ("neg", "pos", "abs", "invert")]
+    out += [_middle]
+    infos = _solid.node_infos()
+    jobs = "".join(_jobs())
+    out += ["\nclass Solid:\n", _questions, jobs,
+            "    type: str\n    metric: str\n    parameters: dict[str, Any]\n    inputs: list[Solid]\n"
+            "    place: Optional[tuple[str, int]]\n    def design(self) -> Design: ...\n"
+            "    def grade(self, fractions: Mapping[str, Number], mode: str = ...) -> Solid: ...\n"]
+    out += [f"    def __{name}__(self, other: Any) -> Solid: ...\n" for name in ("or", "and", "sub", "add")]
+    out += ["    def __invert__(self) -> Solid: ...\n"]
+    for info in infos:
+        method = info["name"] if hasattr(ombre.Solid, info["name"]) else "with_" + info["name"]
+        if info["inputs"]["least"] and hasattr(ombre.Solid, method):
+            out.append(f"    def {method}(self, *arguments: Argument{_keywords(info)}) -> Solid: ...\n")
+    out += ["\nclass Design:\n", _questions, jobs,
+            "    def __init__(self, *parts: Solid, box: Optional[ArrayLike] = ..., voxel: Any = ..., **named: Solid) "
+            "-> None: ...\n    @classmethod\n    def from_json(cls, text: str) -> Design: ...\n"]
+    for info in infos:
+        out.append(f"\nclass {info['name']}(Solid):\n" + _docstring(_solid._doc(info), 4) +
+                   f"    def __init__(self, *arguments: Argument{_keywords(info)}) -> None: ...\n")
+    out += ["\n"] + [f"{name}: Expression\n" for name in (*ombre._coordinates, "d")]
+    out += [f"def {name}(*values: Number) -> Expression: ...\n" for name in ombre._functions
+            if name != "if" and name not in ombre._nodes]
+    return "".join(out)
+
+
+if __name__ == "__main__":
+    with open(sys.argv[1], "w", encoding="utf-8") as file:
+        file.write(stub())
