@@ -15,10 +15,15 @@ using MakeGridStore = decltype(&ombre_make_grid_store);
 
 #ifdef OMBRE_OPENVDB_MODULE
 
-// Where it is installed, else where it was built.
+// Beside this code, where it is installed, else where it was built.
 std::string module_path() {
   const std::filesystem::path built = OMBRE_OPENVDB_MODULE;
   std::error_code ignored;
+  Dl_info here{};
+  if (dladdr(reinterpret_cast<void*>(&module_path), &here) != 0) {  // NOLINT
+    const auto beside = std::filesystem::path(here.dli_fname).parent_path() / built.filename();
+    if (std::filesystem::exists(beside, ignored)) return beside.string();
+  }
   const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
   const auto installed = program.parent_path().parent_path() / "lib" / "ombre" / built.filename();
   return std::filesystem::exists(installed, ignored) ? installed.string() : built.string();

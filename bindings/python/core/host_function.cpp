@@ -49,12 +49,17 @@ void HostFunction::sample_all(int, std::span<const double> xs, std::span<const d
                               std::span<double> values) const {
   if (values.empty()) return;
   const py::gil_scoped_acquire lock;
+  const auto fail = [&](const py::object& cause) {
+    if (!failure_) failure_ = package_member("function_failure")(cause, name_, py::make_tuple(xs[0], ys[0], zs[0]));
+    throw HostFailure();
+  };
   try {
     call(xs, ys, zs, values);
-  } catch (py::error_already_set& error) {
-    if (!failure_)
-      failure_ = package_member("function_failure")(error.value(), name_, py::make_tuple(xs[0], ys[0], zs[0]));
-    throw HostFailure();
+  } catch (const py::error_already_set& error) {
+    fail(error.value());
+  } catch (const py::builtin_exception& error) {
+    error.set_error();
+    fail(py::error_already_set().value());
   }
 }
 
@@ -62,14 +67,12 @@ void HostFunction::call(std::span<const double> xs, std::span<const double> ys, 
                         std::span<double> values) const {
   const py::object result = callable_(array_of(xs), array_of(ys), array_of(zs));
   const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(result);
-  if (!numbers) throw py::error_already_set();
+  if (!numbers) throw py::type_error("the function gave no numbers");
   if (numbers.size() == 1) return std::fill(values.begin(), values.end(), *numbers.data());
   if (numbers.ndim() != 1 || numbers.size() != static_cast<py::ssize_t>(values.size())) {
     const std::string shape = py::str(numbers.attr("shape")).cast<std::string>();
-    PyErr_SetString(PyExc_ValueError, ("the function gave an array of shape " + shape + " for " +
-                                       std::to_string(values.size()) + " points; one number for each is needed")
-                                          .c_str());
-    throw py::error_already_set();
+    throw py::value_error("the function gave an array of shape " + shape + " for " + std::to_string(values.size()) +
+                          " points; one number for each is needed");
   }
   std::copy_n(numbers.data(), values.size(), values.begin());
 }

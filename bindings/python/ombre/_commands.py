@@ -1,12 +1,18 @@
 """Jobs: the commands of the command line, with their options as keyword arguments."""
 import functools
+import keyword
 import os
 import sys
+import warnings
 
 from . import _core
 from ._errors import CheckError, DesignError, DesignWarning, MachineError
 
-import warnings
+
+def _keyword(option):
+    """"--layer-height": layer_height; "--from": from_, since Python has the word for itself."""
+    name = option.lstrip("-").replace("-", "_")
+    return name + "_" if keyword.iskeyword(name) else name
 
 
 @functools.lru_cache(maxsize=None)
@@ -14,7 +20,7 @@ def options_of(command):
     """{keyword: option} of a command; an option has name, help, type, is_flag and is_list."""
     for known in _core.commands():
         if known["name"] == command:
-            return {o["name"].lstrip("-").replace("-", "_"): o for o in known["options"] if o["name"].startswith("--")}
+            return {_keyword(o["name"]): o for o in known["options"] if o["name"].startswith("--")}
     raise KeyError(command)
 
 

@@ -55,7 +55,10 @@ class Function:
         if "d" in self.names:
             values["d"] = self.child.distance(numpy.stack([x, y, z], axis=-1), threads=1)
         try:
-            return self.function(*(values[name] for name in self.names))
+            result = self.function(*(values[name] for name in self.names))
+            if result is None:
+                raise TypeError("it returned None; a number for each point is needed")
+            return numpy.asarray(result, dtype=float)
         except (TypeError, ValueError) as error:
             text = str(error)
             if "only length-1 arrays" in text or "only size-1 arrays" in text or "truth value of an array" in text:

@@ -1,0 +1,394 @@
+"""The package ombre: values against mathematics, the same designs in other forms, errors, jobs."""
+import doctest
+import gc
+import importlib
+import json
+import math
+import pathlib
+import pickle
+import subprocess
+import sys
+import threading
+import time
+
+import numpy
+import pytest
+
+import ombre
+from ombre import cos, rho, sin, where, x, y, z
+
+
+def random_points(count=2000, size=8.0):
+    return numpy.random.default_rng(7).uniform(-size, size, (count, 3))
+
+
+# Shapes and materials.
+
+def test_sphere_against_mathematics():
+    points = random_points()
+    ball = ombre.sphere(5)
+    assert numpy.allclose(ball.distance(points), numpy.linalg.norm(points, axis=1) - 5, atol=1e-12)
+    assert (ball.inside(points) == (numpy.linalg.norm(points, axis=1) <= 5)).all()
+    assert ball.distance([15, 0, 0]) == 10
+    assert numpy.allclose(ball.gradient(points), points / numpy.linalg.norm(points, axis=1, keepdims=True), atol=1e-7)
+    assert numpy.allclose(ball.nearest([15, 0, 0]), [5, 0, 0], atol=1e-9)
+    assert ball.bounds == ((-5, -5, -5), (5, 5, 5))
+    assert ball.distance(points.reshape(10, 20, 10, 3)).shape == (10, 20, 10)
+
+
+def test_volume_and_voxels():
+    box = ombre.rectprism((4, 2, 1))
+    assert box.volume(0.1) == pytest.approx(8)
+    grid = box.voxels(0.5)
+    assert grid.values.shape == (2, 4, 8) and grid.spacing == (0.5, 0.5, 0.5)
+    assert grid.origin == (-1.75, -0.75, -0.25)
+    assert numpy.allclose(grid.centers()[1, 3, 7], [1.75, 0.75, 0.25])
+    assert ombre.sphere(5).volume() == pytest.approx(4 / 3 * math.pi * 125, rel=1e-3)
+    assert box.voxels(0.5, "distance").values.max() < 0
+    half = box.with_material(["red", "blue"], [1, 3])
+    assert (half.voxels(0.5, "blue").values == 0.75).all()
+    assert half.volumes(0.05)["blue"] == pytest.approx(6, rel=0.03)
+
+
+def test_operators_and_chains():
+    a, b = ombre.sphere(5), ombre.cube(6).translate(z=3)
+    points = random_points()
+    da, db = a.distance(points), b.distance(points)
+    assert ((a | b).inside(points) == ((da <= 0) | (db <= 0))).all()
+    assert ((a & b).inside(points) == ((da <= 0) & (db <= 0))).all()
+    assert ((a - b).inside(points) == ((da <= 0) & (db >= 0))).all()
+    assert ((~a).inside(points) == (da >= 0)).all()
+    assert (a + (1, 2, 3)).distance([1, 2, 3]) == -5
+    assert (a - numpy.array([1, 2, 3])).distance([-1, -2, -3]) == -5
+    assert ombre.union(a, [b, ombre.cube(2)]).inputs[1] == b
+    assert ombre.translate([a, b], (1, 0, 0)).type == "translate"
+
+
+def test_vectors_come_in_many_forms():
+    forms = [(1, 2, 3), [1, 2, 3], numpy.array([1, 2, 3]), numpy.array([1, 2, 3], dtype=numpy.float32)]
+    assert len({ombre.sphere(1).translate(v).hash for v in forms}) == 1
+    assert ombre.sphere(numpy.float32(1.5)).parameters["radius"] == 1.5
+
+
+# One meaning, many ways to write it.
+
+def test_expressions_strings_and_functions_agree():
+    inside = [[0.5, 0.25, 3], [1, 2, -1], [-2, 1, 0.5]]
+    text = "0.5 + sin(x)*rho/40 - (y - 1)^2/50"
+    written = 0.5 + sin(x) * rho / 40 - (y - 1) ** 2 / 50
+    def asked(x, y, rho):
+        return 0.5 + numpy.sin(x) * rho / 40 - (y - 1) ** 2 / 50
+    parts = [ombre.sphere(9).grade({"red": f, "blue": 0.5}) for f in (text, written, asked)]
+    values = [part.material(inside)["red"] for part in parts]
+    assert parts[0].hash == parts[1].hash
+    assert numpy.array_equal(values[0], values[1])
+    assert numpy.allclose(values[0], values[2], rtol=1e-14)
+    volumes = [part.volumes(0.25)["red"] for part in parts]
+    assert volumes[0] == volumes[1] == pytest.approx(volumes[2], rel=1e-3)
+
+
+@pytest.mark.parametrize("expression, function", [
+    (x - y - z, lambda x, y, z: x - y - z), (x - (y - z), lambda x, y, z: x - (y - z)),
+    (x / y / z, lambda x, y, z: x / y / z), (x / (y / z), lambda x, y, z: x / (y / z)),
+    (2 ** x ** 2, lambda x, y, z: 2 ** x ** 2), ((2 ** x) ** 2, lambda x, y, z: (2 ** x) ** 2),
+    (-x ** 2, lambda x, y, z: -x ** 2), ((-x) ** 2, lambda x, y, z: (-x) ** 2), (3 - -x, lambda x, y, z: 3 + x),
+    (x * -2.5, lambda x, y, z: x * -2.5), (abs(x) % 2, lambda x, y, z: abs(x) % 2),
+    (where((x < y) & (y < z) | ~(z > 0), x, 1), lambda x, y, z: numpy.where((x < y) & (y < z) | ~(z > 0), x, 1)),
+    (numpy.sin(x) + numpy.maximum(y, z), lambda x, y, z: numpy.sin(x) + numpy.maximum(y, z)),
+    (numpy.float64(2) * cos(x), lambda x, y, z: 2 * numpy.cos(x)), (1e-20 * x, lambda x, y, z: 1e-20 * x)])
+def test_operators_mean_what_python_means(expression, function):
+    points = random_points(200, 3)
+    assert numpy.allclose(expression(points), function(*points.T), rtol=1e-12)
+
+
+def test_same_design_in_every_language(tmp_path, run_program):
+    (tmp_path / "part.vcad").write_text("""
+        difference() {
+          fgrade(["0.5 + x/20", "0.5 - x/20"], ["red", "blue"]) { rectprism((20, 5, 5)); }
+          translate(0, 0, 1) { cylinder(r=1, h=10); }
+        }""")
+    (tmp_path / "part.py").write_text(
+        "import ombre\nfrom ombre import x\n"
+        "bar = ombre.rectprism((20, 5, 5)).grade({'red': 0.5 + x/20, 'blue': 0.5 - x/20})\n"
+        "root = bar - ombre.cylinder(r=1, h=10).translate(z=1)\n")
+    script, python = ombre.load(tmp_path / "part.vcad"), ombre.load(tmp_path / "part.py")
+    python.save(tmp_path / "part.json")
+    assert script.hash == python.hash == ombre.load(tmp_path / "part.json").hash
+    assert script == python and len({script, python}) == 1
+    for ending in ("vcad", "py", "json"):
+        run_program("slice", f"part.{ending}", "--voxel", "0.2", "-o", ending)
+    python.slice(tmp_path / "memory", voxel=0.2)
+    names = sorted(p.name for p in (tmp_path / "vcad").glob("*.png"))
+    assert len(names) == 25
+    for other in ("py", "json", "memory"):
+        assert names == sorted(p.name for p in (tmp_path / other).glob("*.png"))
+        for name in names:
+            assert (tmp_path / "vcad" / name).read_bytes() == (tmp_path / other / name).read_bytes()
+
+
+def test_designs_pickle_hash_and_compare(tmp_path):
+    part = ombre.sphere(5).grade({"red": 0.5 + x / 20, "blue": 0.5})
+    again = pickle.loads(pickle.dumps(part))
+    assert again == part and hash(again) == hash(part) and again is not part
+    assert part != ombre.sphere(5)
+    design = ombre.Design(ombre.cube(2), box=((-1, -1, -1), (1, 1, 1)), voxel="25.4/600")
+    assert pickle.loads(pickle.dumps(design)) == design
+    design.save(tmp_path / "d.json")
+    with pytest.raises(FileExistsError, match="force=True"):
+        design.save(tmp_path / "d.json")
+    assert ombre.load(tmp_path / "d.json") == design
+
+
+def test_attributes_and_parts():
+    body = ombre.cube(4).with_attribute("infill", 0.2 + z / 10).with_attribute("modulus", 7)
+    assert body.attributes == ["infill", "modulus"]
+    assert numpy.allclose(body.attribute("infill", [[0, 0, 1], [0, 0, -1]]), [0.3, 0.1])
+    case = ombre.Design(lid=ombre.cube(1), body=body)
+    assert [name for name, _ in case.parts] == ["lid", "body"]
+
+
+def test_materials_of_ones_own(tmp_path):
+    (tmp_path / "mine.json").write_text(json.dumps({"materials": [{"name": "soft", "r": 1, "g": 2, "b": 3, "a": 255},
+                                                                  {"name": "hard", "r": 9, "g": 9, "b": 9, "a": 255}]}))
+    with ombre.Materials(tmp_path / "mine.json") as mine:
+        part = ombre.sphere(5, "hard")
+        assert mine.names == ["void", "soft", "hard"] and mine.colour("soft") == (1, 2, 3, 255)
+    assert part.volumes(0.5)["hard"] > 0 and "hard" in part.materials
+    with pytest.raises(ValueError, match="other materials"):
+        part | ombre.cube(2)
+    with pytest.raises(KeyError, match="there are void, soft, hard"):
+        mine["medium"]
+
+
+# Functions of Python.
+
+def test_functions_of_all_kinds():
+    ball = ombre.function(ombre.pointwise(lambda x, y, z: math.sqrt(x * x + y * y + z * z) - 3),
+                          min=(-4, -4, -4), max=(4, 4, 4))
+    assert ball.volume(0.2) == pytest.approx(36 * math.pi, rel=0.02)
+    shell = ombre.sphere(5).grade({"red": lambda d: (d > -1) * 1.0, "blue": lambda d: (d <= -1) * 1.0})
+    assert shell.material([[0, 0, 0], [4.5, 0, 0]])["red"].tolist() == [0, 1]
+    assert ombre.sphere(lambda x, y, z: 4.0).inside([3.9, 0, 0])
+
+
+def test_functions_are_neither_saved_nor_resumed(tmp_path):
+    part = ombre.cube(2).grade({"red": lambda x: x * 0 + 1})
+    with pytest.raises(ombre.DesignError, match="neither saved, copied to another process nor resumed"):
+        part.save(tmp_path / "part.json")
+    with pytest.raises(ombre.DesignError):
+        pickle.dumps(part)
+    part.slice(tmp_path / "layers", voxel=0.5)
+    with pytest.raises(ombre.DesignError, match="resumed"):
+        part.slice(tmp_path / "layers", voxel=0.5, resume=True)
+
+
+@pytest.mark.parametrize("function, cause", [
+    (lambda x, y, z: 1 / 0, ZeroDivisionError), (lambda x, y, z: numpy.zeros(3), ValueError),
+    (lambda x, y, z: "red", ValueError), (lambda x, y, z: None, (TypeError, ValueError)),
+    (lambda x, y, z: math.sqrt(x), TypeError)])
+def test_functions_that_fail(function, cause):
+    part = ombre.function(function, min=(0, 0, 0), max=(1, 1, 1))
+    for attempt in (lambda: part.distance(random_points(50)), lambda: part.volume(0.1)):
+        with pytest.raises(ombre.FunctionError) as failure:
+            attempt()
+        if not isinstance(failure.value.__cause__, cause):
+            raise AssertionError(repr(failure.value.__cause__))
+        assert len(failure.value.point) == 3
+    assert ombre.cube(1).distance([0, 0, 0]) == -0.5  # others go on
+
+
+# Errors.
+
+@pytest.mark.parametrize("wrong, kind, part", [
+    (lambda: ombre.sphere(radus=3), ombre.DesignError, 'did you mean "radius"'),
+    (lambda: ombre.sphere(-3), ombre.DesignError, "greater than 0"),
+    (lambda: ombre.sphere(1, 2, 3, 4), ombre.DesignError, "at most 2 arguments"),
+    (lambda: ombre.sphere("rad"), ombre.DesignError, 'no variable "rad"'),
+    (lambda: ombre.sphere(3, "rod"), ombre.DesignError, 'did you mean "red"'),
+    (lambda: ombre.sphere(object()), TypeError, "expected a number"),
+    (lambda: ombre.rectprism((1, 2)), ombre.DesignError, "three numbers"),
+    (lambda: ombre.translate((1, 2, 3)), TypeError, "needs a solid"),
+    (lambda: ombre.sphere(ombre.cube(1)), TypeError, "takes no solids"),
+    (lambda: ombre.cube(1).trnslate(z=3), AttributeError, "did you mean 'translate'"),
+    (lambda: ombre.cube(1) | 3, TypeError, "unsupported operand"),
+    (lambda: bool(x), TypeError, "where"),
+    (lambda: ombre.sphere(x + math.inf), ValueError, "cannot hold inf"),
+    (lambda: ombre.cube(1).grade({"red": lambda q: q}), TypeError, "known are x, y, z"),
+    (lambda: ombre.sphere(lambda d: d), TypeError, "takes d"),
+    (lambda: ombre.cube(1).distance([1, 2]), ValueError, r"shape \(..., 3\)"),
+    (lambda: ombre.cube(1).attribute("infill", [0, 0, 0]), ombre.DesignError, 'no attribute "infill"'),
+    (lambda: ombre.cube(1).voxels(0.5, "steel"), ombre.DesignError, "'steel' is neither"),
+    (lambda: ombre.cube(1).mesh("x.xyz"), ombre.DesignError, "let it end in"),
+    (lambda: ombre.cube(1).slice("x", prnter="j750"), TypeError, "did you mean 'printer'"),
+    (lambda: ombre.cube(1).slice("x", printer="j75"), ombre.DesignError, "j750"),
+    (lambda: ombre.half_space((0, 0, 1)).volume(), ombre.DesignError, "no end along"),
+    (lambda: ombre.Design(), ValueError, "at least one part"),
+    (lambda: ombre.Design(3), TypeError, "expected a solid"),
+    (lambda: ombre.load("nowhere.vcad"), ombre.MachineError, "nowhere.vcad"),
+    (lambda: ombre.load("nowhere.py"), ombre.DesignError, "nowhere.py"),
+    (lambda: ombre.mesh("nowhere.stl"), (ombre.MachineError, ombre.DesignError), "nowhere.stl"),
+    (lambda: ombre.Solid(), TypeError, "ombre.sphere"),
+    (lambda: ombre.Design.from_json("{"), ombre.DesignError, "design.json")])
+def test_wrong_input_is_explained(wrong, kind, part, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(kind, match=part):
+        wrong()
+
+
+def test_errors_name_the_line():
+    with pytest.raises(ombre.DesignError) as error:
+        ombre.sphere(radus=3)
+    diagnostic = error.value.diagnostics[0]
+    assert diagnostic["file"] == __file__ and "ombre.sphere(radus=3)" in str(error.value)
+
+
+def test_deep_chains_are_refused():
+    part = ombre.cube(1)
+    with pytest.raises(ombre.DesignError, match="deeper than 400"):
+        for _ in range(500):
+            part = part.translate(z=1)
+
+
+# Jobs.
+
+def test_jobs_write_files(tmp_path):
+    part = ombre.sphere(3) | ombre.cube(4, "blue")
+    report = part.mesh(tmp_path / "part.3mf", tolerance=0.1, by="materials", force=True)
+    assert (tmp_path / "part.3mf").stat().st_size > 1000 and report.events
+    part.contours(tmp_path / "part.svg", z=0)
+    part.layer(tmp_path / "layer.png", z=1, voxel=0.1)
+    part.write_voxels(tmp_path / "part.nrrd", voxel=0.5)
+    part.render(tmp_path / "part.png", size="80x60", from_=(30, 20), opacity={"blue": 0.5}, cut=["x=0", "z>1"])
+    assert part.render(size="80x60").startswith(b"\x89PNG")
+    assert "data:image/png" in part._repr_html_()
+    with pytest.raises(ombre.MachineError, match="exists already"):
+        part.mesh(tmp_path / "part.3mf")
+
+
+def test_progress_is_told(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    told = []
+    part = ombre.function("sin(9*x)*cos(9*y) + sin(9*y)*cos(9*z) + sin(9*z)*cos(9*x)", min=(-9, -9, -9), max=(9, 9, 9))
+    part.slice("slow", progress=told.append, voxel=0.011, layers=":200", threads=1)
+    assert all(0 <= share <= 1 for share in told)
+
+    def fail(share):
+        raise RuntimeError("enough")
+    if told:  # there was time to tell
+        with pytest.raises(RuntimeError, match="enough"):
+            part.slice("slow", progress=fail, voxel=0.011, threads=1, force=True)
+
+
+def test_interrupts_stop_jobs(tmp_path):
+    script = tmp_path / "long.py"
+    script.write_text("import ombre, sys\n"
+                      "part = ombre.function('sin(x)*cos(y) + sin(y)*cos(z) + sin(z)*cos(x)', min=(-50,)*3, max=(50,)*3)\n"
+                      "print('ready', flush=True)\n"
+                      "try:\n    part.slice('layers', voxel=0.02)\n"
+                      "except KeyboardInterrupt:\n    print('stopped')\n    part.slice('layers', voxel=0.02, resume=True,"
+                      " dry_run=True)\n    print('went on')\n")
+    process = subprocess.Popen([sys.executable, script], cwd=tmp_path, stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "ready\n"
+    time.sleep(1)
+    process.send_signal(2)
+    out, _ = process.communicate(timeout=60)
+    assert out == "stopped\nwent on\n"
+
+
+# Behaviour as a library.
+
+def test_threads_may_sample_at_once():
+    part = ombre.union([ombre.sphere(1).translate(p) for p in random_points(100)])
+    points = random_points(20000)
+    wanted = part.distance(points)
+    results = [None] * 4
+
+    def sample(n):
+        results[n] = part.distance(points, threads=1)
+    threads = [threading.Thread(target=sample, args=(n,)) for n in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(numpy.array_equal(result, wanted) for result in results)
+
+
+def memory_kb():
+    return int(next(line for line in open("/proc/self/status") if line.startswith("VmRSS")).split()[1])
+
+
+def test_nodes_do_not_leak():
+    def many(count):
+        for n in range(count):
+            ombre.sphere(1 + n % 7, "red").translate(z=n).grade({"red": 0.5 + x / 20, "blue": 0.5})
+    many(5000)
+    gc.collect()
+    before = memory_kb()
+    many(34000)  # three nodes each
+    gc.collect()
+    assert memory_kb() - before < 10_000
+
+
+def test_import_needs_no_display_and_little_time():
+    best = math.inf
+    for _ in range(5):
+        start = time.process_time()
+        used = subprocess.run([sys.executable, "-c", "import resource, numpy; a = resource.getrusage(0).ru_utime;"
+                               "import ombre; print(resource.getrusage(0).ru_utime - a)"],
+                              env={**__import__("os").environ, "DISPLAY": ""}, capture_output=True, text=True, check=True)
+        best = min(best, float(used.stdout))
+        assert time.process_time() - start < 5
+    assert best < 1  # 0.02 s on an idle machine: this is no measurement
+
+
+def test_scripts_on_the_command_line(tmp_path, run_program):
+    (tmp_path / "part.py").write_text("import ombre\nroot = ombre.sphere(ombre.option('radius', 2))\n")
+    (tmp_path / "none.py").write_text("a = 1\n")
+    (tmp_path / "raises.py").write_text("def f():\n    return 1/0\nf()\n")
+    (tmp_path / "asks.py").write_text("import ombre\nroot = ombre.function(lambda x: 1/0, min=(0,0,0), max=(1,1,1))\n")
+    assert "inside" in run_program("probe", "part.py", "--at", "0,0,1.9").stdout
+    assert "outside" in run_program("probe", "part.py", "-D", "radius=1", "--at", "0,0,1.9").stdout
+    assert "give the solid the name root" in run_program("probe", "none.py", "--at", "0,0,0", status=1).stderr
+    assert "ZeroDivisionError" in run_program("probe", "raises.py", "--at", "0,0,0", status=1).stderr
+    assert "ZeroDivisionError" in run_program("slice", "asks.py", status=1).stderr
+    run_program("run", "part.py", "--", "-o", "part.stl")
+    run_program("run", "part.py", "--", "slice", "--voxel", "0.5", "-o", "layers")
+    assert (tmp_path / "part.stl").exists() and (tmp_path / "layers" / "job.json").exists()
+    assert "write -- before" in run_program("run", "part.py", "-o", "x", status=1).stderr
+
+
+# Texts.
+
+@pytest.mark.parametrize("name", ["_design", "_expressions", "_functions", "_materials", "_script", "_solid"])
+def test_examples_in_docstrings(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    failures, count = doctest.testmod(importlib.import_module("ombre." + name))
+    assert failures == 0
+
+
+def test_every_node_has_a_class_with_its_text():
+    listed = subprocess.run([sys.executable, "-m", "ombre", "nodes", "--json"], capture_output=True, text=True,
+                            check=True)
+    for line in listed.stdout.splitlines():
+        node = json.loads(line)
+        kind = getattr(ombre, node["name"])
+        assert issubclass(kind, ombre.Solid) and node["sentence"] in kind.__doc__
+        for parameter in node["parameters"]:
+            assert parameter["doc"] in kind.__doc__
+
+
+def test_types(tmp_path):
+    pytest.importorskip("mypy")
+    good = ("import ombre\nfrom ombre import x\n"
+            "part = ombre.sphere(radius=5).translate(z=3) | ombre.cube(3)\n"
+            "values = part.distance([[0.0, 0.0, 0.0]]) + 1\n"
+            "part.grade({'red': 0.5 + x / 20, 'blue': 0.5}).slice('out', printer='j750', progress=True)\n")
+    (tmp_path / "good.py").write_text(good)
+    (tmp_path / "bad.py").write_text(good + "ombre.sphere(radus=3)\npart.slice('out', prnter='j750')\n")
+    package = pathlib.Path(ombre.__file__).parent.parent
+
+    def check(file):
+        return subprocess.run([sys.executable, "-m", "mypy", file], cwd=tmp_path, capture_output=True, text=True,
+                              env={**__import__("os").environ, "MYPYPATH": str(package)})
+    assert check("good.py").returncode == 0, check("good.py").stdout
+    assert check("bad.py").stdout.count("error:") == 2
