@@ -12,7 +12,7 @@ include = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 def folder_of(path):
     parts = path.relative_to(root).parts
-    return parts[1] if parts[0] in ("src", "apps") else None
+    return parts[1] if parts[0] in ("src", "apps", "bindings") else None
 
 
 def problems(path):
@@ -33,7 +33,7 @@ def problems(path):
                 yield f"{place}: {name} belongs to {home} alone"
 
 
-found = [p for base in ("src", "apps") for f in sorted((root / base).rglob("*"))
+found = [p for base in ("src", "apps", "bindings") for f in sorted((root / base).rglob("*"))
          if f.suffix in (".h", ".cpp") for p in problems(f)]
 print("\n".join(found) if found else "layers: all includes are allowed")
 sys.exit(1 if found else 0)

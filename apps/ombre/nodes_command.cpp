@@ -72,9 +72,8 @@ DataMembers event_of(const NodeType& type) {
           {"category", type.category},
           {"sentence", type.sentence},
           {"parameters", parameters},
-          {"inputs",
-           DataMembers{{"least", static_cast<double>(type.inputs.least)},
-                       {"most", has_many ? Data() : Data(static_cast<double>(type.inputs.most))}}},
+          {"inputs", DataMembers{{"least", static_cast<double>(type.inputs.least)},
+                                 {"most", has_many ? Data() : Data(static_cast<double>(type.inputs.most))}}},
           {"gives", std::string(name(type.output))},
           {"example", type.example}};
 }

@@ -63,7 +63,8 @@ int become_python(int argc, char** argv) {
       "    import ombre\n"
       "except ImportError as error:\n"
       "    sys.exit(f'ombre: error: designs in Python need the Python package ombre ({error}); install it with '\n"
-      "             'pip install --no-build-isolation . in the sources of Ombre, or name another Python by OMBRE_PYTHON')\n"
+      "             'pip install --no-build-isolation . in the sources of Ombre, or name another Python by "
+      "OMBRE_PYTHON')\n"
       "from ombre.__main__ import main\n"
       "sys.exit(main(sys.argv[1:]))\n";
   std::string option = "-c";

@@ -29,12 +29,12 @@ struct Data {
   SourceRange where;
 
   Data() = default;
-  Data(bool v, SourceRange at = {}) : value(v), where(std::move(at)) {}                    // NOLINT
-  Data(double v, SourceRange at = {}) : value(v), where(std::move(at)) {}                  // NOLINT
-  Data(std::string v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}  // NOLINT
-  Data(const char* v) : value(std::string(v)) {}                                           // NOLINT
-  Data(DataList v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}     // NOLINT
-  Data(DataMembers v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}  // NOLINT
+  Data(bool v, SourceRange at = {}) : value(v), where(std::move(at)) {}                      // NOLINT
+  Data(double v, SourceRange at = {}) : value(v), where(std::move(at)) {}                    // NOLINT
+  Data(std::string v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}    // NOLINT
+  Data(const char* v) : value(std::string(v)) {}                                             // NOLINT
+  Data(DataList v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}       // NOLINT
+  Data(DataMembers v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}    // NOLINT
   Data(HostObjectPtr v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}  // NOLINT
 
   bool is_null() const { return std::holds_alternative<std::monostate>(value); }

@@ -49,8 +49,8 @@ class RunningCommand {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         if (!raised && !on_event.is_none())
           for (const DataMembers& event : events) on_event(to_python(event));
-      } catch (py::error_already_set& error) {
-        if (!raised) raised = std::make_unique<py::error_already_set>(std::move(error));
+      } catch (const py::error_already_set& error) {
+        if (!raised) raised = std::make_unique<py::error_already_set>(error);
         stop_.request();
       }
     }
@@ -74,8 +74,7 @@ class RunningCommand {
       changed_.notify_one();
     };
     host.on_data = [this](const std::string& text) { data_ += text; };
-    if (design_)
-      host.load = [this](const std::string&, const compile::LoadOptions&, Diagnostics&) { return design_; };
+    if (design_) host.load = [this](const std::string&, const compile::LoadOptions&, Diagnostics&) { return design_; };
     const auto list = pointers(arguments_);
     code_ = cli::run(static_cast<int>(list.size()), list.data(), host);
     const std::scoped_lock lock(mutex_);
@@ -135,8 +134,8 @@ void add_commands(py::module_& module) {
   module.def("functions", [] {
     py::list list;
     for (const expr::FunctionInfo& function : expr::function_table())
-      list.append(py::make_tuple(std::string(function.name), std::string(function.arguments),
-                                 std::string(function.meaning)));
+      list.append(
+          py::make_tuple(std::string(function.name), std::string(function.arguments), std::string(function.meaning)));
     return list;
   });
   module.def("coordinates", &expr::coordinate_names);

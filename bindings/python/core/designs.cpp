@@ -41,9 +41,7 @@ const char* name(compile::Sampler::Column::Kind kind) {
 
 // [(kind, name, values)], values as many as points.
 py::list sample(DesignHandle& handle, const Points& points, const std::string& question, int threads) {
-  if (points.ndim() != 2 || points.shape(1) != 3)
-    throw py::value_error("points have the shape (N, 3), mm, not " +
-                          py::str(points.attr("shape")).cast<std::string>());
+  if (points.ndim() != 2 || points.shape(1) != 3) throw py::value_error("points have the shape (N, 3), mm");
   const std::shared_ptr<const compile::Sampler> sampler = handle.sampler(question);
   std::vector<py::array_t<double>> arrays;
   std::vector<double*> columns;

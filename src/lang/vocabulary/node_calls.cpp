@@ -11,7 +11,7 @@ using design::NodeType;
 using design::Reader;
 
 std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std::vector<Argument> arguments,
-                                                      const Reader& reader) {
+                                                       const Reader& reader) {
   arguments = modern_arguments(type, std::move(arguments));
   std::vector<NamedValue> values;
   std::vector<bool> taken(type.parameters.size(), false);
@@ -27,7 +27,7 @@ std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std
       while (position < taken.size() && taken[position]) ++position;
       if (position == taken.size()) {
         reader.diagnostics.error(where, type.name + " takes at most " + std::to_string(type.parameters.size()) +
-                                     " arguments: (" + join(type.parameter_names(), ", ") + ")");
+                                            " arguments: (" + join(type.parameter_names(), ", ") + ")");
         return std::nullopt;
       }
       index = static_cast<int>(position);
