@@ -34,7 +34,7 @@ class CMakeBuild(build_ext):
 
 
 setup(
-    version=re.search(r"VERSION (\S+)", (sources / "CMakeLists.txt").read_text(encoding="utf-8"))[1],
+    version=re.search(r"project\(ombre VERSION (\S+)", (sources / "CMakeLists.txt").read_text(encoding="utf-8"))[1],
     packages=packages,
     package_dir={name: f"bindings/python/{name}" for name in packages},
     package_data={name: ["py.typed"] for name in packages},
