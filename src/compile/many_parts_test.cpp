@@ -100,6 +100,17 @@ TEST(ManyParts, FirstAndLastDoNotDependOnGroups) {
     EXPECT_EQ(differences(slice_as(flat(parts, rule), {}), slice_as(balanced(parts, rule), {})), 0u) << rule;
 }
 
+// A mesh before, after or amid the parts of the table.
+TEST(ManyParts, FirstAndLastKeepTheOrderBesideMeshes) {
+  const std::string mesh = "scale(0.2, 0.2, 0.4) mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\", \"green\");";
+  for (const size_t at : {size_t{0}, size_t{50}, size_t{70}}) {
+    std::vector<std::string> parts = some_parts(70);
+    parts.insert(parts.begin() + static_cast<std::ptrdiff_t>(at), mesh);
+    for (const std::string rule : {"materials=\"first\"", "materials=\"last\""})
+      EXPECT_EQ(differences(slice_as(flat(parts, rule), {}), slice_as(balanced(parts, rule), {})), 0u) << rule << at;
+  }
+}
+
 TEST(ManyParts, CanBeMovedCutAndCombined) {
   const auto parts = some_parts(60);
   const std::string many = flat(parts);

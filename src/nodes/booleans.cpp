@@ -78,6 +78,7 @@ struct Union {
     const auto parts = demand == Demand::inside ? in.many_parts(query(), p) : std::nullopt;
     if (parts && materials == "mix") return mixed(in, p, *parts);
     if (parts && parts->others.empty()) return parts->composition;
+    if (parts && are_together(*parts, in.count())) return in_order(in, p, *parts);
     return weighted(in, p, demand, overlap_weights(in, p, demand, materials));
   }
 
@@ -87,6 +88,33 @@ struct Union {
   }
 
  private:
+  // How many inputs stand before those of the table.
+  static size_t before(const PartFields& parts) {
+    size_t count = 0;
+    while (count < parts.others.size() && parts.others[count] == count) ++count;
+    return count;
+  }
+
+  // Do the inputs of the table follow one another?
+  static bool are_together(const PartFields& parts, size_t count) {
+    const size_t first = before(parts), end = first + count - parts.others.size();
+    return first == parts.others.size() || parts.others[first] == end;
+  }
+
+  // The first or last that holds the point, where those of the table count as one.
+  Composition in_order(const Inputs& in, const Point& p, const PartFields& parts) const {
+    std::vector<Composition> compositions;
+    std::vector<Field> marks;
+    for (const size_t i : parts.others) {
+      compositions.push_back(in.composition(i, p, Demand::inside));
+      marks.push_back(in.inside(i, p));
+    }
+    const auto at = static_cast<std::ptrdiff_t>(before(parts));
+    compositions.insert(compositions.begin() + at, parts.composition);
+    marks.insert(marks.begin() + at, parts.inside);
+    return weighted(compositions, materials == "first" ? first_true(marks) : last_true(marks));
+  }
+
   PartQuery query() const {
     return materials == "mix" ? PartQuery::mix : materials == "first" ? PartQuery::first : PartQuery::last;
   }

@@ -27,9 +27,13 @@ bool is_one_material(const std::vector<Composition>& parts) {
 Composition weighted(const Inputs& in, const Point& p, Demand demand, const std::vector<Field>& weights) {
   std::vector<Composition> parts;
   for (size_t i = 0; i < in.count(); ++i) parts.push_back(in.composition(i, p, demand));
+  return weighted(parts, weights);
+}
+
+Composition weighted(const std::vector<Composition>& parts, const std::vector<Field>& weights) {
   if (is_one_material(parts)) return parts[0];
 
-  const Field zero = p.constant(0);
+  const Field zero = weights[0].builder->constant(0);
   std::map<MaterialId, std::vector<Field>> terms;
   std::map<uint32_t, std::vector<Field>> marks;
   for (size_t i = 0; i < parts.size(); ++i) {

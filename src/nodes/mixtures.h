@@ -10,6 +10,9 @@ namespace ombre::nodes {
 design::Composition weighted(const design::Inputs& in, const program::Point& p, design::Demand demand,
                              const std::vector<program::Field>& weights);
 
+// The same of compositions that are at hand, one for each weight.
+design::Composition weighted(const std::vector<design::Composition>& parts, const std::vector<program::Field>& weights);
+
 // The mean of all inputs that hold the point, when most of them are rows of a table.
 design::Composition mixed(const design::Inputs& in, const program::Point& p, const design::PartFields& parts);
 
