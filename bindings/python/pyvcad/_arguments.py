@@ -26,18 +26,20 @@ def read(what: str, forms: tuple[Form, ...], positional: tuple[Any, ...], named:
 
     Raises TypeError where they fit none, ValueError for a wrong value.
     """
-    reasons = []
-    for form in forms:
-        given = _by_name(form, positional, named)
-        if given is None:
-            continue
+    fitting = [(form, given) for form in forms if (given := _by_name(form, positional, named)) is not None]
+    best, reason = 0, ""
+    for form, given in fitting:
+        values: dict[str, Any] = {}
         try:
-            return _read_form(form, given)
+            _read_form(form, given, values)
         except TypeError as error:
-            reasons.append(str(error))
+            if len(values) > best or len(fitting) == 1:  # the form that was meant, most likely
+                best, reason = len(values), str(error)
         except ValueError as error:
             raise ValueError(f"{what}, {error}") from None
-    raise TypeError(_complaint(what, forms, positional, named, reasons))
+        else:
+            return values
+    raise TypeError(f"{what}, {reason}" if reason else _no_form(what, forms, positional, named))
 
 
 def _by_name(form: Form, positional: tuple[Any, ...], named: dict[str, Any]) -> dict[str, Any] | None:
@@ -52,8 +54,7 @@ def _by_name(form: Form, positional: tuple[Any, ...], named: dict[str, Any]) -> 
     return given if all(name in given for name in required) else None
 
 
-def _read_form(form: Form, given: dict[str, Any]) -> dict[str, Any]:
-    values = {}
+def _read_form(form: Form, given: dict[str, Any], values: dict[str, Any]) -> None:
     for name, kind in form.items():
         reader = kind.read if isinstance(kind, Optional) else kind
         if name not in given:
@@ -65,13 +66,9 @@ def _read_form(form: Form, given: dict[str, Any]) -> dict[str, Any]:
             raise TypeError(f"{name}: {error}") from None
         except ValueError as error:
             raise ValueError(f"{name}: {error}") from None
-    return values
 
 
-def _complaint(what: str, forms: tuple[Form, ...], positional: tuple[Any, ...], named: dict[str, Any],
-               reasons: list[str]) -> str:
-    if len(reasons) == 1:
-        return f"{what}, {reasons[0]}"
+def _no_form(what: str, forms: tuple[Form, ...], positional: tuple[Any, ...], named: dict[str, Any]) -> str:
     found = [type(value).__name__ for value in positional]
     found += [f"{name}={type(value).__name__}" for name, value in named.items()]
     choices = " or ".join(what + _form_text(form) for form in forms)

@@ -175,7 +175,7 @@ class Node:
     def material_list(self) -> list[int]:
         """The ids of the materials that the design can have."""
         found: set[int] = set()
-        for node in in_order(self, Node._composing):
+        for node in in_order(self, lambda node: node._composing()):
             found |= node._own_materials()
         return sorted(found)
 
