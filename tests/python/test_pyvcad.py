@@ -1,8 +1,10 @@
 """pyvcad's interface: known values, the published listings, overlaps, changing trees, errors, the same designs in other
 forms, compilers."""
+import copy
 import math
 import os
 import pathlib
+import pickle
 import re
 import subprocess
 import sys
@@ -232,6 +234,14 @@ def test_clones_are_apart():
     assert (root.evaluate(0, 0, 0), twin.evaluate(0, 0, 0)) == (5, 9)
     twin.child().add_child(ball(3))
     assert (root.evaluate(0, 0, 0), twin.evaluate(0, 0, 0)) == (5, 7)
+
+
+def test_copies_of_python_are_apart_too():
+    root = pv.Translate(10, 0, 0, pv.Union(False, [ball(1)]))
+    assert root.evaluate(0, 0, 0) == 9
+    twins = [copy.deepcopy(root), pickle.loads(pickle.dumps(root))]
+    root.child().add_child(ball(5))
+    assert [node.evaluate(0, 0, 0) for node in (root, *twins)] == [5, 9, 9]
 
 
 def test_what_a_node_was_made_with_can_change_afterwards():
@@ -556,6 +566,15 @@ def test_hosted_scripts_give_what_they_show(tmp_path):
     assert design.materials.names[6] == "VeroYellow"
     assert design.hash == ombre.load(tmp_path / "part.py").hash
     assert os.listdir(tmp_path) == ["part.py"]
+
+
+@pytest.mark.parametrize("tail", ["root = part", "import pyvcadviz\npyvcadviz.Render(part, materials)"])
+def test_materials_of_the_command_line_are_the_default_ones(tmp_path, tail):
+    (tmp_path / "two.json").write_text('{"materials": [{"name": "one", "r": 1, "g": 2, "b": 3},'
+                                       ' {"name": "two", "r": 4, "g": 5, "b": 6}]}')
+    (tmp_path / "part.py").write_text("import pyvcad as pv\nmaterials = pv.default_materials\n"
+                                      "part = pv.Sphere(0, 0, 0, 5, materials.id('two'))\n" + tail)
+    assert ombre.load(tmp_path / "part.py", materials=tmp_path / "two.json").volumes(1).keys() == {"two"}
 
 
 def test_older_and_newer_names_are_one():

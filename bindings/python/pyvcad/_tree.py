@@ -39,6 +39,11 @@ class Node:
         self._built_from: tuple[int, ...] = ()  # the solids of the children, by identity
         self._checked_at = -1  # when nothing below had changed, by _Changes.count
         self._place = _call_place()
+        self._home: Any = current_factory()  # the materials in use where it was made
+
+    def __getstate__(self) -> dict[str, Any]:
+        """For copies, which build their own solids."""
+        return {**self.__dict__, "_solid": None, "_factory": None, "_built_from": (), "_checked_at": -1, "_home": None}
 
     # What a kind of node says of itself.
 
@@ -107,10 +112,14 @@ class Node:
         return self._build(current_factory())
 
     def _ombre_design_(self, materials: Any = None) -> ombre.Design:
-        """The design, compiled with materials; anything but a MaterialDefs stands for the default ones."""
+        """The design, compiled with materials; anything but a MaterialDefs stands for the default ones.
+
+        These are the ones that were in use when the node was made: a script's may have been given to it.
+        """
         if not isinstance(materials, MaterialDefs):
             materials = default_materials
-        return self._build(materials._materials()._factory).design()
+        is_given = materials is not default_materials or default_materials._colors or self._home is None
+        return self._build(materials._materials()._factory if is_given else self._home).design()
 
     # Questions.
 
@@ -188,7 +197,7 @@ class Node:
         copies: dict[int, Node] = {}
         for node in in_order(self):
             twin = copy.copy(node)
-            twin._solid, twin._built_from, twin._checked_at = None, (), -1
+            twin._home = node._home
             twin._replace(lambda child: copies[id(child)])
             copies[id(node)] = twin
         return copies[id(self)]
