@@ -1,6 +1,9 @@
 """pyvcad's interface: known values, the published listings, overlaps, changing trees, errors, the same designs in other
 forms, compilers."""
 import copy
+import doctest
+import importlib
+import inspect
 import math
 import os
 import pathlib
@@ -358,6 +361,21 @@ def test_errors_name_the_line():
         node.prepare(1)
 
 
+def test_solids_name_the_line_of_their_node():
+    line = inspect.currentframe().f_lineno + 1
+    parts = [pv.Translate(1, 0, 0, ball()), pv.Sphere(1, 0, 0, 2), pv.GraphLattice([(origin, (1, 0, 0))], 1)]
+    for solid in (part._ombre_solid_() for part in parts):
+        assert solid.place == (__file__, line)
+        assert all(below.place[0] == __file__ for below in solid.inputs)
+
+
+def test_warnings_name_the_line():
+    implicit = pv.Function("r - 3")
+    node = pv.FGrade(["0.5 + d", "0.5 - d"], [red, blue], True, implicit)
+    with pytest.warns(ombre.DesignWarning, match=r"test_pyvcad\.py:\d+:\d+: warning: \"d\" is used"):
+        node.prepare()
+
+
 def test_cycles_are_found_in_every_walk():
     outer = pv.Union()
     outer.add_child(pv.Translate(1, 0, 0, outer))
@@ -579,6 +597,30 @@ def test_materials_of_the_command_line_are_the_default_ones(tmp_path, tail):
 
 def test_older_and_newer_names_are_one():
     assert pyvcadviz.Render is pyvcad_rendering.Render and pyvcadviz.Export is pyvcad_rendering.Export
+
+
+def test_the_manual_runs(run_program, tmp_path):
+    manual = (here.parents[1] / "docs" / "pyvcad.md").read_text(encoding="utf-8")
+    script = re.search(r"```python\n(.*?)```", manual, re.S)[1]
+    (tmp_path / "bar.py").write_text(script)
+    run_program("slice", "bar.py", "--voxel", 0.5, "-o", "layers")
+    run_program("render", "bar.py", "-o", "bar.png")
+    assert len(list((tmp_path / "layers").glob("*.png"))) == 10 and (tmp_path / "bar.png").exists()
+
+
+def test_the_manual_lists_what_is_missing():
+    manual = (here.parents[1] / "docs" / "pyvcad.md").read_text(encoding="utf-8")
+    missing = manual[manual.index("## What is missing"):manual.index("## What is different")]
+    for name in pv.__all__:
+        is_missing = getattr(pv, name).__module__ == "pyvcad._missing" if isinstance(getattr(pv, name), type) else False
+        assert (f"`{name}`" in missing) == is_missing or name in ("MissingFeature", "GraphLattice", "LatticeType",
+                                                                  "Function", "Mesh", "Translate", "Union"), name
+
+
+@pytest.mark.parametrize("module", ["_tree", "_vectors"])
+def test_examples_in_texts(module):
+    results = doctest.testmod(importlib.import_module("pyvcad." + module))
+    assert results.attempted and not results.failed
 
 
 def test_import_needs_no_display_and_no_windows(tmp_path):

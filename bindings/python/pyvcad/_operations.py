@@ -61,7 +61,7 @@ class _Boolean(NAry):
     Where children overlap, mix=False takes the composition of the first that is there, mix=True all in equal parts.
     """
 
-    _operation: Any
+    _operation = ""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         values = read(type(self).__name__, _boolean_forms, arguments, named)
@@ -70,19 +70,19 @@ class _Boolean(NAry):
         self._mix: bool = values.get("mix", False)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return self._operation(solids, materials="mix" if self._mix else "first")
+        return getattr(nodes, self._operation)(solids, materials="mix" if self._mix else "first")
 
 
 class Union(_Boolean):
     """What is in any child: Union(mix=False, children=[...])."""
 
-    _operation = staticmethod(nodes.union)
+    _operation = "union"
 
 
 class Intersection(_Boolean):
     """What is in all children: Intersection(mix=False, children=[...])."""
 
-    _operation = staticmethod(nodes.intersection)
+    _operation = "intersection"
 
 
 class BBoxUnion(NAry):

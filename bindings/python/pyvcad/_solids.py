@@ -23,7 +23,7 @@ class _Leaf(Node):
 
 
 def _at(center: Point, solid: ombre.Solid) -> ombre.Solid:
-    return solid if center == (0, 0, 0) else solid.translate(center)
+    return solid if center == (0, 0, 0) else nodes.translate(solid, center)
 
 
 class RectPrism(_Leaf):

@@ -2,9 +2,11 @@
 from __future__ import annotations
 
 import copy
+import functools
 import math
 import os
 import sys
+import types
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -18,8 +20,28 @@ from . import _grids
 from ._materials import MaterialDefs, default_materials, expect_table, numbered
 from ._vectors import Vec3
 
-nodes: Any = ombre  # its classes of nodes come from the registry, where type checkers do not see them
 _folder = os.path.dirname(os.path.abspath(__file__)) + os.sep
+
+
+Place = tuple[str, int]  # a file, and a line of it
+
+
+class _Nodes:
+    """The classes of `ombre`, called as if from a script's line, which messages then name."""
+
+    place: Place = ("", 1)
+
+    def __getattr__(self, name: str) -> Any:
+        file, line = self.place
+        code = _call.__code__.replace(co_filename=file, co_firstlineno=line)
+        return functools.partial(types.FunctionType(code, {}), getattr(ombre, name))
+
+
+# On one line, so that the place of its code is that of the call.
+def _call(make: Any, *arguments: Any, **named: Any) -> Any: return make(*arguments, **named)  # noqa: E704
+
+
+nodes = _Nodes()
 
 
 class _Changes:
@@ -86,6 +108,7 @@ class Node:
         sources = tuple(map(id, solids))
         if self._solid is None or self._factory is not factory or self._built_from != sources:
             try:
+                nodes.place = self._place
                 self._solid = self._make(solids)
             except (ombre.DesignError, TypeError) as error:
                 raise self._error(_text_of(error)) from None
@@ -397,7 +420,7 @@ def _solid_of(node: Node) -> ombre.Solid:
     return node._solid
 
 
-def _call_place() -> tuple[str, int]:
+def _call_place() -> Place:
     """File and line of the script's code that runs."""
     frame = sys._getframe(1)
     while frame.f_back is not None and frame.f_code.co_filename.startswith(_folder):
