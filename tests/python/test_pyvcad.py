@@ -211,6 +211,14 @@ def test_changes_count_at_once():
     assert other.evaluate(0, 0, 0) == -7
 
 
+def test_many_changes():
+    inner = pv.Translate(0, 0, 0, ball(1))
+    root = pv.Scale(1, 1, 1, pv.Union(False, [inner]))
+    for radius in range(1, 200):
+        inner.set_child(ball(radius))
+        assert root.evaluate(0, 0, 0) == -radius
+
+
 def test_changes_below_shared_nodes_count_everywhere():
     shared = pv.Union(False, [ball(1)])
     roots = [pv.Translate(x, 0, 0, shared) for x in (5, 10)]

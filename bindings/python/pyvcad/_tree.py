@@ -4,6 +4,7 @@ from __future__ import annotations
 import copy
 import functools
 import math
+import operator
 import os
 import sys
 import types
@@ -58,14 +59,14 @@ class Node:
     def __init__(self) -> None:
         self._solid: ombre.Solid | None = None  # as last built
         self._factory: Any = None  # whose materials that names
-        self._built_from: tuple[int, ...] = ()  # the solids of the children, by identity
+        self._built_from: list[ombre.Solid] = []  # those of the children
         self._checked_at = -1  # when nothing below had changed, by _Changes.count
         self._place = _call_place()
         self._home: Any = current_factory()  # the materials in use where it was made
 
     def __getstate__(self) -> dict[str, Any]:
         """For copies, which build their own solids."""
-        return {**self.__dict__, "_solid": None, "_factory": None, "_built_from": (), "_checked_at": -1, "_home": None}
+        return {**self.__dict__, "_solid": None, "_factory": None, "_built_from": [], "_checked_at": -1, "_home": None}
 
     # What a kind of node says of itself.
 
@@ -105,14 +106,14 @@ class Node:
 
     def _refresh(self, factory: Any) -> None:
         solids = [_solid_of(node) for node in self._inputs()]
-        sources = tuple(map(id, solids))
-        if self._solid is None or self._factory is not factory or self._built_from != sources:
+        is_same = len(solids) == len(self._built_from) and all(map(operator.is_, solids, self._built_from))
+        if self._solid is None or self._factory is not factory or not is_same:
             try:
                 nodes.place = self._place
                 self._solid = self._make(solids)
             except (ombre.DesignError, TypeError) as error:
                 raise self._error(_text_of(error)) from None
-            self._factory, self._built_from = factory, sources
+            self._factory, self._built_from = factory, solids
         self._checked_at = _Changes.count
 
     def _error(self, text: str) -> ombre.DesignError:
