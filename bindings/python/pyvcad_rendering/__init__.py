@@ -23,8 +23,7 @@ _jobs = {".stl": "mesh", ".obj": "mesh", ".ply": "mesh", ".off": "mesh", ".amf":
          "": "slice"}
 
 
-def Render(root: Any, materials: Any = None, *_: Any, path: str | os.PathLike[str] | None = None,
-           **options: Any) -> None:
+def Render(root: Any, materials: Any = None, path: str | os.PathLike[str] | None = None, **options: Any) -> None:
     """Shows a picture.
 
     In a notebook it appears there; with a display, in the system's viewer; else it is written to `path`, to the file
@@ -44,8 +43,7 @@ def Render(root: Any, materials: Any = None, *_: Any, path: str | os.PathLike[st
     show_picture(design.render(**options), None if path is None else os.fspath(path))
 
 
-def Export(root: Any, materials: Any = None, *_: Any, path: str | os.PathLike[str] | None = None,
-           **options: Any) -> None:
+def Export(root: Any, materials: Any = None, path: str | os.PathLike[str] | None = None, **options: Any) -> None:
     """Writes files, and says which.
 
     The path, or else the environment variable OMBRE_EXPORT, says what: a folder for slices, .stl .3mf .obj ... for
