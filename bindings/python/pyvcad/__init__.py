@@ -1,0 +1,28 @@
+"""The interface of pyvcad, over Ombre: its scripts run unchanged. docs/pyvcad.md says what is different.
+
+    import pyvcad as pv
+
+    materials = pv.default_materials
+    root = pv.RectPrism(pv.Vec3(0, 0, 0), pv.Vec3(10, 10, 10), materials.id("red"))
+"""
+from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
+from ._errors import MissingFeature
+from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
+from ._missing import (CAD, Blend, ConformalMap, Convolution, HexahedralMesh, Map, Offset, PointMap, PolygonExtrude,
+                       Shell, SimulationField, SupportAnalyzer, SupportAnalyzerParallel, TetrahedralMesh, Text, Tile,
+                       Voxels)
+from ._operations import BBoxUnion, Difference, FGrade, Intersection, Rotate, Scale, Sum, Translate, Union
+from ._solids import Cylinder, Function, GraphLattice, Mesh, RectPrism, Sphere, Strut
+from ._texts import parse_vcad_text, version
+from ._tree import Node
+from ._vectors import Vec2, Vec3, Vec4
+
+__version__ = version()
+
+__all__ = ["FontAspect", "HorizontalAlignment", "LatticeType", "VerticalAlignment", "MissingFeature", "MaterialDefs",
+           "default_materials", "j750_materials", "resources_path", "CAD", "Blend", "ConformalMap", "Convolution",
+           "HexahedralMesh", "Map", "Offset", "PointMap", "PolygonExtrude", "Shell", "SimulationField",
+           "SupportAnalyzer", "SupportAnalyzerParallel", "TetrahedralMesh", "Text", "Tile", "Voxels", "BBoxUnion",
+           "Difference", "FGrade", "Intersection", "Rotate", "Scale", "Sum", "Translate", "Union", "Cylinder",
+           "Function", "GraphLattice", "Mesh", "RectPrism", "Sphere", "Strut", "parse_vcad_text", "version", "Node",
+           "Vec2", "Vec3", "Vec4"]

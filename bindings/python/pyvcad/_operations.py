@@ -1,0 +1,181 @@
+"""Nodes that work on others: transforms, booleans, materials."""
+from __future__ import annotations
+
+from typing import Any
+
+import ombre
+
+from ._arguments import Optional, Point, boolean, material, number, radius_of_blend, read, vector
+from ._errors import missing
+from ._functions import expression
+from ._tree import Binary, NAry, Node, Unary, as_node, as_nodes, nodes
+
+
+class Translate(Unary):
+    """Moves its child: Translate(x, y, z, child), mm."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        values = read("Translate", _moves, arguments, named)
+        super().__init__(values.get("child"))
+        self._by: Point = tuple(values.get(axis, 0.0) for axis in "xyz")  # type: ignore[assignment]
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return nodes.translate(solids[0], self._by)
+
+
+class Scale(Unary):
+    """Stretches its child, away from the origin: Scale(x, y, z, child)."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        values = read("Scale", _moves, arguments, named)
+        super().__init__(values.get("child"))
+        self._by: Point = tuple(values.get(axis, 1.0) for axis in "xyz")  # type: ignore[assignment]
+        if 0 in self._by:
+            raise ValueError(f"Scale: expected factors other than 0, found {self._by}")
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return nodes.scale(solids[0], self._by)
+
+
+class Rotate(Unary):
+    """Turns its child, right-handed, in degrees: Rotate(pitch, yaw, roll, around, child).
+
+    About fixed axes: z by roll, then y by yaw, then x by pitch. The point `around` stays where it is.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        around = Optional(vector, (0.0, 0.0, 0.0))
+        form = {"pitch": number, "yaw": number, "roll": number, "around": around, "child": Optional(as_node, None)}
+        values = read("Rotate", ({}, form), arguments, named)
+        super().__init__(values.get("child"))
+        self._angles = tuple(values.get(angle, 0.0) for angle in ("pitch", "yaw", "roll"))
+        self._around: Point = values.get("around", (0.0, 0.0, 0.0))
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return nodes.rotate(solids[0], self._angles, around=self._around)
+
+
+class _Boolean(NAry):
+    """Forms: (), (mix), (mix, children), (k), (k, mix), (k, mix, children).
+
+    Where children overlap, mix=False takes the composition of the first that is there, mix=True all in equal parts.
+    """
+
+    _operation = ""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        values = read(type(self).__name__, _boolean_forms, arguments, named)
+        super().__init__(values.get("children", []))
+        _refuse_blend(type(self).__name__, values)
+        self._mix: bool = values.get("mix", False)
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return getattr(nodes, self._operation)(solids, materials="mix" if self._mix else "first")
+
+
+class Union(_Boolean):
+    """What is in any child: Union(mix=False, children=[...])."""
+
+    _operation = "union"
+
+
+class Intersection(_Boolean):
+    """What is in all children: Intersection(mix=False, children=[...])."""
+
+    _operation = "intersection"
+
+
+class BBoxUnion(NAry):
+    """A union, of which the first child wins: BBoxUnion(children). Every union has an index in space."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        children = Optional(as_nodes, [])
+        values = read("BBoxUnion", ({"children": children}, {"k": radius_of_blend, "children": children}),
+                      arguments, named)
+        super().__init__(values["children"])
+        _refuse_blend("BBoxUnion", values)
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return nodes.union(solids, materials="first")
+
+
+class Difference(Binary):
+    """What is in the left child and not in the right one: Difference(left, right)."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        sides = {"left": as_node, "right": as_node}
+        k = {"k": radius_of_blend}
+        values = read("Difference", ({}, sides, k, {**k, **sides}), arguments, named)
+        super().__init__(values.get("left"), values.get("right"))
+        _refuse_blend("Difference", values)
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return nodes.difference(*solids)
+
+    def _composing(self) -> list[Node]:
+        return self._inputs()[:1]
+
+
+class Sum(NAry):
+    """Where the distances of its children add up to `iso` mm or less: Sum(iso=0, children=[...])."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        form = {"iso": Optional(number, 0.0), "children": Optional(as_nodes, [])}
+        values = read("Sum", (form,), arguments, named)
+        super().__init__(values["children"])
+        self._iso: float = values["iso"]
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return nodes.sum(solids, iso=self._iso)
+
+
+class FGrade(Unary):
+    """Sets its child's composition: FGrade(functions, materials, prob_mode, child).
+
+    A function for each material: a text, a number, or a function of (x, y, z, rho, phic, r, theta, phis) or these and
+    d, the distance to the child's surface. With prob_mode their values are shares of a mixture, without it the
+    greatest takes all.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        form = {"functions": _list_of(expression), "materials": _list_of(material), "prob_mode": boolean,
+                "child": Optional(as_node, None)}
+        values = read("FGrade", (form,), arguments, named)
+        super().__init__(values["child"])
+        self._functions, self._materials = values["functions"], values["materials"]
+        self._mode = "prob" if values["prob_mode"] else "thresh"
+        if len(self._functions) != len(self._materials):
+            raise ValueError(f"FGrade: expected a function for each material, found {len(self._functions)} functions "
+                             f"and {len(self._materials)} materials")
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return nodes.fgrade(solids[0], self._functions, self._materials, mode=self._mode)
+
+    def _own_materials(self) -> set[int]:
+        return set(self._materials)
+
+    def _composing(self) -> list[Node]:
+        return []
+
+
+def _list_of(reader: Any) -> Any:
+    def read_list(value: Any) -> list[Any]:
+        if isinstance(value, str) or not hasattr(value, "__iter__"):
+            raise TypeError(f"expected a list, found {type(value).__name__}")
+        elements = [reader(element) for element in value]
+        if not elements:
+            raise ValueError("expected at least one element")
+        return elements
+    return read_list
+
+
+def _refuse_blend(what: str, values: dict[str, Any]) -> None:
+    if values.get("k", 0) > 0:
+        raise missing(f"{what} with the smoothing radius {values['k']:g}", "leave it out for sharp edges")
+
+
+_child = {"child": Optional(as_node, None)}
+_moves: tuple[dict[str, Any], ...] = ({}, {"x": number, "y": number, "z": number, **_child})
+_some = {"children": Optional(as_nodes, [])}
+_boolean_forms: tuple[dict[str, Any], ...] = (
+    {}, {"mix": boolean, **_some}, {"k": radius_of_blend, "mix": Optional(boolean, False), **_some})

@@ -1,0 +1,180 @@
+"""Solids that need no others."""
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import ombre
+
+from ._arguments import Optional, Point, boolean, length, material, number, read, size, text, vector
+from ._enums import LatticeType
+from ._errors import missing
+from ._functions import expression
+from ._tree import Node, _call_place, nodes
+
+_one = Optional(material, 1)
+
+
+class _Leaf(Node):
+    _material: int
+
+    def _own_materials(self) -> set[int]:
+        return {self._material}
+
+
+def _at(center: Point, solid: ombre.Solid) -> ombre.Solid:
+    return solid if center == (0, 0, 0) else nodes.translate(solid, center)
+
+
+class RectPrism(_Leaf):
+    """Block with edges along the axes: RectPrism(center, size, material=1)."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        values = read("RectPrism", ({}, {"center": vector, "size": size, "material": _one}), arguments, named)
+        self._center: Point = values.get("center", (0, 0, 0))
+        self._size: Point = values.get("size", (10, 10, 10))
+        self._material = values.get("material", 1)
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return _at(self._center, nodes.rectprism(self._size, self._material))
+
+
+class Sphere(_Leaf):
+    """Ball: Sphere(center, radius, material=1), or the centre as three numbers."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        values = read("Sphere", ({}, {"center": vector, "radius": length, "material": _one},
+                                 {"cx": number, "cy": number, "cz": number, "radius": length, "material": _one}),
+                      arguments, named)
+        self._center: Point = values.get("center") or (
+            values.get("cx", 0.0), values.get("cy", 0.0), values.get("cz", 0.0))
+        self._radius = values.get("radius", 5.0)
+        self._material = values.get("material", 1)
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return _at(self._center, nodes.sphere(self._radius, self._material))
+
+
+class Cylinder(_Leaf):
+    """Cylinder along z: Cylinder(center, radius, height, material=1)."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        form = {"center": vector, "radius": length, "height": length, "material": _one}
+        values = read("Cylinder", ({}, form), arguments, named)
+        self._center: Point = values.get("center", (0, 0, 0))
+        self._radius, self._height = values.get("radius", 5.0), values.get("height", 10.0)
+        self._material = values.get("material", 1)
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return _at(self._center, nodes.cylinder(self._radius, self._height, self._material))
+
+
+class Strut(_Leaf):
+    """Cylinder from one point to another, with flat ends: Strut(start, end, radius, material=1)."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        form = {"start": vector, "end": vector, "radius": length, "material": _one}
+        values = read("Strut", ({}, form), arguments, named)
+        self._start: Point = values.get("start", (0, 0, 0))
+        self._end: Point = values.get("end", (10, 0, 0))
+        self._radius, self._material = values.get("radius", 1.0), values.get("material", 1)
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return nodes.strut(self._start, self._end, self._radius, self._material)
+
+
+def _edges(value: Any) -> list[tuple[Point, Point]]:
+    if isinstance(value, (str, LatticeType)) or not hasattr(value, "__iter__"):
+        raise TypeError(f"expected a list of pairs of Vec3, found {type(value).__name__}")
+    edges = []
+    for i, edge in enumerate(value):
+        if not hasattr(edge, "__len__") or len(edge) != 2:
+            raise TypeError(f"edge {i}: expected a pair of Vec3")
+        edges.append((vector(edge[0]), vector(edge[1])))
+    if not edges:
+        raise ValueError("expected at least one edge")
+    return edges
+
+
+def _lattice_type(value: Any) -> LatticeType:
+    if not isinstance(value, LatticeType):
+        raise TypeError(f"expected a LatticeType, found {type(value).__name__}")
+    return value
+
+
+class GraphLattice(_Leaf):
+    """Struts with round ends along edges: GraphLattice(edges, radius, material=1); an edge is a pair of Vec3."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        values = read("GraphLattice", ({"edges": _edges, "radius": length, "material": _one},
+                                       {"type": _lattice_type, "size": size, "radius": length, "material": _one}),
+                      arguments, named)
+        if "type" in values:
+            raise missing(f"GraphLattice of the type {values['type'].name}", "give it the edges of the cell")
+        self._edges: list[tuple[Point, Point]] = values["edges"]
+        self._radius, self._material = values["radius"], values["material"]
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        struts = [nodes.strut(start, end, self._radius, self._material, caps="round") for start, end in self._edges]
+        return nodes.union(struts, materials="first")
+
+
+class Function(_Leaf):
+    """Where an expression is 0 or less, in a box: Function(expr, material=1, min=Vec3(-10, ...), max=Vec3(10, ...)).
+
+    The expression is a text, or a function of (x, y, z, rho, phic, r, theta, phis), which is slow.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        corner = (10.0, 10.0, 10.0)
+        form = {"expr": expression, "material": _one, "min": Optional(vector, tuple(-c for c in corner)),
+                "max": Optional(vector, corner)}
+        values = read("Function", (form,), arguments, named)
+        self._expression, self._material = values["expr"], values["material"]
+        self._min, self._max = values["min"], values["max"]
+        if not all(a < b for a, b in zip(self._min, self._max)):
+            raise ValueError(f"Function: expected min below max along x, y and z, found {self._min} and {self._max}")
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return nodes.function(self._expression, self._material, min=self._min, max=self._max)
+
+
+def _sample_size(value: Any) -> Point | float:
+    return length(value) if isinstance(value, float) else size(value)
+
+
+class Mesh(_Leaf):
+    """Solid of a file's triangles: Mesh(path, material=1, disable_validation=False).
+
+    A second argument that is a float or a Vec3 is a sample size: it is accepted, and nothing is sampled, since rows of
+    voxels are found exactly. Without validation open meshes are closed by their winding number.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        options = {"material": _one, "disable_validation": Optional(boolean, False)}
+        values = read("Mesh", ({"path": text, **options}, {"path": text, "sample_size": _sample_size, **options}),
+                      arguments, named)
+        self._path = _find(values["path"])
+        self._material, self._any_winding = values["material"], values["disable_validation"]
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        if self._any_winding:
+            return nodes.mesh(self._path, self._material, inside="generalized")
+        return nodes.mesh(self._path, self._material)
+
+
+def _find(path: str) -> str:
+    """A file, relative to the script, then to the working directory. Raises FileNotFoundError."""
+    script = _call_place()[0]
+    for folder in (os.path.dirname(os.path.abspath(script)), os.getcwd()):
+        if os.path.isfile(os.path.join(folder, path)):
+            return os.path.normpath(os.path.join(folder, path))
+    raise FileNotFoundError(f"Mesh: there is no file {path}, neither beside {os.path.basename(script)} nor in "
+                            f"{os.getcwd()}")

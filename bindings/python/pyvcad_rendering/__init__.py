@@ -1,0 +1,76 @@
+"""Viewer and exporter of pyvcad's scripts, without windows.
+
+Neither fails where there is no display. When Ombre runs a script for its design (`ombre slice part.py`), both only
+take note of what they were given.
+"""
+from __future__ import annotations
+
+import os
+import sys
+from typing import Any
+
+import ombre
+from ombre._script import is_hosted, take_note
+from ombre._show import show_picture
+from pyvcad._materials import expect_table
+from pyvcad._tree import as_node
+
+__all__ = ["Render", "Export"]
+
+_jobs = {".stl": "mesh", ".obj": "mesh", ".ply": "mesh", ".off": "mesh", ".amf": "mesh", ".3mf": "mesh", ".glb": "mesh",
+         ".svg": "contours", ".cli": "contours", ".vdb": "write_voxels", ".nvdb": "write_voxels",
+         ".npy": "write_voxels", ".nrrd": "write_voxels", ".raw": "write_voxels", ".png": "render", ".json": "save",
+         "": "slice"}
+
+
+def Render(root: Any, materials: Any = None, path: str | os.PathLike[str] | None = None, **options: Any) -> None:
+    """Shows a picture.
+
+    In a notebook it appears there; with a display, in the system's viewer; else it is written to `path`, to the file
+    that the environment variable OMBRE_RENDER names, or to ombre.png.
+
+    Args:
+        root: a node.
+        materials: a MaterialDefs; without it the default ones.
+        path: writes the picture there.
+        **options: of `ombre render`: view, size, cut, legend, ...
+    """
+    expect_table("Render", materials)
+    if is_hosted():
+        take_note(as_node(root), materials)
+        return
+    design = as_node(root)._ombre_design_(materials)
+    show_picture(design.render(**options), None if path is None else os.fspath(path))
+
+
+def Export(root: Any, materials: Any = None, path: str | os.PathLike[str] | None = None, **options: Any) -> None:
+    """Writes files, and says which.
+
+    The path, or else the environment variable OMBRE_EXPORT, says what: a folder for slices, .stl .3mf .obj ... for
+    surfaces, .svg .cli for outlines, .vdb .npy .nrrd ... for voxels, .png for a picture, .json for the design.
+    Without either it says what could be written.
+
+    Args:
+        root: a node.
+        materials: a MaterialDefs; without it the default ones.
+        path: where to.
+        **options: of the job: printer, voxel, by, bands, force, ...
+    """
+    expect_table("Export", materials)
+    if is_hosted():
+        take_note(as_node(root), materials)
+        return
+    target = os.fspath(path) if path is not None else os.environ.get("OMBRE_EXPORT", "")
+    if not target:
+        print('Export: nothing is written without a path; write Export(root, materials, path="part.3mf"), or set the '
+              "environment variable OMBRE_EXPORT (a folder for slices, .stl, .3mf, .svg, .vdb, .png, ...)",
+              file=sys.stderr)
+        return
+    ending = os.path.splitext(target)[1].lower()
+    if ending not in _jobs:
+        raise ombre.DesignError(f"Export: cannot write {target}; known are a folder without an ending for slices, and "
+                                + ", ".join(sorted(filter(None, _jobs))))
+    design = as_node(root)._ombre_design_(materials)
+    getattr(design, _jobs[ending])(target, **options)
+    print(f"written to {target}", file=sys.stderr)
+
