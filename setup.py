@@ -1,6 +1,8 @@
 """Builds the compiled part of the Python package by CMake, and puts beside it what it reads: printers, materials."""
+import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -19,7 +21,7 @@ class CMakeBuild(build_ext):
     def build_extension(self, ext):
         folder = pathlib.Path(self.build_temp).resolve() / "cmake"
         options = ["-DCMAKE_BUILD_TYPE=Release", "-DOMBRE_TESTS=OFF", "-DOMBRE_PYTHON_MODULE=ON",
-                   f"-DPython_EXECUTABLE={sys.executable}"]
+                   f"-DPython_EXECUTABLE={sys.executable}", *shlex.split(os.environ.get("CMAKE_ARGS", ""))]
         subprocess.run(["cmake", "-S", str(sources), "-B", str(folder), "-G", "Ninja", *options], check=True)
         subprocess.run(["cmake", "--build", str(folder), "--target", "ombre_python"], check=True)
         target = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve().parent

@@ -100,6 +100,8 @@ SourceRange call_site() {
   return {};
 }
 
+SourceRange line_of(const std::string& file, int number) { return line_range(source_of(file), number); }
+
 void set_package_folder(const std::string& folder) { package_folder() = folder; }
 
 py::list to_python(const Diagnostics& diagnostics) {

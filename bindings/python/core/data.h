@@ -17,6 +17,7 @@ py::dict to_python(const DataMembers& members);
 
 // The line of the user's code that is running: the innermost frame outside of this package.
 SourceRange call_site();
+SourceRange line_of(const std::string& file, int number);
 // Code below this folder is the package's own.
 void set_package_folder(const std::string& folder);
 

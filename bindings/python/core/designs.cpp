@@ -75,8 +75,9 @@ FactoryPtr make_factory(const std::string& path) {
 }
 
 NodeHandle make_node(const FactoryPtr& factory, const std::string& type, const py::tuple& positional,
-                     const py::dict& named, const std::vector<NodeHandle>& inputs) {
-  const SourceRange where = call_site();
+                     const py::dict& named, const std::vector<NodeHandle>& inputs,
+                     const std::optional<std::pair<std::string, int>>& place) {
+  const SourceRange where = place ? line_of(place->first, place->second) : call_site();
   compile::NodeFactory::Arguments arguments;
   for (const py::handle value : positional) arguments.emplace_back("", to_data(value, where, type));
   for (const auto& [key, value] : named) {
@@ -243,7 +244,8 @@ void DesignHandle::raise_failures() const {
 void add_designs(py::module_& module) {
   py::class_<compile::NodeFactory, FactoryPtr>(module, "Factory", "Makes nodes that name one table of materials.")
       .def(py::init(&make_factory), py::arg("path"))
-      .def("make", &make_node)
+      .def("make", &make_node, py::arg("type"), py::arg("positional"), py::arg("named"), py::arg("inputs"),
+           py::arg("place") = py::none())
       .def_property_readonly("materials", [](const FactoryPtr& f) { return materials_list(f->materials()); });
   py::class_<NodeHandle>(module, "Node", "A node of a design; never changes.")
       .def_property_readonly("type", [](const NodeHandle& h) { return h.node->type().name; })

@@ -1,4 +1,7 @@
 """Solids: nodes of a design, with what can be asked of them and done with them."""
+import contextlib
+import contextvars
+
 import numpy
 
 from . import _core
@@ -6,6 +9,17 @@ from ._functions import adapt
 from ._materials import current_factory
 
 _classes = {}  # by the name of the node
+_place = contextvars.ContextVar("ombre_place", default=None)
+
+
+@contextlib.contextmanager
+def made_at(place):
+    """Within, solids count as made at this (file, line): for packages that make them for somebody else's script."""
+    token = _place.set(place)
+    try:
+        yield
+    finally:
+        _place.reset(token)
 
 
 def wrap(node):
@@ -49,7 +63,7 @@ def make(name, info, positional, named):
     child = wrap(inputs[0]) if inputs else None
     try:
         return factory.make(name, tuple(adapt(v, child) for v in values),
-                            {key: adapt(v, child) for key, v in named.items()}, inputs)
+                            {key: adapt(v, child) for key, v in named.items()}, inputs, _place.get())
     except TypeError as error:
         raise error.with_traceback(None) from None
 

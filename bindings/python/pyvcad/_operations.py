@@ -8,7 +8,7 @@ import ombre
 from ._arguments import Optional, Point, boolean, material, number, radius_of_blend, read, vector
 from ._errors import missing
 from ._functions import expression
-from ._tree import Binary, NAry, Node, Unary, as_node, as_nodes, nodes
+from ._tree import Binary, NAry, Node, Unary, as_node, as_nodes
 
 
 class Translate(Unary):
@@ -20,7 +20,7 @@ class Translate(Unary):
         self._by: Point = tuple(values.get(axis, 0.0) for axis in "xyz")  # type: ignore[assignment]
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return nodes.translate(solids[0], self._by)
+        return ombre.translate(solids[0], self._by)
 
 
 class Scale(Unary):
@@ -34,7 +34,7 @@ class Scale(Unary):
             raise ValueError(f"Scale: expected factors other than 0, found {self._by}")
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return nodes.scale(solids[0], self._by)
+        return ombre.scale(solids[0], self._by)
 
 
 class Rotate(Unary):
@@ -52,7 +52,7 @@ class Rotate(Unary):
         self._around: Point = values.get("around", (0.0, 0.0, 0.0))
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return nodes.rotate(solids[0], self._angles, around=self._around)
+        return ombre.rotate(solids[0], self._angles, around=self._around)
 
 
 class _Boolean(NAry):
@@ -70,7 +70,7 @@ class _Boolean(NAry):
         self._mix: bool = values.get("mix", False)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return getattr(nodes, self._operation)(solids, materials="mix" if self._mix else "first")
+        return getattr(ombre, self._operation)(solids, materials="mix" if self._mix else "first")
 
 
 class Union(_Boolean):
@@ -96,7 +96,7 @@ class BBoxUnion(NAry):
         _refuse_blend("BBoxUnion", values)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return nodes.union(solids, materials="first")
+        return ombre.union(solids, materials="first")
 
 
 class Difference(Binary):
@@ -110,7 +110,7 @@ class Difference(Binary):
         _refuse_blend("Difference", values)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return nodes.difference(*solids)
+        return ombre.difference(*solids)
 
     def _composing(self) -> list[Node]:
         return self._inputs()[:1]
@@ -126,7 +126,7 @@ class Sum(NAry):
         self._iso: float = values["iso"]
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return nodes.sum(solids, iso=self._iso)
+        return ombre.sum(solids, iso=self._iso)
 
 
 class FGrade(Unary):
@@ -149,7 +149,7 @@ class FGrade(Unary):
                              f"and {len(self._materials)} materials")
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return nodes.fgrade(solids[0], self._functions, self._materials, mode=self._mode)
+        return ombre.fgrade(solids[0], self._functions, self._materials, mode=self._mode)
 
     def _own_materials(self) -> set[int]:
         return set(self._materials)

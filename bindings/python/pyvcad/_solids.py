@@ -10,7 +10,7 @@ from ._arguments import Optional, Point, boolean, length, material, number, read
 from ._enums import LatticeType
 from ._errors import missing
 from ._functions import expression
-from ._tree import Node, _call_place, nodes
+from ._tree import Node, _call_place
 
 _one = Optional(material, 1)
 
@@ -23,7 +23,7 @@ class _Leaf(Node):
 
 
 def _at(center: Point, solid: ombre.Solid) -> ombre.Solid:
-    return solid if center == (0, 0, 0) else nodes.translate(solid, center)
+    return solid if center == (0, 0, 0) else ombre.translate(solid, center)
 
 
 class RectPrism(_Leaf):
@@ -37,7 +37,7 @@ class RectPrism(_Leaf):
         self._material = values.get("material", 1)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return _at(self._center, nodes.rectprism(self._size, self._material))
+        return _at(self._center, ombre.rectprism(self._size, self._material))
 
 
 class Sphere(_Leaf):
@@ -54,7 +54,7 @@ class Sphere(_Leaf):
         self._material = values.get("material", 1)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return _at(self._center, nodes.sphere(self._radius, self._material))
+        return _at(self._center, ombre.sphere(self._radius, self._material))
 
 
 class Cylinder(_Leaf):
@@ -69,7 +69,7 @@ class Cylinder(_Leaf):
         self._material = values.get("material", 1)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return _at(self._center, nodes.cylinder(self._radius, self._height, self._material))
+        return _at(self._center, ombre.cylinder(self._radius, self._height, self._material))
 
 
 class Strut(_Leaf):
@@ -84,7 +84,7 @@ class Strut(_Leaf):
         self._radius, self._material = values.get("radius", 1.0), values.get("material", 1)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return nodes.strut(self._start, self._end, self._radius, self._material)
+        return ombre.strut(self._start, self._end, self._radius, self._material)
 
 
 def _edges(value: Any) -> list[tuple[Point, Point]]:
@@ -120,8 +120,8 @@ class GraphLattice(_Leaf):
         self._radius, self._material = values["radius"], values["material"]
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        struts = [nodes.strut(start, end, self._radius, self._material, caps="round") for start, end in self._edges]
-        return nodes.union(struts, materials="first")
+        struts = [ombre.strut(start, end, self._radius, self._material, caps="round") for start, end in self._edges]
+        return ombre.union(struts, materials="first")
 
 
 class Function(_Leaf):
@@ -142,7 +142,7 @@ class Function(_Leaf):
             raise ValueError(f"Function: expected min below max along x, y and z, found {self._min} and {self._max}")
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return nodes.function(self._expression, self._material, min=self._min, max=self._max)
+        return ombre.function(self._expression, self._material, min=self._min, max=self._max)
 
 
 def _sample_size(value: Any) -> Point | float:
@@ -166,8 +166,8 @@ class Mesh(_Leaf):
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         if self._any_winding:
-            return nodes.mesh(self._path, self._material, inside="generalized")
-        return nodes.mesh(self._path, self._material)
+            return ombre.mesh(self._path, self._material, inside="generalized")
+        return ombre.mesh(self._path, self._material)
 
 
 def _find(path: str) -> str:

@@ -2,12 +2,10 @@
 from __future__ import annotations
 
 import copy
-import functools
 import math
 import operator
 import os
 import sys
-import types
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -15,7 +13,7 @@ import numpy
 
 import ombre
 from ombre._materials import current_factory, using
-from ombre._solid import wrap
+from ombre._solid import made_at, wrap
 
 from . import _grids
 from ._materials import MaterialDefs, default_materials, expect_table, numbered
@@ -25,24 +23,6 @@ _folder = os.path.dirname(os.path.abspath(__file__)) + os.sep
 
 
 Place = tuple[str, int]  # a file, and a line of it
-
-
-class _Nodes:
-    """The classes of `ombre`, called as if from a script's line, which messages then name."""
-
-    place: Place = ("", 1)
-
-    def __getattr__(self, name: str) -> Any:
-        file, line = self.place
-        code = _call.__code__.replace(co_filename=file, co_firstlineno=line)
-        return functools.partial(types.FunctionType(code, {}), getattr(ombre, name))
-
-
-# On one line, so that the place of its code is that of the call.
-def _call(make: Any, *arguments: Any, **named: Any) -> Any: return make(*arguments, **named)  # noqa: E704
-
-
-nodes = _Nodes()
 
 
 class _Changes:
@@ -109,8 +89,8 @@ class Node:
         is_same = len(solids) == len(self._built_from) and all(map(operator.is_, solids, self._built_from))
         if self._solid is None or self._factory is not factory or not is_same:
             try:
-                nodes.place = self._place
-                self._solid = self._make(solids)
+                with made_at(self._place):
+                    self._solid = self._make(solids)
             except (ombre.DesignError, TypeError) as error:
                 raise self._error(_text_of(error)) from None
             self._factory, self._built_from = factory, solids
@@ -359,7 +339,7 @@ class Wrapped(Node):
         self._whole: ombre.Solid = parts[0]
         if len(parts) > 1:
             with using(design._core.factory):
-                self._whole = nodes.union(*parts)
+                self._whole = ombre.union(*parts)
 
     def _own_materials(self) -> set[int]:
         return {self._given.materials[name]["id"] for solid in _solids_of(self._whole)
