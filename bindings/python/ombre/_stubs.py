@@ -57,7 +57,8 @@ class Voxels:
 
 class Materials:
     names: list[str]
-    def __init__(self, path: Optional[Path] = ...) -> None: ...
+    _factory: Any
+    def __init__(self, path: Optional[Path] = ..., _factory: Any = ...) -> None: ...
     def colour(self, name: Material) -> tuple[int, int, int, int]: ...
     def use(self) -> "Materials": ...
     def __getitem__(self, key: Material) -> dict[str, Any]: ...
@@ -141,7 +142,7 @@ def stub():
     jobs = "".join(_jobs())
     out += ["\nclass Solid:\n", _questions, jobs,
             "    type: str\n    metric: str\n    parameters: dict[str, Any]\n    inputs: list[Solid]\n"
-            "    place: Optional[tuple[str, int]]\n    def design(self) -> Design: ...\n"
+            "    place: Optional[tuple[str, int]]\n    _node: Any\n    _info: Any\n    def design(self) -> Design: ...\n"
             "    def grade(self, fractions: Mapping[str, Number], mode: str = ...) -> Solid: ...\n"]
     out += [f"    def __{name}__(self, other: Any) -> Solid: ...\n" for name in ("or", "and", "sub", "add")]
     out += ["    def __invert__(self) -> Solid: ...\n"]
@@ -150,7 +151,7 @@ def stub():
         if info["inputs"]["least"] and hasattr(ombre.Solid, method):
             out.append(f"    def {method}(self, *arguments: Argument{_keywords(info)}) -> Solid: ...\n")
     out += ["\nclass Design:\n", _questions, jobs,
-            "    def __init__(self, *parts: Solid, box: Optional[ArrayLike] = ..., voxel: Any = ..., **named: Solid) "
+            "    _core: Any\n    def __init__(self, *parts: Solid, box: Optional[ArrayLike] = ..., voxel: Any = ..., **named: Solid) "
             "-> None: ...\n    @classmethod\n    def from_json(cls, text: str) -> Design: ...\n"]
     for info in infos:
         out.append(f"\nclass {info['name']}(Solid):\n" + _docstring(_solid._doc(info), 4) +
