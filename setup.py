@@ -19,7 +19,7 @@ class CMakeBuild(build_ext):
     """One CMake build gives the extension, the module for OpenVDB and the type stub."""
 
     def build_extension(self, ext):
-        folder = pathlib.Path(self.build_temp).resolve() / "cmake"
+        folder = sources / "build" / "wheel"  # as deep as the other builds, so that ccache knows what they compiled
         options = ["-DCMAKE_BUILD_TYPE=Release", "-DOMBRE_TESTS=OFF", "-DOMBRE_PYTHON_MODULE=ON",
                    f"-DPython_EXECUTABLE={sys.executable}", *shlex.split(os.environ.get("CMAKE_ARGS", ""))]
         subprocess.run(["cmake", "-S", str(sources), "-B", str(folder), "-G", "Ninja", *options], check=True)
