@@ -197,6 +197,20 @@ def test_functions_that_fail(function, cause):
     assert ombre.cube(1).distance([0, 0, 0]) == -0.5  # others go on
 
 
+def test_functions_may_end_the_program():
+    def leave(x):
+        raise SystemExit(3)
+    with pytest.raises(SystemExit):
+        ombre.function(leave, min=(-1, -1, -1), max=(1, 1, 1)).volume(0.5)
+
+
+def test_what_is_no_number_is_outside():
+    points = [[math.nan, 0, 0], [math.inf, 0, 0], [0, 0, 0]]
+    part = ombre.sphere(5) | ombre.cube(3, "blue")
+    assert part.inside(points).tolist() == [False, False, True]
+    assert part.material(points)["red"].tolist() == [0, 0, 0.5]
+
+
 # Errors.
 
 @pytest.mark.parametrize("wrong, kind, part", [
@@ -224,6 +238,9 @@ def test_functions_that_fail(function, cause):
     (lambda: ombre.half_space((0, 0, 1)).volume(), ombre.DesignError, "no end along"),
     (lambda: ombre.Design(), ValueError, "at least one part"),
     (lambda: ombre.Design(3), TypeError, "expected a solid"),
+    (lambda: ombre.Design(ombre.cube(1), part=ombre.cube(1)), ValueError, "two parts"),
+    (lambda: ombre.sphere(10 ** 400), OverflowError, "too large"),
+    (lambda: ombre.sphere(3, "\ud800"), UnicodeEncodeError, "surrogates"),
     (lambda: ombre.load("nowhere.vcad"), ombre.MachineError, "nowhere.vcad"),
     (lambda: ombre.load("nowhere.py"), ombre.DesignError, "nowhere.py"),
     (lambda: ombre.mesh("nowhere.stl"), (ombre.MachineError, ombre.DesignError), "nowhere.stl"),

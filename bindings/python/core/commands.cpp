@@ -24,81 +24,88 @@ std::vector<const char*> pointers(const std::vector<std::string>& arguments) {
   return list;
 }
 
-// A command on a thread of its own; its events are taken on the thread that waits for it.
-class RunningCommand {
+// A command on a thread of its own. The thread keeps it, so that it may outlive who waits for it: Python ends threads
+// in the middle when it exits.
+struct RunningCommand {
+  std::vector<std::string> arguments;
+  compile::LoadedPtr design;
+  StopFlag stop;
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::deque<DataMembers> events;  // not yet handed over
+  bool is_done = false;
+  std::string data;
+  int code = 0;
+};
+
+void work(RunningCommand& command) {
+  cli::Host host;
+  host.stop = &command.stop;
+  host.on_event = [&](const DataMembers& event) {
+    const std::scoped_lock lock(command.mutex);
+    command.events.push_back(event);
+    command.changed.notify_one();
+  };
+  host.on_data = [&](const std::string& text) { command.data += text; };
+  if (command.design)
+    host.load = [&](const std::string&, const compile::LoadOptions&, Diagnostics&) { return command.design; };
+  const auto list = pointers(command.arguments);
+  command.code = cli::run(static_cast<int>(list.size()), list.data(), host);
+  const std::scoped_lock lock(command.mutex);
+  command.is_done = true;
+  command.changed.notify_one();
+}
+
+// Stops a command whose end nobody waits for any more.
+class StopAtEnd {
  public:
-  RunningCommand(std::vector<std::string> arguments, compile::LoadedPtr design)
-      : arguments_(std::move(arguments)), design_(std::move(design)) {}
-
-  // Waits for the end, and hands events over as they come. Raises what `on_event` raises, and KeyboardInterrupt,
-  // once the command has stopped in good order.
-  int run(const py::object& on_event) {
-    std::thread worker([this] { work(); });
-    std::unique_ptr<py::error_already_set> raised;
-    bool running = true;
-    while (running) {
-      std::deque<DataMembers> events;
-      {
-        const py::gil_scoped_release unlocked;
-        std::unique_lock lock(mutex_);
-        changed_.wait_for(lock, signal_interval, [&] { return is_done_ || !events_.empty(); });
-        events.swap(events_);
-        running = !is_done_ || !events_.empty();
-      }
-      try {
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        if (!raised && !on_event.is_none())
-          for (const DataMembers& event : events) on_event(to_python(event));
-      } catch (const py::error_already_set& error) {
-        if (!raised) raised = std::make_unique<py::error_already_set>(error);
-        stop_.request();
-      }
-    }
-    {
-      const py::gil_scoped_release unlocked;
-      worker.join();
-    }
-    if (raised) throw std::move(*raised);
-    return code_;
-  }
-
-  const std::string& data() const { return data_; }
+  explicit StopAtEnd(StopFlag& stop) : stop_(stop) {}
+  ~StopAtEnd() { stop_.request(); }
+  StopAtEnd(const StopAtEnd&) = delete;
+  StopAtEnd& operator=(const StopAtEnd&) = delete;
 
  private:
-  void work() {
-    cli::Host host;
-    host.stop = &stop_;
-    host.on_event = [this](const DataMembers& event) {
-      const std::scoped_lock lock(mutex_);
-      events_.push_back(event);
-      changed_.notify_one();
-    };
-    host.on_data = [this](const std::string& text) { data_ += text; };
-    if (design_) host.load = [this](const std::string&, const compile::LoadOptions&, Diagnostics&) { return design_; };
-    const auto list = pointers(arguments_);
-    code_ = cli::run(static_cast<int>(list.size()), list.data(), host);
-    const std::scoped_lock lock(mutex_);
-    is_done_ = true;
-    changed_.notify_one();
-  }
-
-  std::vector<std::string> arguments_;
-  compile::LoadedPtr design_;
-  StopFlag stop_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<DataMembers> events_;  // not yet handed over
-  bool is_done_ = false;
-  std::string data_;
-  int code_ = 0;
+  StopFlag& stop_;
 };
+
+// The events since the last call, waiting for some a little while; false once the command has ended.
+bool next_events(RunningCommand& command, std::deque<DataMembers>& events) {
+  const py::gil_scoped_release unlocked;
+  std::unique_lock lock(command.mutex);
+  command.changed.wait_for(lock, signal_interval, [&] { return command.is_done || !command.events.empty(); });
+  events.swap(command.events);
+  return !command.is_done;
+}
+
+// Waits for the end, and hands events over as they come. Raises what `on_event` raises, and KeyboardInterrupt, once
+// the command has stopped in good order.
+void wait_for(RunningCommand& command, const py::object& on_event) {
+  const StopAtEnd stop_at_end(command.stop);
+  std::unique_ptr<py::error_already_set> raised;
+  for (bool running = true; running;) {
+    std::deque<DataMembers> events;
+    running = next_events(command, events);
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (raised || on_event.is_none()) continue;
+      for (const DataMembers& event : events) on_event(to_python(event));
+    } catch (const py::error_already_set& error) {
+      if (!raised) raised = std::make_unique<py::error_already_set>(error);
+      command.stop.request();
+    }
+  }
+  if (raised) throw py::error_already_set(*raised);
+}
 
 // (exit code, what would go to stdout); a design in memory stands for the argument that names one.
 py::tuple run_command(const std::vector<std::string>& arguments, DesignHandle* design, const py::object& on_event) {
-  RunningCommand command(arguments, design ? design->loaded() : nullptr);
-  const int code = command.run(on_event);
-  if (code != cli::done && design) design->raise_failures();
-  return py::make_tuple(code, py::bytes(command.data()));
+  const auto command = std::make_shared<RunningCommand>();
+  command->arguments = arguments;
+  if (design) command->design = design->loaded();
+  std::thread([command] { work(*command); }).detach();
+  wait_for(*command, on_event);
+  if (command->code != cli::done && design) design->raise_failures();
+  return py::make_tuple(command->code, py::bytes(command->data));
 }
 
 // The whole command line, on this process's own streams. `load_script` gives the design of a .py file, or None once

@@ -46,6 +46,20 @@ DataList list_of(const py::handle& values, const SourceRange& where, const std::
   return list;
 }
 
+// Raise OverflowError and UnicodeEncodeError.
+double number_of(const py::handle& value) {
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (PyErr_Occurred()) throw py::error_already_set();
+  return number;
+}
+
+std::string text_of(const py::handle& value) {
+  Py_ssize_t size = 0;
+  const char* text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+  if (!text) throw py::error_already_set();
+  return {text, static_cast<size_t>(size)};
+}
+
 bool has(const py::handle& value, const char* name) { return py::hasattr(value, name); }
 
 }  // namespace
@@ -53,8 +67,8 @@ bool has(const py::handle& value, const char* name) { return py::hasattr(value, 
 Data to_data(const py::handle& value, const SourceRange& where, const std::string& what) {
   if (value.is_none()) return {};
   if (py::isinstance<py::bool_>(value)) return {value.cast<bool>(), where};
-  if (py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value)) return {value.cast<double>(), where};
-  if (py::isinstance<py::str>(value)) return {value.cast<std::string>(), where};
+  if (py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value)) return {number_of(value), where};
+  if (py::isinstance<py::str>(value)) return {text_of(value), where};
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) return {list_of(value, where, what), where};
   if (has(value, "_ombre_text_")) return {value.attr("_ombre_text_").cast<std::string>(), where};
   if (has(value, "_ombre_function_")) {

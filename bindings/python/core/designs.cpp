@@ -144,6 +144,8 @@ std::unique_ptr<DesignHandle> make_design(const PartList& parts,
   for (const auto& [part_name, handle] : parts) {
     if (&handle.factory->materials().all() != &factory->materials().all())
       throw py::value_error("the parts were made with different materials; give all of them the same");
+    for (const design::Part& other : design.parts)
+      if (other.name == part_name) throw py::value_error("there are two parts with the name \"" + part_name + "\"");
     design.parts.push_back({part_name, handle.node});
   }
   if (box) {

@@ -43,6 +43,10 @@ def _points(points):
     return array.reshape(-1, 3), array.shape[:-1]
 
 
+def _is_finite(points):
+    return numpy.isfinite(numpy.asarray(points, dtype=float)).all(axis=-1)
+
+
 class Design:
     """A design: named parts, each a solid.
 
@@ -161,12 +165,12 @@ class Design:
 
     def inside(self, points, threads=0):
         """Whether points of the shape (..., 3), mm, are inside; an array of truth values."""
-        return (self._sample(points, "inside", threads)[0][2] != 0)[()]
+        return (_is_finite(points) & (self._sample(points, "inside", threads)[0][2] != 0))[()]
 
     def material(self, points, threads=0):
         """{material: volume fraction} at points of the shape (..., 3), mm; all are 0 outside."""
         columns = self._sample(points, "material", threads)
-        inside = columns[0][2] != 0
+        inside = _is_finite(points) & (columns[0][2] != 0)
         return {name: numpy.where(inside, values, 0.0)[()] for _, name, values in columns[1:]}
 
     def attribute(self, name, points, threads=0):

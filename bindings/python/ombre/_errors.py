@@ -51,7 +51,9 @@ def report(diagnostics):
 
 
 def function_failure(cause, name, point):
-    """The exception that stands for one of a design's function."""
+    """The exception that stands for one of a design's function; those that end programs stand for themselves."""
+    if not isinstance(cause, Exception):
+        return cause
     at = ", ".join(f"{c:.6g}" for c in point)
     error = FunctionError(f"the function {name} of the design raised {type(cause).__name__}: {cause} "
                           f"(the first point it was asked about: ({at}) mm)", point)
