@@ -45,6 +45,11 @@ class Meshes:
                 return json.loads(line)
         raise AssertionError("no bodies were told")
 
+    def events(self, *arguments):
+        done = program.run(self.command(*arguments, "--json"), cwd=self.folder)
+        expect(done.returncode == 0, done.stderr)
+        return [json.loads(line) for line in done.stdout.splitlines()]
+
     def judged(self, name):
         done = program.run([self.checker, name], cwd=self.folder)
         expect(done.returncode == 0, done.stderr)
@@ -100,6 +105,28 @@ def materials_get_a_body_each(meshes):
         near(body["volume_mm3"], 500, 1e-6, body["name"])
 
 
+def materials_come_back(meshes):
+    """What a mesh file says of materials, read into a design again, by volumes and at points."""
+    (meshes.folder / "ball.vcad").write_text('union(materials="first") { translate(1, 2, 2) sphere(4, "red"); '
+                                             'rectprism(12, 10, 8, "blue"); }', encoding="utf-8")
+    points = ["--at=1,2,2", "--at=4.5,2,2", "--at=5.5,4,3", "--at=1,2,5.5", "--at=-4,-4,-3", "--at=5,4.5,4.5"]
+    materials = [["red"], ["red"], ["blue"], ["red"], ["blue"], []]
+    for name, rule in [("ball.3mf", "names"), ("ball.amf", "names"), ("ball.obj", "names"), ("ball.3mf", "colours"),
+                       ("prusa.3mf", "names"), ("bambu.3mf", "colours")]:
+        flavour = ["--flavour", name[:5]] if name in ("prusa.3mf", "bambu.3mf") else []
+        told = meshes.bodies("-o", name, "--by", "materials", "--force", *flavour, design="ball.vcad")
+        again = meshes.folder / "again.vcad"
+        again.write_text(f'mesh("{name}", "gray", materials="{rule}");', encoding="utf-8")
+        found = meshes.events("probe", again, *points)
+        expect([list(point["composition"]) for point in found] == materials, f"{name}: {found}")
+        (done,) = [event for event in meshes.events("slice", again, "-o", "again", "--voxel", "0.1", "--force")
+                   if event["event"] == "done"]
+        voxels = {material["name"]: material["volume_mm3"] for material in done["materials"]}
+        expect(set(voxels) == {"red", "blue"}, f"{name}: {voxels}")
+        for body in told["bodies"]:
+            near(voxels[body["name"]], body["volume_mm3"], 2e-3, f"{body['name']} of {name}")
+
+
 def slicers_get_settings_of_each_band(meshes):
     if "without libzip" in meshes.mesh("-o", "seat.3mf", "--bands", "4", "--flavour", "prusa", "--setting",
                                        "fill_density=10%..70%", "--setting", "perimeters=1,2,3,4").stderr:
@@ -148,7 +175,7 @@ def interrupts_leave_nothing(meshes):
     expect(meshes.names() == ["bar.vcad"], str(meshes.names()))
 
 
-CHECKS = [bands_fill_the_whole, materials_get_a_body_each, slicers_get_settings_of_each_band, slips_get_remedies,
+CHECKS = [bands_fill_the_whole, materials_get_a_body_each, materials_come_back, slicers_get_settings_of_each_band, slips_get_remedies,
           files_are_kept, interrupts_leave_nothing]
 
 
