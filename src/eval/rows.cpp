@@ -80,7 +80,9 @@ void RowEvaluator::run_source(const Program& program, const Instruction& in, std
   const program::Read& read = program.reads[in.aux];
   if (source_row && source_row(read, out)) return;
   const double *a = row(in.a), *b = row(in.b), *c = row(in.c);
-  for (size_t p = 0; p < out.size(); ++p) out[p] = read.source->sample(read.channel, {a[p], b[p], c[p]});
+  points_.clear();
+  for (size_t p = 0; p < out.size(); ++p) points_.push_back({a[p], b[p], c[p]});
+  read.source->sample_all(read.channel, points_, out);
 }
 
 }  // namespace ombre::eval

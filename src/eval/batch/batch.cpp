@@ -334,9 +334,18 @@ void BatchEvaluator::sample(const Step& step, size_t j, size_t count) const {
   const auto value = [&](const float* row, size_t n, unsigned number) {
     return static_cast<double>(row[step.numbers & number ? 0 : n]);
   };
-  for (size_t n = 0; n < count; ++n)
-    out[n] = static_cast<float>(step.read->source->sample(
-        step.read->channel, {value(a, n, a_is_number), value(b, n, b_is_number), value(c, n, c_is_number)}));
+  constexpr size_t most = 64;
+  std::array<Vec3, most> points;
+  std::array<double, most> values{};
+  for (size_t begin = 0; begin < count; begin += most) {
+    const size_t here = std::min(most, count - begin);
+    for (size_t i = 0; i < here; ++i) {
+      const size_t n = begin + i;
+      points[i] = {value(a, n, a_is_number), value(b, n, b_is_number), value(c, n, c_is_number)};
+    }
+    step.read->source->sample_all(step.read->channel, std::span(points).first(here), std::span(values).first(here));
+    for (size_t i = 0; i < here; ++i) out[begin + i] = static_cast<float>(values[i]);
+  }
 }
 
 }  // namespace ombre::eval
