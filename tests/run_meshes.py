@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Meshes, made as a user would and judged by CGAL.
 
-    python3 tests/run_meshes.py build/dev/apps/ombre/ombre [build/dev/tests/mesh_checker/check_mesh]
+    python3 tests/run_meshes.py build/dev/apps/ombre/ombre [build/dev/tests/mesh_checker/{check_mesh,compare_mesh}]
 """
 import argparse
 import functools
@@ -21,14 +21,22 @@ EXAMPLES = sorted((program.SOURCE / "examples").glob("*.vcad"))
 TOO_FINE = {"graded_wing"}
 # Facets that lie in a line once files round their corners to floats.
 MOST_TOUCHING = 20
+# How far mesh and surface may lie apart, in tolerances, and the share of samples beyond one; a tolerance otherwise.
+FARTHEST = {
+    "graded_wing": (16, 0.2),       # too fine, as above
+    "soft_actuator": (4, 0.02),     # its ribs end in folds of a hundredth of a millimetre, half a cell
+    "tensile_bar_prob": (1.5, 3e-4),    # along the edges of its fillets, where flat cells were joined
+    "tensile_bar_thresh": (1.5, 3e-4),
+    "wheel": (4, 1e-3),             # where spokes and hub meet, whose shells go through each other
+}
 BAR = 'fgrade(["x/20 + 0.5", "0.5 - x/20"], ["red", "blue"]) { rectprism(20, 10, 5); }'
 
 
 class Meshes:
     """A folder for one check, with a design in it."""
 
-    def __init__(self, ombre, checker, scratch):
-        self.ombre, self.checker, self.folder = ombre, checker, pathlib.Path(scratch)
+    def __init__(self, ombre, checker, comparer, scratch):
+        self.ombre, self.checker, self.comparer, self.folder = ombre, checker, comparer, pathlib.Path(scratch)
         (self.folder / "bar.vcad").write_text(BAR, encoding="utf-8")
 
     def command(self, *arguments):
@@ -45,8 +53,19 @@ class Meshes:
                 return json.loads(line)
         raise AssertionError("no bodies were told")
 
+    def events(self, *arguments):
+        done = program.run(self.command(*arguments, "--json"), cwd=self.folder)
+        expect(done.returncode == 0, done.stderr)
+        return [json.loads(line) for line in done.stdout.splitlines()]
+
     def judged(self, name):
         done = program.run([self.checker, name], cwd=self.folder)
+        expect(done.returncode == 0, done.stderr)
+        return json.loads(done.stdout)
+
+    def compared(self, design, name, tolerance):
+        """Both sides of the Hausdorff distance between a design's surface and its mesh, at samples."""
+        done = program.run([self.comparer, design, name, tolerance], cwd=self.folder, timeout=400)
         expect(done.returncode == 0, done.stderr)
         return json.loads(done.stdout)
 
@@ -63,6 +82,14 @@ def near(a, b, share, what):
     expect(abs(a - b) <= share * abs(b), f"{what}: {a}, expected {b}")
 
 
+def is_as_near_as_asked(design, meshes, tolerance):
+    farthest, share = FARTHEST.get(design.stem, (1 + 1e-6, 0))
+    for way, side in meshes.compared(design, "part.off", tolerance).items():
+        expect(side["samples"] > 10_000, f"{way}: {side}")
+        expect(side["farthest_mm"] <= farthest * tolerance, f"{way}: {side}, tolerance {tolerance}")
+        expect(side["beyond"] <= share * side["samples"], f"{way}: {side}, tolerance {tolerance}")
+
+
 def is_closed_and_as_large_as_its_voxels(design, meshes):
     """A mesh beside the same design's voxels, of which each face may gain or lose half a layer."""
     bodies = meshes.bodies("-o", "part.off", design=design)
@@ -74,6 +101,8 @@ def is_closed_and_as_large_as_its_voxels(design, meshes):
         near(found["volume"], body["volume_mm3"], 1e-5, "CGAL's volume")
         if design.stem not in TOO_FINE:
             expect(found["intersections"] <= MOST_TOUCHING, str(found))
+    if meshes.comparer:
+        is_as_near_as_asked(design, meshes, bodies["tolerance_mm"])
     pitch = (body["volume_mm3"] / 3e7) ** (1 / 3)
     done = program.run(meshes.command("slice", design, "-o", "slices", "--voxel", f"{pitch:.4f}", "--json"),
                        cwd=meshes.folder)
@@ -98,6 +127,28 @@ def materials_get_a_body_each(meshes):
     expect([b["name"] for b in told["bodies"]] == ["red", "blue"], str(told))
     for body in told["bodies"]:
         near(body["volume_mm3"], 500, 1e-6, body["name"])
+
+
+def materials_come_back(meshes):
+    """What a mesh file says of materials, read into a design again, by volumes and at points."""
+    (meshes.folder / "ball.vcad").write_text('union(materials="first") { translate(1, 2, 2) sphere(4, "red"); '
+                                             'rectprism(12, 10, 8, "blue"); }', encoding="utf-8")
+    points = ["--at=1,2,2", "--at=4.5,2,2", "--at=5.5,4,3", "--at=1,2,5.5", "--at=-4,-4,-3", "--at=5,4.5,4.5"]
+    materials = [["red"], ["red"], ["blue"], ["red"], ["blue"], []]
+    for name, rule in [("ball.3mf", "names"), ("ball.amf", "names"), ("ball.obj", "names"), ("ball.3mf", "colours"),
+                       ("prusa.3mf", "names"), ("bambu.3mf", "colours")]:
+        flavour = ["--flavour", name[:5]] if name in ("prusa.3mf", "bambu.3mf") else []
+        told = meshes.bodies("-o", name, "--by", "materials", "--force", *flavour, design="ball.vcad")
+        again = meshes.folder / "again.vcad"
+        again.write_text(f'mesh("{name}", "gray", materials="{rule}");', encoding="utf-8")
+        found = meshes.events("probe", again, *points)
+        expect([list(point["composition"]) for point in found] == materials, f"{name}: {found}")
+        (done,) = [event for event in meshes.events("slice", again, "-o", "again", "--voxel", "0.1", "--force")
+                   if event["event"] == "done"]
+        voxels = {material["name"]: material["volume_mm3"] for material in done["materials"]}
+        expect(set(voxels) == {"red", "blue"}, f"{name}: {voxels}")
+        for body in told["bodies"]:
+            near(voxels[body["name"]], body["volume_mm3"], 2e-3, f"{body['name']} of {name}")
 
 
 def slicers_get_settings_of_each_band(meshes):
@@ -148,21 +199,23 @@ def interrupts_leave_nothing(meshes):
     expect(meshes.names() == ["bar.vcad"], str(meshes.names()))
 
 
-CHECKS = [bands_fill_the_whole, materials_get_a_body_each, slicers_get_settings_of_each_band, slips_get_remedies,
+CHECKS = [bands_fill_the_whole, materials_get_a_body_each, materials_come_back, slicers_get_settings_of_each_band, slips_get_remedies,
           files_are_kept, interrupts_leave_nothing]
 
 
-def in_a_folder(ombre, checker, check):
+def in_a_folder(ombre, checker, comparer, check):
     with tempfile.TemporaryDirectory() as scratch:
-        return check(Meshes(ombre, checker, scratch))
+        return check(Meshes(ombre, checker, comparer, scratch))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("ombre", type=pathlib.Path)
     parser.add_argument("checker", type=pathlib.Path, nargs="?")
+    parser.add_argument("comparer", type=pathlib.Path, nargs="?")
     given = parser.parse_args()
-    run = functools.partial(in_a_folder, given.ombre.resolve(), given.checker and given.checker.resolve())
+    programs = [path and path.resolve() for path in (given.ombre, given.checker, given.comparer)]
+    run = functools.partial(in_a_folder, *programs)
     checks = [(design.stem, functools.partial(run, functools.partial(is_closed_and_as_large_as_its_voxels, design)))
               for design in EXAMPLES]
     return program.check_all(checks + [(check.__name__, functools.partial(run, check)) for check in CHECKS])

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "compile/mesh_materials.h"
 #include "formats/file.h"
 #include "formats/mesh_objects.h"
 #include "import/mesh_source.h"
@@ -28,7 +29,7 @@ std::optional<std::string> find_file(const std::string& path, const SourceRange&
   return std::nullopt;
 }
 
-importing::InsideRule rule_of(const std::string& name) {
+importing::InsideRule rule_of(std::string_view name) {
   if (name == "parity") return importing::InsideRule::parity;
   return name == "generalized" ? importing::InsideRule::generalized : importing::InsideRule::nonzero;
 }
@@ -37,29 +38,49 @@ std::string point_text(Vec3 p) {
   return "(" + format_rounded(p.x) + ", " + format_rounded(p.y) + ", " + format_rounded(p.z) + ")";
 }
 
-// False, and a diagnostic, when the mesh has no inside under the rule.
-bool check_closed(const std::string& path, const importing::MeshReport& report, const std::string& rule,
-                  const SourceRange& where, Diagnostics& diagnostics) {
-  if (report.is_closed() || rule == "generalized") return true;
-  if (rule == "parity" && report.open_edges == 0) return true;
-  std::string message = "the mesh \"" + path + "\" ";
+bool has_inside(const importing::MeshReport& report, std::string_view rule) {
+  return report.is_closed() || rule == "generalized" || (rule == "parity" && report.open_edges == 0);
+}
+
+// "is open along 4 edges, for example from ... to ..."
+std::string faults(const importing::MeshReport& report) {
+  std::string message;
   if (report.open_edges > 0)
-    message += "is open along " + format_count(report.open_edges) + (report.open_edges == 1 ? " edge" : " edges");
+    message = "is open along " + format_count(report.open_edges) + (report.open_edges == 1 ? " edge" : " edges");
   if (report.inconsistent_edges > 0)
     message += std::string(report.open_edges > 0 ? " and " : "") + "has triangles facing different ways along " +
                format_count(report.inconsistent_edges) + (report.inconsistent_edges == 1 ? " edge" : " edges");
   if (!report.examples.empty())
     message += ", for example from " + point_text(report.examples[0][0]) + " to " + point_text(report.examples[0][1]);
+  return message;
+}
+
+// False, and a diagnostic, when the mesh has no inside under the rule.
+bool check_closed(const std::string& path, const formats::Mesh& mesh, std::string_view rule,
+                  const design::Reader& reader) {
+  const importing::MeshReport report = importing::inspect(mesh);
+  if (has_inside(report, rule)) return true;
   const std::string hint = report.open_edges > 0
                                ? "repair it, or write inside=\"generalized\" to close it by winding number"
                                : "repair it, or write inside=\"parity\" to ignore which way triangles face";
-  diagnostics.error(where, message, hint);
+  reader.diagnostics.error(reader.where, "the mesh \"" + path + "\" " + faults(report), hint);
+  return false;
+}
+
+// The same for what a file has of one material, when the whole is closed.
+bool check_part_closed(const std::string& path, const MaterialMesh& part, std::string_view rule,
+                       const design::Reader& reader) {
+  const importing::MeshReport report = importing::inspect(part.mesh);
+  if (has_inside(report, rule)) return true;
+  reader.diagnostics.error(
+      reader.where, "what the mesh \"" + path + "\" has of \"" + part.material.material->name + "\" " + faults(report),
+      "save a closed body for each material, or leave materials out to have one");
   return false;
 }
 
 // False, and a diagnostic, when the file has no object of that name.
-bool choose_object(const std::string& path, formats::Mesh& mesh, const std::string& object, const SourceRange& where,
-                   Diagnostics& diagnostics) {
+bool choose_object(const std::string& path, formats::Mesh& mesh, const std::string& object,
+                   const design::Reader& reader) {
   if (object.empty() || formats::keep_object(mesh, object)) return true;
   constexpr size_t most_listed = 20;
   std::vector<std::string> names = formats::object_names(mesh);
@@ -69,42 +90,79 @@ bool choose_object(const std::string& path, formats::Mesh& mesh, const std::stri
   if (hint.empty())
     hint = names.empty() ? "its objects have no names: leave object out"
                          : "there are \"" + join(names, "\", \"") + '"' + (is_cut ? " and more" : "");
-  diagnostics.error(where, "the mesh \"" + path + "\" has no object \"" + object + '"', hint);
+  reader.diagnostics.error(reader.where, "the mesh \"" + path + "\" has no object \"" + object + '"', hint);
   return false;
+}
+
+// What decides the parts that a file gives.
+std::vector<std::string> key_of(const std::string& path, const design::MeshUse& use) {
+  std::vector<std::string> key{path, use.object, std::string(use.inside), std::string(use.materials)};
+  if (use.materials == "one") return key;
+  key.push_back(use.material.material->name);
+  for (const auto& [name, material] : use.material_map) {
+    key.push_back(name);
+    key.push_back(material.material->name);
+  }
+  return key;
+}
+
+std::optional<std::vector<MaterialMesh>> read_parts(const std::string& path, std::string_view bytes,
+                                                    const design::MeshUse& use, const design::Reader& reader) {
+  auto mesh = formats::read_mesh(path, bytes, reader.diagnostics);
+  if (!mesh) {
+    reader.diagnostics.note(reader.where, "the file is used here");
+    return std::nullopt;
+  }
+  if (!choose_object(path, *mesh, use.object, reader)) return std::nullopt;
+  if (!check_closed(path, *mesh, use.inside, reader)) return std::nullopt;
+  std::vector<MaterialMesh> parts;
+  if (use.materials == "one") {
+    parts.push_back({use.material, std::move(*mesh)});
+    return parts;
+  }
+  auto found = by_material(path, *mesh, use, reader);
+  if (!found) return std::nullopt;
+  for (const MaterialMesh& part : *found)
+    if (!check_part_closed(path, part, use.inside, reader)) return std::nullopt;
+  return found;
 }
 
 }  // namespace
 
-program::SourceField MeshLoader::mesh(std::string& path, const std::string& object, const std::string& inside,
-                                      const SourceRange& where, Diagnostics& diagnostics) {
-  const auto found = find_file(path, where, diagnostics);
-  if (!found) return nullptr;
+std::vector<design::MeshPart> MeshLoader::mesh(std::string& path, const design::MeshUse& use,
+                                               const design::Reader& reader) {
+  const auto found = find_file(path, reader.where, reader.diagnostics);
+  if (!found) return {};
   path = *found;
-  const auto known = known_.find({path, object, inside});
-  if (known != known_.end()) return known->second;
+  std::vector<design::MeshPart>& parts = known_[key_of(path, use)];
+  if (parts.empty()) parts = read(path, use, reader);
+  std::vector<design::MeshPart> result = parts;
+  if (use.materials == "one" && !result.empty()) result[0].material = use.material;
+  return result;
+}
+
+std::vector<design::MeshPart> MeshLoader::read(const std::string& path, const design::MeshUse& use,
+                                               const design::Reader& reader) const {
   std::string bytes;
   try {
     bytes = formats::read_file(path);
   } catch (const Error& error) {
-    diagnostics.error(where, error.what());
-    return nullptr;
+    reader.diagnostics.error(reader.where, error.what());
+    return {};
   }
+  auto meshes = read_parts(path, bytes, use, reader);
+  if (!meshes) return {};
   Hash content = hash_bytes(bytes);
-  if (!object.empty()) content = hash_bytes(content.hex() + object);
-  auto mesh = formats::read_mesh(path, bytes, diagnostics);
-  if (!mesh) {
-    diagnostics.note(where, "the file is used here");
-    return nullptr;
+  if (!use.object.empty()) content = hash_bytes(content.hex() + use.object);
+  std::vector<design::MeshPart> parts;
+  for (MaterialMesh& part : *meshes) {
+    const Hash own = use.materials == "one" ? content : hash_bytes(content.hex() + part.material.material->name);
+    parts.push_back(
+        {part.material, importing::make_mesh_source(path, std::move(part.mesh), own, {rule_of(use.inside)})});
   }
-  if (!choose_object(path, *mesh, object, where, diagnostics)) return nullptr;
-  if (!check_closed(path, importing::inspect(*mesh), inside, where, diagnostics)) return nullptr;
-  const program::SourceField source = importing::make_mesh_source(path, std::move(*mesh), content, {rule_of(inside)});
-  if (source->channel("distance") < 0) {
-    diagnostics.error(where, "meshes are not available: this build has no library for their distances");
-    return nullptr;
-  }
-  known_[{path, object, inside}] = source;
-  return source;
+  if (parts[0].source->channel("distance") >= 0) return parts;
+  reader.diagnostics.error(reader.where, "meshes are not available: this build has no library for their distances");
+  return {};
 }
 
 }  // namespace ombre::compile

@@ -1,9 +1,9 @@
 // Reads the meshes that designs name.
 #pragma once
 
-#include <array>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "design/source_loader.h"
 
@@ -12,13 +12,16 @@ namespace ombre::compile {
 class MeshLoader : public design::SourceLoader {
  public:
   // A relative path is looked for beside the file that names it, then in the working directory.
-  // Each file is read once per object and inside rule. Open or inconsistent meshes are errors unless the rule
+  // Each file is read once for each way in which it is used. Open or inconsistent meshes are errors unless the rule
   // can do without.
-  program::SourceField mesh(std::string& path, const std::string& object, const std::string& inside,
-                            const SourceRange& where, Diagnostics& diagnostics) override;
+  std::vector<design::MeshPart> mesh(std::string& path, const design::MeshUse& use,
+                                     const design::Reader& reader) override;
 
  private:
-  std::map<std::array<std::string, 3>, program::SourceField> known_;
+  std::vector<design::MeshPart> read(const std::string& path, const design::MeshUse& use,
+                                     const design::Reader& reader) const;
+
+  std::map<std::vector<std::string>, std::vector<design::MeshPart>> known_;
 };
 
 }  // namespace ombre::compile

@@ -235,6 +235,32 @@ bool read(const Data& data, const Domain& domain, std::vector<MaterialName>& val
   return good;
 }
 
+namespace {
+
+bool read_pair(const Data& data, const Domain& domain, MaterialForName& value, const Reader& reader) {
+  if (!is_list(data, 2) || !data.list()->front().string())
+    return reader.fail(data, "pairs of a name in the file and a material", "write for example [[\"PLA\", \"red\"]]");
+  value.name = *data.list()->front().string();
+  return read(data.list()->back(), domain, value.material, reader);
+}
+
+}  // namespace
+
+bool read(const Data& data, const Domain& domain, std::vector<MaterialForName>& value, const Reader& reader) {
+  value.clear();
+  const bool is_pair = data.list() && !data.list()->empty() && !data.list()->front().list();
+  if (!data.list() || is_pair) {
+    value.emplace_back();
+    return read_pair(data, domain, value.back(), reader);
+  }
+  bool good = true;
+  for (const Data& element : *data.list()) {
+    value.emplace_back();
+    good = read_pair(element, domain, value.back(), reader) && good;
+  }
+  return good;
+}
+
 Data write(double value, bool) { return Data(value); }
 Data write(const Number& value, bool for_hash) {
   if (const double* number = value.constant()) return Data(*number);
@@ -265,6 +291,12 @@ Data write(const std::vector<Number>& value, bool h) {
 Data write(const std::vector<MaterialName>& value, bool h) {
   DataList list;
   for (const MaterialName& element : value) list.push_back(write(element, h));
+  return Data(std::move(list));
+}
+
+Data write(const std::vector<MaterialForName>& value, bool h) {
+  DataList list;
+  for (const auto& [name, material] : value) list.emplace_back(DataList{Data(name), write(material, h)});
   return Data(std::move(list));
 }
 

@@ -68,6 +68,13 @@ struct MaterialName {
   bool operator==(const MaterialName&) const = default;
 };
 
+// The design's material for one that a file calls `name`.
+struct MaterialForName {
+  std::string name;
+  MaterialName material;
+  bool operator==(const MaterialForName&) const = default;
+};
+
 // One of a parameter's choices: the text stands in its domain, or is a literal.
 using Choice = std::string_view;
 
@@ -150,6 +157,7 @@ bool read(const Data& data, const Domain& domain, MaterialName& value, const Rea
 bool read(const Data& data, const Domain& domain, FilePath& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<Number>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<MaterialName>& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, std::vector<MaterialForName>& value, const Reader& reader);
 
 // The reverse. For hashes, files are named by their content.
 Data write(double value, bool for_hash);
@@ -165,6 +173,7 @@ Data write(const MaterialName& value, bool for_hash);
 Data write(const FilePath& value, bool for_hash);
 Data write(const std::vector<Number>& value, bool for_hash);
 Data write(const std::vector<MaterialName>& value, bool for_hash);
+Data write(const std::vector<MaterialForName>& value, bool for_hash);
 
 // "number or field", "material", ...: for help.
 template <class M>
@@ -180,6 +189,7 @@ constexpr std::string_view kind_name() {
   if constexpr (std::is_same_v<M, FilePath>) return "file";
   if constexpr (std::is_same_v<M, std::vector<Number>>) return "list of numbers or fields";
   if constexpr (std::is_same_v<M, std::vector<MaterialName>>) return "list of materials";
+  if constexpr (std::is_same_v<M, std::vector<MaterialForName>>) return "list of names with materials";
 }
 
 }  // namespace ombre::design

@@ -79,8 +79,10 @@ void RowEvaluator::run_source(const Program& program, const Instruction& in, std
                               const SourceRow& source_row) {
   const program::Read& read = program.reads[in.aux];
   if (source_row && source_row(read, out)) return;
-  const auto operand = [&](program::ValueId id) { return std::span<const double>(row(id), out.size()); };
-  read.source->sample_all(read.channel, operand(in.a), operand(in.b), operand(in.c), out);
+  const double *a = row(in.a), *b = row(in.b), *c = row(in.c);
+  points_.clear();
+  for (size_t p = 0; p < out.size(); ++p) points_.push_back({a[p], b[p], c[p]});
+  read.source->sample_all(read.channel, points_, out);
 }
 
 }  // namespace ombre::eval

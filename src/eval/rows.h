@@ -36,6 +36,7 @@ class RowEvaluator {
   std::span<const double> xs_, ys_, zs_;  // ys_ and zs_ are empty where the points are a row
   double y_ = 0, z_ = 0;
   std::vector<double> values_;
+  std::vector<Vec3> points_;  // of a source
 };
 
 }  // namespace ombre::eval

@@ -1,5 +1,6 @@
 #include "formats/mesh_objects.h"
 
+#include <algorithm>
 #include <set>
 #include <string_view>
 
@@ -8,20 +9,18 @@ namespace {
 
 bool is_called(const MeshGroup& group, const std::string& name) { return group.name == name || group.object == name; }
 
-// Vertices that no triangle uses go away.
-void drop_unused_vertices(Mesh& mesh) {
+// Gives the mesh those of the vertices that its triangles use, and numbers them anew.
+void take_used_vertices(const std::vector<Vec3>& vertices, Mesh& mesh) {
   constexpr uint32_t unused = UINT32_MAX;
-  std::vector<uint32_t> number(mesh.vertices.size(), unused);
-  std::vector<Vec3> kept;
+  std::vector<uint32_t> number(vertices.size(), unused);
   for (auto& triangle : mesh.triangles)
     for (uint32_t& corner : triangle) {
       if (number[corner] == unused) {
-        number[corner] = static_cast<uint32_t>(kept.size());
-        kept.push_back(mesh.vertices[corner]);
+        number[corner] = static_cast<uint32_t>(mesh.vertices.size());
+        mesh.vertices.push_back(vertices[corner]);
       }
       corner = number[corner];
     }
-  mesh.vertices = std::move(kept);
 }
 
 template <class T>
@@ -46,20 +45,26 @@ std::vector<std::string> object_names(const Mesh& mesh) {
   return names;
 }
 
-bool keep_object(Mesh& mesh, const std::string& name) {
+Mesh groups_of(const Mesh& mesh, const std::vector<bool>& marks) {
   Mesh kept;
-  for (MeshGroup group : mesh.groups) {
-    if (!is_called(group, name)) continue;
+  for (size_t n = 0; n < mesh.groups.size(); ++n) {
+    if (!marks[n]) continue;
+    MeshGroup group = mesh.groups[n];
     append_range(kept.triangles, mesh.triangles, group);
     append_range(kept.texture_triangles, mesh.texture_triangles, group);
     group.first_triangle = static_cast<uint32_t>(kept.triangles.size()) - group.triangle_count;
     kept.groups.push_back(std::move(group));
   }
-  if (kept.triangles.empty()) return false;
-  kept.vertices = std::move(mesh.vertices);
-  kept.texture_coordinates = std::move(mesh.texture_coordinates);
-  drop_unused_vertices(kept);
-  mesh = std::move(kept);
+  kept.texture_coordinates = mesh.texture_coordinates;
+  take_used_vertices(mesh.vertices, kept);
+  return kept;
+}
+
+bool keep_object(Mesh& mesh, const std::string& name) {
+  std::vector<bool> marks;
+  for (const MeshGroup& group : mesh.groups) marks.push_back(is_called(group, name));
+  if (std::find(marks.begin(), marks.end(), true) == marks.end()) return false;
+  mesh = groups_of(mesh, marks);
   return true;
 }
 

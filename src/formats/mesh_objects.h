@@ -11,6 +11,9 @@ namespace ombre::formats {
 // The names by which keep_object() finds something, each once, in the order of the file.
 std::vector<std::string> object_names(const Mesh& mesh);
 
+// The groups that are marked, in order, with the vertices that they use.
+Mesh groups_of(const Mesh& mesh, const std::vector<bool>& marks);
+
 // Keeps the groups whose name is `name`, or whose object's is. False, and an unchanged mesh, if there are none.
 bool keep_object(Mesh& mesh, const std::string& name);
 

@@ -95,14 +95,14 @@ struct ClosestPoint::Tree {
     rtcAttachGeometry(scene.get(), geometry.get());
   }
 
-  double distance(Vec3 p) const {
+  double distance(Vec3 p, double at_most) const {
     const Vec3 at = frame(p);
     Search search{surface.get(), p, frame.scale, rounding_room * (1 + length(at))};
     RTCPointQuery query{};
     query.x = static_cast<float>(at.x);
     query.y = static_cast<float>(at.y);
     query.z = static_cast<float>(at.z);
-    query.radius = std::numeric_limits<float>::infinity();
+    query.radius = static_cast<float>(at_most * frame.scale + search.room);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(scene.get(), &query, &context, visit, &search);
@@ -125,8 +125,8 @@ ClosestPoint::ClosestPoint(SurfacePtr surface)
 
 ClosestPoint::~ClosestPoint() = default;
 
-double ClosestPoint::distance(Vec3 p) const {
-  return is_finite(p) ? tree_->distance(p) : std::numeric_limits<double>::infinity();
+double ClosestPoint::distance(Vec3 p, double at_most) const {
+  return is_finite(p) ? tree_->distance(p, at_most) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace ombre::importing
@@ -144,7 +144,7 @@ bool has_mesh_distance() { return false; }
 struct ClosestPoint::Tree {};
 ClosestPoint::ClosestPoint(SurfacePtr) { ASSERT(has_mesh_distance()); }
 ClosestPoint::~ClosestPoint() = default;
-double ClosestPoint::distance(Vec3) const { return std::numeric_limits<double>::infinity(); }
+double ClosestPoint::distance(Vec3, double) const { return std::numeric_limits<double>::infinity(); }
 
 }  // namespace ombre::importing
 

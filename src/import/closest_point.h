@@ -1,6 +1,7 @@
 // The distance from a point to a mesh.
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "import/surface.h"
@@ -20,8 +21,9 @@ class ClosestPoint {
   ClosestPoint(const ClosestPoint&) = delete;
   ClosestPoint& operator=(const ClosestPoint&) = delete;
 
-  // In mm, without a sign; infinite for points that are not finite.
-  double distance(Vec3 p) const;
+  // In mm, without a sign; infinite for points that are not finite. `at_most`: it is known to be no more, but for
+  // rounding; the answer is the same, and comes sooner.
+  double distance(Vec3 p, double at_most = std::numeric_limits<double>::infinity()) const;
 
  private:
   struct Tree;

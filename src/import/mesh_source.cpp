@@ -2,6 +2,7 @@
 #include "import/mesh_source.h"
 
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <optional>
 
@@ -59,6 +60,18 @@ class MeshSource final : public program::FieldSource {
     if (channel == inside_channel) return contains(p) ? 1 : 0;
     const double distance = closest().distance(p);
     return contains(p) ? -distance : distance;
+  }
+
+  // A distance changes by no more than the way from the last point.
+  void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const override {
+    if (channel != distance_channel) return FieldSource::sample_all(channel, points, values);
+    double distance = std::numeric_limits<double>::infinity();
+    for (size_t n = 0; n < points.size(); ++n) {
+      const double way = n > 0 ? length(points[n] - points[n - 1]) : 0;
+      const bool is_known = std::isfinite(distance) && std::isfinite(way);
+      distance = closest().distance(points[n], is_known ? distance + way : std::numeric_limits<double>::infinity());
+      values[n] = contains(points[n]) ? -distance : distance;
+    }
   }
 
   Interval range(int channel, const Box& box) const override {

@@ -82,6 +82,25 @@ TEST(MeshSource, DistanceIsThatOfTheNearestTriangle) {
   }
 }
 
+// Near and far, jumps and repetitions, and points that are none.
+TEST(MeshSource, ManyPointsAtOnceGetTheSameBits) {
+  std::mt19937 random(8);
+  const auto source = make_mesh_source("m", torus(7, 2, 60, 30), {});
+  std::vector<Vec3> points;
+  for (int i = 0; i < 2000; ++i) {
+    const bool jumps = i % 50 == 0;
+    const Vec3 from = jumps ? random_point(random, i % 100 == 0 ? 1e6 : 12) : points.back();
+    points.push_back(from + random_point(random, i % 7 == 0 ? 0 : 0.1));
+  }
+  points[300] = {std::nan(""), 0, 0};  // after the walk, which would not survive it
+  points[700] = {0, Box::inf, 0};
+  std::vector<double> values(points.size());
+  for (int channel = 0; channel < (has_mesh_distance() ? 2 : 1); ++channel) {
+    source->sample_all(channel, points, values);
+    for (size_t n = 0; n < points.size(); ++n) ASSERT_EQ(values[n], source->sample(channel, points[n])) << n;
+  }
+}
+
 TEST(MeshSource, DistanceToASphereIsAnalyticWithinItsFacets) {
   if (!has_mesh_distance()) GTEST_SKIP() << "built without OMBRE_MESH_DISTANCE";
   const auto source = make_mesh_source("m", sphere(10, 5), {});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "import/crossings.h"
 
@@ -25,13 +26,29 @@ DyadicBins bin_by_yz(const Surface& surface) {
   return {rectangles, {per_axis, per_axis}};
 }
 
+// A float beyond the numbers, by more than crossings are rounded.
+float below(std::initializer_list<double> values) {
+  return std::nextafter(static_cast<float>(std::min(values)), -std::numeric_limits<float>::infinity());
+}
+float above(std::initializer_list<double> values) {
+  return std::nextafter(static_cast<float>(std::max(values)), std::numeric_limits<float>::infinity());
+}
+
 }  // namespace
 
-PointWinding::PointWinding(SurfacePtr surface) : surface_(std::move(surface)), by_yz_(bin_by_yz(*surface_)) {}
+PointWinding::PointWinding(SurfacePtr surface) : surface_(std::move(surface)), by_yz_(bin_by_yz(*surface_)) {
+  reaches_.reserve(surface_->triangles.size());
+  for (uint32_t i = 0; i < surface_->triangles.size(); ++i) {
+    const auto [a, b, c] = surface_->corners(i);
+    reaches_.push_back({below({a.x, b.x, c.x}), below({a.y, b.y, c.y}), above({a.y, b.y, c.y}), below({a.z, b.z, c.z}),
+                        above({a.z, b.z, c.z})});
+  }
+}
 
 int64_t PointWinding::at(Vec3 p) const {
   int64_t sum = 0;
   by_yz_.at(p.y, p.z, [&](uint32_t id) {
+    if (!reaches_[id].meets(p)) return;
     const auto segment = slice(surface_->corners(id), p.z);
     if (!segment) return;
     const int here = winding(*segment, p.y);

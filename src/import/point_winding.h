@@ -15,8 +15,17 @@ class PointWinding {
   int64_t at(Vec3 p) const;
 
  private:
+  // What a ray must meet to cross a triangle: most of those in its bins are told by this little memory.
+  struct Reach {
+    float least_x, least_y, most_y, least_z, most_z;
+    bool meets(Vec3 p) const {
+      return least_x <= p.x && least_y <= p.y && p.y <= most_y && least_z <= p.z && p.z <= most_z;
+    }
+  };
+
   SurfacePtr surface_;
   DyadicBins by_yz_;
+  std::vector<Reach> reaches_;  // of each triangle
 };
 
 }  // namespace ombre::importing

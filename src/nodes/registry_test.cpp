@@ -41,9 +41,10 @@ class BallSource : public program::FieldSource {
 
 class BallLoader : public SourceLoader {
  public:
-  program::SourceField mesh(std::string&, const std::string&, const std::string&, const SourceRange&,
-                            Diagnostics&) override {
-    return std::make_shared<BallSource>();
+  std::vector<MeshPart> mesh(std::string&, const MeshUse& use, const Reader& reader) override {
+    std::vector<MeshPart> parts{{use.material, std::make_shared<BallSource>()}};
+    if (use.materials != "one") parts.push_back({{reader.materials.find("clear")}, std::make_shared<BallSource>()});
+    return parts;
   }
 };
 
@@ -126,6 +127,8 @@ class RandomDesign {
                                    Data(number(-1, 1) + (r == 2 ? 2 : 0)), Data(number(-3, 3))});
       return Data(std::move(rows));
     }
+    if (kind == "list of names with materials")
+      return Data(DataList{Data(DataList{Data("PLA"), Data("red")}), Data(DataList{Data("TPU"), Data("blue")})});
     DataList list;
     for (size_t i = 0; i < lists_; ++i)
       list.push_back(kind == "list of materials" ? Data(i % 2 ? "red" : "clear")

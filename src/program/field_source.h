@@ -46,10 +46,10 @@ class FieldSource : public HostObject {
   virtual Box bounds() const = 0;        // outside of it, nothing is inside
   virtual int channel(std::string_view channel_name) const = 0;  // -1: there is none of that name
   virtual double sample(int channel, Vec3 p) const = 0;
-  // The same at many points; for sources that are faster so.
-  virtual void sample_all(int channel, std::span<const double> xs, std::span<const double> ys,
-                          std::span<const double> zs, std::span<double> values) const {
-    for (size_t n = 0; n < values.size(); ++n) values[n] = sample(channel, {xs[n], ys[n], zs[n]});
+  // The same at many points, to the last bit. Points next to each other in the list may be so in space, which some
+  // sources answer more quickly.
+  virtual void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const {
+    for (size_t n = 0; n < points.size(); ++n) values[n] = sample(channel, points[n]);
   }
   virtual Interval range(int, const Box&) const { return Interval::everything(); }
   // For a channel that is 1 inside and 0 outside: exact row spans under an affine map from index

@@ -7,9 +7,9 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
-#include <fstream>
 #include <iostream>
-#include <vector>
+
+#include "off_soup.h"
 
 namespace {
 
@@ -17,39 +17,8 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace processing = CGAL::Polygon_mesh_processing;
 
-struct Soup {
-  std::vector<Kernel::Point_3> points;
-  std::vector<std::vector<size_t>> triangles;
-};
-
-Soup read_off(const std::string& path) {
-  std::ifstream file(path);
-  std::string word;
-  size_t vertices = 0, faces = 0, edges = 0;
-  file >> word >> std::ws;
-  while (file.peek() == '#') std::getline(file, word), file >> std::ws;
-  file >> vertices >> faces >> edges;
-  Soup soup;
-  for (size_t n = 0; n < vertices; ++n) {
-    double x = 0, y = 0, z = 0;
-    file >> x >> y >> z;
-    soup.points.emplace_back(x, y, z);
-  }
-  for (size_t n = 0; n < faces; ++n) {
-    size_t corners = 0;
-    file >> corners;
-    std::vector<size_t> face(corners);
-    for (size_t& corner : face) file >> corner;
-    if (!file) throw std::runtime_error(path + " is no OFF file");
-    std::getline(file, word);  // colours
-    soup.triangles.push_back(std::move(face));
-  }
-  if (soup.triangles.empty()) throw std::runtime_error(path + " holds no triangles");
-  return soup;
-}
-
 void check(const std::string& path) {
-  const Soup soup = read_off(path);
+  const Soup<Kernel::Point_3> soup = read_off<Kernel::Point_3>(path);
   const bool is_manifold = processing::is_polygon_soup_a_polygon_mesh(soup.triangles);
   std::cout << "{\"manifold\": " << (is_manifold ? "true" : "false");
   if (is_manifold) {

@@ -15,8 +15,11 @@ Hash next_identity() {
   return hash_bytes("function " + std::to_string(++count));
 }
 
-py::array_t<double> array_of(std::span<const double> values) {
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+py::array_t<double> coordinates(std::span<const Vec3> points, int axis) {
+  py::array_t<double> array(static_cast<py::ssize_t>(points.size()));
+  double* to = array.mutable_data();
+  for (size_t n = 0; n < points.size(); ++n) to[n] = points[n][axis];
+  return array;
 }
 
 std::string name_of(const py::object& callable) {
@@ -41,20 +44,21 @@ HostFunction::~HostFunction() {
 
 double HostFunction::sample(int channel, Vec3 p) const {
   double value = 0;
-  sample_all(channel, {&p.x, 1}, {&p.y, 1}, {&p.z, 1}, {&value, 1});
+  sample_all(channel, {&p, 1}, {&value, 1});
   return value;
 }
 
-void HostFunction::sample_all(int, std::span<const double> xs, std::span<const double> ys, std::span<const double> zs,
-                              std::span<double> values) const {
+void HostFunction::sample_all(int, std::span<const Vec3> points, std::span<double> values) const {
   if (values.empty()) return;
   const py::gil_scoped_acquire lock;
   const auto fail = [&](const py::object& cause) {
-    if (!failure_) failure_ = package_member("function_failure")(cause, name_, py::make_tuple(xs[0], ys[0], zs[0]));
+    if (!failure_)
+      failure_ =
+          package_member("function_failure")(cause, name_, py::make_tuple(points[0].x, points[0].y, points[0].z));
     throw HostFailure();
   };
   try {
-    call(xs, ys, zs, values);
+    call(points, values);
   } catch (const py::error_already_set& error) {
     fail(error.value());
   } catch (const py::builtin_exception& error) {
@@ -63,9 +67,8 @@ void HostFunction::sample_all(int, std::span<const double> xs, std::span<const d
   }
 }
 
-void HostFunction::call(std::span<const double> xs, std::span<const double> ys, std::span<const double> zs,
-                        std::span<double> values) const {
-  const py::object result = callable_(array_of(xs), array_of(ys), array_of(zs));
+void HostFunction::call(std::span<const Vec3> points, std::span<double> values) const {
+  const py::object result = callable_(coordinates(points, 0), coordinates(points, 1), coordinates(points, 2));
   const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(result);
   if (!numbers) throw py::type_error("the function gave no numbers");
   if (numbers.size() == 1) return std::fill(values.begin(), values.end(), *numbers.data());

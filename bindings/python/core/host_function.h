@@ -29,15 +29,13 @@ class HostFunction : public program::FieldSource {
   int channel(std::string_view) const override { return 0; }
   double sample(int channel, Vec3 p) const override;
   // Throws HostFailure when the function fails; what it raised is kept for `raise_failure`.
-  void sample_all(int channel, std::span<const double> xs, std::span<const double> ys, std::span<const double> zs,
-                  std::span<double> values) const override;
+  void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const override;
 
   // Raises what the function raised, if it did, with where and at which point. Needs the interpreter's lock.
   void raise_failure() const;
 
  private:
-  void call(std::span<const double> xs, std::span<const double> ys, std::span<const double> zs,
-            std::span<double> values) const;
+  void call(std::span<const Vec3> points, std::span<double> values) const;
 
   py::object callable_;
   SourceRange where_;

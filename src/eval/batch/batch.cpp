@@ -331,18 +331,20 @@ RowsToFill BatchEvaluator::rows_of(const Step& step, size_t j, size_t count) con
 void BatchEvaluator::sample(const Step& step, size_t j, size_t count) const {
   const float *a = step.a.at(j), *b = step.b.at(j), *c = step.c.at(j);
   float* out = step.out.at(j);
-  constexpr size_t at_once = 128;
-  double points[3][at_once], values[at_once];
-  for (size_t begin = 0; begin < count; begin += at_once) {
-    const size_t n = std::min(at_once, count - begin);
-    const auto widen = [&](const float* row, unsigned number, double* to) {
-      for (size_t i = 0; i < n; ++i) to[i] = static_cast<double>(row[step.numbers & number ? 0 : begin + i]);
-      return std::span<const double>(to, n);
-    };
-    const auto xs = widen(a, a_is_number, points[0]), ys = widen(b, b_is_number, points[1]),
-               zs = widen(c, c_is_number, points[2]);
-    step.read->source->sample_all(step.read->channel, xs, ys, zs, {values, n});
-    for (size_t i = 0; i < n; ++i) out[begin + i] = static_cast<float>(values[i]);
+  const auto value = [&](const float* row, size_t n, unsigned number) {
+    return static_cast<double>(row[step.numbers & number ? 0 : n]);
+  };
+  constexpr size_t most = 128;
+  std::array<Vec3, most> points;
+  std::array<double, most> values{};
+  for (size_t begin = 0; begin < count; begin += most) {
+    const size_t here = std::min(most, count - begin);
+    for (size_t i = 0; i < here; ++i) {
+      const size_t n = begin + i;
+      points[i] = {value(a, n, a_is_number), value(b, n, b_is_number), value(c, n, c_is_number)};
+    }
+    step.read->source->sample_all(step.read->channel, std::span(points).first(here), std::span(values).first(here));
+    for (size_t i = 0; i < here; ++i) out[begin + i] = static_cast<float>(values[i]);
   }
 }
 

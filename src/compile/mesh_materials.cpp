@@ -1,0 +1,150 @@
+#include "compile/mesh_materials.h"
+
+#include <algorithm>
+#include <set>
+
+#include "base/text.h"
+#include "formats/mesh_objects.h"
+
+namespace ombre::compile {
+namespace {
+
+using design::Material;
+using design::Rgba;
+using formats::MeshGroup;
+
+// Squared, of red, green, blue and opacity.
+int difference(const Rgba& a, const Rgba& b) {
+  int sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sum;
+}
+
+// The first on ties; void has no colour.
+const Material* nearest(const Rgba& colour, const design::MaterialTable& table) {
+  const Material* best = &table.first();
+  for (const Material& material : table.all())
+    if (material.id != 0 && difference(material.colour, colour) < difference(best->colour, colour)) best = &material;
+  return best;
+}
+
+class MaterialFinder {
+ public:
+  MaterialFinder(const std::string& path, const formats::Mesh& mesh, const design::MeshUse& use,
+                 const design::Reader& reader)
+      : path_(path), mesh_(mesh), use_(use), reader_(reader) {}
+
+  // One for each group; null where a name is unknown.
+  std::vector<const Material*> find() {
+    std::vector<const Material*> found;
+    for (const MeshGroup& group : mesh_.groups) found.push_back(find(group));
+    return found;
+  }
+
+  // False, and a diagnostic, where the file is silent about what is asked for, or lacks a name of the map.
+  bool check() const {
+    const bool by_colours = use_.materials == "colours", has_names = any(&has_name), has_colours = any(&has_colour);
+    if (!(by_colours ? has_colours || has_mapped_name() : has_names)) {
+      std::string hint = "leave materials out, or use a 3MF, AMF or OBJ file that has them";
+      if (by_colours && has_names) hint = "write materials=\"names\": it names materials";
+      if (!by_colours && has_colours) hint = "write materials=\"colours\" to take those of the nearest colours";
+      return fail("the mesh \"" + path_ + (by_colours ? "\" gives no colours" : "\" names no materials"), hint);
+    }
+    return check_map();
+  }
+
+ private:
+  static bool has_name(const MeshGroup& group) { return !group.material.empty(); }
+  static bool has_colour(const MeshGroup& group) { return group.colour.has_value(); }
+  bool any(bool (*is_so)(const MeshGroup&)) const {
+    return std::any_of(mesh_.groups.begin(), mesh_.groups.end(), is_so);
+  }
+  bool has_mapped_name() const {
+    return std::any_of(mesh_.groups.begin(), mesh_.groups.end(),
+                       [&](const MeshGroup& g) { return mapped(g.material); });
+  }
+
+  bool fail(const std::string& message, const std::string& hint) const {
+    reader_.diagnostics.error(reader_.where, message, hint);
+    return false;
+  }
+
+  std::vector<std::string> names_of_file() const {
+    std::vector<std::string> names;
+    std::set<std::string_view> known;
+    for (const MeshGroup& group : mesh_.groups)
+      if (has_name(group) && known.insert(group.material).second) names.push_back(group.material);
+    return names;
+  }
+
+  bool check_map() const {
+    const std::vector<std::string> names = names_of_file();
+    bool good = true;
+    for (const auto& [name, material] : use_.material_map) {
+      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+      std::string hint = did_you_mean(name, names);
+      if (hint.empty()) hint = "there are " + listed(names);
+      good = fail("material_map of mesh: the mesh \"" + path_ + "\" has no material \"" + name + '"', hint);
+    }
+    return good;
+  }
+
+  static std::string listed(std::vector<std::string> names) {
+    constexpr size_t most_listed = 20;
+    const bool is_cut = names.size() > most_listed;
+    if (is_cut) names.resize(most_listed);
+    return '"' + join(names, "\", \"") + '"' + (is_cut ? " and more" : "");
+  }
+
+  const Material* mapped(const std::string& name) const {
+    for (const auto& [known, material] : use_.material_map)
+      if (known == name) return material.material;
+    return nullptr;
+  }
+
+  const Material* find(const MeshGroup& group) {
+    if (const Material* material = mapped(group.material)) return material;
+    if (use_.materials == "colours")
+      return group.colour ? nearest(*group.colour, reader_.materials) : use_.material.material;
+    if (group.material.empty()) return use_.material.material;
+    const Material* material = reader_.materials.find(group.material);
+    if (!material && unknown_.insert(group.material).second) report_unknown(group);
+    return material;
+  }
+
+  void report_unknown(const MeshGroup& group) const {
+    std::string message = "the mesh \"" + path_ + "\" has the material \"" + group.material + '"';
+    if (!group.name.empty() && group.name != group.material) message += " (of \"" + group.name + "\")";
+    std::string hint = "there are " + join(reader_.materials.names(), ", ") + ": write for example material_map=[[\"" +
+                       group.material + "\", \"" + reader_.materials.first().name + "\"]]";
+    if (group.colour) hint += ", or materials=\"colours\" for those of the nearest colours";
+    fail(message + ", which is not among the design's", hint);
+  }
+
+  const std::string& path_;
+  const formats::Mesh& mesh_;
+  const design::MeshUse& use_;
+  const design::Reader& reader_;
+  std::set<std::string> unknown_;
+};
+
+}  // namespace
+
+std::optional<std::vector<MaterialMesh>> by_material(const std::string& path, const formats::Mesh& mesh,
+                                                     const design::MeshUse& use, const design::Reader& reader) {
+  MaterialFinder finder(path, mesh, use, reader);
+  if (!finder.check()) return std::nullopt;
+  const std::vector<const Material*> materials = finder.find();
+  if (std::find(materials.begin(), materials.end(), nullptr) != materials.end()) return std::nullopt;
+  std::vector<MaterialMesh> parts;
+  std::set<const Material*> done;
+  for (const Material* material : materials) {
+    if (!done.insert(material).second) continue;
+    std::vector<bool> marks;
+    for (const Material* other : materials) marks.push_back(other == material);
+    parts.push_back({{material}, formats::groups_of(mesh, marks)});
+  }
+  return parts;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,24 @@
+// The materials of a mesh file as materials of the design.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "design/source_loader.h"
+#include "formats/mesh.h"
+
+namespace ombre::compile {
+
+// The triangles of one material.
+struct MaterialMesh {
+  design::MaterialName material;
+  formats::Mesh mesh;
+};
+
+// Cuts a mesh by the design's materials, in the order in which its groups come to them. Nothing, and diagnostics,
+// where the file says less of materials than `use` asks for, or names some that the design does not know.
+std::optional<std::vector<MaterialMesh>> by_material(const std::string& path, const formats::Mesh& mesh,
+                                                     const design::MeshUse& use, const design::Reader& reader);
+
+}  // namespace ombre::compile
