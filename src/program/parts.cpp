@@ -8,7 +8,7 @@
 namespace ombre::program {
 namespace {
 
-constexpr size_t most_in_leaf = 4;
+constexpr size_t most_in_leaf = 8;
 
 // Of a tree that halves until few are left.
 size_t leaves_of(size_t entries) {
