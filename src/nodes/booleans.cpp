@@ -78,7 +78,7 @@ struct Union {
     const auto parts = demand == Demand::inside ? in.many_parts(query(), p) : std::nullopt;
     if (parts && materials == "mix") return mixed(in, p, *parts);
     if (parts && parts->others.empty()) return parts->composition;
-    return weighted(in, p, demand, overlap_weights(in, p, demand, materials));
+    return weighted(in, p, demand, overlap_weights(in, p, demand, materials.text()));
   }
 
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
@@ -121,7 +121,7 @@ struct Intersection {
   }
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    if (demand == Demand::everywhere) return weighted(in, p, demand, overlap_weights(in, p, demand, materials));
+    if (demand == Demand::everywhere) return weighted(in, p, demand, overlap_weights(in, p, demand, materials.text()));
     // Inside the whole is inside each.
     if (materials == "first") return in.composition(0, p, demand);
     if (materials == "last") return in.composition(in.count() - 1, p, demand);

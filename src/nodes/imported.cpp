@@ -36,7 +36,7 @@ struct Mesh {
       reader.diagnostics.error(reader.where, "meshes cannot be read here");
       return false;
     }
-    source = reader.loader->mesh(path.path, object, std::string(inside_rule), reader.where, reader.diagnostics);
+    source = reader.loader->mesh(path.path, object, std::string(inside_rule.text()), reader.where, reader.diagnostics);
     if (!source) return false;
     path.content = source->content();
     return true;
