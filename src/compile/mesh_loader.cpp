@@ -96,7 +96,7 @@ bool choose_object(const std::string& path, formats::Mesh& mesh, const std::stri
 
 // What decides the parts that a file gives.
 std::vector<std::string> key_of(const std::string& path, const design::MeshUse& use) {
-  std::vector<std::string> key{path, use.object, std::string(use.inside), std::string(use.materials)};
+  std::vector<std::string> key{path, use.object, std::string(use.inside.text()), std::string(use.materials.text())};
   if (use.materials == "one") return key;
   key.push_back(use.material.material->name);
   for (const auto& [name, material] : use.material_map) {
@@ -114,7 +114,7 @@ std::optional<std::vector<MaterialMesh>> read_parts(const std::string& path, std
     return std::nullopt;
   }
   if (!choose_object(path, *mesh, use.object, reader)) return std::nullopt;
-  if (!check_closed(path, *mesh, use.inside, reader)) return std::nullopt;
+  if (!check_closed(path, *mesh, use.inside.text(), reader)) return std::nullopt;
   std::vector<MaterialMesh> parts;
   if (use.materials == "one") {
     parts.push_back({use.material, std::move(*mesh)});
@@ -123,7 +123,7 @@ std::optional<std::vector<MaterialMesh>> read_parts(const std::string& path, std
   auto found = by_material(path, *mesh, use, reader);
   if (!found) return std::nullopt;
   for (const MaterialMesh& part : *found)
-    if (!check_part_closed(path, part, use.inside, reader)) return std::nullopt;
+    if (!check_part_closed(path, part, use.inside.text(), reader)) return std::nullopt;
   return found;
 }
 
@@ -158,7 +158,7 @@ std::vector<design::MeshPart> MeshLoader::read(const std::string& path, const de
   for (MaterialMesh& part : *meshes) {
     const Hash own = use.materials == "one" ? content : hash_bytes(content.hex() + part.material.material->name);
     parts.push_back(
-        {part.material, importing::make_mesh_source(path, std::move(part.mesh), own, {rule_of(use.inside)})});
+        {part.material, importing::make_mesh_source(path, std::move(part.mesh), own, {rule_of(use.inside.text())})});
   }
   if (parts[0].source->channel("distance") >= 0) return parts;
   reader.diagnostics.error(reader.where, "meshes are not available: this build has no library for their distances");

@@ -15,7 +15,7 @@ constexpr double format_version = 1;
 Data node_parameters(const Node& node, bool for_hash) {
   DataMembers members;
   for (size_t i = 0; i < node.type().parameters.size(); ++i)
-    members.emplace_back(node.type().parameters[i].name, node.type().get(node.value(), i, for_hash));
+    members.emplace_back(node.type().parameters[i].name, node.type().get(node, i, for_hash));
   return Data(std::move(members));
 }
 
@@ -94,7 +94,7 @@ bool holds_host_object(const Data& data) {
 
 bool has_host_function(const Node& node) {
   for (size_t i = 0; i < node.type().parameters.size(); ++i)
-    if (holds_host_object(node.type().get(node.value(), i, false))) return true;
+    if (holds_host_object(node.type().get(node, i, false))) return true;
   return false;
 }
 
@@ -130,7 +130,7 @@ class TreePrinter {
     std::string list;
     for (size_t i = 0; i < node.type().parameters.size(); ++i) {
       const ParameterInfo& parameter = node.type().parameters[i];
-      const Data value = node.type().get(node.value(), i, false);
+      const Data value = node.type().get(node, i, false);
       if (value == parameter.default_value) continue;
       list += (list.empty() ? "" : ", ") + parameter.name + "=" + print_json_line(value);
     }

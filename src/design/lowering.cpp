@@ -42,7 +42,7 @@ LoweringContext::LoweringContext(const MaterialTable& materials, const std::vect
   for (const Node* node : topological(roots)) {
     for (const NodePtr& input : node->inputs())
       if (input.use_count() > 1 && ++uses[input.get()] == 2) shared_.insert(input.get());
-    if (const auto declared = node->value().declares()) {
+    if (const auto declared = node->declares()) {
       bool known = false;
       for (const auto& attribute : attributes_) known = known || attribute.name == declared->name;
       if (!known) attributes_.push_back(*declared);
@@ -115,21 +115,21 @@ Field Lowering::value(const Node& node, const Point& p) {
   return once(node, p, Query::value, &Lowering::make_value);
 }
 
-Field Lowering::make_distance(const Node& node, const Point& p) { return node.value().distance(Inputs(node, this), p); }
+Field Lowering::make_distance(const Node& node, const Point& p) { return node.distance(Inputs(node, this), p); }
 
 Field Lowering::make_inside(const Node& node, const Point& p) {
-  if (const auto own = node.value().inside(Inputs(node, this), p)) return *own;
-  if (const auto inner = node.value().inner(p)) return inside(*node.inputs()[0], *inner);
+  if (const auto own = node.inside(Inputs(node, this), p)) return *own;
+  if (const auto inner = node.inner(p)) return inside(*node.inputs()[0], *inner);
   return distance(node, p) <= 0;
 }
 
 Field Lowering::make_interior(const Node& node, const Point& p) {
-  if (const auto own = node.value().interior(Inputs(node, this), p)) return *own;
-  if (const auto inner = node.value().inner(p)) return interior(*node.inputs()[0], *inner);
+  if (const auto own = node.interior(Inputs(node, this), p)) return *own;
+  if (const auto inner = node.inner(p)) return interior(*node.inputs()[0], *inner);
   return distance(node, p) < 0;
 }
 
-Field Lowering::make_value(const Node& node, const Point& p) { return node.value().value(Inputs(node, this), p); }
+Field Lowering::make_value(const Node& node, const Point& p) { return node.value(Inputs(node, this), p); }
 
 Composition Lowering::composition(const Node& node, const Point& p, Demand demand) {
   if (auto* body = body_for(node)) {
@@ -146,8 +146,8 @@ Composition Lowering::composition(const Node& node, const Point& p, Demand deman
 }
 
 Composition Lowering::make_composition(const Node& node, const Point& p, Demand demand) {
-  if (auto own = node.value().composition(Inputs(node, this), p, demand)) return std::move(*own);
-  if (const auto inner = node.value().inner(p)) return composition(*node.inputs()[0], *inner, demand);
+  if (auto own = node.composition(Inputs(node, this), p, demand)) return std::move(*own);
+  if (const auto inner = node.inner(p)) return composition(*node.inputs()[0], *inner, demand);
   if (!node.inputs().empty()) return composition(*node.inputs()[0], p, demand);
   return Composition::pure(context_.materials().first().id, p.constant(1));
 }
@@ -163,13 +163,13 @@ Field Lowering::make_attribute(const Node& node, std::string_view name, const Po
     const AttributeDeclaration* declared = declaration(name);
     return p.constant(declared ? declared->default_value : 0);
   }
-  if (const auto own = node.value().attribute(Inputs(node, this), name, p, demand)) return *own;
-  if (const auto inner = node.value().inner(p)) return attribute(*node.inputs()[0], name, *inner, demand);
+  if (const auto own = node.attribute(Inputs(node, this), name, p, demand)) return *own;
+  if (const auto inner = node.inner(p)) return attribute(*node.inputs()[0], name, *inner, demand);
   return attribute(*node.inputs()[0], name, p, demand);
 }
 
 bool Lowering::has_attribute(const Node& node, std::string_view name) {
-  const auto declared = node.value().declares();
+  const auto declared = node.declares();
   if (declared && declared->name == name) return true;
   const auto carries = [&](const NodePtr& input) { return has_attribute(*input, name); };
   if (!context_.is_shared(node)) return std::ranges::any_of(node.inputs(), carries);

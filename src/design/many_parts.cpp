@@ -13,13 +13,14 @@ namespace ombre::design {
 namespace {
 
 using program::Builder;
+using program::Cells;
 using program::Program;
 using program::SlotKind;
 
 // With fewer inputs, writing them out costs less than looking them up.
 constexpr size_t least_parts = 32;
-// Boxes of a part, and of all parts together.
-constexpr size_t most_boxes = 8, most_boxes_together = 2'000'000;
+// Pieces of a part, and of all parts together.
+constexpr size_t most_pieces = 8, most_pieces_together = 2'000'000;
 
 class PartsMaker {
  public:
@@ -38,8 +39,8 @@ class PartsMaker {
   ManyParts make(const Node& node) {
     const auto parts = static_cast<double>(node.inputs().size());
     for (program::PartTable* table : {&set_->reference, &set_->batch}) table->expect(node.inputs().size());
-    most_boxes_ = std::clamp(most_boxes_together / node.inputs().size(), size_t{1}, most_boxes);
-    set_->index.expect(node.inputs().size() * most_boxes_);
+    most_pieces_ = std::clamp(most_pieces_together / node.inputs().size(), size_t{1}, most_pieces);
+    set_->index.expect(node.inputs().size(), node.inputs().size() * most_pieces_);
     // Half the distance from part to part, about.
     const Vec3 size = image(program_from_node_, node.bounds(design_space())).size();
     finest_ = 0.5 * std::cbrt(size.x * size.y * size.z / parts);
@@ -81,7 +82,8 @@ class PartsMaker {
     add_to(set_->batch, batch_, box, program::Precision::batch);
     outputs_.resize(1);
     builder_.finish(outputs_, inside_);
-    add_boxes(part, box);
+    add_pieces(part, program::PartIndex::rounded(box));
+    ++part_count_;
     return true;
   }
 
@@ -114,17 +116,18 @@ class PartsMaker {
     }
   }
 
-  // Boxes around a part that share no inside. A strut that lies across its box fills little of it.
-  void add_boxes(const Node& part, const Box& whole) {
+  // Pieces of a part's box that share no inside. A strut that lies across its box fills little of it.
+  void add_pieces(const Node& part, const Box& whole) {
     find_slices(part, whole);
-    if (volume(boxes_) > 0.5 * volume({whole})) find_pieces(whole);
-    const auto number = static_cast<uint32_t>(part_count_++);
-    for (const Box& box : boxes_) set_->index.add(box, number);
+    if (volume(whole) > 0.5 * volume_of_box(whole)) find_halves(whole);
+    set_->index.add(whole, pieces_);
   }
 
-  static double volume(const std::vector<Box>& boxes) {
+  static double volume_of_box(const Box& box) { return box.size().x * box.size().y * box.size().z; }
+
+  double volume(const Box& whole) const {
     double sum = 0;
-    for (const Box& box : boxes) sum += box.size().x * box.size().y * box.size().z;
+    for (const Cells& piece : pieces_) sum += volume_of_box(piece.in(whole));
     return sum;
   }
 
@@ -135,37 +138,50 @@ class PartsMaker {
 
   // Slices across the longest side, as small as the node knows.
   void find_slices(const Node& part, const Box& whole) {
-    boxes_.clear();
+    pieces_.clear();
     const int axis = longest_axis(whole);
-    const double length = whole.size()[axis];
-    const auto count = std::clamp(std::ceil(length / finest_), 1.0, static_cast<double>(most_boxes_));
-    for (double n = 0; n < count; ++n) {
-      Box slice = whole;
-      slice.lo[axis] = whole.lo[axis] + length * n / count;
-      slice.hi[axis] = n + 1 < count ? whole.lo[axis] + length * (n + 1) / count : whole.hi[axis];
-      const Box wide = program::grown_for_rounding(slice);
+    const double wished = std::ceil(whole.size()[axis] / finest_);
+    const int count = static_cast<int>(std::clamp(wished, 1.0, static_cast<double>(most_pieces_)));
+    for (int n = 0; n < count; ++n) {
+      Cells slice;
+      slice.first[static_cast<size_t>(axis)] = static_cast<uint8_t>(Cells::per_axis * n / count);
+      slice.last[static_cast<size_t>(axis)] = static_cast<uint8_t>(Cells::per_axis * (n + 1) / count - 1);
+      const Box box = slice.in(whole), wide = program::grown_for_rounding(box);
       const Box tight = image(program_from_node_, part.bounds(image(node_from_program_, wide)));
-      const Box box = intersect(program::grown_for_rounding(tight), slice);
-      if (!box.is_empty()) boxes_.push_back(box);
+      const Box reached = intersect(program::grown_for_rounding(tight), box);
+      if (!reached.is_empty()) pieces_.push_back(common(slice, Cells::around(reached, whole)));
     }
   }
 
+  // They meet.
+  static Cells common(Cells a, const Cells& b) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      a.first[axis] = std::max(a.first[axis], b.first[axis]);
+      a.last[axis] = std::min(a.last[axis], b.last[axis]);
+    }
+    return a;
+  }
+
   // Halves, quarters and so on, without those where intervals see nothing of the part.
-  void find_pieces(const Box& whole) {
-    boxes_.clear();
-    open_.assign(1, whole);
+  void find_halves(const Box& whole) {
+    pieces_.clear();
+    open_.assign(1, Cells{});
     while (!open_.empty()) {
-      const Box box = open_.back();
+      const Cells cells = open_.back();
+      const Box box = cells.in(whole);
       open_.pop_back();
       evaluate_intervals(inside_, program::grown_for_rounding(box), values_);
       if (values_[inside_.outputs[0]] == Interval(0)) continue;
-      const int axis = longest_axis(box);
-      if (box.size()[axis] <= finest_ || open_.size() + boxes_.size() + 1 >= most_boxes_) {
-        boxes_.push_back(box);
+      const int longest = longest_axis(box);
+      const auto axis = static_cast<size_t>(longest);
+      const bool is_fine = box.size()[longest] <= finest_ || cells.first[axis] == cells.last[axis];
+      if (is_fine || open_.size() + pieces_.size() + 1 >= most_pieces_) {
+        pieces_.push_back(cells);
         continue;
       }
-      Box low = box, high = box;
-      low.hi[axis] = high.lo[axis] = 0.5 * (box.lo[axis] + box.hi[axis]);
+      Cells low = cells, high = cells;
+      low.last[axis] = static_cast<uint8_t>((cells.first[axis] + cells.last[axis]) / 2);
+      high.first[axis] = static_cast<uint8_t>(low.last[axis] + 1);
       // The widest box is cut first.
       open_.insert(open_.begin(), {low, high});
     }
@@ -233,7 +249,7 @@ class PartsMaker {
   std::vector<Interval> reach_;
   size_t part_count_ = 0;
   double finest_ = 0;
-  size_t most_boxes_ = most_boxes;
+  size_t most_pieces_ = most_pieces;
   Composition composition_;
   std::map<MaterialId, size_t> material_slots_;
   std::map<const NodeType*, std::pair<uint32_t, size_t>> checks_;
@@ -246,7 +262,7 @@ class PartsMaker {
   program::Outputs outputs_;
   std::vector<int> slots_;  // outputs by slot, or -1
   std::vector<Interval> values_;
-  std::vector<Box> open_, boxes_;
+  std::vector<Cells> open_, pieces_;
 };
 
 }  // namespace

@@ -9,10 +9,15 @@ namespace ombre::design {
 
 std::string_view name(ValueType type) { return type == ValueType::solid ? "solid" : "field"; }
 
-Node::Node(std::unique_ptr<const NodeValue> value, std::vector<NodePtr> inputs, SourceRange where)
-    : value_(std::move(value)), inputs_(std::move(inputs)), where_(std::move(where)) {
-  for (const NodePtr& input : inputs_) depth_ = std::max(depth_, input->depth() + 1);
-  const Metric metric = value_->metric(Inputs(*this, nullptr));
+void Node::finish(std::vector<NodePtr> inputs, SourceRange where) {
+  where_ = std::move(where);
+  input_count_ = static_cast<uint32_t>(inputs.size());
+  if (input_count_ > 0) inputs_ = std::make_unique<NodePtr[]>(input_count_);
+  std::move(inputs.begin(), inputs.end(), inputs_.get());
+  int depth = 1;
+  for (const NodePtr& input : this->inputs()) depth = std::max(depth, input->depth() + 1);
+  depth_ = static_cast<int16_t>(depth);
+  const Metric metric = find_metric(Inputs(*this, nullptr));
   lipschitz_ = metric.lipschitz;
   kind_ = metric.kind;
 }
@@ -20,11 +25,10 @@ Node::Node(std::unique_ptr<const NodeValue> value, std::vector<NodePtr> inputs, 
 Box BoundsMemory::of(const Node& node, const Box& where, double margin) {
   // What is only a few nodes in a row is asked again: remembering it would cost more.
   constexpr int few = 4;
-  if (node.depth() <= few && node.inputs().size() <= 1)
-    return node.value().reach(Inputs(node, nullptr, this), where, margin);
+  if (node.depth() <= few && node.inputs().size() <= 1) return node.reach(Inputs(node, nullptr, this), where, margin);
   const auto known = last_.find(&node);
   if (known != last_.end() && known->second.where == where && known->second.margin == margin) return known->second.box;
-  const Box box = node.value().reach(Inputs(node, nullptr, this), where, margin);
+  const Box box = node.reach(Inputs(node, nullptr, this), where, margin);
   last_[&node] = {where, margin, box};
   return box;
 }
@@ -35,12 +39,15 @@ Box Node::bounds(const Box& where) const {
 }
 
 Node::~Node() {
-  std::vector<NodePtr> open = std::move(inputs_);
+  std::vector<NodePtr> open;
+  const auto take_inputs = [&open](Node& node) {
+    for (uint32_t i = 0; i < node.input_count_; ++i) open.push_back(std::move(node.inputs_[i]));
+  };
+  take_inputs(*this);
   while (!open.empty()) {
     const NodePtr node = std::move(open.back());
     open.pop_back();
-    if (node.use_count() != 1) continue;
-    for (NodePtr& input : const_cast<Node&>(*node).inputs_) open.push_back(std::move(input));
+    if (node.use_count() == 1) take_inputs(const_cast<Node&>(*node));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -77,14 +78,20 @@ class Inputs {
   BoundsMemory* memory_;  // set where bounds are asked for
 };
 
-// A node's parameters and behaviour behind one interface; made from plain structs by spec.h.
-class NodeValue {
+// Its parameters, and what they mean, are in the type that is made from a plain struct (spec.h). One piece of
+// memory holds all of it but lists: designs may have millions.
+class Node {
  public:
-  virtual ~NodeValue() = default;
+  Node() = default;
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+  virtual ~Node();  // without recursion: chains may be long
+  // What a node gets when its parameters are set; from then on it stays as it is.
+  void finish(std::vector<NodePtr> inputs, SourceRange where);
+
   virtual const NodeType& type() const = 0;
   // Encloses the points of `where` at which g is `margin` (mm, not negative) or less.
   virtual Box reach(const Inputs& in, const Box& where, double margin) const = 0;
-  virtual Metric metric(const Inputs& in) const = 0;
   // Solids give `distance`; the other three have defaults that follow from it or from the inputs.
   virtual Field distance(const Inputs& in, const Point& p) const = 0;
   virtual std::optional<Field> inside(const Inputs& in, const Point& p) const = 0;
@@ -97,16 +104,8 @@ class NodeValue {
   virtual std::optional<Point> inner(const Point& p) const = 0;
   // Field nodes give this.
   virtual Field value(const Inputs& in, const Point& p) const = 0;
-};
 
-class Node {
- public:
-  Node(std::unique_ptr<const NodeValue> value, std::vector<NodePtr> inputs, SourceRange where);
-  ~Node();  // without recursion: chains may be long
-
-  const NodeType& type() const { return value_->type(); }
-  const NodeValue& value() const { return *value_; }
-  const std::vector<NodePtr>& inputs() const { return inputs_; }
+  std::span<const NodePtr> inputs() const { return {inputs_.get(), input_count_}; }
   const SourceRange& where() const { return where_; }
 
   // The smallest known box around what is inside within `where`.
@@ -115,13 +114,15 @@ class Node {
   int depth() const { return depth_; }  // 1 for a leaf
 
  private:
-  std::unique_ptr<const NodeValue> value_;
-  std::vector<NodePtr> inputs_;
+  virtual Metric find_metric(const Inputs& in) const = 0;
+
   SourceRange where_;
+  std::unique_ptr<NodePtr[]> inputs_;
+  uint32_t input_count_ = 0;
+  int16_t depth_ = 1;
   // The metric in parts, with which a node takes less memory.
-  double lipschitz_ = 1;
   Metric::Kind kind_ = Metric::Kind::exact;
-  int depth_ = 1;
+  double lipschitz_ = 1;
 };
 
 // All nodes below and including the roots, each once, inputs before the nodes that use them.

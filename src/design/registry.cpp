@@ -62,14 +62,14 @@ bool check_inputs(const NodeType& type, const std::vector<NodePtr>& inputs, cons
 
 NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, std::vector<NodePtr> inputs,
                   const Reader& reader) {
-  auto value = type.create();
+  const std::shared_ptr<Node> node = type.create();
   bool good = true;
   std::vector<bool> given(type.parameters.size(), false);
   for (const auto& [parameter, data] : values) {
     const auto index = static_cast<size_t>(parameter - type.parameters.data());
     given[index] = true;
     const Reader one{reader.materials, reader.diagnostics, reader.loader, reader.where, type.name, parameter->name};
-    good = type.set(*value, index, data, one) && good;
+    good = type.set(*node, index, data, one) && good;
   }
   for (size_t i = 0; i < given.size(); ++i) {
     if (given[i] || !type.parameters[i].domain.required) continue;
@@ -81,13 +81,14 @@ NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, s
   good = check_inputs(type, inputs, reader) && good;
   if (!good) return nullptr;
   const Reader whole{reader.materials, reader.diagnostics, reader.loader, reader.where, type.name, ""};
-  if (!type.complete(*value, whole, inputs)) return nullptr;
+  if (!type.complete(*node, whole, inputs)) return nullptr;
   for (const NodePtr& input : inputs) {
     if (input->depth() < deepest_design) continue;
     reader.diagnostics.error(reader.where, "the design nests deeper than " + std::to_string(deepest_design) + " nodes");
     return nullptr;
   }
-  return std::make_shared<const Node>(std::move(value), std::move(inputs), reader.where);
+  node->finish(std::move(inputs), reader.where);
+  return node;
 }
 
 }  // namespace ombre::design

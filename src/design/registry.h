@@ -38,11 +38,11 @@ class NodeType {
   ValueType output = ValueType::solid;
   std::vector<ParameterInfo> parameters;
 
-  virtual std::unique_ptr<NodeValue> create() const = 0;
-  virtual bool set(NodeValue& value, size_t parameter, const Data& data, const Reader& reader) const = 0;
-  virtual Data get(const NodeValue& value, size_t parameter, bool for_hash) const = 0;
+  virtual std::shared_ptr<Node> create() const = 0;
+  virtual bool set(Node& node, size_t parameter, const Data& data, const Reader& reader) const = 0;
+  virtual Data get(const Node& node, size_t parameter, bool for_hash) const = 0;
   // Fills in what defaults leave open and checks what involves several parameters.
-  virtual bool complete(NodeValue& value, const Reader& reader, const std::vector<NodePtr>& inputs) const = 0;
+  virtual bool complete(Node& node, const Reader& reader, const std::vector<NodePtr>& inputs) const = 0;
 
   // Index of the parameter, or -1.
   int parameter(std::string_view parameter_name) const;

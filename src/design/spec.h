@@ -57,13 +57,13 @@ struct Spec {
 template <class T>
 class NodeTypeOf;
 
-// A node's struct behind NodeValue.
+// A node and its struct.
 template <class T>
-class NodeValueOf final : public NodeValue {
+class NodeOf final : public Node {
  public:
   T data;
 
-  explicit NodeValueOf(const NodeTypeOf<T>& type) : type_(type) {}
+  explicit NodeOf(const NodeTypeOf<T>& type) : type_(type) {}
 
   const NodeType& type() const override { return type_; }
 
@@ -78,19 +78,6 @@ class NodeValueOf final : public NodeValue {
       return within(within(where));
     } else
       return in.count() > 0 ? in.reach(0, where, margin) : where;
-  }
-
-  Metric metric(const Inputs& in) const override {
-    // A field in place of a number bends the shape that it belongs to; what only carries a field along
-    // leaves its input's shape as it is.
-    if constexpr (!passes_on)
-      if (!type_.has_constant_numbers(data)) return Metric::implicit();
-    if constexpr (requires { data.metric(in); })
-      return data.metric(in);
-    else if constexpr (requires { data.metric(); })
-      return data.metric();
-    else
-      return in.count() > 0 ? in.metric(0) : Metric::exact();
   }
 
   Field distance(const Inputs& in, const Point& p) const override {
@@ -164,6 +151,19 @@ class NodeValueOf final : public NodeValue {
   }
 
  private:
+  Metric find_metric(const Inputs& in) const override {
+    // A field in place of a number bends the shape that it belongs to; what only carries a field along
+    // leaves its input's shape as it is.
+    if constexpr (!passes_on)
+      if (!type_.has_constant_numbers(data)) return Metric::implicit();
+    if constexpr (requires { data.metric(in); })
+      return data.metric(in);
+    else if constexpr (requires { data.metric(); })
+      return data.metric();
+    else
+      return in.count() > 0 ? in.metric(0) : Metric::exact();
+  }
+
   // Has neither a shape of its own nor another point: it carries something to its input's shape.
   static constexpr bool passes_on = !requires(const T& t, const Inputs& in, const Point& p) { t.distance(in, p); }
   &&!requires(const T& t, const Point& p) { t.distance(p); }
@@ -188,18 +188,18 @@ class NodeTypeOf final : public NodeType {
                             parameter.domain.required ? Data() : parameter.get(defaults, false)});
   }
 
-  std::unique_ptr<NodeValue> create() const override { return std::make_unique<NodeValueOf<T>>(*this); }
+  std::shared_ptr<Node> create() const override { return std::make_shared<NodeOf<T>>(*this); }
 
-  bool set(NodeValue& value, size_t parameter, const Data& data, const Reader& reader) const override {
-    return spec_.parameters[parameter].set(struct_of(value), data, reader);
+  bool set(Node& node, size_t parameter, const Data& data, const Reader& reader) const override {
+    return spec_.parameters[parameter].set(struct_of(node), data, reader);
   }
 
-  Data get(const NodeValue& value, size_t parameter, bool for_hash) const override {
-    return spec_.parameters[parameter].get(static_cast<const NodeValueOf<T>&>(value).data, for_hash);
+  Data get(const Node& node, size_t parameter, bool for_hash) const override {
+    return spec_.parameters[parameter].get(static_cast<const NodeOf<T>&>(node).data, for_hash);
   }
 
-  bool complete(NodeValue& value, const Reader& reader, const std::vector<NodePtr>& children) const override {
-    T& data = struct_of(value);
+  bool complete(Node& node, const Reader& reader, const std::vector<NodePtr>& children) const override {
+    T& data = struct_of(node);
     for (const Parameter<T>& parameter : spec_.parameters)
       if (parameter.fill) parameter.fill(data, reader);
     if constexpr (requires { data.complete(reader, children); })
@@ -217,7 +217,7 @@ class NodeTypeOf final : public NodeType {
   }
 
  private:
-  static T& struct_of(NodeValue& value) { return static_cast<NodeValueOf<T>&>(value).data; }
+  static T& struct_of(Node& node) { return static_cast<NodeOf<T>&>(node).data; }
 
   Spec<T> spec_;
 };

@@ -129,7 +129,7 @@ bool read(const Data& data, const Domain& domain, Choice& value, const Reader& r
   const std::string folded = fold_name(*data.string());
   for (const std::string& choice : domain.choices)
     if (fold_name(choice) == folded) {
-      value = choice;
+      value = choice.c_str();
       return true;
     }
   return reader.fail(data, "one of \"" + join(domain.choices, "\", \"") + "\"",
@@ -270,7 +270,7 @@ Data write(const Number& value, bool for_hash) {
 Data write(const Numbers3& v, bool h) { return Data(DataList{write(v.x, h), write(v.y, h), write(v.z, h)}); }
 Data write(bool value, bool) { return Data(value); }
 Data write(const std::string& value, bool) { return Data(value); }
-Data write(Choice value, bool) { return Data(std::string(value)); }
+Data write(Choice value, bool) { return Data(std::string(value.text())); }
 Data write(const Vec3& v, bool) { return Data(DataList{Data(v.x), Data(v.y), Data(v.z)}); }
 Data write(const std::optional<Vec3>& value, bool h) { return value ? write(*value, h) : Data(); }
 Data write(const Affine& value, bool) {

@@ -76,7 +76,15 @@ struct MaterialForName {
 };
 
 // One of a parameter's choices: the text stands in its domain, or is a literal.
-using Choice = std::string_view;
+class Choice {
+ public:
+  constexpr Choice(const char* text) : text_(text) {}  // NOLINT: a literal is a Choice
+  std::string_view text() const { return text_; }
+  bool operator==(std::string_view other) const { return text() == other; }
+
+ private:
+  const char* text_;
+};
 
 struct FilePath {
   std::string path;

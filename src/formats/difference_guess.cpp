@@ -1,5 +1,7 @@
 #include "formats/difference_guess.h"
 
+#include <vector>
+
 #include "base/math.h"
 
 namespace ombre::formats {
@@ -8,6 +10,16 @@ namespace {
 constexpr uint64_t rows_a_sample = 16;
 constexpr size_t most_counted = size_t{1} << 16;
 constexpr double clearly = 0.9;
+
+// Most counts are small, and a logarithm takes longer than looking it up.
+double log2_of(uint32_t count) {
+  static const std::vector<double> known = [] {
+    std::vector<double> values(2048);
+    for (size_t n = 1; n < values.size(); ++n) values[n] = math::log2(static_cast<double>(n));
+    return values;
+  }();
+  return count < known.size() ? known[count] : math::log2(static_cast<double>(count));
+}
 
 }  // namespace
 
@@ -39,7 +51,7 @@ double DifferenceGuess::bits(const Counts& counts) {
     if (count == 0) continue;
     const auto n = static_cast<double>(count);
     total += n;
-    sum -= n * math::log2(n);
+    sum -= n * log2_of(count);
   }
   return total > 0 ? sum + total * math::log2(total) : 0;
 }

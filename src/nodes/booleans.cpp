@@ -79,7 +79,7 @@ struct Union {
     if (parts && materials == "mix") return mixed(in, p, *parts);
     if (parts && parts->others.empty()) return parts->composition;
     if (parts && are_together(*parts, in.count())) return in_order(in, p, *parts);
-    return weighted(in, p, demand, overlap_weights(in, p, demand, materials));
+    return weighted(in, p, demand, overlap_weights(in, p, demand, materials.text()));
   }
 
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
@@ -149,7 +149,7 @@ struct Intersection {
   }
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    if (demand == Demand::everywhere) return weighted(in, p, demand, overlap_weights(in, p, demand, materials));
+    if (demand == Demand::everywhere) return weighted(in, p, demand, overlap_weights(in, p, demand, materials.text()));
     // Inside the whole is inside each.
     if (materials == "first") return in.composition(0, p, demand);
     if (materials == "last") return in.composition(in.count() - 1, p, demand);

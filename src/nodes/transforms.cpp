@@ -77,7 +77,7 @@ struct Rotate : Transform<Rotate> {
     if (axis)
       turn = Affine::rotation(*axis, degrees);
     else
-      for (const char letter : order) {
+      for (const char letter : order.text()) {
         const int i = letter - 'x';
         Vec3 direction;
         direction[i] = 1;

@@ -8,7 +8,7 @@
 namespace ombre::program {
 namespace {
 
-constexpr size_t most_in_leaf = 4;
+constexpr size_t most_in_leaf = 8;
 
 // Of a tree that halves until few are left.
 size_t leaves_of(size_t entries) {
@@ -16,8 +16,8 @@ size_t leaves_of(size_t entries) {
 }
 
 // Everything of a program but the values of its constants.
-void write_structure(const Program& program, const std::vector<int>& slots, std::string& key) {
-  key.clear();
+void write_structure(const Program& program, const std::vector<int>& slots, bool may_be_unknown, std::string& key) {
+  key.assign(1, may_be_unknown ? '?' : ' ');
   const auto append = [&](uint32_t value) { key.append(reinterpret_cast<const char*>(&value), sizeof value); };
   for (const Instruction& in : program.code) {
     const int arity = info(in.op).arity;
@@ -34,30 +34,51 @@ void write_structure(const Program& program, const std::vector<int>& slots, std:
 
 void PartTable::add(const Program& program, const std::vector<int>& slots, bool may_be_unknown) {
   ASSERT(program.calls.empty() && program.reads.empty());
-  write_structure(program, slots, key_);
-  const auto [it, is_new] = known_.try_emplace(key_, static_cast<uint32_t>(bodies_.size()));
-  if (is_new) {
-    const auto& code = program.code;
-    const auto is_input = [](const Instruction& in) { return in.op == Op::input; };
-    const auto inputs = static_cast<size_t>(std::find_if_not(code.begin(), code.end(), is_input) - code.begin());
-    ASSERT(std::none_of(code.begin() + static_cast<ptrdiff_t>(inputs), code.end(), is_input));
-    bodies_.push_back({program, slots, inputs});
-  }
-  rows_.push_back({it->second, may_be_unknown, parameters_.size()});
+  const uint32_t body = body_number(program, slots, may_be_unknown);
+  Parameters& parameters = parameters_[body];
+  rows_.push_back({body, parameters.rows++});
   for (const Instruction& in : program.code) {
-    if (in.op == Op::constant) parameters_.push_back(in.value);
+    if (in.op == Op::constant) add_parameter(parameters, in.value);
     if (in.op == Op::affine)
-      parameters_.insert(parameters_.end(), program.maps[in.aux].begin(), program.maps[in.aux].end());
+      for (const double value : program.maps[in.aux]) add_parameter(parameters, value);
   }
-  if (rows_.size() > 1) return;
-  rows_.reserve(expected_);
-  parameters_.reserve(expected_ * parameters_.size());
+}
+
+uint32_t PartTable::body_number(const Program& program, const std::vector<int>& slots, bool may_be_unknown) {
+  write_structure(program, slots, may_be_unknown, key_);
+  const auto [it, is_new] = known_.try_emplace(key_, static_cast<uint32_t>(bodies_.size()));
+  if (!is_new) return it->second;
+  const auto& code = program.code;
+  const auto is_input = [](const Instruction& in) { return in.op == Op::input; };
+  const auto inputs = static_cast<size_t>(std::find_if_not(code.begin(), code.end(), is_input) - code.begin());
+  ASSERT(std::none_of(code.begin() + static_cast<ptrdiff_t>(inputs), code.end(), is_input));
+  size_t parameters = 0;
+  for (const Instruction& in : code)
+    parameters += in.op == Op::constant ? 1 : in.op == Op::affine ? program.maps[in.aux].size() : 0;
+  bodies_.push_back({program, slots, may_be_unknown, inputs, parameters});
+  parameters_.emplace_back();
+  return it->second;
+}
+
+void PartTable::add_parameter(Parameters& to, double value) const {
+  if (precision_ == Precision::batch)
+    to.floats.push_back(static_cast<float>(value));
+  else
+    to.doubles.push_back(value);
+}
+
+double PartTable::parameter(uint32_t part, size_t number) const {
+  const Row& row = rows_[part];
+  const Parameters& parameters = parameters_[row.body];
+  const size_t n = row.number * bodies_[row.body].parameter_count + number;
+  return precision_ == Precision::batch ? static_cast<double>(parameters.floats[n]) : parameters.doubles[n];
 }
 
 void PartTable::append(uint32_t part, Program& to, const std::array<ValueId, 3>& inputs,
                        std::vector<ValueId>& slots) const {
   const Body& body = bodies_[body_of(part)];
-  const double* parameter = parameters(part);
+  size_t number = 0;
+  const auto next_parameter = [&] { return parameter(part, number++); };
   // A body begins with its inputs; whatever follows keeps its distance from there.
   const size_t input_count = body.input_count;
   const auto shift = static_cast<ValueId>(to.code.size() - input_count);
@@ -70,11 +91,10 @@ void PartTable::append(uint32_t part, Program& to, const std::array<ValueId, 3>&
     if (arity > 0) in.a = renamed(in.a);
     if (arity > 1) in.b = renamed(in.b);
     if (arity > 2) in.c = renamed(in.c);
-    if (in.op == Op::constant) in.value = *parameter++;
+    if (in.op == Op::constant) in.value = next_parameter();
     if (in.op == Op::affine) {
       in.aux = static_cast<uint32_t>(to.maps.size());
-      to.maps.push_back({parameter[0], parameter[1], parameter[2], parameter[3]});
-      parameter += 4;
+      for (double& value : to.maps.emplace_back()) value = next_parameter();
     }
     to.code.push_back(in);
   }
@@ -83,37 +103,74 @@ void PartTable::append(uint32_t part, Program& to, const std::array<ValueId, 3>&
     slots.push_back(slot < 0 ? none : renamed(body.code.outputs[static_cast<size_t>(slot)]));
 }
 
+Cells Cells::around(const Box& box, const Box& whole) {
+  Cells cells;
+  for (size_t n = 0; n < 3; ++n) {
+    const int axis = static_cast<int>(n);
+    const double per_mm = per_axis / (whole.hi[axis] - whole.lo[axis]);
+    if (!std::isfinite(per_mm)) continue;
+    const auto cell = [](double at) { return static_cast<uint8_t>(std::clamp(at, 0.0, per_axis - 1.0)); };
+    cells.first[n] = cell(std::floor((box.lo[axis] - whole.lo[axis]) * per_mm));
+    cells.last[n] = cell(std::ceil((box.hi[axis] - whole.lo[axis]) * per_mm) - 1);
+  }
+  return cells;
+}
+
+Box Cells::in(const Box& whole) const {
+  Box box = whole;
+  for (size_t n = 0; n < 3; ++n) {
+    const int axis = static_cast<int>(n);
+    const double size = whole.hi[axis] - whole.lo[axis];
+    box.lo[axis] = whole.lo[axis] + size * first[n] / per_axis;
+    if (last[n] + 1 < per_axis) box.hi[axis] = whole.lo[axis] + size * (last[n] + 1) / per_axis;
+  }
+  return box;
+}
+
+// To nearest: boxes of parts are grown by more than that (grown_for_rounding).
+PartIndex::Bounds::Bounds(const Box& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    lo[axis] = static_cast<float>(box.lo[axis]);
+    hi[axis] = static_cast<float>(box.hi[axis]);
+  }
+}
+
 bool PartIndex::Bounds::meets(const Box& box) const {
   for (int axis = 0; axis < 3; ++axis)
     if (static_cast<double>(lo[axis]) > box.hi[axis] || static_cast<double>(hi[axis]) < box.lo[axis]) return false;
   return true;
 }
 
-void PartIndex::add(const Box& box, uint32_t part) {
-  // Rounded to nearest, so that boxes of one part go on sharing their faces.
-  RoundedEntry entry{{}, part};
-  for (int axis = 0; axis < 3; ++axis) {
-    entry.bounds.lo[axis] = static_cast<float>(box.lo[axis]);
-    entry.bounds.hi[axis] = static_cast<float>(box.hi[axis]);
-  }
-  entries_.push_back(entry);
+Box PartIndex::rounded(const Box& box) { return Bounds(box).box(); }
+
+void PartIndex::expect(size_t parts, size_t pieces) {
+  parts_.reserve(parts);
+  piece_begins_.reserve(parts + 1);
+  pieces_.reserve(pieces);
+}
+
+void PartIndex::add(const Box& box, const std::vector<Cells>& pieces) {
+  parts_.push_back({Bounds(box), static_cast<uint32_t>(parts_.size())});
+  piece_begins_.push_back(static_cast<uint32_t>(pieces_.size()));
+  pieces_.insert(pieces_.end(), pieces.begin(), pieces.end());
 }
 
 void PartIndex::build() {
+  piece_begins_.push_back(static_cast<uint32_t>(pieces_.size()));
   knots_.clear();
-  if (entries_.empty()) return;
-  knots_.reserve(2 * leaves_of(entries_.size()) - 1);
-  build(0, static_cast<uint32_t>(entries_.size()));
+  if (parts_.empty()) return;
+  knots_.reserve(2 * leaves_of(parts_.size()) - 1);
+  build(0, static_cast<uint32_t>(parts_.size()));
 }
 
 // Halves at the median of the middles along the longest side.
 uint32_t PartIndex::build(uint32_t begin, uint32_t end) {
   const auto number = static_cast<uint32_t>(knots_.size());
-  Bounds bounds = entries_[begin].bounds;
+  Bounds bounds = parts_[begin].bounds;
   for (uint32_t n = begin; n < end; ++n) {
     for (int axis = 0; axis < 3; ++axis) {
-      bounds.lo[axis] = std::min(bounds.lo[axis], entries_[n].bounds.lo[axis]);
-      bounds.hi[axis] = std::max(bounds.hi[axis], entries_[n].bounds.hi[axis]);
+      bounds.lo[axis] = std::min(bounds.lo[axis], parts_[n].bounds.lo[axis]);
+      bounds.hi[axis] = std::max(bounds.hi[axis], parts_[n].bounds.hi[axis]);
     }
   }
   knots_.push_back({bounds, begin, end, 0});
@@ -121,13 +178,11 @@ uint32_t PartIndex::build(uint32_t begin, uint32_t end) {
   int longest = 0;
   for (int axis = 1; axis < 3; ++axis)
     if (bounds.hi[axis] - bounds.lo[axis] > bounds.hi[longest] - bounds.lo[longest]) longest = axis;
-  const auto middle = [longest](const RoundedEntry& entry) {
-    return entry.bounds.lo[longest] + entry.bounds.hi[longest];
-  };
+  const auto middle = [longest](const Part& part) { return part.bounds.lo[longest] + part.bounds.hi[longest]; };
   const uint32_t half = begin + (end - begin) / 2;
-  std::nth_element(entries_.begin() + begin, entries_.begin() + half, entries_.begin() + end,
-                   [&](const RoundedEntry& a, const RoundedEntry& b) {
-                     return middle(a) != middle(b) ? middle(a) < middle(b) : a.part < b.part;
+  std::nth_element(parts_.begin() + begin, parts_.begin() + half, parts_.begin() + end,
+                   [&](const Part& a, const Part& b) {
+                     return middle(a) != middle(b) ? middle(a) < middle(b) : a.number < b.number;
                    });
   build(begin, half);
   const uint32_t right = build(half, end);
@@ -150,46 +205,48 @@ void PartIndex::visit(const Box& region, Visit visit) const {
       continue;
     }
     for (uint32_t n = knot.begin; n < knot.end; ++n)
-      if (entries_[n].bounds.meets(region) && !visit(entries_[n].part, entries_[n].bounds)) return;
+      if (parts_[n].bounds.meets(region) && !visit_pieces(parts_[n], region, visit)) return;
   }
+}
+
+template <class Visit>
+bool PartIndex::visit_pieces(const Part& part, const Box& region, Visit visit) const {
+  const Box whole = part.bounds.box();
+  for (uint32_t n = piece_begins_[part.number]; n < piece_begins_[part.number + 1]; ++n) {
+    const Box piece = pieces_[n].in(whole);
+    if (!intersect(piece, region).is_empty() && !visit(part.number, piece)) return false;
+  }
+  return true;
 }
 
 void PartIndex::find(const Box& region, std::vector<uint32_t>& parts) const {
   parts.clear();
-  visit(region, [&](uint32_t part, const Bounds&) {
-    parts.push_back(part);
+  visit(region, [&](uint32_t part, const Box&) {
+    if (parts.empty() || parts.back() != part) parts.push_back(part);
     return true;
   });
   std::sort(parts.begin(), parts.end());
-  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
 }
 
 void PartIndex::find(const Box& region, std::vector<Entry>& entries) const {
   entries.clear();
-  visit(region, [&](uint32_t part, const Bounds& bounds) {
-    entries.push_back({bounds.box(), part});
+  visit(region, [&](uint32_t part, const Box& piece) {
+    entries.push_back({piece, part});
     return true;
   });
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.part < b.part; });
 }
 
 size_t PartIndex::count(const Box& region, size_t most) const {
-  std::array<uint32_t, 16> found;
   size_t count = 0;
-  visit(region, [&](uint32_t part, const Bounds&) {
-    if (std::find(found.begin(), found.begin() + count, part) == found.begin() + count) found[count++] = part;
+  uint32_t last = 0;
+  visit(region, [&](uint32_t part, const Box&) {
+    // Pieces of a part follow each other.
+    if (count == 0 || part != last) ++count;
+    last = part;
     return count < most;
   });
   return count;
-}
-
-bool PartIndex::reaches(const Box& region) const {
-  bool any = false;
-  visit(region, [&](uint32_t, const Bounds&) {
-    any = true;
-    return false;
-  });
-  return any;
 }
 
 Box grown_for_rounding(const Box& box) {

@@ -6,6 +6,7 @@
 // the region (passes/expand_parts.cpp), so that space decides what a tile costs, not the number of parts.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -31,11 +32,13 @@ class PartTable {
   struct Body {
     Program code;            // its constants and maps are of no meaning
     std::vector<int> slots;  // as in `add`
-    size_t input_count = 0;  // the first instructions
+    bool may_be_unknown = false;
+    size_t input_count = 0;      // the first instructions
+    size_t parameter_count = 0;  // constants and rows of maps
   };
 
-  // How many rows will be added, about as wide as the first.
-  void expect(size_t rows) { expected_ = rows; }
+  explicit PartTable(Precision precision) : precision_(precision) {}
+  void expect(size_t rows) { rows_.reserve(rows); }
   // `slots[s]` is the program's output for slot s, or -1. The program has neither calls nor sources.
   // `may_be_unknown`: can any of its values be NaN where the part is?
   void add(const Program& program, const std::vector<int>& slots, bool may_be_unknown);
@@ -47,69 +50,93 @@ class PartTable {
   size_t body_count() const { return bodies_.size(); }
   const Body& body(uint32_t number) const { return bodies_[number]; }
   uint32_t body_of(uint32_t part) const { return rows_[part].body; }
-  bool may_be_unknown(uint32_t part) const { return rows_[part].may_be_unknown; }
   // Constants and rows of maps, in the order of the body's code.
-  const double* parameters(uint32_t part) const { return parameters_.data() + rows_[part].first; }
+  double parameter(uint32_t part, size_t number) const;
 
  private:
   struct Row {
-    uint32_t body = 0;
-    bool may_be_unknown = false;
-    uint64_t first = 0;  // of its parameters
+    uint32_t body = 0, number = 0;  // among the rows of its body
+  };
+  // The parameters of a body's rows; one of the two is used. Deques grow without a copy of what they hold.
+  struct Parameters {
+    std::deque<double> doubles;
+    std::deque<float> floats;  // as batches round them
+    uint32_t rows = 0;
   };
 
+  uint32_t body_number(const Program& program, const std::vector<int>& slots, bool may_be_unknown);
+  void add_parameter(Parameters& to, double value) const;
+
+  Precision precision_;
   std::vector<Body> bodies_;
+  std::deque<Parameters> parameters_;  // by body
   std::unordered_map<std::string, uint32_t> known_;
   std::vector<Row> rows_;
-  std::vector<double> parameters_;
-  size_t expected_ = 0;
   std::string key_;  // of the row being added
 };
 
-// A tree over boxes. A part may have several, which together hold it.
+// A box in 256ths of another one, ends included.
+struct Cells {
+  static constexpr int per_axis = 256;
+  std::array<uint8_t, 3> first{0, 0, 0}, last{per_axis - 1, per_axis - 1, per_axis - 1};
+
+  // The least ones around a box that meets `whole`.
+  static Cells around(const Box& box, const Box& whole);
+  Box in(const Box& whole) const;
+};
+
+// A tree over the boxes of parts. A part's box may be cut into pieces, which together hold the part.
 class PartIndex {
  public:
   struct Entry {
     Box box;
     uint32_t part = 0;
   };
-  void expect(size_t entries) { entries_.reserve(entries); }
-  void add(const Box& box, uint32_t part);
-  void build();  // when all are added
-  // The parts whose boxes meet the region, in ascending order.
+  // The box as the index keeps it.
+  static Box rounded(const Box& box);
+  void expect(size_t parts, size_t pieces);
+  void add(const Box& box, const std::vector<Cells>& pieces);  // the next part
+  void build();                                                // when all are added
+  // The parts whose pieces meet the region, in ascending order.
   void find(const Box& region, std::vector<uint32_t>& parts) const;
-  // Their boxes, by part.
+  // Their pieces, by part.
   void find(const Box& region, std::vector<Entry>& entries) const;
-  // How many parts have boxes that meet the region, or `most` if it is more; most <= 16.
+  // How many parts have pieces that meet the region, or `most` if it is more.
   size_t count(const Box& region, size_t most) const;
-  bool reaches(const Box& region) const;
+  bool reaches(const Box& region) const { return count(region, 1) > 0; }
 
  private:
   struct Bounds {
     float lo[3], hi[3];
+    explicit Bounds(const Box& box);
     bool meets(const Box& box) const;
     Box box() const { return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}}; }
   };
   struct Knot {
     Bounds bounds;
-    uint32_t begin = 0, end = 0;  // of its entries
+    uint32_t begin = 0, end = 0;  // of its parts
     uint32_t right = 0;           // the left one follows; 0: a leaf
   };
-  struct RoundedEntry {
+  struct Part {
     Bounds bounds;
-    uint32_t part = 0;
+    uint32_t number = 0;
   };
   uint32_t build(uint32_t begin, uint32_t end);
-  // Until `visit` says false.
+  // `visit` gets the boxes and numbers of parts whose boxes meet the region, until it says false.
   template <class Visit>
   void visit(const Box& region, Visit visit) const;
+  // The same for the pieces of a part; false where `visit` said so.
+  template <class Visit>
+  bool visit_pieces(const Part& part, const Box& region, Visit visit) const;
 
   std::vector<Knot> knots_;
-  std::vector<RoundedEntry> entries_;  // once built, by leaf
+  std::vector<Part> parts_;             // once built, by leaf
+  std::vector<Cells> pieces_;           // by number of the part
+  std::vector<uint32_t> piece_begins_;  // by number of the part, and an end
 };
 
 struct PartSet {
-  PartTable reference, batch;
+  PartTable reference{Precision::reference}, batch{Precision::batch};
   PartIndex index;
   std::vector<SlotKind> slots;   // slot 0 is "inside"
   std::vector<Interval> ranges;  // of each slot, wherever parts reach

@@ -157,8 +157,8 @@ class BatchLeaf : public LeafEvaluator {
       };
       for (end = first + 1; end < places.size() && follows(end);) ++end;
       const size_t most = static_cast<size_t>(tile_.hi[0] - at.i);
-      const Stretch stretch{at, k, std::min((end - first) * width, most), first * width};
-      if (kernels_.any(outputs_[0].from(stretch.lane), stretch.width)) take(stretch);
+      stretch_ = {at, k, std::min((end - first) * width, most), first * width};
+      if (kernels_.any(output(0), stretch_.width)) take();
     }
   }
 
@@ -170,7 +170,8 @@ class BatchLeaf : public LeafEvaluator {
         batch_.begin_row(row);
         if (!kernels_.any(batch_.output(0), tile_width())) continue;
         finish_row();
-        take({rows_.places[row], k, tile_width(), 0});
+        stretch_ = {rows_.places[row], k, tile_width(), 0};
+        take();
       }
     }
   }
@@ -228,18 +229,20 @@ class BatchLeaf : public LeafEvaluator {
   // An output along the stretch at work.
   eval::Values output(size_t n) const { return outputs_[n].from(stretch_.lane); }
 
-  void take(const Stretch& stretch) {
-    stretch_ = stretch;
-    const auto& [at, k, width, lane] = stretch;
-    const eval::Values inside = output(0);
+  void take() {
+    const auto& [at, k, width, lane] = stretch_;
     thresholds_.clear();
     for (const size_t n : choices_) thresholds_.push_back(output(n));
-    MaterialId* out = voxels_->at(at.i, at.j, k);
-    const Draws draws = draws_of_row(job_.dither, job_.seed, at.j, k);
-    kernels_.choose({inside, thresholds_, materials_, draws, at.i, width}, out);
+    // Made in place: a copy of what was just written in pieces would wait for it.
+    const ChoiceRow row{output(0), thresholds_, materials_, draws(), at.i, width};
+    kernels_.choose(row, voxels_->at(at.i, at.j, k));
     for (size_t t = 0; t < voxels_->kept_thresholds(); ++t) keep_threshold(t);
-    for (const size_t c : checks_) count_check(c, inside);
-    if (has_unknown(inside)) redo_unknown(inside);
+    for (const size_t c : checks_) count_check(c, row.inside);
+    if (has_unknown(row.inside)) redo_unknown(row.inside);
+  }
+
+  Draws draws() const {
+    return choices_.empty() ? Draws{} : draws_of_row(job_.dither, job_.seed, stretch_.at.j, stretch_.k);
   }
 
   bool has_unknown(const eval::Values& inside) const {

@@ -16,10 +16,9 @@ struct Lattice {
   std::array<Pitch, 3> pitch;
   std::array<int64_t, 3> count{};  // voxels on each axis
 
-  Vec3 center(int64_t i, int64_t j, int64_t k) const {
-    return {origin.x + pitch[0].times(static_cast<double>(i) + 0.5),
-            origin.y + pitch[1].times(static_cast<double>(j) + 0.5),
-            origin.z + pitch[2].times(static_cast<double>(k) + 0.5)};
+  Vec3 center(int64_t i, int64_t j, int64_t k) const { return {center(0, i), center(1, j), center(2, k)}; }
+  double center(size_t axis, int64_t n) const {
+    return origin[static_cast<int>(axis)] + pitch[axis].times(static_cast<double>(n) + 0.5);
   }
   uint64_t voxels() const {
     return static_cast<uint64_t>(count[0]) * static_cast<uint64_t>(count[1]) * static_cast<uint64_t>(count[2]);

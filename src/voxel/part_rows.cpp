@@ -47,20 +47,17 @@ PartBody::PartBody(const PartTable& table, uint32_t body, const std::vector<size
   }
   for (ValueId id = 0; id < program_.code.size(); ++id)
     if (program_.code[id].op == Op::constant) constants_.push_back(id);
+  const bool may_be_unknown = table.body(body).may_be_unknown;
+  const std::vector<Interval> ranges(program_.code.size(), may_be_unknown ? Interval::everything() : Interval(0));
+  batch_.compile(program_, ranges, most_points, most_layers, no_sources);
 }
 
 void PartBody::take(const PartTable& table, uint32_t part) {
-  const double* parameter = table.parameters(part);
-  for (const ValueId id : constants_) program_.code[id].value = *parameter++;
-  if (!is_compiled_ || may_be_unknown_ != table.may_be_unknown(part)) compile(table.may_be_unknown(part));
-  for (const ValueId id : constants_) batch_.set_constant(id, static_cast<float>(program_.code[id].value));
-}
-
-void PartBody::compile(bool may_be_unknown) {
-  const std::vector<Interval> ranges(program_.code.size(), may_be_unknown ? Interval::everything() : Interval(0));
-  batch_.compile(program_, ranges, most_points, most_layers, no_sources);
-  is_compiled_ = true;
-  may_be_unknown_ = may_be_unknown;
+  for (size_t n = 0; n < constants_.size(); ++n) {
+    const double value = table.parameter(part, n);
+    program_.code[constants_[n]].value = value;
+    batch_.set_constant(constants_[n], static_cast<float>(value));
+  }
 }
 
 PartRows::PartRows(const VoxelJob& job, const eval::KernelSet& kernels)

@@ -27,12 +27,10 @@ class PartBody {
 
  private:
   static constexpr size_t none = ~size_t{0};
-  void compile(bool may_be_unknown);
 
   program::Program program_;
   std::vector<program::ValueId> constants_;
   std::vector<size_t> output_;
-  bool is_compiled_ = false, may_be_unknown_ = false;
   eval::BatchEvaluator batch_;
 };
 

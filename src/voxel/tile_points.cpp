@@ -5,9 +5,9 @@ namespace ombre::voxel {
 void TilePoints::place(const Lattice& lattice, const TileBox& tile) {
   lo_ = tile.lo;
   const auto centers = [&](size_t axis, std::vector<float>& values) {
-    values.clear();
-    for (int64_t n = tile.lo[axis]; n < tile.hi[axis]; ++n)
-      values.push_back(static_cast<float>(lattice.center(n, n, n)[static_cast<int>(axis)]));
+    values.resize(static_cast<size_t>(tile.hi[axis] - tile.lo[axis]));
+    for (size_t n = 0; n < values.size(); ++n)
+      values[n] = static_cast<float>(lattice.center(axis, tile.lo[axis] + static_cast<int64_t>(n)));
   };
   centers(0, xs_);
   centers(1, ys_);

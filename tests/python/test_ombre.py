@@ -160,6 +160,15 @@ def test_materials_of_ones_own(tmp_path):
         mine["medium"]
 
 
+def test_meshes_keep_the_materials_of_their_file(tmp_path):
+    box = ombre.cube(4, "red") | ombre.cube(4, "blue").translate(x=4)
+    box.mesh(tmp_path / "two.3mf", by="materials")
+    kept = ombre.mesh(tmp_path / "two.3mf", materials="names")
+    assert kept.volumes(0.1) == pytest.approx({"red": 64, "blue": 64}, rel=1e-3)
+    mapped = ombre.mesh(tmp_path / "two.3mf", materials="names", material_map={"red": "white"})
+    assert mapped.volumes(0.1) == pytest.approx({"white": 64, "blue": 64}, rel=1e-3)
+
+
 # Functions of Python.
 
 def test_functions_of_all_kinds():

@@ -100,7 +100,7 @@ py::dict parameters(const NodeHandle& handle) {
   const design::NodeType& type = handle.node->type();
   py::dict result;
   for (size_t i = 0; i < type.parameters.size(); ++i)
-    result[py::str(type.parameters[i].name)] = to_python(type.get(handle.node->value(), i, false));
+    result[py::str(type.parameters[i].name)] = to_python(type.get(*handle.node, i, false));
   return result;
 }
 
@@ -240,7 +240,7 @@ std::shared_ptr<const compile::Sampler> DesignHandle::sampler(const std::string&
 void DesignHandle::raise_failures() const {
   for (const design::Node* node : topological(design().roots()))
     for (size_t i = 0; i < node->type().parameters.size(); ++i)
-      each_function(node->type().get(node->value(), i, false), [](const HostFunction& f) { f.raise_failure(); });
+      each_function(node->type().get(*node, i, false), [](const HostFunction& f) { f.raise_failure(); });
 }
 
 void add_designs(py::module_& module) {

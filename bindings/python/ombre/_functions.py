@@ -87,7 +87,9 @@ def pointwise(function):
 
 
 def adapt(value, child=None):
-    """The value, with every Python function in it ready to be asked about arrays of x, y and z."""
+    """The value, with every Python function in it ready to be asked about arrays of x, y and z; dictionaries as pairs."""
+    if isinstance(value, dict):
+        value = list(value.items())
     if isinstance(value, (list, tuple)):
         return [adapt(element, child) for element in value]
     if callable(value) and not hasattr(value, "_ombre_text_") and not hasattr(value, "_ombre_function_") \

@@ -92,7 +92,8 @@ _questions = '''    bounds: tuple[tuple[float, float, float], tuple[float, float
 _kinds = {"number": "float", "number or field": "Number", "3 numbers or fields": "Numbers", "true or false": "bool",
           "text": "str", "3 numbers": "Optional[Numbers]", "matrix": "ArrayLike", "material": "Material",
           "file": "Path", "list of numbers or fields": "Union[Number, Numbers]",
-          "list of materials": "Union[Material, Sequence[Material]]"}
+          "list of materials": "Union[Material, Sequence[Material]]",
+          "list of names with materials": "Union[Mapping[str, Material], Sequence[tuple[str, Material]]]"}
 
 
 def _safe(name):
@@ -100,7 +101,7 @@ def _safe(name):
 
 
 def _keywords(info):
-    words = [f"{p['name']}: {_kinds[p['kind']]} = ..." for p in info["parameters"] if _safe(p["name"])]
+    words = [f"{p['name']}: {_kinds.get(p['kind'], 'Any')} = ..." for p in info["parameters"] if _safe(p["name"])]
     if info["category"] == "transforms":
         words.append("**components: Number")  # x, y, z; pitch, yaw, roll
     return "".join(", " + word for word in words)

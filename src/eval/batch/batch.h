@@ -20,7 +20,7 @@ struct Values {
   const float* row = nullptr;
   bool is_number = false;
   float operator[](size_t n) const { return row[is_number ? 0 : n]; }
-  Values from(size_t n) const { return is_number ? *this : Values{row + n, false}; }
+  Values from(size_t n) const { return {row + (is_number ? 0 : n), is_number}; }
 };
 
 // Rows of a layer to be filled: row `first` + n begins at values + n * stride.

@@ -39,7 +39,7 @@ NodePtr EqualNodes::first(NodePtr node) {
   const NodeType* type = &node->type();
   key_.clear();
   append_bytes(key_, reinterpret_cast<uintptr_t>(type));
-  for (size_t i = 0; i < type->parameters.size(); ++i) append_value(key_, type->get(node->value(), i, false));
+  for (size_t i = 0; i < type->parameters.size(); ++i) append_value(key_, type->get(*node, i, false));
   for (const NodePtr& input : node->inputs()) append_bytes(key_, reinterpret_cast<uintptr_t>(input.get()));
 
   if (4 * count_ >= 3 * slots_.size()) widen();

@@ -136,7 +136,8 @@ NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnosti
 }
 
 std::optional<design::Design> VcadVocabulary::finish(const std::vector<NodePtr>& top_level, const SourceRange& whole,
-                                                     Diagnostics& diagnostics) const {
+                                                     Diagnostics& diagnostics) {
+  known_ = {};  // none is added any more, and the table is large
   if (diagnostics.has_errors()) return std::nullopt;
   if (root_where_) {
     for (const NodePtr& beside : top_level)
@@ -161,7 +162,7 @@ std::optional<design::Design> VcadVocabulary::finish(const std::vector<NodePtr>&
       continue;
     }
     parts.insert(solid.get());
-    const std::string name = *solid->type().get(solid->value(), 0, false).string();
+    const std::string name = *solid->type().get(*solid, 0, false).string();
     for (const design::Part& other : design.parts)
       if (other.name == name) diagnostics.error(solid->where(), "there are two parts with the name \"" + name + "\"");
     design.parts.push_back({name, solid->inputs()[0]});

@@ -23,7 +23,7 @@ class VcadVocabulary : public Vocabulary {
 
   // The design that the top-level nodes make; nothing, and a diagnostic, when there is none.
   std::optional<design::Design> finish(const std::vector<design::NodePtr>& top_level, const SourceRange& whole,
-                                       Diagnostics& diagnostics) const;
+                                       Diagnostics& diagnostics);
 
  private:
   design::NodePtr make_root(const Invocation& call, Diagnostics& diagnostics);

@@ -1,4 +1,6 @@
 // Drops what a region has settled.
+#include <algorithm>
+
 #include "program/passes/copy_tables.h"
 #include "program/passes/passes.h"
 #include "program/passes/zero_signs.h"
@@ -102,6 +104,9 @@ class Shortener {
 
   void copy_needed() {
     renamed_.assign(from_.code.size(), 0);
+    const auto count = static_cast<size_t>(std::count(needed_.begin(), needed_.end(), true));
+    to_.code.reserve(count);
+    if (kept_) kept_->reserve(count);
     for (ValueId i = 0; i < from_.code.size(); ++i) {
       if (!needed_[i]) continue;
       Instruction in = from_.code[i];

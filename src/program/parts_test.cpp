@@ -1,0 +1,86 @@
+// The index of many parts, against asking each of them.
+#include "program/parts.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace ombre::program {
+namespace {
+
+class RandomBoxes {
+ public:
+  Box next(double space, double most) {
+    Box box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lo[axis] = number(-space, space);
+      box.hi[axis] = box.lo[axis] + number(0.01, most);
+    }
+    return PartIndex::rounded(box);
+  }
+  Cells cells() {
+    Cells cells;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<uint8_t>(number(0, 256)), b = static_cast<uint8_t>(number(0, 256));
+      cells.first[axis] = std::min(a, b);
+      cells.last[axis] = std::max(a, b);
+    }
+    return cells;
+  }
+
+ private:
+  double number(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random_); }
+  std::mt19937 random_{7};
+};
+
+bool meet(const Box& a, const Box& b) { return !intersect(a, b).is_empty(); }
+
+}  // namespace
+
+TEST(Cells, HoldTheBoxThatTheyAreAround) {
+  RandomBoxes boxes;
+  for (int n = 0; n < 1000; ++n) {
+    const Box whole = boxes.next(10, 5), part = intersect(whole, boxes.next(10, 5));
+    if (part.is_empty()) continue;
+    const Box held = Cells::around(part, whole).in(whole).expanded(1e-12);
+    EXPECT_EQ(intersect(held, part), part);
+  }
+}
+
+TEST(Cells, OfOneBoxShareTheirFaces) {
+  RandomBoxes boxes;
+  for (int n = 0; n < 1000; ++n) {
+    const Box whole = boxes.next(10, 5);
+    Cells low, high;
+    low.last[0] = static_cast<uint8_t>(n % 255);
+    high.first[0] = static_cast<uint8_t>(low.last[0] + 1);
+    EXPECT_EQ(low.in(whole).hi.x, high.in(whole).lo.x);
+    EXPECT_EQ(hull(low.in(whole), high.in(whole)), whole);
+  }
+}
+
+TEST(PartIndex, FindsThePartsWhosePiecesMeetARegion) {
+  RandomBoxes boxes;
+  PartIndex index;
+  std::vector<std::vector<Box>> parts;
+  for (int n = 0; n < 500; ++n) {
+    const Box whole = boxes.next(10, 3);
+    const std::vector<Cells> pieces{boxes.cells(), boxes.cells()};
+    index.add(whole, pieces);
+    parts.push_back({pieces[0].in(whole), pieces[1].in(whole)});
+  }
+  index.build();
+  std::vector<uint32_t> found;
+  for (int n = 0; n < 500; ++n) {
+    const Box region = boxes.next(10, 2);
+    std::vector<uint32_t> expected;
+    for (uint32_t part = 0; part < parts.size(); ++part)
+      if (meet(parts[part][0], region) || meet(parts[part][1], region)) expected.push_back(part);
+    index.find(region, found);
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(index.reaches(region), !expected.empty());
+    EXPECT_EQ(index.count(region, 3), std::min<size_t>(expected.size(), 3));
+  }
+}
+
+}  // namespace ombre::program
