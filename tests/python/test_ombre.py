@@ -203,6 +203,7 @@ def test_functions_that_fail(function, cause):
         if not isinstance(failure.value.__cause__, cause):
             raise AssertionError(repr(failure.value.__cause__))
         assert len(failure.value.point) == 3
+        assert failure.value.path == "part > function" and failure.value.place[0] == __file__
     assert ombre.cube(1).distance([0, 0, 0]) == -0.5  # others go on
 
 

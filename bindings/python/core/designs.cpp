@@ -3,6 +3,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <unordered_set>
+
 #include "base/json.h"
 #include "base/text.h"
 #include "compile/build.h"
@@ -20,6 +22,15 @@ void each_function(const Data& data, const F& f) {
   if (const DataList* list = data.list())
     for (const Data& element : *list) each_function(element, f);
   if (const auto function = std::dynamic_pointer_cast<const HostFunction>(data.host_object())) f(*function);
+}
+
+// Raises what a function of the node or of those below it raised; `path` leads to the node.
+void raise_below(const design::Node& node, const std::string& path, std::unordered_set<const design::Node*>& seen) {
+  if (!seen.insert(&node).second) return;
+  const std::string here = path + " > " + node.type().name;
+  for (size_t i = 0; i < node.type().parameters.size(); ++i)
+    each_function(node.type().get(node, i, false), [&](const HostFunction& f) { f.raise_failure(here); });
+  for (const design::NodePtr& input : node.inputs()) raise_below(*input, here, seen);
 }
 
 py::tuple tuple_of(Vec3 v) { return py::make_tuple(v.x, v.y, v.z); }
@@ -238,9 +249,8 @@ std::shared_ptr<const compile::Sampler> DesignHandle::sampler(const std::string&
 }
 
 void DesignHandle::raise_failures() const {
-  for (const design::Node* node : topological(design().roots()))
-    for (size_t i = 0; i < node->type().parameters.size(); ++i)
-      each_function(node->type().get(*node, i, false), [](const HostFunction& f) { f.raise_failure(); });
+  std::unordered_set<const design::Node*> seen;
+  for (const design::Part& part : design().parts) raise_below(*part.solid, part.name, seen);
 }
 
 void add_designs(py::module_& module) {

@@ -80,9 +80,11 @@ void HostFunction::call(std::span<const Vec3> points, std::span<double> values) 
   std::copy_n(numbers.data(), values.size(), values.begin());
 }
 
-void HostFunction::raise_failure() const {
+void HostFunction::raise_failure(const std::string& path) const {
   if (!failure_) return;
-  const py::object failure = std::move(failure_);
+  const Place place = where_.source ? where_.source->place(where_.begin) : Place();
+  const py::object failure =
+      package_member("at_node")(failure_, path, where_.source ? where_.source->name() : "", place.line);
   failure_ = {};
   PyErr_SetObject(py::type::of(failure).ptr(), failure.ptr());
   throw py::error_already_set();

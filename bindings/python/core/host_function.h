@@ -31,8 +31,9 @@ class HostFunction : public program::FieldSource {
   // Throws HostFailure when the function fails; what it raised is kept for `raise_failure`.
   void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const override;
 
-  // Raises what the function raised, if it did, with where and at which point. Needs the interpreter's lock.
-  void raise_failure() const;
+  // Raises what the function raised, if it did, with the path to its node, the place and the point. Needs the
+  // interpreter's lock.
+  void raise_failure(const std::string& path) const;
 
  private:
   void call(std::span<const Vec3> points, std::span<double> values) const;

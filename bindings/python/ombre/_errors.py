@@ -26,14 +26,18 @@ class CheckError(DesignError):
 
 
 class FunctionError(DesignError):
-    """A Python function of a design failed; `__cause__` is what it raised, `point` where (mm)."""
+    """A Python function of a design failed.
 
-    def __init__(self, message, point=None):
+    `__cause__` is what it raised, `point` the first point it was asked about (mm), `path` leads to its node
+    ("part > union > fgrade"), `place` is the (file, line) that made that.
+    """
+
+    def __init__(self, message, point=None, path="", place=None):
         super().__init__(message)
-        self.point = point
+        self.point, self.path, self.place = point, path, place
 
     def __reduce__(self):
-        return type(self), (str(self), self.point)
+        return type(self), (str(self), self.point, self.path, self.place)
 
 
 class DesignWarning(UserWarning):
@@ -58,4 +62,15 @@ def function_failure(cause, name, point):
     error = FunctionError(f"the function {name} of the design raised {type(cause).__name__}: {cause} "
                           f"(the first point it was asked about: ({at}) mm)", point)
     error.__cause__ = cause
+    return error
+
+
+def at_node(failure, path, file, line):
+    """The failure, with where in the design and in the script it belongs."""
+    if not isinstance(failure, FunctionError):
+        return failure
+    place = (file, line) if file else None
+    at = f"{file}:{line}: " if file else ""
+    error = FunctionError(f"{at}{path}: {failure}", failure.point, path, place)
+    error.__cause__ = failure.__cause__
     return error

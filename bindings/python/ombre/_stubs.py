@@ -37,6 +37,8 @@ class CheckError(DesignError): ...
 
 class FunctionError(DesignError):
     point: Optional[tuple[float, float, float]]
+    path: str
+    place: Optional[tuple[str, int]]
 
 class DesignWarning(UserWarning): ...
 
