@@ -292,6 +292,27 @@ def test_jobs_write_files(tmp_path):
         part.mesh(tmp_path / "part.3mf")
 
 
+def test_parts_are_shown_without_a_display(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("DISPLAY", "WAYLAND_DISPLAY", "OMBRE_RENDER"):
+        monkeypatch.delenv(name, raising=False)
+    part = ombre.Design(**{"a <b>": ombre.cube(4, "blue")})
+    part.show(size="80x60")
+    assert (tmp_path / "ombre.png").read_bytes().startswith(b"\x89PNG")
+    part.show("page.html", frames=5, size="80x60")
+    page = (tmp_path / "page.html").read_text()
+    assert page.count('"iVBORw0KGgo') == 5 and "<title>a &lt;b&gt;</title>" in page
+    monkeypatch.setenv("OMBRE_RENDER", "other.png")
+    part.show(size="80x60")
+    assert (tmp_path / "other.png").exists()
+    monkeypatch.delenv("OMBRE_RENDER")
+    monkeypatch.setenv("DISPLAY", ":0")
+    opened = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    part.show(size="80x60", frames=3)
+    assert len(opened) == 1 and opened[0].endswith(".html")
+
+
 def test_progress_is_told(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     told = []

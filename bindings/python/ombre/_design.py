@@ -288,10 +288,21 @@ class Design:
             self._job("render", file, None, options)
             return file.read_bytes()
 
-    def show(self, **options):
-        """Shows a picture: in a notebook there, else by the system's viewer."""
-        from ._show import show_picture
-        return show_picture(self.render(**options))
+    def view(self, frames=36, **options):
+        """A page for the browser, as text, that holds pictures from all around and turns the part; options of `render`."""
+        from ._show import viewer_page
+        with tempfile.TemporaryDirectory(prefix="ombre_") as folder:
+            self._job("render", os.path.join(folder, "turn.png"), None, {"frames": frames, **options})
+            pictures = [path.read_bytes() for path in sorted(pathlib.Path(folder).glob("*.png"))]
+        return viewer_page(pictures, ", ".join(name for name, _ in self.parts))
+
+    def show(self, path=None, **options):
+        """Shows the design: in a notebook there, else in the browser; without a display, `ombre.png` is written.
+
+        `path`, or the environment variable OMBRE_RENDER, names a .png or .html file to write in any case.
+        """
+        from ._show import show
+        return show(self, path, **options)
 
     def _repr_png_(self):
         return self.render(size="480x360", legend=True)

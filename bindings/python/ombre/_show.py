@@ -1,26 +1,74 @@
 """Pictures on the screen."""
+import base64
+import html
 import os
-import shutil
-import subprocess
 import sys
 import tempfile
+import webbrowser
+
+_page = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>{title}</title>
+<style>
+body {{ margin: 0; font: 14px sans-serif; text-align: center; color: #444; }}
+img {{ cursor: grab; max-width: 100%; touch-action: none; user-select: none; }}
+</style></head><body>
+<img id="view" draggable="false" alt="{title}">
+<p>{title} &mdash; drag, or use the arrow keys, to turn it</p>
+<script>
+const frames = [{frames}];
+const view = document.getElementById("view");
+let at = 0, from = null;
+function turn(steps) {{
+  at = ((at + steps) % frames.length + frames.length) % frames.length;
+  view.src = "data:image/png;base64," + frames[at];
+}}
+view.onpointerdown = e => {{ from = e.clientX; view.setPointerCapture(e.pointerId); }};
+view.onpointerup = () => {{ from = null; }};
+view.onpointermove = e => {{
+  const steps = from === null ? 0 : Math.trunc((from - e.clientX) / 15);
+  if (steps) {{ turn(steps); from = e.clientX; }}
+}};
+document.onkeydown = e => turn(e.key === "ArrowLeft" ? -1 : e.key === "ArrowRight" ? 1 : 0);
+turn(0);
+</script></body></html>
+"""
 
 
-def show_picture(png, path=None):
-    """Shows a picture in a notebook, or by the system's viewer; without either, writes it to a file and says where."""
-    if "ipykernel" in sys.modules:
-        from IPython.display import Image, display
-        return display(Image(data=png))
+def viewer_page(pictures, title):
+    """A page that holds pictures from all around a part, and turns it as one drags."""
+    frames = ",\n".join('"' + base64.b64encode(picture).decode("ascii") + '"' for picture in pictures)
+    return _page.format(title=html.escape(title), frames=frames)
+
+
+def _in_notebook():
+    return "ipykernel" in sys.modules
+
+
+def _has_display():
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def _write(path, data):
+    with open(path, "wb") as file:
+        file.write(data)
+    print(f"written to {path}", file=sys.stderr)
+
+
+def show(design, path=None, **options):
+    """Shows a design: in a notebook its picture, with a display a page in the browser that turns it, else a file.
+
+    `path`, or the environment variable OMBRE_RENDER, names a .png or .html file to write in any case.
+    """
     path = path or os.environ.get("OMBRE_RENDER")
-    opener = shutil.which("xdg-open") if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") else None
-    if not path and not opener:
-        path = "ombre.png"
     if path:
-        with open(path, "wb") as file:
-            file.write(png)
-        print(f"written to {path}", file=sys.stderr)
-        return None
-    with tempfile.NamedTemporaryFile(prefix="ombre_", suffix=".png", delete=False) as file:
-        file.write(png)
-    subprocess.Popen([opener, file.name], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        is_page = str(path).lower().endswith((".html", ".htm"))
+        return _write(path, design.view(**options).encode() if is_page else design.render(**options))
+    if _in_notebook():
+        from IPython.display import Image, display
+        return display(Image(data=design.render(**options)))
+    if not _has_display():
+        return _write("ombre.png", design.render(**options))
+    with tempfile.NamedTemporaryFile("w", prefix="ombre_", suffix=".html", delete=False, encoding="utf-8") as file:
+        file.write(design.view(**options))
+    webbrowser.open("file://" + file.name)
     return None

@@ -1,4 +1,4 @@
-"""Viewer and exporter of pyvcad's scripts, without windows.
+"""Viewer and exporter of pyvcad's scripts.
 
 Neither fails where there is no display. When Ombre runs a script for its design (`ombre slice part.py`), both only
 take note of what they were given.
@@ -11,7 +11,6 @@ from typing import Any
 
 import ombre
 from ombre._script import is_hosted, take_note
-from ombre._show import show_picture
 from pyvcad._materials import expect_table
 from pyvcad._tree import as_node
 
@@ -24,15 +23,15 @@ _jobs = {".stl": "mesh", ".obj": "mesh", ".ply": "mesh", ".off": "mesh", ".amf":
 
 
 def Render(root: Any, materials: Any = None, path: str | os.PathLike[str] | None = None, **options: Any) -> None:
-    """Shows a picture.
+    """Shows a part.
 
-    In a notebook it appears there; with a display, in the system's viewer; else it is written to `path`, to the file
-    that the environment variable OMBRE_RENDER names, or to ombre.png.
+    In a notebook its picture appears there; with a display, a page in the browser turns it; else a picture is written
+    to ombre.png. `path`, or the environment variable OMBRE_RENDER, names a .png or .html file to write in any case.
 
     Args:
         root: a node.
         materials: a MaterialDefs; without it the default ones.
-        path: writes the picture there.
+        path: writes the picture or the page there.
         **options: of `ombre render`: view, size, cut, legend, ...
     """
     expect_table("Render", materials)
@@ -40,7 +39,7 @@ def Render(root: Any, materials: Any = None, path: str | os.PathLike[str] | None
         take_note(as_node(root), materials)
         return
     design = as_node(root)._ombre_design_(materials)
-    show_picture(design.render(**options), None if path is None else os.fspath(path))
+    design.show(None if path is None else os.fspath(path), **options)
 
 
 def Export(root: Any, materials: Any = None, path: str | os.PathLike[str] | None = None, **options: Any) -> None:
