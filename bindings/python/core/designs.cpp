@@ -27,7 +27,8 @@ void each_function(const Data& data, const F& f) {
 // Raises what a function of the node or of those below it raised; `path` leads to the node.
 void raise_below(const design::Node& node, const std::string& path, std::unordered_set<const design::Node*>& seen) {
   if (!seen.insert(&node).second) return;
-  const std::string here = path + " > " + node.type().name;
+  std::string here = path;
+  here.append(" > ").append(node.type().name);
   for (size_t i = 0; i < node.type().parameters.size(); ++i)
     each_function(node.type().get(node, i, false), [&](const HostFunction& f) { f.raise_failure(here); });
   for (const design::NodePtr& input : node.inputs()) raise_below(*input, here, seen);
