@@ -93,8 +93,9 @@ NodeHandle make_node(const FactoryPtr& factory, const std::string& type, const p
   compile::NodeFactory::Arguments arguments;
   for (const py::handle value : positional) arguments.emplace_back("", to_data(value, where, type));
   for (const auto& [key, value] : named) {
-    const auto parameter = key.cast<std::string>();
-    arguments.emplace_back(parameter, to_data(value, where, parameter + " of " + type));
+    auto parameter = key.cast<std::string>();
+    Data data = to_data(value, where, parameter);
+    arguments.emplace_back(std::move(parameter), std::move(data));
   }
   std::vector<design::NodePtr> nodes;
   for (const NodeHandle& input : inputs) {
