@@ -322,6 +322,7 @@ def test_progress_is_told(tmp_path, monkeypatch):
 
     def fail(share):
         raise RuntimeError("enough")
+    part.slice("slow", progress=True, voxel=0.011, layers=":200", threads=1, force=True)
     if told:  # there was time to tell
         with pytest.raises(RuntimeError, match="enough"):
             part.slice("slow", progress=fail, voxel=0.011, threads=1, force=True)

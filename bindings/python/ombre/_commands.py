@@ -75,23 +75,38 @@ class Report(dict):
         self.events = events
 
 
-def _progress_bar(progress):
-    """A function for the job's events, from True (tqdm where it is installed), a function, or None."""
-    if progress is None or progress is False:
-        return None
-    if callable(progress):
-        return lambda event: progress(event["voxels_done"] / max(event["voxels_total"], 1))
-    try:
-        from tqdm.auto import tqdm
-    except ImportError:
-        return lambda event: print(f"\r{100 * event['voxels_done'] / max(event['voxels_total'], 1):3.0f}%",
-                                   end="", file=sys.stderr, flush=True)
-    bar = tqdm(unit=" voxels", unit_scale=True)
+class _Progress:
+    """Tells how far a job is: by tqdm where it is installed, by a function of the share that is done, or not at all."""
 
-    def update(event):
-        bar.total = event["voxels_total"]
-        bar.update(event["voxels_done"] - bar.n)
-    return update
+    def __init__(self, progress):
+        self._tell = progress if callable(progress) else None
+        self._bar = self._new_bar() if progress is True else None
+        self._is_plain = progress is True and self._bar is None
+
+    @staticmethod
+    def _new_bar():
+        try:
+            from tqdm.auto import tqdm
+        except ImportError:
+            return None
+        return tqdm(unit=" voxels", unit_scale=True)
+
+    def update(self, done, total):
+        if self._tell:
+            self._tell(done / max(total, 1))
+        elif self._bar is not None:
+            self._bar.total = total
+            self._bar.update(done - self._bar.n)
+        elif self._is_plain:
+            print(f"\r{100 * done / max(total, 1):3.0f}%", end="", file=sys.stderr, flush=True)
+
+    def close(self, is_complete):
+        if self._bar is not None:
+            if is_complete and self._bar.total:
+                self._bar.update(self._bar.total - self._bar.n)
+            self._bar.close()
+        elif self._is_plain:
+            print(file=sys.stderr)
 
 
 def run(command, arguments, options, design=None, progress=None):
@@ -100,15 +115,19 @@ def run(command, arguments, options, design=None, progress=None):
     Raises DesignError, MachineError, CheckError, KeyboardInterrupt.
     """
     events = []
-    show = _progress_bar(progress)
+    shown = _Progress(progress)
 
     def take(event):
         if event["event"] != "progress":
             events.append(event)
-        elif show:
-            show(event)
+        else:
+            shown.update(event["voxels_done"], event["voxels_total"])
     words = [command, *([] if design is None else ["design"]), *arguments, *_arguments(command, options)]
-    code, data = _core.run_command(words, design, take)
+    code = None
+    try:
+        code, data = _core.run_command(words, design, take)
+    finally:
+        shown.close(code == 0)
     messages = [e for e in events if e["event"] == "message"]
     if code == 130:
         raise KeyboardInterrupt
