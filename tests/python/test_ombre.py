@@ -6,6 +6,7 @@ import json
 import math
 import pathlib
 import pickle
+import re
 import subprocess
 import sys
 import threading
@@ -124,6 +125,15 @@ def test_same_design_in_every_language(tmp_path, run_program):
         assert names == sorted(p.name for p in (tmp_path / other).glob("*.png"))
         for name in names:
             assert (tmp_path / "vcad" / name).read_bytes() == (tmp_path / other / name).read_bytes()
+
+
+def test_the_knob_of_the_readme_is_the_same_in_both_languages(tmp_path):
+    text = (pathlib.Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    script = re.search(r"```openscad\n(.*?)```", text, re.DOTALL)[1]
+    python = re.search(r"```python\n(.*?)```", text, re.DOTALL)[1]
+    (tmp_path / "knob.vcad").write_text(script)
+    (tmp_path / "knob.py").write_text(python.replace("knob.slice", "root = knob\n# "))
+    assert ombre.load(tmp_path / "knob.vcad") == ombre.load(tmp_path / "knob.py")
 
 
 def test_designs_pickle_hash_and_compare(tmp_path):
