@@ -4,6 +4,7 @@ import gc
 import importlib
 import json
 import math
+import os
 import pathlib
 import pickle
 import re
@@ -394,7 +395,7 @@ def test_import_needs_no_display_and_little_time():
         start = time.process_time()
         used = subprocess.run([sys.executable, "-c", "import resource, numpy; a = resource.getrusage(0).ru_utime;"
                                "import ombre; print(resource.getrusage(0).ru_utime - a)"],
-                              env={**__import__("os").environ, "DISPLAY": ""}, capture_output=True, text=True, check=True)
+                              env={**os.environ, "DISPLAY": ""}, capture_output=True, text=True, check=True)
         best = min(best, float(used.stdout))
         assert time.process_time() - start < 5
     assert best < 1  # 0.02 s on an idle machine: this is no measurement
@@ -414,6 +415,22 @@ def test_scripts_on_the_command_line(tmp_path, run_program):
     run_program("run", "part.py", "--", "slice", "--voxel", "0.5", "-o", "layers")
     assert (tmp_path / "part.stl").exists() and (tmp_path / "layers" / "job.json").exists()
     assert "write -- before" in run_program("run", "part.py", "-o", "x", status=1).stderr
+
+
+def test_the_program_becomes_python(tmp_path):
+    program = os.environ.get("OMBRE_PROGRAM")
+    if not program:
+        pytest.skip("OMBRE_PROGRAM does not name the program")
+    (tmp_path / "part.py").write_text("import ombre\nroot = ombre.sphere(2)\n")
+
+    def run(*arguments, **environment):
+        return subprocess.run([program, *arguments], cwd=tmp_path, capture_output=True, text=True, timeout=60,
+                              env={**os.environ, "OMBRE_PYTHON": sys.executable, **environment})
+    assert "inside" in run("probe", "part.py", "--at", "0,0,1.9").stdout
+    assert run("slice", "part.py", "--voxel", "0.5", "-o", "layers").returncode == 0
+    assert run("slice", "part.py", OMBRE_PYTHON="/nowhere/python").returncode == 2
+    lost = run("probe", "part.py", "--at", "0,0,0", OMBRE_PYTHON="/nowhere/python").stderr
+    assert "cannot run /nowhere/python" in lost
 
 
 # Texts.
@@ -448,7 +465,7 @@ def test_types(tmp_path):
 
     def check(file):
         return subprocess.run([sys.executable, "-m", "mypy", "--follow-imports=silent", file], cwd=tmp_path, capture_output=True, text=True,
-                              env={**__import__("os").environ, "MYPYPATH": str(package)})
+                              env={**os.environ, "MYPYPATH": str(package)})
     assert check("good.py").returncode == 0, check("good.py").stdout
     assert check("bad.py").stdout.count("error:") == 2
     for name in ("pyvcad", "pyvcad_compilers", "pyvcad_rendering", "pyvcadviz"):
