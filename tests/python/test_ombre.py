@@ -355,6 +355,15 @@ def test_interrupts_stop_jobs(tmp_path):
     assert out == "stopped\nwent on\n"
 
 
+def test_python_may_exit_during_a_job(tmp_path):
+    code = ("import ombre, threading, time\n"
+            "part = ombre.sphere(5)\n"
+            "threading.Thread(target=lambda: part.slice('layers', voxel=0.005), daemon=True).start()\n"
+            "time.sleep(0.3)\n")
+    result = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert result.returncode == 0, result.stderr
+
+
 # Behaviour as a library.
 
 def test_threads_may_sample_at_once():

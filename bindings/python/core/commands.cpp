@@ -70,11 +70,17 @@ class StopAtEnd {
 
 // The events since the last call, waiting for some a little while; false once the command has ended.
 bool next_events(RunningCommand& command, std::deque<DataMembers>& events) {
-  const py::gil_scoped_release unlocked;
-  std::unique_lock lock(command.mutex);
-  command.changed.wait_for(lock, signal_interval, [&] { return command.is_done || !command.events.empty(); });
-  events.swap(command.events);
-  return !command.is_done;
+  // Not by a guard: when Python exits it ends this thread in RestoreThread, which no destructor would survive.
+  PyThreadState* const state = PyEval_SaveThread();
+  bool is_running = true;
+  {
+    std::unique_lock lock(command.mutex);
+    command.changed.wait_for(lock, signal_interval, [&] { return command.is_done || !command.events.empty(); });
+    events.swap(command.events);
+    is_running = !command.is_done;
+  }
+  PyEval_RestoreThread(state);
+  return is_running;
 }
 
 // Waits for the end, and hands events over as they come. Raises what `on_event` raises, and KeyboardInterrupt, once
