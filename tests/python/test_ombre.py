@@ -66,6 +66,19 @@ def test_operators_and_chains():
     assert ombre.translate([a, b], (1, 0, 0)).type == "translate"
 
 
+def test_chains_are_one_node():
+    a, b, c = ombre.cube(4, "red"), ombre.cube(4, "blue"), ombre.cube(4, "green")
+    assert (a | b | c) == ombre.union(a, b, c) and (a | (b | c)) == ombre.union(a, ombre.union(b, c))
+    assert (a & b & c) == ombre.intersection(a, b, c) and (a - b - c) == ombre.difference(a, b, c)
+    assert (ombre.union(a, b) | c) == ombre.union(ombre.union(a, b), c)  # as it was written
+    assert (a - b | c) == ombre.union(ombre.difference(a, b), c)
+    assert (a | b | c).material([0, 0, 0])["red"] == pytest.approx(1 / 3)
+    row = ombre.sphere(1)
+    for n in range(2000):
+        row = row | ombre.sphere(1).translate(x=3 * n)
+    assert row.inside([3 * 1999, 0, 0.9]) and len(row.inputs) == 2001
+
+
 def test_vectors_come_in_many_forms():
     forms = [(1, 2, 3), [1, 2, 3], numpy.array([1, 2, 3]), numpy.array([1, 2, 3], dtype=numpy.float32)]
     assert len({ombre.sphere(1).translate(v).hash for v in forms}) == 1

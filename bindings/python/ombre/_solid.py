@@ -26,7 +26,7 @@ def wrap(node):
     """The solid that stands for a node."""
     solid = object.__new__(_classes.get(node.type, Solid))
     solid._node = node
-    solid._design = None
+    solid._design = solid._operands = None
     return solid
 
 
@@ -68,21 +68,31 @@ def make(name, info, positional, named):
         raise error.with_traceback(None) from None
 
 
+def _chained(name, left, right):
+    """`a | b | c` is one union of three, however long the chain: nested ones would soon be too deep."""
+    chain = left._operands if left._operands and left.type == name else [left._node]
+    operands = [*chain, *_nodes(right)]
+    solid = wrap(operands[0].factory.make(name, (), {}, operands, _place.get()))
+    solid._operands = operands
+    return solid
+
+
 class Solid:
     """A solid whose material may vary: what every node gives. It never changes; operations give new ones.
 
-    `a | b` is their union, `a & b` their intersection, `a - b` their difference, and `a + (x, y, z)` is `a` moved.
+    `a | b` is their union, `a & b` their intersection, `a - b` their difference, and `a + (x, y, z)` is `a` moved. A
+    chain such as `a | b | c` is one union of three.
     Every operation is a method too: `sphere(10).translate(z=3)`.
     """
 
-    __slots__ = ("_node", "_design")
+    __slots__ = ("_node", "_design", "_operands")
     _info = None
 
     def __init__(self, *arguments, **named):
         if self._info is None:
             raise TypeError("a Solid is made by its node: ombre.sphere(5), ombre.cube(10), ...")
         self._node = make(self._info["name"], self._info, arguments, named)
-        self._design = None
+        self._design = self._operands = None
 
     # What it is.
 
@@ -138,19 +148,19 @@ class Solid:
     # Operators.
 
     def __or__(self, other):
-        return _classes["union"](self, other) if _is_solid(other) else NotImplemented
+        return _chained("union", self, other) if _is_solid(other) else NotImplemented
 
     def __and__(self, other):
-        return _classes["intersection"](self, other) if _is_solid(other) else NotImplemented
+        return _chained("intersection", self, other) if _is_solid(other) else NotImplemented
 
     def __sub__(self, other):
         if _is_solid(other):
-            return _classes["difference"](self, other)
+            return _chained("difference", self, other)
         return self.translate(-numpy.asarray(other, dtype=float)) if _is_vector(other) else NotImplemented
 
     def __add__(self, other):
         if _is_solid(other):
-            return _classes["union"](self, other)
+            return _chained("union", self, other)
         return self.translate(numpy.asarray(other, dtype=float)) if _is_vector(other) else NotImplemented
 
     def __invert__(self):
