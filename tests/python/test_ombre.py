@@ -228,7 +228,8 @@ def test_functions_that_fail(function, cause):
             raise AssertionError(repr(failure.value.__cause__))
         assert len(failure.value.point) == 3
         assert failure.value.path == "part > function" and failure.value.place[0] == __file__
-    assert ombre.cube(1).distance([0, 0, 0]) == -0.5  # others go on
+    assert part.bounds == ((0, 0, 0), (1, 1, 1))  # what failed can still be used, and others go on
+    assert ombre.cube(1).distance([0, 0, 0]) == -0.5
 
 
 def test_functions_may_end_the_program():
@@ -411,16 +412,10 @@ def test_nodes_do_not_leak():
     assert memory_kb() - before < 10_000
 
 
-def test_import_needs_no_display_and_little_time():
-    best = math.inf
-    for _ in range(5):
-        start = time.process_time()
-        used = subprocess.run([sys.executable, "-c", "import resource, numpy; a = resource.getrusage(0).ru_utime;"
-                               "import ombre; print(resource.getrusage(0).ru_utime - a)"],
-                              env={**os.environ, "DISPLAY": ""}, capture_output=True, text=True, check=True)
-        best = min(best, float(used.stdout))
-        assert time.process_time() - start < 5
-    assert best < 1  # 0.02 s on an idle machine: this is no measurement
+def test_import_needs_no_display():
+    without = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    subprocess.run([sys.executable, "-W", "error", "-c", "import ombre, pyvcad, pyvcadviz, pyvcad_compilers"],
+                   env=without, check=True, timeout=60)
 
 
 def test_scripts_on_the_command_line(tmp_path, run_program):

@@ -278,7 +278,6 @@ void add_designs(py::module_& module) {
       .def("to_json", &to_json)
       .def("tree", [](const DesignHandle& h) { return design::to_tree(h.design()); })
       .def("hash", [](const DesignHandle& h) { return design::hash(h.design()).hex(); })
-      .def("has_functions", [](const DesignHandle& h) { return design::find_host_function(h.design()) != nullptr; })
       .def_property_readonly("bounds", &bounds)
       .def_property_readonly("sampling", &sampling)
       .def_property_readonly("attributes", [](const DesignHandle& h) { return compile::attribute_names(h.design()); })

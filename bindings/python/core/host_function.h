@@ -3,8 +3,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include <mutex>
-
 #include "base/source_text.h"
 #include "program/field_source.h"
 
@@ -21,7 +19,6 @@ class HostFunction : public program::FieldSource {
   HostFunction& operator=(const HostFunction&) = delete;
 
   const py::object& callable() const { return callable_; }
-  const SourceRange& where() const { return where_; }
 
   std::string name() const override { return name_; }
   Hash content() const override { return identity_; }
