@@ -108,9 +108,13 @@ void tell_report(const Console& console, const compile::SliceRequest& request, c
 }
 
 void tell_checks(const Console& console, const std::vector<compile::CheckReport>& checks) {
-  for (const compile::CheckReport& check : checks)
+  for (const compile::CheckReport& check : checks) {
+    console.event("check", {{"text", check.text},
+                            {"voxels", number(check.voxels)},
+                            {"first_mm", DataList{check.first_mm.x, check.first_mm.y, check.first_mm.z}}});
     console.warn(check.text + " (" + counted(static_cast<int64_t>(check.voxels), "voxel") + ", the lowest at " +
                  mm_text(check.first_mm) + " mm)");
+  }
 }
 
 }  // namespace ombre::cli

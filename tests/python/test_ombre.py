@@ -294,6 +294,17 @@ def test_errors_name_the_line():
     assert diagnostic["file"] == __file__ and "ombre.sphere(radus=3)" in str(error.value)
 
 
+def test_failed_checks_name_the_node_and_the_point(tmp_path):
+    part = ombre.cube(2).grade({"red": "x > 0", "blue": 0})  # no material where x is 0 or less
+    with pytest.raises(ombre.CheckError, match="fgrade are all zero") as error:
+        part.slice(tmp_path / "strict", voxel=0.5, strict=True)
+    assert error.value.point == (-0.75, -0.75, -0.75)
+    assert error.value.checks[0]["voxels"] > 0 and pathlib.Path(__file__).name in error.value.checks[0]["text"]
+    with pytest.warns(ombre.DesignWarning, match="fgrade are all zero"):
+        report = part.slice(tmp_path / "layers", voxel=0.5)
+    assert report["voxels"] == [4, 4, 4]
+
+
 def test_deep_chains_are_refused():
     part = ombre.cube(1)
     with pytest.raises(ombre.DesignError, match="deeper than 400"):

@@ -70,7 +70,7 @@ class Report(dict):
     """What a job told: the members of its last event, and all `events`."""
 
     def __init__(self, events):
-        last = [e for e in events if e["event"] not in ("progress", "message")]
+        last = [e for e in events if e["event"] not in ("progress", "message", "check")]
         super().__init__({k: v for event in last for k, v in event.items() if k != "event"})
         self.events = events
 
@@ -133,7 +133,10 @@ def run(command, arguments, options, design=None, progress=None):
         raise KeyboardInterrupt
     if code:
         text = "\n".join(_message_text(m) for m in messages if m["severity"] != "warning" or code == 3)
-        raise {1: DesignError, 3: CheckError}.get(code, MachineError)(text or f"{command} failed with code {code}")
+        error = {1: DesignError, 3: CheckError}.get(code, MachineError)(text or f"{command} failed with code {code}")
+        if code == 3:
+            error.checks = [{k: v for k, v in e.items() if k != "event"} for e in events if e["event"] == "check"]
+        raise error
     for message in messages:
         if message["severity"] == "warning":
             warnings.warn(_message_text(message), DesignWarning, stacklevel=3)

@@ -22,7 +22,17 @@ class MachineError(OSError):
 
 
 class CheckError(DesignError):
-    """A check of a strict job failed."""
+    """A check of a strict job failed.
+
+    `checks` lists what failed: dictionaries with text (which begins with the place of the node in the script), voxels
+    (how many) and first_mm (the lowest point). `point` is that of the first one.
+    """
+
+    checks = ()
+
+    @property
+    def point(self):
+        return tuple(self.checks[0]["first_mm"]) if self.checks else None
 
 
 class FunctionError(DesignError):

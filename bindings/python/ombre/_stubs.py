@@ -33,7 +33,9 @@ class DesignError(ValueError):
     def __init__(self, message: str, diagnostics: Sequence[dict[str, Any]] = ...) -> None: ...
 
 class MachineError(OSError): ...
-class CheckError(DesignError): ...
+class CheckError(DesignError):
+    checks: Sequence[dict[str, Any]]
+    point: Optional[tuple[float, float, float]]
 
 class FunctionError(DesignError):
     point: Optional[tuple[float, float, float]]
