@@ -77,9 +77,15 @@ def current_factory():
 
 
 @contextlib.contextmanager
-def using(factory):
-    token = _current.set(factory)
+def setting(variable, value):
+    """Within, the context variable has the value."""
+    token = variable.set(value)
     try:
         yield
     finally:
-        _current.reset(token)
+        variable.reset(token)
+
+
+def using(factory):
+    """Within, solids name the materials of the factory."""
+    return setting(_current, factory)

@@ -1,25 +1,19 @@
 """Solids: nodes of a design, with what can be asked of them and done with them."""
-import contextlib
 import contextvars
 
 import numpy
 
 from . import _core
 from ._functions import adapt
-from ._materials import current_factory
+from ._materials import current_factory, setting
 
 _classes = {}  # by the name of the node
 _place = contextvars.ContextVar("ombre_place", default=None)
 
 
-@contextlib.contextmanager
 def made_at(place):
     """Within, solids count as made at this (file, line): for packages that make them for somebody else's script."""
-    token = _place.set(place)
-    try:
-        yield
-    finally:
-        _place.reset(token)
+    return setting(_place, place)
 
 
 def wrap(node):
