@@ -77,7 +77,7 @@ LoadedPtr load_design(const std::string& path, const LoadOptions& options, Diagn
   const SourcePtr source = read_source(path);
   auto design = ends_with(path, ".json") ? read_json_design(source, options, diagnostics)
                                          : run_script(source, options, diagnostics);
-  if (!design || diagnostics.has_errors()) return nullptr;
+  if (!design || diagnostics.has_errors() || !design::check_cells(*design, diagnostics)) return nullptr;
   return std::make_shared<const Loaded>(Loaded{path, source, std::move(*design)});
 }
 

@@ -106,6 +106,26 @@ const Node* find_host_function(const Design& design) {
   return nullptr;
 }
 
+bool check_cells(const Design& design, Diagnostics& diagnostics) {
+  bool good = true;
+  for (const Part& part : design.parts) {
+    const Node* user = part.solid.get();
+    if (!user->uses_cell()) continue;
+    const auto uses_cell = [](const NodePtr& input) { return input->uses_cell(); };
+    for (;;) {
+      const auto inputs = user->inputs();
+      const auto next = std::ranges::find_if(inputs, uses_cell);
+      if (next == inputs.end()) break;
+      user = next->get();
+    }
+    diagnostics.error(user->where(),
+                      user->type().name + " uses the index of a cell (ci, cj, ck), and nothing repeats it",
+                      "put it into tile(...) { ... }");
+    good = false;
+  }
+  return good;
+}
+
 namespace {
 
 class TreePrinter {

@@ -1,6 +1,7 @@
 // What nodes lower to.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -26,19 +27,29 @@ struct Composition {
 // (a blend, a complement) makes points inside that were outside.
 enum class Demand : uint8_t { inside, everywhere };
 
+// How strongly solids are felt beyond their surfaces, by which they are joined smoothly.
+struct Falloff {
+  std::function<Field(Field distance, const Point& p)> weight;  // 0 from reach_mm on
+  double reach_mm = 0;
+};
+
 // What is asked of the parts besides "inside".
 enum class PartQuery : uint8_t {
   interior,  // only whether a point is inside and not on the surface; nothing else
   mix,       // of the composition: sums over the parts that hold the point, and their number
   first,     // the composition of the first part that holds the point
   last,
+  along,  // the place along the first part that holds the point
 };
 
 // Parts at a point, as fields.
 struct PartFields {
-  Field inside;                    // or interior
-  Field count;                     // of mix: how many hold the point
-  Composition composition;         // of mix: sums of fractions; checks where they are 1
+  Field inside;             // or interior
+  Field count;              // of mix: how many hold the point
+  Composition composition;  // of mix: sums of fractions; checks where they are 1
+  Field along;
+  Field weight;                    // with a falloff: the sum of the weights
+  Composition weighed;             // the same, with fractions times weights
   std::vector<size_t> others;      // inputs that are not among the parts
   std::optional<MaterialId> only;  // all parts are of this one material, and nothing can be wrong
 };

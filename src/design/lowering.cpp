@@ -83,6 +83,7 @@ Lowering::Key Lowering::key_of(const Node& node, const Point& p, Query query) {
 }
 
 LoweringContext::Body* Lowering::body_for(const Node& node) {
+  if (node.uses_cell()) return nullptr;  // bodies know no cell
   return &node != own_ && !stands_alone_ && context_.is_shared(node) ? &context_.body_of(node) : nullptr;
 }
 
@@ -127,6 +128,20 @@ Field Lowering::make_interior(const Node& node, const Point& p) {
   if (const auto own = node.interior(Inputs(node, this), p)) return *own;
   if (const auto inner = node.inner(p)) return interior(*node.inputs()[0], *inner);
   return distance(node, p) < 0;
+}
+
+Field Lowering::along(const Node& node, const Point& p) {
+  if (auto* body = body_for(node)) return body->call("t", body->lowering.along(node, body->frame()), p);
+  if (const auto own = node.along(Inputs(node, this), p)) return *own;
+  if (const auto inner = node.inner(p)) return along(*node.inputs()[0], *inner);
+  // Of several, the first that is made of struts and holds the point.
+  Field result;
+  for (size_t i = node.inputs().size(); i-- > 0;) {
+    const Node& input = *node.inputs()[i];
+    if (!input.has_along()) continue;
+    result = result ? select(inside(input, p), along(input, p), result) : along(input, p);
+  }
+  return result ? result : p.constant(0);
 }
 
 Field Lowering::make_value(const Node& node, const Point& p) { return node.value(Inputs(node, this), p); }
@@ -198,11 +213,12 @@ uint32_t Lowering::add_check(const Node& node, const std::string& message) {
   return static_cast<uint32_t>(local_checks_.size() - 1);
 }
 
-std::optional<PartFields> Lowering::many_parts(const Node& node, PartQuery query, const Point& p) {
+std::optional<PartFields> Lowering::many_parts(const Node& node, const PartList& list, PartQuery query, const Point& p,
+                                               const Falloff* falloff) {
   if (stands_alone_) return std::nullopt;  // tables do not hold tables
   // The parts take the frame in, so that they are asked at the program's own inputs.
   const auto map = p.from_inputs();
-  const ManyParts* parts = context_.many_parts(node, query, map.value_or(Affine{}));
+  const ManyParts* parts = context_.many_parts(node, list, query, map.value_or(Affine{}), falloff);
   if (!parts) return std::nullopt;
   return parts->at(map ? Point::origin_frame(builder_) : p);
 }

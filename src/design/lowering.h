@@ -32,9 +32,10 @@ class LoweringContext {
   const std::vector<Check>& checks() const { return checks_; }
   const std::vector<AttributeDeclaration>& attributes() const { return attributes_; }
   uint32_t register_check(const Node& node, const std::string& message);
-  // The node's inputs as a table, placed in the frame of the program that will hold it; null if they are
+  // Parts of the node as a table, placed in the frame of the program that will hold it; null if they are
   // few, or most do not go into one.
-  const ManyParts* many_parts(const Node& node, PartQuery query, const Affine& node_from_program);
+  const ManyParts* many_parts(const Node& node, const PartList& list, PartQuery query, const Affine& node_from_program,
+                              const Falloff* falloff);
   // Writes the code of the bodies into their programs; call it when nothing more will be lowered.
   void finish_bodies();
 
@@ -52,7 +53,7 @@ class LoweringContext {
   std::map<std::pair<const Node*, std::string>, bool> carries_;  // does a node have an attribute?
   std::unordered_map<const Node*, std::unique_ptr<Body>> bodies_;
   std::vector<Body*> body_order_;
-  using PartsKey = std::tuple<const Node*, PartQuery, std::array<double, 12>>;
+  using PartsKey = std::tuple<const Node*, PartQuery, bool, std::array<double, 12>>;
   std::map<PartsKey, std::unique_ptr<ManyParts>> many_parts_;
 };
 
@@ -68,9 +69,11 @@ class Lowering {
   Composition composition(const Node& node, const Point& p, Demand demand);
   Field attribute(const Node& node, std::string_view name, const Point& p, Demand demand);
   Field value(const Node& node, const Point& p);
+  Field along(const Node& node, const Point& p);
 
-  // Inputs of a node as many parts; nothing if they are few.
-  std::optional<PartFields> many_parts(const Node& node, PartQuery query, const Point& p);
+  // Parts of a node as rows of a table; nothing if they are few. A node has one list and one falloff.
+  std::optional<PartFields> many_parts(const Node& node, const PartList& list, PartQuery query, const Point& p,
+                                       const Falloff* falloff);
   // From here on, nodes that are used more than once are not called as bodies, and checks are kept here
   // instead of in the context: for sub-programs that stand for themselves.
   void write_bodies_out() { stands_alone_ = true; }

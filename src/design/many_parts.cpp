@@ -1,4 +1,4 @@
-// Lowers the inputs of a node one by one into the rows of a table.
+// Lowers the parts of a node one by one into the rows of a table.
 #include "design/many_parts.h"
 
 #include <cmath>
@@ -24,41 +24,59 @@ constexpr size_t most_pieces = 8, most_pieces_together = 2'000'000;
 
 class PartsMaker {
  public:
-  PartsMaker(LoweringContext& context, PartQuery query, const Affine& node_from_program)
+  PartsMaker(LoweringContext& context, const Node& node, const PartList& list, PartQuery query,
+             const Affine& node_from_program, const Falloff* falloff)
       : context_(context),
+        node_(node),
+        list_(list),
         query_(query),
+        falloff_(falloff),
         node_from_program_(node_from_program),
         program_from_node_(inverse(node_from_program)) {
-    set_->slots.push_back(SlotKind::any);
-    if (query == PartQuery::mix) {
-      made_.count_slot = set_->slots.size();
-      set_->slots.push_back(SlotKind::sum);
-    }
+    new_slot(SlotKind::any);
+    if (query == PartQuery::mix) made_.count_slot = new_slot(SlotKind::sum);
+    if (query == PartQuery::along) made_.along_slot = new_slot(SlotKind::first);
+    if (falloff) made_.weight_slot = new_slot(SlotKind::sum);
   }
 
-  ManyParts make(const Node& node) {
-    const auto parts = static_cast<double>(node.inputs().size());
-    for (program::PartTable* table : {&set_->reference, &set_->batch}) table->expect(node.inputs().size());
-    most_pieces_ = std::clamp(most_pieces_together / node.inputs().size(), size_t{1}, most_pieces);
-    set_->index.expect(node.inputs().size(), node.inputs().size() * most_pieces_);
+  ManyParts make() {
+    const size_t count = list_.count();
+    for (program::PartTable* table : {&set_->reference, &set_->batch}) table->expect(count);
+    most_pieces_ = std::clamp(most_pieces_together / count, size_t{1}, most_pieces);
+    set_->index.expect(count, count * most_pieces_);
     // Half the distance from part to part, about.
-    const Vec3 size = image(program_from_node_, node.bounds(design_space())).size();
-    finest_ = 0.5 * std::cbrt(size.x * size.y * size.z / parts);
-    for (size_t i = 0; i < node.inputs().size(); ++i)
-      if (!add(*node.inputs()[i])) made_.others.push_back(i);
+    const Vec3 size = image(program_from_node_, node_.bounds(design_space())).size();
+    finest_ = 0.5 * std::cbrt(size.x * size.y * size.z / static_cast<double>(count));
+    for (size_t i = 0; i < count; ++i)
+      if (!add(i)) made_.others.push_back(i);
     set_->index.build();
-    set_ranges(node.inputs().size());
-    if (is_one_material_ && part_count_ > 0 && query_ != PartQuery::interior) made_.only = material_;
-    made_.material_slots.assign(material_slots_.begin(), material_slots_.end());
-    for (const auto& [type, check] : checks_) made_.check_slots.emplace_back(check);
+    set_ranges(count);
+    if (is_one_material_ && part_count_ > 0 && asks_composition()) made_.only = material_;
+    held_.finish(made_.held);
+    weighed_.finish(made_.weighed);
     made_.set = std::move(set_);
     return std::move(made_);
   }
 
  private:
-  // False: the input does not go into a table.
-  bool add(const Node& part) {
-    const Box bounds = part.bounds(design_space());
+  // The slots of a kind of composition while parts are added.
+  struct Slots {
+    std::map<MaterialId, size_t> materials;
+    std::map<const NodeType*, std::pair<uint32_t, size_t>> checks;
+
+    void finish(ManyParts::CompositionSlots& made) const {
+      made.materials.assign(materials.begin(), materials.end());
+      for (const auto& [type, check] : checks) made.checks.emplace_back(check);
+    }
+  };
+
+  bool asks_composition() const { return query_ != PartQuery::interior && query_ != PartQuery::along; }
+  Box reach(size_t part, const Box& where) const { return list_.reach(part, where, falloff_ ? falloff_->reach_mm : 0); }
+
+  // False: the part does not go into a table.
+  bool add(size_t part) {
+    if (list_.uses_cell(part)) return false;
+    const Box bounds = reach(part, design_space());
     const Vec3 size = bounds.size();
     if (bounds.is_empty() || std::max({size.x, size.y, size.z}) >= design_limit_mm) return false;
     const Box box = program::grown_for_rounding(image(program_from_node_, bounds));
@@ -66,13 +84,21 @@ class PartsMaker {
     builder_.clear();
     Lowering lowering(context_, builder_);
     lowering.write_bodies_out();
+    const Inputs in(node_, &lowering);
     const Point p = Point::origin_frame(builder_).mapped(node_from_program_);
-    const Field mark = query_ == PartQuery::interior ? lowering.interior(part, p) : lowering.inside(part, p);
+    const Field mark = query_ == PartQuery::interior ? list_.interior(in, part, p) : list_.inside(in, part, p);
+    const Field weight = falloff_ ? falloff_->weight(list_.distance(in, part, p), p) : Field();
     outputs_.assign(1, {"inside", mark});
     slots_.assign(1, 0);
-    if (query_ != PartQuery::interior) {
-      add_composition(lowering, part, mark, p);
-      add_checks(lowering, mark, box);
+    if (weight) add_output(made_.weight_slot, "weight", weight);
+    if (query_ == PartQuery::along) add_output(made_.along_slot, "t", list_.along(in, part, p));
+    if (query_ == PartQuery::mix) set_slot(made_.count_slot, 0);
+    if (asks_composition()) {
+      composition_ = list_.composition(in, part, p, weight ? Demand::everywhere : Demand::inside);
+      note_material();
+      add_fractions(mark, weight, p);
+      add_checks(lowering, held_, mark, box);
+      if (weight) add_checks(lowering, weighed_, less(p.constant(0), weight), box);
     }
     builder_.finish(outputs_, program_);
     if (!program_.reads.empty() || program_.has_parts()) return false;
@@ -80,7 +106,8 @@ class PartsMaker {
     sign_only(program_, workspace_, signs_);
     fuse(signs_, workspace_, batch_);
     add_to(set_->batch, batch_, box, program::Precision::batch);
-    outputs_.resize(1);
+    // Where it is felt.
+    outputs_.assign(1, {"inside", weight ? logical_or(mark, less(p.constant(0), weight)) : mark});
     builder_.finish(outputs_, inside_);
     add_pieces(part, program::PartIndex::rounded(box));
     ++part_count_;
@@ -117,7 +144,7 @@ class PartsMaker {
   }
 
   // Pieces of a part's box that share no inside. A strut that lies across its box fills little of it.
-  void add_pieces(const Node& part, const Box& whole) {
+  void add_pieces(size_t part, const Box& whole) {
     find_slices(part, whole);
     if (volume(whole) > 0.5 * volume_of_box(whole)) find_halves(whole);
     set_->index.add(whole, pieces_);
@@ -137,7 +164,7 @@ class PartsMaker {
   }
 
   // Slices across the longest side, as small as the node knows.
-  void find_slices(const Node& part, const Box& whole) {
+  void find_slices(size_t part, const Box& whole) {
     pieces_.clear();
     const int axis = longest_axis(whole);
     const double wished = std::ceil(whole.size()[axis] / finest_);
@@ -147,7 +174,7 @@ class PartsMaker {
       slice.first[static_cast<size_t>(axis)] = static_cast<uint8_t>(Cells::per_axis * n / count);
       slice.last[static_cast<size_t>(axis)] = static_cast<uint8_t>(Cells::per_axis * (n + 1) / count - 1);
       const Box box = slice.in(whole), wide = program::grown_for_rounding(box);
-      const Box tight = image(program_from_node_, part.bounds(image(node_from_program_, wide)));
+      const Box tight = image(program_from_node_, reach(part, image(node_from_program_, wide)));
       const Box reached = intersect(program::grown_for_rounding(tight), box);
       if (!reached.is_empty()) pieces_.push_back(common(slice, Cells::around(reached, whole)));
     }
@@ -192,31 +219,45 @@ class PartsMaker {
     slots_[slot] = static_cast<int>(output);
   }
 
-  void add_composition(Lowering& lowering, const Node& part, Field mark, const Point& p) {
-    composition_ = lowering.composition(part, p, Demand::inside);
-    if (query_ == PartQuery::mix) set_slot(made_.count_slot, 0);
-    for (const auto& [id, fraction] : composition_.fractions) {
-      set_slot(material_slot(id), outputs_.size());
-      // select, not a product: what a part says of a point outside of it may not be a number.
-      const Field term = query_ == PartQuery::mix ? select(mark, fraction, p.constant(0)) : fraction;
-      outputs_.emplace_back("fraction", term);
-    }
+  size_t new_slot(SlotKind kind) {
+    set_->slots.push_back(kind);
+    return set_->slots.size() - 1;
+  }
+
+  void add_output(size_t slot, const char* name, Field field) {
+    set_slot(slot, outputs_.size());
+    outputs_.emplace_back(name, field);
+  }
+
+  void note_material() {
     const bool one = composition_.fractions.size() == 1;
     if (one && part_count_ == 0) material_ = composition_.fractions[0].first;
     is_one_material_ = is_one_material_ && one && composition_.fractions[0].first == material_;
   }
 
-  size_t material_slot(MaterialId id) {
-    const auto [it, is_new] = material_slots_.try_emplace(id, set_->slots.size());
-    if (is_new)
-      set_->slots.push_back(query_ == PartQuery::mix     ? SlotKind::sum
-                            : query_ == PartQuery::first ? SlotKind::first
-                                                         : SlotKind::last);
+  void add_fractions(Field mark, Field weight, const Point& p) {
+    const SlotKind kind = query_ == PartQuery::mix     ? SlotKind::sum
+                          : query_ == PartQuery::first ? SlotKind::first
+                                                       : SlotKind::last;
+    const Field zero = p.constant(0);
+    for (const auto& [id, fraction] : composition_.fractions) {
+      // select, not a product: what a part says of a point outside of it may not be a number.
+      const Field term = query_ == PartQuery::mix ? select(mark, fraction, zero) : fraction;
+      add_output(material_slot(held_, id, kind), "fraction", term);
+      if (!weight) continue;
+      const Field weighed = select(truth(weight), fraction * weight, zero);
+      add_output(material_slot(weighed_, id, SlotKind::sum), "weighed", weighed);
+    }
+  }
+
+  size_t material_slot(Slots& slots, MaterialId id, SlotKind kind) {
+    const auto [it, is_new] = slots.materials.try_emplace(id, 0);
+    if (is_new) it->second = new_slot(kind);
     return it->second;
   }
 
   // Checks that cannot fail where the part is are left out; the others share one for each kind of node.
-  void add_checks(Lowering& lowering, Field mark, const Box& box) {
+  void add_checks(Lowering& lowering, Slots& slots, Field mark, const Box& box) {
     if (composition_.checks.empty()) return;
     program::Outputs marks;
     for (const auto& [number, bad] : composition_.checks) marks.emplace_back("check", logical_and(mark, bad));
@@ -227,22 +268,25 @@ class PartsMaker {
       if (values_[program.outputs[n]] == Interval(0)) continue;
       is_one_material_ = false;
       const Lowering::LocalCheck& check = lowering.local_checks()[composition_.checks[n].first];
-      set_slot(check_slot(check), outputs_.size());
+      set_slot(check_slot(slots, check), outputs_.size());
       outputs_.push_back(marks[n]);
     }
   }
 
-  size_t check_slot(const Lowering::LocalCheck& check) {
-    const auto known = checks_.find(&check.node->type());
-    if (known != checks_.end()) return known->second.second;
+  size_t check_slot(Slots& slots, const Lowering::LocalCheck& check) {
+    const auto known = slots.checks.find(&check.node->type());
+    if (known != slots.checks.end()) return known->second.second;
     const uint32_t number = context_.register_check(*check.node, check.message);
-    set_->slots.push_back(SlotKind::any);
-    checks_[&check.node->type()] = {number, set_->slots.size() - 1};
-    return set_->slots.size() - 1;
+    const size_t slot = new_slot(SlotKind::any);
+    slots.checks[&check.node->type()] = {number, slot};
+    return slot;
   }
 
   LoweringContext& context_;
+  const Node& node_;
+  const PartList& list_;
   PartQuery query_;
+  const Falloff* falloff_;
   Affine node_from_program_, program_from_node_;
   ManyParts made_;
   std::shared_ptr<program::PartSet> set_ = std::make_shared<program::PartSet>();
@@ -251,8 +295,7 @@ class PartsMaker {
   double finest_ = 0;
   size_t most_pieces_ = most_pieces;
   Composition composition_;
-  std::map<MaterialId, size_t> material_slots_;
-  std::map<const NodeType*, std::pair<uint32_t, size_t>> checks_;
+  Slots held_, weighed_;
   bool is_one_material_ = true;
   MaterialId material_ = 0;
   // Of the part being added; kept for their memory.
@@ -272,23 +315,34 @@ PartFields ManyParts::at(const Point& p) const {
   PartFields fields;
   fields.inside = slot(0);
   if (count_slot > 0) fields.count = slot(count_slot);
-  for (const auto& [id, number] : material_slots) fields.composition.fractions.emplace_back(id, slot(number));
-  for (const auto& [check, number] : check_slots) fields.composition.checks.emplace_back(check, slot(number));
+  if (along_slot > 0) fields.along = slot(along_slot);
+  if (weight_slot > 0) fields.weight = slot(weight_slot);
+  const auto composition = [&](const CompositionSlots& slots) {
+    Composition result;
+    for (const auto& [id, number] : slots.materials) result.fractions.emplace_back(id, slot(number));
+    for (const auto& [check, number] : slots.checks) result.checks.emplace_back(check, slot(number));
+    return result;
+  };
+  fields.composition = composition(held);
+  fields.weighed = composition(weighed);
   fields.others = others;
   fields.only = only;
   return fields;
 }
 
-const ManyParts* LoweringContext::many_parts(const Node& node, PartQuery query, const Affine& node_from_program) {
-  if (node.inputs().size() < least_parts) return nullptr;
+const ManyParts* LoweringContext::many_parts(const Node& node, const PartList& list, PartQuery query,
+                                             const Affine& node_from_program, const Falloff* falloff) {
+  if (list.count() < least_parts) return nullptr;
   const auto& [rows, offset] = node_from_program;
   const PartsKey key{&node,
                      query,
+                     falloff != nullptr,
                      {rows[0].x, rows[0].y, rows[0].z, rows[1].x, rows[1].y, rows[1].z,  //
                       rows[2].x, rows[2].y, rows[2].z, offset.x, offset.y, offset.z}};
   const auto [it, is_new] = many_parts_.try_emplace(key);
-  if (is_new) it->second = std::make_unique<ManyParts>(PartsMaker(*this, query, node_from_program).make(node));
-  return it->second->others.size() + least_parts > node.inputs().size() ? nullptr : it->second.get();
+  if (is_new)
+    it->second = std::make_unique<ManyParts>(PartsMaker(*this, node, list, query, node_from_program, falloff).make());
+  return it->second->others.size() + least_parts > list.count() ? nullptr : it->second.get();
 }
 
 }  // namespace ombre::design

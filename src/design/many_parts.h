@@ -1,4 +1,4 @@
-// The inputs of a node as many parts of a few kinds (program/parts.h).
+// Solids within a node as many parts of a few kinds (program/parts.h).
 #pragma once
 
 #include <memory>
@@ -12,9 +12,14 @@ namespace ombre::design {
 // A set of parts, without a place.
 struct ManyParts {
   std::shared_ptr<const program::PartSet> set;
-  size_t count_slot = 0;
-  std::vector<std::pair<MaterialId, size_t>> material_slots;  // ascending
-  std::vector<std::pair<uint32_t, size_t>> check_slots;       // numbers of Lowering's checks
+  // What compositions come from.
+  struct CompositionSlots {
+    std::vector<std::pair<MaterialId, size_t>> materials;  // ascending
+    std::vector<std::pair<uint32_t, size_t>> checks;       // numbers of Lowering's checks
+  };
+
+  size_t count_slot = 0, along_slot = 0, weight_slot = 0;  // 0: there is none
+  CompositionSlots held, weighed;                          // of parts that hold the point; by their weights
   std::vector<size_t> others;
   std::optional<MaterialId> only;
 

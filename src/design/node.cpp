@@ -1,5 +1,6 @@
 #include "design/node.h"
 
+#include <algorithm>
 #include <unordered_set>
 
 #include "base/assert.h"
@@ -17,9 +18,16 @@ void Node::finish(std::vector<NodePtr> inputs, SourceRange where) {
   int depth = 1;
   for (const NodePtr& input : this->inputs()) depth = std::max(depth, input->depth() + 1);
   depth_ = static_cast<int16_t>(depth);
+  uses_cell_ = !gives_cell() && (has_cell_numbers() || std::ranges::any_of(this->inputs(), [](const NodePtr& input) {
+                                   return input->uses_cell();
+                                 }));
   const Metric metric = find_metric(Inputs(*this, nullptr));
   lipschitz_ = metric.lipschitz;
   kind_ = metric.kind;
+}
+
+bool Node::has_along() const {
+  return gives_along() || std::ranges::any_of(inputs(), [](const NodePtr& input) { return input->has_along(); });
 }
 
 Box BoundsMemory::of(const Node& node, const Box& where, double margin) {
@@ -98,9 +106,40 @@ AttributeDeclaration Inputs::declaration(std::string_view attribute_name) const 
   return found ? *found : AttributeDeclaration{std::string(attribute_name), "", 0, Overlap::first};
 }
 Field Inputs::value(size_t i, const Point& p) const { return lowering_->value(input(i), p); }
+Field Inputs::along(size_t i, const Point& p) const { return lowering_->along(input(i), p); }
 
-std::optional<PartFields> Inputs::many_parts(PartQuery query, const Point& p) const {
-  return lowering_->many_parts(node_, query, p);
+namespace {
+
+class InputList : public PartList {
+ public:
+  explicit InputList(const Node& node) : node_(node) {}
+
+  size_t count() const override { return node_.inputs().size(); }
+  Box reach(size_t i, const Box& where, double margin) const override {
+    BoundsMemory memory;
+    return memory.of(*node_.inputs()[i], where, margin);
+  }
+  bool uses_cell(size_t i) const override { return node_.inputs()[i]->uses_cell(); }
+  Field distance(const Inputs& in, size_t i, const Point& p) const override { return in.distance(i, p); }
+  Field inside(const Inputs& in, size_t i, const Point& p) const override { return in.inside(i, p); }
+  Field interior(const Inputs& in, size_t i, const Point& p) const override { return in.interior(i, p); }
+  Field along(const Inputs& in, size_t i, const Point& p) const override { return in.along(i, p); }
+  Composition composition(const Inputs& in, size_t i, const Point& p, Demand demand) const override {
+    return in.composition(i, p, demand);
+  }
+
+ private:
+  const Node& node_;
+};
+
+}  // namespace
+
+std::optional<PartFields> Inputs::many_parts(PartQuery query, const Point& p, const Falloff* falloff) const {
+  return lowering_->many_parts(node_, InputList(node_), query, p, falloff);
+}
+
+std::optional<PartFields> Inputs::many_parts(PartQuery query, const Point& p, const PartList& list) const {
+  return lowering_->many_parts(node_, list, query, p, nullptr);
 }
 
 std::vector<Field> Inputs::distances(const Point& p) const {

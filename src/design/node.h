@@ -1,6 +1,7 @@
 // Nodes: a type, its parameters, its inputs. Immutable once made; shared where used twice.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -36,6 +37,23 @@ class BoundsMemory {
   std::map<const Node*, Answer> last_;
 };
 
+class Inputs;
+
+// Solids within a node that may become rows of a table.
+class PartList {
+ public:
+  virtual ~PartList() = default;
+  virtual size_t count() const = 0;
+  // Encloses the points of `where` at which the part's g is `margin` or less.
+  virtual Box reach(size_t i, const Box& where, double margin) const = 0;
+  virtual bool uses_cell(size_t i) const = 0;
+  virtual Field distance(const Inputs& in, size_t i, const Point& p) const = 0;
+  virtual Field inside(const Inputs& in, size_t i, const Point& p) const = 0;
+  virtual Field interior(const Inputs& in, size_t i, const Point& p) const = 0;
+  virtual Field along(const Inputs& in, size_t i, const Point& p) const = 0;
+  virtual Composition composition(const Inputs& in, size_t i, const Point& p, Demand demand) const = 0;
+};
+
 // A node's inputs as its methods see them: by number, at a point of the node's choice.
 class Inputs {
  public:
@@ -58,10 +76,13 @@ class Inputs {
   Field attribute(size_t i, std::string_view attribute_name, const Point& p, Demand demand) const;
   bool has_attribute(size_t i, std::string_view attribute_name) const;
   Field value(size_t i, const Point& p) const;  // of an input that is a field
+  Field along(size_t i, const Point& p) const;
   AttributeDeclaration declaration(std::string_view attribute_name) const;
 
   // The inputs as a table of many parts; nothing if they are few.
-  std::optional<PartFields> many_parts(PartQuery query, const Point& p) const;
+  std::optional<PartFields> many_parts(PartQuery query, const Point& p, const Falloff* falloff = nullptr) const;
+  // The same of parts that the node has itself.
+  std::optional<PartFields> many_parts(PartQuery query, const Point& p, const PartList& list) const;
 
   // All inputs at one point.
   std::vector<Field> distances(const Point& p) const;
@@ -102,6 +123,13 @@ class Node {
   virtual std::optional<AttributeDeclaration> declares() const = 0;  // the attribute that it sets
   // Where a node that only moves the question asks its input.
   virtual std::optional<Point> inner(const Point& p) const = 0;
+  // Along struts: 0 at their start, 1 at their end. Nothing where the inputs are to be asked.
+  virtual std::optional<Field> along(const Inputs& in, const Point& p) const = 0;
+  // Does mirroring at the plane through the origin across this axis leave the shape as it is, and is the nearest
+  // point of the surface always on one's own side of the plane?
+  virtual std::array<bool, 3> mirrors() const = 0;
+  // At which steps copies of a unit cell join.
+  virtual std::optional<Vec3> pitch() const = 0;
   // Field nodes give this.
   virtual Field value(const Inputs& in, const Point& p) const = 0;
 
@@ -112,9 +140,15 @@ class Node {
   Box bounds(const Box& where) const;
   Metric metric() const { return {kind_, lipschitz_}; }
   int depth() const { return depth_; }  // 1 for a leaf
+  // Do its numbers, or those of its inputs, depend on the cell that a repeating node above it gives?
+  bool uses_cell() const { return uses_cell_; }
+  bool has_along() const;  // is it, or one of its inputs, made of struts?
 
  private:
   virtual Metric find_metric(const Inputs& in) const = 0;
+  virtual bool gives_along() const = 0;
+  virtual bool has_cell_numbers() const = 0;
+  virtual bool gives_cell() const = 0;
 
   SourceRange where_;
   std::unique_ptr<NodePtr[]> inputs_;
@@ -122,6 +156,7 @@ class Node {
   int16_t depth_ = 1;
   // The metric in parts, with which a node takes less memory.
   Metric::Kind kind_ = Metric::Kind::exact;
+  bool uses_cell_ = false;
   double lipschitz_ = 1;
 };
 

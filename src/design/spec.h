@@ -8,8 +8,10 @@
 //   Point inner(Point) const                  where the input is asked, with `scale()` for its distance
 // and where the defaults do not fit
 //   Metric metric([Inputs]) const             default: exact for leaves with constant numbers
-//   inside, interior, composition, attribute, declares, value, complete
+//   inside, interior, composition, attribute, declares, value, complete, along, mirrors, pitch
 #pragma once
+
+#include <algorithm>
 
 #include "design/registry.h"
 
@@ -31,6 +33,15 @@ struct Parameter {
         const Numbers3& n = value.*member;
         return n.x.constant() && n.y.constant() && n.z.constant();
       };
+    if constexpr (std::is_same_v<M, Number>)
+      uses_cell = [member](const T& value) { return (value.*member).uses_cell(); };
+    if constexpr (std::is_same_v<M, Numbers3>)
+      uses_cell = [member](const T& value) {
+        const Numbers3& n = value.*member;
+        return n.x.uses_cell() || n.y.uses_cell() || n.z.uses_cell();
+      };
+    if constexpr (std::is_same_v<M, std::vector<Number>>)
+      uses_cell = [member](const T& value) { return std::ranges::any_of(value.*member, &Number::uses_cell); };
     if constexpr (std::is_same_v<M, MaterialName>)
       fill = [member](T& value, const Reader& reader) {
         if (!(value.*member).material) (value.*member).material = &reader.materials.first();
@@ -42,6 +53,7 @@ struct Parameter {
   std::function<bool(T&, const Data&, const Reader&)> set;
   std::function<Data(const T&, bool)> get;
   std::function<bool(const T&)> is_constant;    // for numbers that may be fields
+  std::function<bool(const T&)> uses_cell;      // the same
   std::function<void(T&, const Reader&)> fill;  // what is meant where nothing is given
 };
 
@@ -143,6 +155,33 @@ class NodeOf final : public Node {
       return std::nullopt;
   }
 
+  std::optional<Field> along(const Inputs& in, const Point& p) const override {
+    if constexpr (requires { data.along(in, p); })
+      return data.along(in, p);
+    else
+      return std::nullopt;
+  }
+
+  std::array<bool, 3> mirrors() const override {
+    if constexpr (!passes_on)
+      if (!type_.has_constant_numbers(data)) return {};
+    if constexpr (requires { data.mirrors(); })
+      return data.mirrors();
+    else if constexpr (passes_on)
+      return inputs().size() == 1 ? inputs()[0]->mirrors() : std::array<bool, 3>{};
+    else
+      return {};
+  }
+
+  std::optional<Vec3> pitch() const override {
+    if constexpr (requires { data.pitch(); })
+      return data.pitch();
+    else if constexpr (passes_on)
+      return inputs().size() == 1 ? inputs()[0]->pitch() : std::nullopt;
+    else
+      return std::nullopt;
+  }
+
   Field value(const Inputs& in, const Point& p) const override {
     if constexpr (requires { data.value(in, p); })
       return data.value(in, p);
@@ -162,6 +201,14 @@ class NodeOf final : public Node {
       return data.metric();
     else
       return in.count() > 0 ? in.metric(0) : Metric::exact();
+  }
+
+  bool gives_along() const override {
+    return requires(const T& t, const Inputs& in, const Point& p) { t.along(in, p); };
+  }
+  bool has_cell_numbers() const override { return type_.has_cell_numbers(data); }
+  bool gives_cell() const override {
+    return requires { T::gives_cell; };
   }
 
   // Has neither a shape of its own nor another point: it carries something to its input's shape.
@@ -208,6 +255,12 @@ class NodeTypeOf final : public NodeType {
       return data.complete(reader);
     else
       return true;
+  }
+
+  bool has_cell_numbers(const T& data) const {
+    for (const Parameter<T>& parameter : spec_.parameters)
+      if (parameter.uses_cell && parameter.uses_cell(data)) return true;
+    return false;
   }
 
   bool has_constant_numbers(const T& data) const {

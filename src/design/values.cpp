@@ -1,5 +1,7 @@
 #include "design/values.h"
 
+#include <algorithm>
+
 #include "base/text.h"
 
 namespace ombre::design {
@@ -9,10 +11,37 @@ program::Field Number::at(const program::Point& p, const expr::Variables& extra)
   return expression()->lower(p, extra);
 }
 
-Interval Number::range(const Box& where) const {
+namespace {
+
+// Stands for what is not known where only ranges are asked for.
+class Anything : public program::FieldSource {
+ public:
+  std::string name() const override { return "anything"; }
+  Hash content() const override { return {}; }
+  Box bounds() const override { return Box::everything(); }
+  int channel(std::string_view) const override { return 0; }
+  double sample(int, Vec3) const override { return std::numeric_limits<double>::quiet_NaN(); }
+};
+
+}  // namespace
+
+bool Number::uses_cell() const {
+  return expression() && std::ranges::any_of(expr::cell_names(), [&](auto name) { return expression()->uses(name); });
+}
+
+Interval Number::range(const Box& where, const std::map<std::string_view, Interval>& extra) const {
   if (const double* value = constant()) return *value;
   program::Builder builder;
-  const program::Field field = expression()->lower(program::Point::origin_frame(builder), nullptr);
+  const program::Point p = program::Point::origin_frame(builder);
+  const auto known = [&](std::string_view name) -> std::optional<program::Field> {
+    const auto it = extra.find(name);
+    const bool is_cell = std::ranges::count(expr::cell_names(), name) > 0;
+    if (it == extra.end() && !is_cell) return std::nullopt;
+    const program::Field anything = builder.source(std::make_shared<Anything>(), 0, p.x, p.y, p.z);
+    if (it == extra.end()) return anything;
+    return min(max(anything, it->second.lo), p.constant(it->second.hi));
+  };
+  const program::Field field = expression()->lower(p, known);
   const program::Program program = builder.finish({{"value", field}});
   std::vector<Interval> values;
   program::evaluate_intervals(program, where, values);
@@ -261,6 +290,33 @@ bool read(const Data& data, const Domain& domain, std::vector<MaterialForName>& 
   return good;
 }
 
+namespace {
+
+bool read_edge(const Data& data, const Domain& domain, Edge& edge, const Reader& reader) {
+  const DataList* parts = data.list();
+  if (!parts || parts->size() < 2 || parts->size() > 3)
+    return reader.fail(data, "edges of two points (mm), each with a radius if it has its own",
+                       "write for example [[(0, 0, 0), (10, 0, 0)], [(0, 0, 0), (0, 10, 0), 0.5]]");
+  if (!read((*parts)[0], domain, edge.start, reader) || !read((*parts)[1], domain, edge.end, reader)) return false;
+  if (edge.start == edge.end) return reader.fail(data, "edges with two different ends");
+  if (parts->size() == 2) return true;
+  return read((*parts)[2], unit::positive_mm, edge.radius, reader);
+}
+
+}  // namespace
+
+bool read(const Data& data, const Domain& domain, std::vector<Edge>& value, const Reader& reader) {
+  value.clear();
+  if (!data.list()) return reader.fail(data, "a list of edges");
+  value.reserve(data.list()->size());
+  bool good = true;
+  for (const Data& element : *data.list()) {
+    value.emplace_back();
+    good = read_edge(element, domain, value.back(), reader) && good;
+  }
+  return good;
+}
+
 Data write(double value, bool) { return Data(value); }
 Data write(const Number& value, bool for_hash) {
   if (const double* number = value.constant()) return Data(*number);
@@ -291,6 +347,16 @@ Data write(const std::vector<Number>& value, bool h) {
 Data write(const std::vector<MaterialName>& value, bool h) {
   DataList list;
   for (const MaterialName& element : value) list.push_back(write(element, h));
+  return Data(std::move(list));
+}
+
+Data write(const std::vector<Edge>& value, bool h) {
+  DataList list;
+  for (const Edge& edge : value) {
+    DataList parts{write(edge.start, h), write(edge.end, h)};
+    if (edge.radius > 0) parts.emplace_back(edge.radius);
+    list.emplace_back(std::move(parts));
+  }
   return Data(std::move(list));
 }
 

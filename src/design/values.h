@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <variant>
@@ -32,7 +33,9 @@ class Number {
   program::Field operator()(const program::Point& p) const { return at(p, nullptr); }
   // With variables besides the coordinates.
   program::Field at(const program::Point& p, const expr::Variables& extra) const;
-  Interval range(const Box& where) const;  // encloses its values there
+  // Encloses its values there, with the ranges of variables besides the coordinates.
+  Interval range(const Box& where, const std::map<std::string_view, Interval>& extra = {}) const;
+  bool uses_cell() const;  // one of ci, cj, ck
   const double* constant() const { return std::get_if<double>(&value_); }
   const expr::Expression* expression() const {
     const auto* pointer = std::get_if<ExpressionPtr>(&value_);
@@ -73,6 +76,13 @@ struct MaterialForName {
   std::string name;
   MaterialName material;
   bool operator==(const MaterialForName&) const = default;
+};
+
+// A strut of a lattice, in mm.
+struct Edge {
+  Vec3 start, end;
+  double radius = 0;  // 0: that of the lattice
+  bool operator==(const Edge&) const = default;
 };
 
 // One of a parameter's choices: the text stands in its domain, or is a literal.
@@ -127,8 +137,7 @@ inline Domain required(Domain domain = {}) {
   domain.required = true;
   return domain;
 }
-inline Domain with_variables(std::vector<std::string> variables) {
-  Domain domain;
+inline Domain with_variables(std::vector<std::string> variables, Domain domain = {}) {
   domain.variables = std::move(variables);
   return domain;
 }
@@ -166,6 +175,7 @@ bool read(const Data& data, const Domain& domain, FilePath& value, const Reader&
 bool read(const Data& data, const Domain& domain, std::vector<Number>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<MaterialName>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<MaterialForName>& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, std::vector<Edge>& value, const Reader& reader);
 
 // The reverse. For hashes, files are named by their content.
 Data write(double value, bool for_hash);
@@ -182,6 +192,7 @@ Data write(const FilePath& value, bool for_hash);
 Data write(const std::vector<Number>& value, bool for_hash);
 Data write(const std::vector<MaterialName>& value, bool for_hash);
 Data write(const std::vector<MaterialForName>& value, bool for_hash);
+Data write(const std::vector<Edge>& value, bool for_hash);
 
 // "number or field", "material", ...: for help.
 template <class M>
@@ -198,6 +209,7 @@ constexpr std::string_view kind_name() {
   if constexpr (std::is_same_v<M, std::vector<Number>>) return "list of numbers or fields";
   if constexpr (std::is_same_v<M, std::vector<MaterialName>>) return "list of materials";
   if constexpr (std::is_same_v<M, std::vector<MaterialForName>>) return "list of names with materials";
+  if constexpr (std::is_same_v<M, std::vector<Edge>>) return "list of edges";
 }
 
 }  // namespace ombre::design

@@ -28,6 +28,8 @@ std::optional<Field> coordinate(std::string_view name, const Point& p) {
     const Field cosine = min(max(p.z / r, p.constant(-1)), p.constant(1));
     return select(r <= 0, p.constant(0), builder.apply(Op::acos, cosine));
   }
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (name == cell_names()[axis] && p.cell[axis]) return p.cell[axis];
   return std::nullopt;
 }
 
@@ -163,7 +165,12 @@ Node::~Node() {
 }
 
 const std::vector<std::string>& coordinate_names() {
-  static const std::vector<std::string> names{"x", "y", "z", "rho", "phic", "r", "theta", "phis"};
+  static const std::vector<std::string> names{"x", "y", "z", "rho", "phic", "r", "theta", "phis", "ci", "cj", "ck"};
+  return names;
+}
+
+const std::array<std::string_view, 3>& cell_names() {
+  static constexpr std::array<std::string_view, 3> names{"ci", "cj", "ck"};
   return names;
 }
 

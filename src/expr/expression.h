@@ -3,6 +3,7 @@
 // The dialect is the one that designs know from ExprTk: see docs/expressions.md.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -85,8 +86,10 @@ class Expression {
   SourceRange where_;  // in the file, or in a source of its own that holds just the expression
 };
 
-// x y z rho phic r theta phis: what every expression knows.
+// x y z rho phic r theta phis ci cj ck: what every expression knows.
 const std::vector<std::string>& coordinate_names();
+// ci cj ck: the cell's indices, known below what repeats space.
+const std::array<std::string_view, 3>& cell_names();
 // A table of the functions, for the documentation: name, arguments, meaning.
 struct FunctionInfo {
   std::string_view name, arguments, meaning;

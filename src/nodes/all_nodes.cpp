@@ -9,6 +9,9 @@ const design::Registry& registry() {
     add_round_solids(r);
     add_implicit_solids(r);
     add_imported(r);
+    add_lattices(r);
+    add_tiles(r);
+    add_tpms(r);
     add_transforms(r);
     add_booleans(r);
     add_sums(r);

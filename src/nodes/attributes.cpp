@@ -21,8 +21,9 @@ struct Attribute {
             "attributes",
             "Gives its child a named value, constant or by a formula: density, infill, temperature, ...",
             {{"name", &Attribute::name, "Its name", required()},
-             {"value", &Attribute::value, "A number, or an expression; d is the signed distance of the child",
-              required(with_variables({"d"}))},
+             {"value", &Attribute::value,
+              "A number, or an expression; d is the signed distance of the child, t the place along its struts",
+              required(with_variables({"d", "t"}))},
              {"unit", &Attribute::unit_text, "Its unit, for whoever reads it"},
              {"default", &Attribute::default_value, "Its value where no solid gives one"},
              {"overlap", &Attribute::overlap, "How values combine where solids overlap",
@@ -32,7 +33,7 @@ struct Attribute {
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
-    if (value.expression() && value.expression()->uses("d")) warn_of_implicit_distance(reader, *inputs[0]);
+    if (!check_child_variables(reader, *inputs[0], {&value, 1})) return false;
     if (!name.empty() && fold_name(name) != "material") return true;
     reader.diagnostics.error(reader.where, name.empty() ? "an attribute needs a name"
                                                         : "the attribute \"material\" is set by fgrade or material");
@@ -50,7 +51,7 @@ struct Attribute {
   // Attributes of other names come from the child.
   Field attribute(const Inputs& in, std::string_view wanted, const Point& p, Demand demand) const {
     if (wanted != name) return in.attribute(0, wanted, p, demand);
-    return value.at(p, distance_variable(in, p));
+    return value.at(p, child_variables(in, p));
   }
 };
 

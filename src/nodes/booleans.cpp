@@ -1,6 +1,7 @@
-// Solids joined, cut and complemented.
+// Solids joined, cut and complemented, sharply or with a blend along their seams.
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
+#include "nodes/blends.h"
 #include "nodes/mixtures.h"
 
 namespace ombre::nodes {
@@ -13,6 +14,10 @@ Field (*const greatest)(Field, Field) = program::max;
 Domain overlap_choices() { return one_of({"mix", "first", "last"}); }
 constexpr std::string_view overlap_doc =
     "Where inputs overlap: mix adds their compositions and normalises, first and last let one take precedence";
+
+constexpr std::string_view blend_doc = "Radius of the fillet, or size of the chamfer, along seams; 0: sharp";
+constexpr std::string_view join_doc = "round: a fillet along seams; chamfer: a flat";
+Domain join_choices() { return one_of({"round", "chamfer"}); }
 
 // Weights of inputs that contain the point; where none does and it matters, the nearest counts.
 std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand demand, std::string_view rule) {
@@ -35,29 +40,67 @@ Metric joined_metric(const Inputs& in) {
   return metric;
 }
 
+Metric blended_metric(const Inputs& in, const Blend& blend) {
+  const Metric metric = joined_metric(in);
+  if (metric.is_implicit() || in.count() == 1 || blend.is_plain()) return metric;
+  return blend.radius.constant() ? Metric::bounded(metric.lipschitz * blend.lipschitz(in.count())) : Metric::implicit();
+}
+
 struct Union {
   Choice materials = "mix";
+  Number blend_radius = 0;
+  Choice join = "round";
 
   static Spec<Union> spec() {
     return {"union",
             "booleans",
             "What is in any of its children.",
-            {{"materials", &Union::materials, overlap_doc, overlap_choices()}},
+            {{"materials", &Union::materials,
+              "Where inputs overlap: mix adds their compositions and normalises, first and last let one take "
+              "precedence; blend weighs them by how far inside the point is, across seams too",
+              one_of({"mix", "first", "last", "blend"})},
+             {"blend", &Union::blend_radius, blend_doc, unit::not_negative_mm},
+             {"join", &Union::join, join_doc, join_choices()}},
             many_solids,
-            "union() { cube(8, \"red\"); translate(4, 4, 4) { sphere(4, \"blue\"); } }"};
+            "union(blend=1) { cube(8, \"red\"); translate(4, 4, 4) { sphere(4, \"blue\"); } }"};
   }
 
-  Metric metric(const Inputs& in) const { return joined_metric(in); }
+  bool complete(const Reader& reader) const {
+    if (!(materials == "blend") || !blend().is_plain()) return true;
+    reader.diagnostics.error(reader.where, "materials=\"blend\" of union needs a radius to blend over",
+                             "write for example union(blend=1, materials=\"blend\")");
+    return false;
+  }
+
+  Blend blend() const { return {blend_radius, join == "chamfer"}; }
+  Metric metric(const Inputs& in) const { return blended_metric(in, blend()); }
 
   Box reach(const Inputs& in, const Box& where, double margin) const {
     Box box;
-    for (size_t i = 0; i < in.count(); ++i) box = hull(box, in.reach(i, where, margin));
+    if (blend().is_plain() || in.count() == 1) {
+      for (size_t i = 0; i < in.count(); ++i) box = hull(box, in.reach(i, where, margin));
+      return box;
+    }
+    const std::vector<size_t> company = companies(in, where);
+    for (size_t i = 0; i < in.count(); ++i) {
+      const double farther = blend().reach(company[i], where, margin);
+      box = hull(box, in.reach(i, where, company[i] == 1 ? margin : farther));
+    }
     return box;
   }
 
-  Field distance(const Inputs& in, const Point& p) const { return program::fold(in.distances(p), program::min); }
+  Field distance(const Inputs& in, const Point& p) const {
+    const Field least = program::fold(in.distances(p), program::min);
+    if (blend().is_plain() || in.count() == 1) return least;
+    const Field total = program::fold(weights(in, p, blend().falloff()), [](Field a, Field b) { return a + b; });
+    return blend().distance(total, least, p);
+  }
 
   Field inside(const Inputs& in, const Point& p) const {
+    if (!blend().is_plain() && in.count() > 1) {
+      const Felt all = felt(in, p, query(), blend().falloff());
+      return blend().inside(all.total, all.any, p);
+    }
     const auto parts = in.many_parts(query(), p);
     if (!parts) return program::fold(in.insides(p), program::logical_or);
     Field any = parts->inside;
@@ -66,6 +109,10 @@ struct Union {
   }
 
   Field interior(const Inputs& in, const Point& p) const {
+    if (!blend().is_plain() && in.count() > 1) {
+      const Felt all = felt(in, p, PartQuery::interior, blend().falloff());
+      return blend().interior(all.total, all.any, p);
+    }
     const auto parts = in.many_parts(PartQuery::interior, p);
     if (!parts) return program::fold(in.interiors(p), program::logical_or);
     Field any = parts->inside;
@@ -75,6 +122,7 @@ struct Union {
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     if (in.count() == 1) return in.composition(0, p, demand);
+    if (!blend().is_plain()) return felt_composition(in, p, demand, materials.text(), blend().falloff());
     const auto parts = demand == Demand::inside ? in.many_parts(query(), p) : std::nullopt;
     if (parts && materials == "mix") return mixed(in, p, *parts);
     if (parts && parts->others.empty()) return parts->composition;
@@ -84,10 +132,28 @@ struct Union {
 
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
     if (in.count() == 1) return in.attribute(0, name, p, demand);
+    if (!blend().is_plain()) return felt_attribute(in, name, p, demand, blend().falloff());
     return overlapping_attribute(in, name, p, demand, overlap_weights(in, p, demand, "mix"), in.declaration(name));
   }
 
  private:
+  // For each input, how many may be felt where it is, itself included. Of very many all are counted.
+  std::vector<size_t> companies(const Inputs& in, const Box& where) const {
+    constexpr size_t few = 64;
+    const size_t count = in.count();
+    if (count > few) return std::vector<size_t>(count, count);
+    std::vector<Box> boxes;
+    for (size_t i = 0; i < count; ++i) boxes.push_back(in.reach(i, where, blend_radius.range(where).hi));
+    std::vector<size_t> company(count, 1);
+    for (size_t i = 0; i < count; ++i)
+      for (size_t j = 0; j < i; ++j) {
+        if (intersect(boxes[i], boxes[j]).is_empty()) continue;
+        ++company[i];
+        ++company[j];
+      }
+    return company;
+  }
+
   // How many inputs stand before those of the table.
   static size_t before(const PartFields& parts) {
     size_t count = 0;
@@ -116,23 +182,48 @@ struct Union {
   }
 
   PartQuery query() const {
-    return materials == "mix" ? PartQuery::mix : materials == "first" ? PartQuery::first : PartQuery::last;
+    return materials == "first" ? PartQuery::first : materials == "last" ? PartQuery::last : PartQuery::mix;
   }
+};
+
+// The joint of what the solids leave: its complement.
+struct Carved {
+  std::vector<Field> depths;  // of each solid, how far inside the point is: its distance, negated
+  Blend blend;
+
+  Field total(const Point& p) const {
+    const Falloff falloff = blend.falloff();
+    std::vector<Field> values;
+    for (const Field depth : depths) values.push_back(falloff.weight(depth, p));
+    return program::fold(values, [](Field a, Field b) { return a + b; });
+  }
+  Field distance(const Point& p) const { return -blend.distance(total(p), program::fold(depths, program::min), p); }
+  // In the whole where the joint's interior is not.
+  Field inside(Field any_outside, const Point& p) const {
+    return logical_not(blend.interior(total(p), any_outside, p));
+  }
+  Field interior(Field any_beyond, const Point& p) const { return logical_not(blend.inside(total(p), any_beyond, p)); }
 };
 
 struct Intersection {
   Choice materials = "mix";
+  Number blend_radius = 0;
+  Choice join = "round";
 
   static Spec<Intersection> spec() {
     return {"intersection",
             "booleans",
             "What is in all of its children.",
-            {{"materials", &Intersection::materials, overlap_doc, overlap_choices()}},
+            {{"materials", &Intersection::materials, overlap_doc, overlap_choices()},
+             {"blend", &Intersection::blend_radius, blend_doc, unit::not_negative_mm},
+             {"join", &Intersection::join, join_doc, join_choices()}},
             grouped_solids,
             "intersection() { cube(8, \"red\"); sphere(5, \"red\"); }"};
   }
 
-  Metric metric(const Inputs& in) const { return joined_metric(in); }
+  Blend blend() const { return {blend_radius, join == "chamfer"}; }
+  bool is_sharp(const Inputs& in) const { return blend().is_plain() || in.count() == 1; }
+  Metric metric(const Inputs& in) const { return blended_metric(in, blend()); }
 
   // Children without bounds of their own are asked within those of the others.
   Box reach(const Inputs& in, const Box& where, double margin) const {
@@ -142,10 +233,16 @@ struct Intersection {
     return box;
   }
 
-  Field distance(const Inputs& in, const Point& p) const { return program::fold(in.distances(p), greatest); }
-  Field inside(const Inputs& in, const Point& p) const { return program::fold(in.insides(p), program::logical_and); }
+  Field distance(const Inputs& in, const Point& p) const {
+    return is_sharp(in) ? program::fold(in.distances(p), greatest) : carved(in, p).distance(p);
+  }
+  Field inside(const Inputs& in, const Point& p) const {
+    const Field all = program::fold(in.insides(p), program::logical_and);
+    return is_sharp(in) ? all : carved(in, p).inside(logical_not(all), p);
+  }
   Field interior(const Inputs& in, const Point& p) const {
-    return program::fold(in.interiors(p), program::logical_and);
+    const Field all = program::fold(in.interiors(p), program::logical_and);
+    return is_sharp(in) ? all : carved(in, p).interior(logical_not(all), p);
   }
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
@@ -161,17 +258,35 @@ struct Intersection {
                                                 : overlap_weights(in, p, demand, "mix");
     return overlapping_attribute(in, name, p, demand, marks, in.declaration(name));
   }
+
+ private:
+  Carved carved(const Inputs& in, const Point& p) const {
+    std::vector<Field> depths = in.distances(p);
+    for (Field& depth : depths) depth = -depth;
+    return {depths, blend()};
+  }
 };
 
 struct Difference {
+  Number blend_radius = 0;
+  Choice join = "round";
+
   static Spec<Difference> spec() {
-    return {"difference", "booleans",     "What is in its first child and in none of the others.",
-            {},           grouped_solids, "difference() { cube(8, \"red\"); cylinder(2, 10); }"};
+    return {"difference",
+            "booleans",
+            "What is in its first child and in none of the others.",
+            {{"blend", &Difference::blend_radius, blend_doc, unit::not_negative_mm},
+             {"join", &Difference::join, join_doc, join_choices()}},
+            grouped_solids,
+            "difference() { cube(8, \"red\"); cylinder(2, 10); }"};
   }
 
-  Metric metric(const Inputs& in) const { return joined_metric(in); }
+  Blend blend() const { return {blend_radius, join == "chamfer"}; }
+  bool is_sharp(const Inputs& in) const { return blend().is_plain() || in.count() == 1; }
+  Metric metric(const Inputs& in) const { return blended_metric(in, blend()); }
 
   Field distance(const Inputs& in, const Point& p) const {
+    if (!is_sharp(in)) return carved(in, p).distance(p);
     std::vector<Field> distances = in.distances(p);
     for (size_t i = 1; i < distances.size(); ++i) distances[i] = -distances[i];
     return program::fold(distances, greatest);
@@ -181,15 +296,27 @@ struct Difference {
   Field inside(const Inputs& in, const Point& p) const {
     std::vector<Field> marks = in.interiors(p);
     marks[0] = in.inside(0, p);
-    for (size_t i = 1; i < marks.size(); ++i) marks[i] = logical_not(marks[i]);
-    return program::fold(marks, program::logical_and);
+    const Field left = without(marks);
+    return is_sharp(in) ? left : carved(in, p).inside(logical_not(left), p);
   }
 
   Field interior(const Inputs& in, const Point& p) const {
     std::vector<Field> marks = in.insides(p);
     marks[0] = in.interior(0, p);
+    const Field left = without(marks);
+    return is_sharp(in) ? left : carved(in, p).interior(logical_not(left), p);
+  }
+
+ private:
+  static Field without(std::vector<Field>& marks) {
     for (size_t i = 1; i < marks.size(); ++i) marks[i] = logical_not(marks[i]);
     return program::fold(marks, program::logical_and);
+  }
+
+  Carved carved(const Inputs& in, const Point& p) const {
+    std::vector<Field> depths = in.distances(p);
+    depths[0] = -depths[0];
+    return {depths, blend()};
   }
 };
 

@@ -1,5 +1,8 @@
-// The variable d of expressions: the signed distance of a node's input.
+// The variables d and t of expressions: the signed distance of a node's input, and the place along its struts.
 #pragma once
+
+#include <algorithm>
+#include <span>
 
 #include "design/node.h"
 #include "expr/expression.h"
@@ -7,10 +10,11 @@
 namespace ombre::nodes {
 
 // Keeps references to both arguments.
-inline expr::Variables distance_variable(const design::Inputs& in, const program::Point& p) {
+inline expr::Variables child_variables(const design::Inputs& in, const program::Point& p) {
   return [&in, &p](std::string_view name) -> std::optional<program::Field> {
-    if (name != "d") return std::nullopt;
-    return in.distance(0, p);
+    if (name == "d") return in.distance(0, p);
+    if (name == "t") return in.along(0, p);
+    return std::nullopt;
   };
 }
 
@@ -18,6 +22,20 @@ inline void warn_of_implicit_distance(const design::Reader& reader, const design
   if (!input.metric().is_implicit()) return;
   reader.diagnostics.warning(reader.where, "\"d\" is used over a shape of which only the sign is known",
                              "its value is taken as it is, which need not be a distance in mm");
+}
+
+// False, and a diagnostic, when the numbers use what the input does not know.
+inline bool check_child_variables(const design::Reader& reader, const design::Node& input,
+                                  std::span<const design::Number> numbers) {
+  const auto use = [&](std::string_view name) {
+    return std::ranges::any_of(numbers,
+                               [&](const design::Number& n) { return n.expression() && n.expression()->uses(name); });
+  };
+  if (use("d")) warn_of_implicit_distance(reader, input);
+  if (!use("t") || input.has_along()) return true;
+  reader.diagnostics.error(reader.where, "\"t\", the place along a strut, is used over what has no struts",
+                           "use it directly over strut or lattice");
+  return false;
 }
 
 }  // namespace ombre::nodes

@@ -12,12 +12,6 @@ using namespace design;
 
 Field add(Field a, Field b) { return a + b; }
 
-bool uses_distance(const std::vector<Number>& numbers) {
-  for (const Number& number : numbers)
-    if (number.expression() && number.expression()->uses("d")) return true;
-  return false;
-}
-
 bool same_length(const Reader& reader, size_t functions, size_t materials, std::string_view noun) {
   if (functions == materials) return true;
   reader.diagnostics.error(reader.where,
@@ -98,7 +92,7 @@ struct Mixture {
 Mixture mixture(const Inputs& in, const Point& p, const std::vector<Number>& functions,
                 const std::vector<MaterialName>& materials) {
   Mixture result;
-  const expr::Variables variables = distance_variable(in, p);
+  const expr::Variables variables = child_variables(in, p);
   for (const Number& function : functions) result.raw.push_back(function.at(p, variables));
   for (const MaterialName& name : materials) result.materials.push_back(in.material(name));
   return result;
@@ -121,8 +115,9 @@ struct FGrade {
     return {"fgrade",
             "material gradients",
             "Sets the composition of its child by formulas, one for each material.",
-            {{"functions", &FGrade::functions, "Expressions; d is the signed distance of the child",
-              required(with_variables({"d"}))},
+            {{"functions", &FGrade::functions,
+              "Expressions; d is the signed distance of the child, t the place along its struts",
+              required(with_variables({"d", "t"}))},
              {"materials", &FGrade::materials, "A material for each expression", required()},
              {"mode", &FGrade::mode, "prob: the values are shares of a mixture. thresh: the greatest value takes all",
               one_of({"prob", "thresh"})}},
@@ -136,8 +131,7 @@ struct FGrade {
       reader.diagnostics.error(reader.where, "fgrade needs at least one function and its material");
       return false;
     }
-    if (uses_distance(functions)) warn_of_implicit_distance(reader, *inputs[0]);
-    return true;
+    return check_child_variables(reader, *inputs[0], functions);
   }
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
@@ -160,7 +154,7 @@ struct Material {
             "Sets the composition of its child: one material, or a mixture.",
             {{"materials", &Material::materials, "One or more materials", required()},
              {"fractions", &Material::fractions, "A share for each, numbers or fields; without it all the same",
-              with_variables({"d"})}},
+              with_variables({"d", "t"})}},
             one_solid,
             "material([\"red\", \"clear\"], [0.3, 0.7]) { sphere(5); }"};
   }
@@ -179,8 +173,7 @@ struct Material {
       reader.diagnostics.error(reader.where, "the fractions of the materials are all zero");
       return false;
     }
-    if (uses_distance(fractions)) warn_of_implicit_distance(reader, *inputs[0]);
-    return true;
+    return check_child_variables(reader, *inputs[0], fractions);
   }
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {

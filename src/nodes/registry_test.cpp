@@ -53,13 +53,13 @@ class RandomDesign {
   explicit RandomDesign(unsigned seed) : random_(seed) {}
 
   NodePtr node(const NodeType& type, int depth) {
-    std::vector<NodePtr> inputs;
-    if (type.inputs.most > 0) {
-      const size_t count = type.inputs.most == 1 ? 1 : 1 + index(3);
-      for (size_t i = 0; i < count; ++i) inputs.push_back(any_node(depth - 1));
-    }
-    // Random values may be wrong together (two equal end points); then others are tried.
+    // Random values may be wrong together (two equal end points, something endless to repeat); then others are tried.
     for (int attempt = 0; attempt < 20; ++attempt) {
+      std::vector<NodePtr> inputs;
+      if (type.inputs.most > 0) {
+        const size_t count = type.inputs.most == 1 ? 1 : 1 + index(3);
+        for (size_t i = 0; i < count; ++i) inputs.push_back(any_node(depth - 1));
+      }
       Diagnostics diagnostics;
       const auto made = make_node(type, values(type), inputs, {materials, diagnostics, &loader_, {}, "", ""});
       if (made) return made;
@@ -104,6 +104,16 @@ class RandomDesign {
     return Data(DataList{one_number(domain, fields), one_number(domain, fields), one_number(domain, fields)});
   }
 
+  Data edges() {
+    DataList list;
+    for (size_t n = 1 + index(3); n > 0; --n) {
+      DataList edge{vector({}, false), vector({}, false)};
+      if (index(2)) edge.emplace_back(number(0.2, 2));
+      list.emplace_back(std::move(edge));
+    }
+    return Data(std::move(list));
+  }
+
   Data value(const NodeType& type, const ParameterInfo& parameter) {
     const Domain& domain = parameter.domain;
     const std::string_view kind = parameter.kind;
@@ -115,6 +125,13 @@ class RandomDesign {
     if (kind == "3 numbers or fields") return vector(domain, true);
     if (kind == "3 numbers" && type.name == "function")
       return Data(DataList(3, Data(parameter.name == "min" ? number(-6, -1) : number(1, 6))));
+    if (kind == "3 numbers" && type.name == "tile" && parameter.name != "size") {
+      const double sign = parameter.name == "from" ? -1 : 1;
+      return Data(DataList{Data(sign * static_cast<double>(index(3))), Data(sign * static_cast<double>(index(3))),
+                           Data(sign * static_cast<double>(index(3)))});
+    }
+    if (kind == "3 numbers" && type.name == "tile")  // not many copies of large children
+      return Data(DataList{Data(number(6, 14)), Data(number(6, 14)), Data(number(6, 14))});
     if (kind == "3 numbers") return vector(domain, false);
     if (kind == "material") return Data("blue");
     if (kind == "file") return Data("ball.stl");
@@ -127,6 +144,7 @@ class RandomDesign {
                                    Data(number(-1, 1) + (r == 2 ? 2 : 0)), Data(number(-3, 3))});
       return Data(std::move(rows));
     }
+    if (kind == "list of edges") return edges();
     if (kind == "list of names with materials")
       return Data(DataList{Data(DataList{Data("PLA"), Data("red")}), Data(DataList{Data("TPU"), Data("blue")})});
     DataList list;
@@ -160,9 +178,12 @@ Lowered lower(const NodePtr& node, const MaterialTable& materials, Demand demand
   for (const auto& [id, fraction] : composition.fractions) outputs.emplace_back("fraction", fraction);
   for (const auto& [number, mark] : composition.checks) outputs.emplace_back("check", mark);
   context.finish_bodies();
-  Lowered lowered{program::inline_bodies(builder.finish(outputs)), composition.fractions.size(),
-                  composition.checks.size()};
-  return lowered;
+  const program::Program whole = program::inline_bodies(builder.finish(outputs));
+  // With all rows of tables.
+  std::vector<Interval> ranges;
+  evaluate_intervals(whole, Box::centered({1e4, 1e4, 1e4}), ranges);
+  return {program::expand_parts(whole, ranges, program::Precision::reference), composition.fractions.size(),
+          composition.checks.size()};
 }
 
 std::vector<double> at(const program::Program& program, Vec3 p) {

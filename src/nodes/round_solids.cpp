@@ -1,6 +1,7 @@
 // Solids made from circles.
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
+#include "nodes/segments.h"
 #include "nodes/shapes.h"
 
 namespace ombre::nodes {
@@ -162,7 +163,8 @@ struct Strut {
         "Cylinder from one point to another.",
         {{"start", &Strut::start, "Centre of one end", unit::mm},
          {"end", &Strut::end, "Centre of the other end", unit::mm},
-         {"radius", &Strut::radius, "Its radius", unit::positive_mm},
+         {"radius", &Strut::radius, "Its radius; t runs from 0 at its start to 1 at its end",
+          with_variables({"t"}, unit::positive_mm)},
          {"material", &Strut::material, "Its material"},
          {"caps", &Strut::caps, "Ends: flat, or round (half balls beyond the end points)", one_of({"flat", "round"})}},
         no_inputs,
@@ -176,13 +178,7 @@ struct Strut {
   }
 
   Box bounds(const Box& where) const {
-    const double r = radius.range(where).hi;
-    const Vec3 u = direction(), margin = margins(u, r);
-    const Interval part = reached(where, margin);
-    if (part.lo > part.hi) return Box::empty();
-    const Vec3 along = end - start, from = start + part.lo * along, to = start + part.hi * along;
-    const Box axis = hull(Box{from, from}, Box{to, to});
-    return {axis.lo - margin, axis.hi + margin};
+    return reach_of_segment(start, end, margins(direction(), radius.range(where, {{"t", {0, 1}}}).hi), where);
   }
 
   Field distance(const Point& p) const {
@@ -192,14 +188,23 @@ struct Strut {
     const Field along = x * u.x + y * u.y + z * u.z;
     if (caps == "round") {
       const Field t = min(max(along, -half), p.constant(half));
-      return length(x - t * u.x, y - t * u.y, z - t * u.z) - radius(p);
+      return length(x - t * u.x, y - t * u.y, z - t * u.z) - radius_at(p);
     }
     const Field across = length(x - along * u.x, y - along * u.y, z - along * u.z);
-    return corner(across - radius(p), abs(along) - half);
+    return corner(across - radius_at(p), abs(along) - half);
   }
+
+  Field along(const Inputs&, const Point& p) const { return Segment{start, end}.along(p); }
 
  private:
   Vec3 direction() const { return (1 / length(end - start)) * (end - start); }
+
+  Field radius_at(const Point& p) const {
+    return radius.at(p, [&](std::string_view name) -> std::optional<Field> {
+      if (name != "t") return std::nullopt;
+      return Segment{start, end}.along(p);
+    });
+  }
 
   // How far the surface is from the nearest point of the axis, along x, y, z, at most.
   Vec3 margins(Vec3 u, double r) const {
@@ -209,24 +214,6 @@ struct Strut {
       return sine == 0 ? 0 : r * sine * (1 + 1e-12);
     };
     return {side(u.x), side(u.y), side(u.z)};
-  }
-
-  // The shares of the axis, from 0 at its start to 1, near which the strut may reach into the box. Empty: lo > hi.
-  Interval reached(const Box& where, Vec3 margin) const {
-    Interval shares{0, 1};
-    for (int axis = 0; axis < 3; ++axis) {
-      const double rounding = 1e-12 * (1 + std::abs(start[axis]) + std::abs(end[axis]));
-      const double lo = where.lo[axis] - margin[axis] - rounding - start[axis];
-      const double hi = where.hi[axis] + margin[axis] + rounding - start[axis];
-      const double along = end[axis] - start[axis];
-      if (along == 0) {
-        if (lo > 0 || hi < 0) return {1, 0};
-        continue;
-      }
-      shares.lo = std::max(shares.lo, std::min(lo / along, hi / along));
-      shares.hi = std::min(shares.hi, std::max(lo / along, hi / along));
-    }
-    return shares;
   }
 };
 

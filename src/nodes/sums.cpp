@@ -1,6 +1,7 @@
 // Solids whose distances are added: organic joints and level sets.
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
+#include "nodes/blends.h"
 #include "nodes/mixtures.h"
 
 namespace ombre::nodes {
@@ -42,22 +43,19 @@ struct Sum {
     return box;
   }
 
-  std::vector<Field> falloffs(const Inputs& in, const Point& p) const {
-    const Field reach = blend(p), one = p.constant(1);
-    std::vector<Field> values;
-    for (const Field d : in.distances(p)) {
-      const Field t = min(max((reach - d) / (reach * 2.0), 0.0), one);
-      values.push_back(t * t * (3 - t * 2.0));
-    }
-    return values;
+  Falloff falloff() const {
+    const auto weight = [this](Field distance, const Point& p) {
+      const Field reach = blend(p);
+      const Field t = min(max((reach - distance) / (reach * 2.0), 0.0), p.constant(1));
+      return t * t * (3 - t * 2.0);
+    };
+    return {weight, blend.range(design_space()).hi};
   }
-
-  Field total(const Inputs& in, const Point& p) const { return program::fold(falloffs(in, p), add); }
 
   // The distance at which one child alone would give this total: a single child stays as it is.
   Field distance(const Inputs& in, const Point& p) const {
     if (is_level_set()) return program::fold(in.distances(p), add) - iso(p);
-    const Field t = min(total(in, p), p.constant(1));
+    const Field t = min(program::fold(weights(in, p, falloff()), add), p.constant(1));
     program::Builder& builder = p.builder();
     // Inverse of the smooth step: 1/2 - sin(asin(1 - 2t) / 3).
     const Field angle = builder.apply(program::Op::asin, min(max(1 - t * 2.0, -1.0), p.constant(1))) / 3;
@@ -66,38 +64,32 @@ struct Sum {
 
   Field inside(const Inputs& in, const Point& p) const {
     if (is_level_set()) return distance(in, p) <= 0;
-    return less_equal(p.constant(0.5), total(in, p));
+    return less_equal(p.constant(0.5), felt(in, p, PartQuery::mix, falloff()).total);
   }
 
   Field interior(const Inputs& in, const Point& p) const {
     if (is_level_set()) return distance(in, p) < 0;
-    return less(p.constant(0.5), total(in, p));
+    return less(p.constant(0.5), felt(in, p, PartQuery::interior, falloff()).total);
   }
 
   // Children that contain the point count alike; else those within reach count by their falloff; else the nearest does.
-  std::vector<Field> weights(const Inputs& in, const Point& p) const {
-    const std::vector<Field> marks = in.insides(p);
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    if (!is_level_set()) return felt_composition(in, p, demand, "mix", falloff());
+    return weighted(in, p, Demand::everywhere, holders_or_nearest(in, p));
+  }
+
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    if (!is_level_set()) return felt_attribute(in, name, p, demand, falloff());
+    return overlapping_attribute(in, name, p, Demand::everywhere, holders_or_nearest(in, p), in.declaration(name));
+  }
+
+ private:
+  static std::vector<Field> holders_or_nearest(const Inputs& in, const Point& p) {
+    std::vector<Field> marks = in.insides(p);
     const Field any = program::fold(marks, program::logical_or);
     const std::vector<Field> close = nearest(in.distances(p));
-    std::vector<Field> otherwise = close;
-    if (!is_level_set()) {
-      const std::vector<Field> values = falloffs(in, p);
-      const Field reached = less(p.constant(0), program::fold(values, add));
-      for (size_t i = 0; i < values.size(); ++i) otherwise[i] = select(reached, values[i], close[i]);
-    }
-    std::vector<Field> result;
-    for (size_t i = 0; i < marks.size(); ++i) result.push_back(select(any, marks[i], otherwise[i]));
-    return result;
-  }
-
-  Composition composition(const Inputs& in, const Point& p, Demand) const {
-    return weighted(in, p, Demand::everywhere, weights(in, p));
-  }
-
-  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand) const {
-    std::vector<Field> marks;
-    for (const Field weight : weights(in, p)) marks.push_back(truth(weight));
-    return overlapping_attribute(in, name, p, Demand::everywhere, marks, in.declaration(name));
+    for (size_t i = 0; i < marks.size(); ++i) marks[i] = select(any, marks[i], close[i]);
+    return marks;
   }
 };
 

@@ -329,6 +329,17 @@ std::optional<Affine> Point::from_inputs() const {
   return here_from_base_;
 }
 
-Point Point::mapped(const Affine& map) const { return {base_x_, base_y_, base_z_, map * here_from_base_}; }
+Point Point::mapped(const Affine& map) const {
+  Point point(base_x_, base_y_, base_z_, map * here_from_base_);
+  point.cell = cell;
+  point.within_ = within_ == Box::everything() ? within_ : image(map, within_);
+  return point;
+}
+
+Point Point::moved_to(Field to_x, Field to_y, Field to_z) const {
+  Point point = of(to_x, to_y, to_z);
+  point.cell = cell;
+  return point;
+}
 
 }  // namespace ombre::program

@@ -1,6 +1,7 @@
 // Fields: expressions over space under construction. Equal expressions become one.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -115,6 +116,8 @@ Field fold(std::vector<Field> fields, Field (*combine)(Field, Field));
 class Point {
  public:
   Field x, y, z;
+  // Indices of the cell that the point was brought back from, where space repeats; else no fields.
+  std::array<Field, 3> cell;
 
   // The point of a whole program or body.
   static Point origin_frame(Builder& builder);
@@ -122,17 +125,22 @@ class Point {
   static Point of(Field x, Field y, Field z) { return {x, y, z, Affine{}}; }
   // The point that `map` takes this one to.
   Point mapped(const Affine& map) const;
+  // A point of three fields that keeps what this one knows besides its place.
+  Point moved_to(Field to_x, Field to_y, Field to_z) const;
+  // Where the point is known to lie; a box without end where nothing is known.
+  const Box& within() const { return within_; }
+  void set_within(const Box& box) { within_ = box; }
   // The map that takes the builder's inputs to this point, if an affine one does.
   std::optional<Affine> from_inputs() const;
   Field constant(double value) const { return x.builder->constant(value); }
   Builder& builder() const { return *x.builder; }
-  bool operator==(const Point&) const = default;
 
  private:
   Point(Field bx, Field by, Field bz, const Affine& map);
 
   Field base_x_, base_y_, base_z_;
   Affine here_from_base_;
+  Box within_ = Box::everything();
 };
 
 }  // namespace ombre::program

@@ -165,6 +165,9 @@ std::unique_ptr<DesignHandle> make_design(const PartList& parts,
     const auto corner = [&](size_t i) { return Vec3{(*box)[i][0], (*box)[i][1], (*box)[i][2]}; };
     design.sampling = design::Sampling{{corner(0), corner(1)}, read_pitches(voxel)};
   }
+  Diagnostics diagnostics;
+  design::check_cells(design, diagnostics);
+  raise_errors(diagnostics);
   const SourceRange where = design.parts[0].solid->where();
   const SourcePtr source = where.source ? where.source : make_source("design", "");
   auto loaded = std::make_shared<const compile::Loaded>(compile::Loaded{source->name(), source, std::move(design)});
@@ -193,6 +196,7 @@ std::unique_ptr<DesignHandle> from_json(const std::string& text) {
   std::optional<design::Design> design;
   if (const auto data = parse_json(source, diagnostics))
     design = design::read_design(*data, compile::node_registry(), &loader, diagnostics);
+  if (design) design::check_cells(*design, diagnostics);
   raise_errors(diagnostics);
   const auto factory = std::make_shared<compile::NodeFactory>(design->materials);
   auto loaded = std::make_shared<const compile::Loaded>(compile::Loaded{"design.json", source, std::move(*design)});

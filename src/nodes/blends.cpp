@@ -1,0 +1,199 @@
+#include "nodes/blends.h"
+
+#include <cmath>
+#include <map>
+
+#include "nodes/mixtures.h"
+
+namespace ombre::nodes {
+
+using design::Composition;
+using design::Demand;
+using design::Falloff;
+using design::Inputs;
+using design::PartFields;
+using design::PartQuery;
+using program::Field;
+using program::Point;
+
+namespace {
+
+Field add(Field a, Field b) { return a + b; }
+
+PartQuery query_for(std::string_view rule) {
+  return rule == "first" ? PartQuery::first : rule == "last" ? PartQuery::last : PartQuery::mix;
+}
+
+// Of each input, by the rule.
+std::vector<Field> shares(const Inputs& in, const Point& p, Demand demand, std::string_view rule,
+                          const Falloff& falloff) {
+  std::vector<Field> result = weights(in, p, falloff);
+  if (demand == Demand::everywhere) {
+    const Field reached = less(p.constant(0), program::fold(result, add));
+    const std::vector<Field> close = nearest(in.distances(p));
+    for (size_t i = 0; i < result.size(); ++i) result[i] = select(reached, result[i], close[i]);
+  }
+  if (rule == "blend") return result;
+  std::vector<Field> marks = in.insides(p);
+  const Field any = program::fold(marks, program::logical_or);
+  if (rule == "first") marks = first_true(marks);
+  if (rule == "last") marks = last_true(marks);
+  for (size_t i = 0; i < result.size(); ++i) result[i] = select(any, marks[i], result[i]);
+  return result;
+}
+
+// Sums over a table and the inputs beside it.
+class Sums {
+ public:
+  Sums(const Composition& start, Field total) : total_(total) {
+    for (const auto& [id, sum] : start.fractions) sums_[id] = sum;
+    for (const auto& [number, mark] : start.checks) checks_[number] = mark;
+  }
+
+  void add_input(const Composition& input, Field weight) {
+    const Field zero = weight.builder->constant(0), counts = truth(weight);
+    total_ = total_ + weight;
+    for (const auto& [id, fraction] : input.fractions) {
+      const Field term = select(counts, fraction * weight, zero);
+      Field& sum = sums_[id];
+      sum = sum ? sum + term : term;
+    }
+    for (const auto& [number, mark] : input.checks) {
+      const Field bad = logical_and(counts, mark);
+      Field& known = checks_[number];
+      known = known ? logical_or(known, bad) : bad;
+    }
+  }
+
+  Composition shares() const {
+    Composition result;
+    for (const auto& [id, sum] : sums_) result.fractions.emplace_back(id, share(sum, total_));
+    for (const auto& check : checks_) result.checks.push_back(check);
+    return result;
+  }
+
+ private:
+  Field total_;
+  std::map<MaterialId, Field> sums_;
+  std::map<uint32_t, Field> checks_;
+};
+
+// `yes` where the condition is true, else `no`.
+Composition choose(Field condition, const Composition& yes, const Composition& no) {
+  const Field zero = condition.builder->constant(0);
+  std::map<MaterialId, std::pair<Field, Field>> fractions;
+  for (const auto& [id, fraction] : yes.fractions) fractions[id] = {fraction, zero};
+  for (const auto& [id, fraction] : no.fractions) {
+    const auto [it, is_new] = fractions.try_emplace(id, zero, fraction);
+    if (!is_new) it->second.second = fraction;
+  }
+  Composition result;
+  for (const auto& [id, pair] : fractions)
+    result.fractions.emplace_back(id, select(condition, pair.first, pair.second));
+  for (const auto& [number, mark] : yes.checks) result.checks.emplace_back(number, logical_and(condition, mark));
+  for (const auto& [number, mark] : no.checks)
+    result.checks.emplace_back(number, logical_and(logical_not(condition), mark));
+  return result;
+}
+
+bool all_of_one(const Inputs& in, const Point& p, const PartFields& parts) {
+  if (!parts.only) return false;
+  for (const size_t i : parts.others) {
+    const Composition other = in.composition(i, p, Demand::everywhere);
+    if (other.fractions.size() != 1 || other.fractions[0].first != *parts.only || !other.checks.empty()) return false;
+  }
+  return true;
+}
+
+Composition from_table(const Inputs& in, const Point& p, std::string_view rule, const Falloff& falloff,
+                       const PartFields& parts) {
+  if (all_of_one(in, p, parts)) return Composition::pure(*parts.only, p.constant(1));
+  Sums weighed(parts.weighed, parts.weight);
+  Sums held(rule == "mix" ? parts.composition : Composition{}, rule == "mix" ? parts.count : p.constant(0));
+  Field any = parts.inside;
+  for (const size_t i : parts.others) {
+    const Composition other = in.composition(i, p, Demand::everywhere);
+    const Field inside = in.inside(i, p);
+    weighed.add_input(other, falloff.weight(in.distance(i, p), p));
+    held.add_input(other, inside);
+    any = logical_or(any, inside);
+  }
+  if (rule == "blend") return weighed.shares();
+  return choose(any, rule == "mix" ? held.shares() : parts.composition, weighed.shares());
+}
+
+}  // namespace
+
+Field Blend::full(const Point& p) const { return is_chamfer ? radius(p) : square(radius(p)); }
+
+Falloff Blend::falloff() const {
+  const auto weight = [blend = *this](Field distance, const Point& p) {
+    const Field depth = max(blend.radius(p) - distance, 0.0);
+    return blend.is_chamfer ? depth : square(depth);
+  };
+  return {weight, radius.range(design::design_space()).hi};
+}
+
+Field Blend::distance(Field total, Field least, const Point& p) const {
+  return max(radius(p), least) - (is_chamfer ? total : sqrt(total));
+}
+
+Field Blend::inside(Field total, Field any, const Point& p) const {
+  const Field held = less_equal(full(p), total);
+  return radius.constant() ? held : logical_or(any, logical_and(held, less(p.constant(0), radius(p))));
+}
+
+Field Blend::interior(Field total, Field any, const Point& p) const {
+  const Field held = less(full(p), total);
+  return radius.constant() ? held : logical_or(any, held);
+}
+
+double Blend::lipschitz(size_t solids) const {
+  const auto n = static_cast<double>(solids);
+  return is_chamfer ? n : std::sqrt(n);
+}
+
+// With `solids` of them at a distance D below k, the joint's g is at least k - (k - D) * lipschitz(solids).
+double Blend::reach(size_t solids, const Box& where, double margin) const {
+  const Interval k = radius.range(where);
+  const double least = k.hi - (k.hi - margin) / lipschitz(solids);
+  return margin >= k.hi ? margin : radius.constant() ? least : k.hi;
+}
+
+std::vector<Field> weights(const Inputs& in, const Point& p, const Falloff& falloff) {
+  std::vector<Field> result;
+  for (const Field distance : in.distances(p)) result.push_back(falloff.weight(distance, p));
+  return result;
+}
+
+Felt felt(const Inputs& in, const Point& p, PartQuery query, const Falloff& falloff) {
+  const bool interior = query == PartQuery::interior;
+  const auto parts = in.many_parts(query, p, &falloff);
+  if (!parts)
+    return {program::fold(weights(in, p, falloff), add),
+            program::fold(interior ? in.interiors(p) : in.insides(p), program::logical_or)};
+  Felt sum{parts->weight, parts->inside};
+  for (const size_t i : parts->others) {
+    sum.total = sum.total + falloff.weight(in.distance(i, p), p);
+    sum.any = logical_or(sum.any, interior ? in.interior(i, p) : in.inside(i, p));
+  }
+  return sum;
+}
+
+Composition felt_composition(const Inputs& in, const Point& p, Demand demand, std::string_view rule,
+                             const Falloff& falloff) {
+  if (in.count() == 1) return in.composition(0, p, demand);
+  const auto parts = demand == Demand::inside ? in.many_parts(query_for(rule), p, &falloff) : std::nullopt;
+  const bool in_order = rule == "first" || rule == "last";
+  if (parts && (!in_order || parts->others.empty())) return from_table(in, p, rule, falloff, *parts);
+  return weighted(in, p, Demand::everywhere, shares(in, p, demand, rule, falloff));
+}
+
+Field felt_attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand, const Falloff& falloff) {
+  if (in.count() == 1) return in.attribute(0, name, p, demand);
+  std::vector<Field> marks;
+  for (const Field share : shares(in, p, demand, "mix", falloff)) marks.push_back(truth(share));
+  return overlapping_attribute(in, name, p, Demand::everywhere, marks, in.declaration(name));
+}
+
+}  // namespace ombre::nodes

@@ -1,0 +1,185 @@
+// Unit cells and tiles against published densities, explicit copies and geometry.
+#include <cmath>
+#include <random>
+
+#include "nodes/test_solids.h"
+#include "nodes/unit_cells.h"
+
+namespace ombre::nodes {
+namespace {
+
+std::string cell(const std::string& name, double radius) {
+  return "{\"cell\": \"" + name + "\", \"size\": [1, 1, 1], \"radius\": " + std::to_string(radius) + "}";
+}
+
+Solid tiled(const std::string& name, double radius) {
+  return Solid(Solid::node("tile", "{}", {Solid::node("lattice", cell(name, radius))}));
+}
+
+// The length of struts in a periodic cell of side one; those on a face count half, on an edge a quarter.
+double length_per_cell(const UnitCell& unit) {
+  double sum = 0;
+  for (const auto& [a, b] : unit.struts) {
+    const Vec3 middle = 0.5 * (a + b);
+    double share = 1;
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::abs(middle[axis]) == 0.5 && a[axis] == b[axis]) share /= 2;
+    sum += share * length(b - a);
+  }
+  return sum;
+}
+
+TEST(UnitCells, HaveThePublishedLengthOfStruts) {
+  const std::map<std::string, double> expected{
+      {"cubic", 3},
+      {"bcc", 4 * std::sqrt(3)},
+      {"bccz", 4 * std::sqrt(3) + 1},
+      {"fcc", 6 * std::sqrt(2)},
+      {"fccz", 6 * std::sqrt(2) + 1},
+      {"f2bcc", 6 * std::sqrt(2) + 4 * std::sqrt(3)},
+      {"octahedral", 6 * std::sqrt(2)},
+      {"octet", 12 * std::sqrt(2)},                // Deshpande et al. 2001: density 6 sqrt(2) pi (r/l)^2, l = 1/sqrt(2)
+      {"kelvin", 6 * std::sqrt(2)},                // 24 edges a cell, each sqrt(2)/4 long
+      {"rhombic_dodecahedron", 8 * std::sqrt(3)},  // 32 edges a cell, each sqrt(3)/4 long
+      {"diamond", 4 * std::sqrt(3)},               // 16 bonds a cell, each sqrt(3)/4 long
+  };
+  for (const UnitCell& unit : unit_cells())
+    EXPECT_NEAR(length_per_cell(unit), expected.at(std::string(unit.name)), 1e-12) << unit.name;
+}
+
+// Thin struts fill pi r^2 times their length, less what they share at their joints: at most a few balls each.
+TEST(UnitCells, HaveTheDensityOfTheirStruts) {
+  constexpr double r = 0.04;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> at(-0.5, 0.5);
+  for (const UnitCell& unit : unit_cells()) {
+    const Solid lattice = tiled(std::string(unit.name), r);
+    constexpr int samples = 40000;
+    int count = 0;
+    for (int n = 0; n < samples; ++n) count += lattice.inside({at(random), at(random), at(random)}) ? 1 : 0;
+    const double density = static_cast<double>(count) / samples, first_order = M_PI * r * r * length_per_cell(unit);
+    const double error = 4 * std::sqrt(first_order * (1 - first_order) / samples);
+    const double joints = 60 * r * r * r;
+    EXPECT_LT(density, first_order + error) << unit.name;
+    EXPECT_GT(density, first_order - joints - error) << unit.name;
+  }
+}
+
+// Three sets of crossing cylinders share Steinmetz's solid.
+TEST(UnitCells, CubicHasItsExactVolume) {
+  constexpr double r = 0.15;
+  const double exact = 3 * M_PI * r * r - 8 * std::sqrt(2) * r * r * r;
+  EXPECT_NEAR(tiled("cubic", r).share(Box::centered({0.5, 0.5, 0.5}), 80), exact, 2e-3);
+}
+
+// Cells know what their neighbours' struts add, at any thickness: all 27 around one are no more than it.
+TEST(Tile, IsWhatExplicitCopiesAre) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> at(-0.75, 0.75);
+  for (const UnitCell& unit : unit_cells()) {
+    const std::string name(unit.name);
+    for (const double radius : {0.05, 0.2}) {
+      std::vector<design::NodePtr> copies;
+      for (int n = 0; n < 125; ++n) {
+        const std::string by =
+            std::to_string(n % 5 - 2) + ", " + std::to_string(n / 5 % 5 - 2) + ", " + std::to_string(n / 25 - 2);
+        copies.push_back(
+            Solid::node("translate", "{\"by\": [" + by + "]}", {Solid::node("lattice", cell(name, radius))}));
+      }
+      const Solid explicit_copies(Solid::node("union", "{}", copies)), tile = tiled(name, radius);
+      for (int n = 0; n < 60; ++n) {
+        const Vec3 p{at(random), at(random), at(random)};
+        EXPECT_NEAR(tile.distance(p), explicit_copies.distance(p), 1e-12)
+            << name << " " << p.x << " " << p.y << " " << p.z;
+        EXPECT_EQ(tile.inside(p), explicit_copies.inside(p)) << name;
+      }
+    }
+  }
+}
+
+// A child off its cell's middle, with materials, along two axes and within limits.
+TEST(Tile, AsksNeighboursThatReachIn) {
+  const auto child = [] {
+    return Solid::node("translate", R"({"by": [1.2, 0.7, 0.3]})",
+                       {Solid::node("rotate", R"({"angles": [10, 20, 30]})",
+                                    {Solid::node("rectprism", R"({"size": [3.1, 1, 1], "material": "red"})")})});
+  };
+  std::vector<design::NodePtr> copies;
+  for (int i = -2; i <= 3; ++i)
+    for (int j = -4; j <= 4; ++j)
+      copies.push_back(Solid::node(
+          "translate", "{\"by\": [" + std::to_string(2 * i) + ", " + std::to_string(1.5 * j) + ", 0]}", {child()}));
+  const Solid explicit_copies(Solid::node("union", "{}", copies));
+  const Solid tile(Solid::node("tile", R"({"size": [2, 1.5, 0], "from": [-2, -4, 0], "to": [3, 4, 0]})", {child()}));
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> at(-9, 12);
+  for (int n = 0; n < 400; ++n) {
+    const Vec3 p{at(random), at(random), 0.2 * at(random)};
+    EXPECT_EQ(tile.inside(p), explicit_copies.inside(p)) << p.x << " " << p.y << " " << p.z;
+    if (!tile.inside(p)) {
+      EXPECT_NEAR(tile.distance(p), explicit_copies.distance(p), 1e-12);
+    }
+  }
+}
+
+TEST(Tile, GivesTheCopysIndices) {
+  const auto ball = Solid::node("sphere", R"({"radius": 0.4})");
+  const auto graded = Solid::node(
+      "fgrade",
+      R"J({"functions": ["ci == 2 and cj == -1", "1 - (ci == 2 and cj == -1)"], "materials": ["red", "blue"]})J",
+      {ball});
+  const Solid tile(Solid::node("tile", R"({"size": [1, 1, 1]})", {graded}));
+  EXPECT_EQ(tile.red({2.1, -0.9, 7}), 1);
+  EXPECT_EQ(tile.red({1.1, -0.9, 7}), 0);
+  // Sizes by cell, which a clamp bounds.
+  const Solid sized(Solid::node("tile", R"({"size": [1, 1, 0]})",
+                                {Solid::node("sphere", R"J({"radius": "clamp(0.1, 0.1*ci, 0.4)"})J")}));
+  EXPECT_NEAR(sized.distance({3, 0, 0}), -0.3, 1e-12);
+  EXPECT_NEAR(sized.distance({2, 5, 0}), -0.2, 1e-12);
+}
+
+TEST(Lattice, KnowsThePlaceAlongAStrut) {
+  const Solid graph(Solid::node(
+      "lattice", R"({"edges": [[[0, 0, 0], [10, 0, 0]], [[0, 0, 0], [0, 4, 0], 0.5]], "radius": "0.2 + 0.3*t"})"));
+  EXPECT_NEAR(graph.along({7, 0, 0.1}), 0.7, 1e-12);
+  EXPECT_NEAR(graph.along({0, 3, 0.1}), 0.75, 1e-12);
+  EXPECT_NEAR(graph.distance({10, 0, 0}), -0.5, 1e-12);
+  EXPECT_NEAR(graph.distance({5, 0, 1}), 1 - 0.35, 1e-12);
+  EXPECT_NEAR(graph.distance({0, 2, 0.1}), -0.4, 1e-12);
+  const Solid strut(Solid::node("fgrade", R"({"functions": ["t", "1 - t"], "materials": ["red", "blue"]})",
+                                {Solid::node("strut", R"({"start": [1, 0, 0], "end": [5, 0, 0], "radius": 1})")}));
+  EXPECT_NEAR(strut.red({2, 0.3, 0}), 0.25, 1e-12);
+}
+
+// Many edges, which are rows of a table.
+TEST(Lattice, IsTheUnionOfItsStruts) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> at(-10, 10);
+  std::string list;
+  std::vector<std::pair<Vec3, Vec3>> edges;
+  for (int n = 0; n < 100; ++n) {
+    const Vec3 a{std::round(at(random)), std::round(at(random)), std::round(at(random))},
+        b{a.x + 2, std::round(at(random)), a.z};
+    edges.emplace_back(a, b);
+    const auto text = [](Vec3 p) {
+      return "[" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + "]";
+    };
+    list += (n ? ", [" : "[") + text(a) + ", " + text(b) + "]";
+  }
+  const Solid lattice(Solid::node("lattice", "{\"edges\": [" + list + "], \"radius\": 0.6}"));
+  for (int n = 0; n < 500; ++n) {
+    const Vec3 p{at(random), at(random), at(random)};
+    double least = 1e9;
+    for (const auto& [a, b] : edges) {
+      const double t = std::clamp(dot(p - a, b - a) / dot(b - a, b - a), 0.0, 1.0);
+      least = std::min(least, length(p - a - t * (b - a)) - 0.6);
+    }
+    EXPECT_NEAR(lattice.distance(p), least, 1e-12);
+    if (std::abs(least) > 1e-9) {
+      EXPECT_EQ(lattice.inside(p), least <= 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ombre::nodes

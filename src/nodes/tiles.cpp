@@ -1,0 +1,232 @@
+// Space filled with copies of a solid.
+#include <cmath>
+
+#include "base/text.h"
+#include "design/spec.h"
+#include "nodes/all_nodes.h"
+#include "nodes/mixtures.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+// Copies moved by whole multiples of the steps. A point is brought back into the cell around the child; the copies
+// that may matter there are asked: the own one, and neighbours that reach into it.
+struct Tile {
+  static constexpr bool gives_cell = true;
+
+  std::optional<Vec3> size, from, to;
+
+  static Spec<Tile> spec() {
+    return {
+        "tile",
+        "lattices",
+        "Repeats its child along x, y and z, without end unless limited: cut it with an intersection. Below it, "
+        "expressions know the copy's indices ci, cj, ck.",
+        {{"size", &Tile::size, "Steps from copy to copy; 0: none along that axis. Without it, those of the unit cell",
+          unit::not_negative_mm},
+         {"from", &Tile::from, "Least indices of copies, whole numbers; the child itself is copy (0, 0, 0)", {}},
+         {"to", &Tile::to, "Greatest indices of copies", {}}},
+        one_solid,
+        "intersection() { sphere(10); tile() { lattice(\"bcc\", (5, 5, 5), 0.4, material=\"gray\"); } }"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
+    const auto fail = [&](const std::string& message, const std::string& hint) {
+      reader.diagnostics.error(reader.where, message, hint);
+      return false;
+    };
+    const auto pitch = inputs[0]->pitch();
+    if (!size && !pitch)
+      return fail("tile does not know the steps from copy to copy", "write for example tile((10, 10, 10))");
+    const Vec3 step = size.value_or(pitch.value_or(Vec3{}));
+    if (step == Vec3{}) return fail("tile repeats along no axis", "write for example tile((10, 10, 0))");
+    const Box box = inputs[0]->bounds(design_space());
+    const std::array<bool, 3> mirrors = inputs[0]->mirrors();
+    double copies = 1;
+    for (int n = 0; n < 3; ++n) {
+      Axis& axis = axes_[static_cast<size_t>(n)];
+      axis.step = step[n];
+      axis.lo = box.lo[n];
+      axis.hi = box.hi[n];
+      if (from) axis.first = (*from)[n];
+      if (to) axis.last = (*to)[n];
+      if (axis.first > axis.last || !is_limit(axis.first) || !is_limit(axis.last))
+        return fail("the limits of tile are whole numbers, from not above to",
+                    "write for example from=(0, 0, 0), to=(9, 9, 0)");
+      if (axis.step == 0) continue;
+      if (box.is_empty()) return fail("there is nothing in tile's braces to repeat", "");
+      if (axis.hi - axis.lo >= design_limit_mm)
+        return fail("what tile repeats has no end along " + std::string(1, "xyz"[n]),
+                    "cut it to size first, or write 0 for that axis");
+      axis.is_mirrored = mirrors[static_cast<size_t>(n)];
+      axis.middle = axis.is_mirrored ? 0 : 0.5 * (axis.lo + axis.hi);
+      copies *= 2 * axis.neighbours(true) + 1;
+    }
+    constexpr double most = 343;
+    if (copies <= most) return true;
+    return fail("what tile repeats is many times as large as its steps: " + format_number(copies) + " copies overlap",
+                "give steps at least half as long as the child is");
+  }
+
+  // The nearest copy is among the neighbours by distance, not by a bound of it.
+  Metric metric(const Inputs& in) const {
+    const Metric metric = in.metric(0);
+    if (metric.kind == Metric::Kind::exact) return Metric::bounded();
+    for (const Axis& axis : axes_)
+      if (axis.step > 0 && !axis.is_mirrored) return Metric::implicit();
+    return metric;
+  }
+
+  Box reach(const Inputs& in, const Box& where, double margin) const {
+    const Box child = in.reach(0, design_space(), margin);
+    if (child.is_empty()) return child;
+    Box box = where;
+    for (int n = 0; n < 3; ++n) {
+      const Axis& axis = axes_[static_cast<size_t>(n)];
+      const double back = axis.step > 0 ? axis.step * axis.first : 0, on = axis.step > 0 ? axis.step * axis.last : 0;
+      box.lo[n] = std::max(box.lo[n], child.lo[n] + back);
+      box.hi[n] = std::min(box.hi[n], child.hi[n] + on);
+    }
+    return box;
+  }
+
+  Field distance(const Inputs& in, const Point& p) const {
+    std::vector<Field> fields;
+    for (const Point& q : copies(p, true)) fields.push_back(in.distance(0, q));
+    return program::fold(fields, program::min);
+  }
+
+  Field inside(const Inputs& in, const Point& p) const {
+    return program::fold(marks(in, copies(p, false)), program::logical_or);
+  }
+
+  Field interior(const Inputs& in, const Point& p) const {
+    std::vector<Field> fields;
+    for (const Point& q : copies(p, false)) fields.push_back(in.interior(0, q));
+    return program::fold(fields, program::logical_or);
+  }
+
+  // Of copies that overlap the nearest cell's counts; where none holds the point, that of the nearest surface.
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    const std::vector<Point> points = copies(p, demand == Demand::everywhere);
+    if (points.size() == 1) return in.composition(0, points[0], demand);
+    std::vector<Composition> parts;
+    for (const Point& q : points) parts.push_back(in.composition(0, q, demand));
+    return weighted(parts, chosen(in, points, demand));
+  }
+
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    const std::vector<Point> points = copies(p, demand == Demand::everywhere);
+    const std::vector<Field> weights = chosen(in, points, demand);
+    Field value = in.attribute(0, name, points[0], demand);
+    for (size_t n = 1; n < points.size(); ++n)
+      value = select(weights[n], in.attribute(0, name, points[n], demand), value);
+    return value;
+  }
+
+  Field along(const Inputs& in, const Point& p) const {
+    const std::vector<Point> points = copies(p, false);
+    const std::vector<Field> weights = chosen(in, points, Demand::inside);
+    Field value = in.along(0, points[0]);
+    for (size_t n = 1; n < points.size(); ++n) value = select(weights[n], in.along(0, points[n]), value);
+    return value;
+  }
+
+ private:
+  static bool is_limit(double index) { return std::isinf(index) || index == std::floor(index); }
+
+  struct Axis {
+    double step = 0, lo = 0, hi = 0;  // 0: no copies; the child's extent
+    double middle = 0;                // of the cell in which the child stands
+    bool is_mirrored = false;
+    double first = -Box::inf, last = Box::inf;  // limits of indices
+
+    bool is_limited() const { return std::isfinite(first) || std::isfinite(last); }
+
+    // How many copies to each side matter in a cell: those that reach into it, or those that may be nearest. Of one
+    // that is its own mirror image the own copy is always as near.
+    int neighbours(bool nearest) const {
+      if (step == 0 || is_mirrored) return 0;
+      constexpr double rounding = 1e-9;
+      const double half = std::max(hi - middle, middle - lo) / step;
+      return static_cast<int>(std::floor((nearest ? 1 : 0.5) + half + rounding));
+    }
+
+    struct Copy {
+      Field index, at;  // which copy, and where in it
+    };
+    Copy copy(Field x, int offset) const {
+      program::Builder& builder = *x.builder;
+      if (step == 0) return {builder.constant(0), x};
+      Field own = builder.apply(program::Op::round, (x - middle) / step);
+      if (is_limited()) own = clamped(own + offset);
+      const Field index = is_limited() ? own : own + offset;
+      const Field at = x - index * step;
+      if (is_limited() || offset != 0) return {index, at};
+      // What intervals cannot see.
+      return {index, min(max(at, middle - 0.5 * step), builder.constant(middle + 0.5 * step))};
+    }
+    Field clamped(Field index) const {
+      if (std::isfinite(first)) index = max(index, first);
+      return std::isfinite(last) ? min(index, index.builder->constant(last)) : index;
+    }
+
+    Interval extent(int offset) const {
+      if (step == 0 || is_limited()) return Interval::everything();
+      const double rounding = 1e-6 * step, at = middle - offset * step;
+      return {at - 0.5 * step - rounding, at + 0.5 * step + rounding};
+    }
+  };
+
+  // The point as each copy sees it, the own copy first.
+  std::vector<Point> copies(const Point& p, bool nearest) const {
+    std::vector<std::array<int, 3>> offsets{{0, 0, 0}};
+    for (size_t n = 0; n < 3; ++n) {
+      const size_t count = offsets.size();
+      for (int away = 1; away <= axes_[n].neighbours(nearest); ++away)
+        for (const int offset : {-away, away})
+          for (size_t i = 0; i < count; ++i) {
+            offsets.push_back(offsets[i]);
+            offsets.back()[n] = offset;
+          }
+    }
+    std::vector<Point> points;
+    for (const auto& [i, j, k] : offsets) {
+      const Axis::Copy x = axes_[0].copy(p.x, i), y = axes_[1].copy(p.y, j), z = axes_[2].copy(p.z, k);
+      Point q = Point::of(x.at, y.at, z.at);
+      q.cell = {x.index, y.index, z.index};
+      const Interval along_x = axes_[0].extent(i), along_y = axes_[1].extent(j), along_z = axes_[2].extent(k);
+      q.set_within({{along_x.lo, along_y.lo, along_z.lo}, {along_x.hi, along_y.hi, along_z.hi}});
+      points.push_back(q);
+    }
+    return points;
+  }
+
+  static std::vector<Field> marks(const Inputs& in, const std::vector<Point>& points) {
+    std::vector<Field> fields;
+    for (const Point& q : points) fields.push_back(in.inside(0, q));
+    return fields;
+  }
+
+  static std::vector<Field> chosen(const Inputs& in, const std::vector<Point>& points, Demand demand) {
+    std::vector<Field> result = marks(in, points);
+    if (demand == Demand::everywhere) {
+      std::vector<Field> distances;
+      for (const Point& q : points) distances.push_back(in.distance(0, q));
+      const Field none = logical_not(program::fold(result, program::logical_or));
+      const std::vector<Field> close = nodes::nearest(distances);
+      for (size_t n = 0; n < result.size(); ++n) result[n] = logical_or(result[n], logical_and(none, close[n]));
+    }
+    return first_true(result);
+  }
+
+  std::array<Axis, 3> axes_;
+};
+
+}  // namespace
+
+void add_tiles(Registry& registry) { registry.add<Tile>(); }
+
+}  // namespace ombre::nodes

@@ -1,0 +1,197 @@
+// Triply periodic minimal surfaces, by their usual trigonometric approximations.
+#include <cmath>
+#include <numbers>
+
+#include "design/spec.h"
+#include "nodes/all_nodes.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+// A factor of a term: 1, or the sine or cosine of a multiple of the phase along one axis.
+enum class Wave : uint8_t { one, sin, cos, sin2, cos2 };
+
+struct Term {
+  double factor;
+  Wave x, y, z;
+};
+
+struct Surface {
+  const char* name;
+  std::vector<Term> terms;
+};
+
+// The term, and those that follow from it when the axes change places in turn.
+std::vector<Term> cyclic(std::initializer_list<Term> some) {
+  std::vector<Term> all;
+  for (const auto& [factor, x, y, z] : some) {
+    all.push_back({factor, x, y, z});
+    if (x == y && y == z) continue;
+    all.push_back({factor, z, x, y});
+    all.push_back({factor, y, z, x});
+  }
+  return all;
+}
+
+const std::vector<Surface>& surfaces() {
+  using enum Wave;
+  static const std::vector<Surface> all{
+      {"gyroid", cyclic({{1, sin, cos, one}})},
+      {"schwarz_p", cyclic({{1, cos, one, one}})},
+      {"schwarz_d", cyclic({{1, sin, sin, sin}, {1, sin, cos, cos}})},
+      {"neovius", cyclic({{3, cos, one, one}, {4, cos, cos, cos}})},
+      {"lidinoid", cyclic({{0.5, sin2, cos, sin}, {-0.5, cos2, cos2, one}, {0.15, one, one, one}})},
+      {"iwp", cyclic({{2, cos, cos, one}, {-1, cos2, one, one}})},
+      {"split_p", cyclic({{1.1, sin2, cos, sin}, {-0.2, cos2, cos2, one}, {-0.4, cos2, one, one}})},
+  };
+  return all;
+}
+
+std::vector<std::string> surface_names() {
+  std::vector<std::string> names;
+  for (const Surface& surface : surfaces()) names.emplace_back(surface.name);
+  return names;
+}
+
+// The waves of one phase, and their derivatives by it.
+struct Waves {
+  Field sin, cos, sin2, cos2, one, zero;
+
+  explicit Waves(Field phase) {
+    program::Builder& builder = *phase.builder;
+    sin = builder.apply(program::Op::sin, phase);
+    cos = builder.apply(program::Op::cos, phase);
+    sin2 = sin * cos * 2.0;
+    cos2 = 1 - square(sin) * 2.0;
+    one = builder.constant(1);
+    zero = builder.constant(0);
+  }
+
+  Field value(Wave wave) const {
+    return wave == Wave::one    ? one
+           : wave == Wave::sin  ? sin
+           : wave == Wave::cos  ? cos
+           : wave == Wave::sin2 ? sin2
+                                : cos2;
+  }
+  Field slope(Wave wave) const {
+    switch (wave) {
+      case Wave::one:
+        return zero;
+      case Wave::sin:
+        return cos;
+      case Wave::cos:
+        return -sin;
+      case Wave::sin2:
+        return cos2 * 2.0;
+      case Wave::cos2:
+        return sin2 * -2.0;
+    }
+    return zero;
+  }
+};
+
+struct Tpms {
+  Choice surface = "gyroid";
+  Choice kind = "sheet";
+  Numbers3 cell{10, 10, 10};
+  Number thickness = 1;
+  Number level = 0;
+  MaterialName material;
+
+  static Spec<Tpms> spec() {
+    return {"tpms",
+            "lattices",
+            "A triply periodic minimal surface, without end: cut it with an intersection.",
+            {{"surface", &Tpms::surface, "Which one", one_of(surface_names())},
+             {"kind", &Tpms::kind,
+              "sheet: a wall along the surface. solid: all on the side where the function is below level",
+              one_of({"sheet", "solid"})},
+             {"cell", &Tpms::cell, "Lengths of its period along x, y and z", unit::positive_mm},
+             {"thickness", &Tpms::thickness, "Of the sheet, across it", unit::positive_mm},
+             {"level", &Tpms::level, "Value of the function at the surface; 0 for the minimal surface"},
+             {"material", &Tpms::material, "Its material"}},
+            no_inputs,
+            "intersection() { cube(20); tpms(\"gyroid\", cell=(10, 10, 10), thickness=1, material=\"red\"); }"};
+  }
+
+  Metric metric() const { return Metric::implicit(); }
+  Box bounds(const Box& where) const { return where; }
+
+  // To first order: the function over the length of its gradient, which is right to third order near minimal surfaces.
+  Field distance(const Point& p) const {
+    const auto [value, slope] = at(p);
+    const Field from_surface = value / sqrt(slope);
+    return kind == "sheet" ? abs(from_surface) - thickness(p) * 0.5 : from_surface;
+  }
+
+  Field inside(const Inputs&, const Point& p) const { return held(p, program::less_equal); }
+  Field interior(const Inputs&, const Point& p) const { return held(p, program::less); }
+
+ private:
+  struct Sample {
+    Field value, squared_slope;  // of the function less the level; the latter by mm
+  };
+
+  Field held(const Point& p, Field (*compare)(Field, Field)) const {
+    const auto [value, slope] = at(p);
+    if (kind == "solid") return compare(value, p.constant(0));
+    return compare(square(value), square(thickness(p) * 0.5) * slope);
+  }
+
+  bool has_constant_cell() const { return cell.x.constant() && cell.y.constant() && cell.z.constant(); }
+
+  Sample at(const Point& p) const { return has_constant_cell() && level.constant() ? by_rule(p) : by_differences(p); }
+
+  static Field phase(Field x, Field length) { return x / length * (2 * std::numbers::pi); }
+
+  const Surface& chosen() const {
+    for (const Surface& one : surfaces())
+      if (surface == one.name) return one;
+    return surfaces().front();  // the reader lets no other name through
+  }
+
+  Sample by_rule(const Point& p) const {
+    const Waves x(phase(p.x, cell.x(p))), y(phase(p.y, cell.y(p))), z(phase(p.z, cell.z(p)));
+    Field value = -level(p), by_x = p.constant(0), by_y = by_x, by_z = by_x;
+    for (const Term& term : chosen().terms) {
+      const Field fx = x.value(term.x), fy = y.value(term.y), fz = z.value(term.z);
+      value = value + fx * fy * fz * term.factor;
+      by_x = by_x + x.slope(term.x) * fy * fz * term.factor;
+      by_y = by_y + fx * y.slope(term.y) * fz * term.factor;
+      by_z = by_z + fx * fy * z.slope(term.z) * term.factor;
+    }
+    const auto per_mm = [](const Number& length) { return 2 * std::numbers::pi / *length.constant(); };
+    return {value,
+            floored(square(by_x * per_mm(cell.x)) + square(by_y * per_mm(cell.y)) + square(by_z * per_mm(cell.z)))};
+  }
+
+  // Where the cell or the level are fields, they add to the gradient.
+  Sample by_differences(const Point& p) const {
+    const double step = 1e-3;
+    const auto slope = [&](Vec3 by) {
+      const Field up = function(p.mapped(Affine::translation(by))), down = function(p.mapped(Affine::translation(-by)));
+      return square((up - down) / (2 * step));
+    };
+    return {function(p), floored(slope({step, 0, 0}) + slope({0, step, 0}) + slope({0, 0, step}))};
+  }
+
+  Field function(const Point& p) const {
+    const Waves x(phase(p.x, cell.x(p))), y(phase(p.y, cell.y(p))), z(phase(p.z, cell.z(p)));
+    Field value = -level(p);
+    for (const Term& term : chosen().terms)
+      value = value + x.value(term.x) * y.value(term.y) * z.value(term.z) * term.factor;
+    return value;
+  }
+
+  // Where the gradient vanishes, the value stays finite.
+  static Field floored(Field squared) { return max(squared, 1e-6); }
+};
+
+}  // namespace
+
+void add_tpms(Registry& registry) { registry.add<Tpms>(); }
+
+}  // namespace ombre::nodes
