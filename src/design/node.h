@@ -125,9 +125,9 @@ class Node {
   virtual std::optional<Point> inner(const Point& p) const = 0;
   // Along struts: 0 at their start, 1 at their end. Nothing where the inputs are to be asked.
   virtual std::optional<Field> along(const Inputs& in, const Point& p) const = 0;
-  // Does mirroring at the plane through the origin across this axis leave the shape as it is, and is the nearest
-  // point of the surface always on one's own side of the plane?
-  virtual std::array<bool, 3> mirrors() const = 0;
+  // Of copies of the solid at such steps along an axis, does the one whose origin is nearest always have the least
+  // g, wherever the others are?
+  virtual std::array<bool, 3> nearest_copy_is_enough(Vec3 steps) const = 0;
   // At which steps copies of a unit cell join.
   virtual std::optional<Vec3> pitch() const = 0;
   // Field nodes give this.

@@ -8,7 +8,8 @@
 //   Point inner(Point) const                  where the input is asked, with `scale()` for its distance
 // and where the defaults do not fit
 //   Metric metric([Inputs]) const             default: exact for leaves with constant numbers
-//   inside, interior, composition, attribute, declares, value, complete, along, mirrors, pitch
+//   inside, interior, composition, attribute, declares, value, complete, along, pitch,
+//   nearest_copy_is_enough
 #pragma once
 
 #include <algorithm>
@@ -162,13 +163,13 @@ class NodeOf final : public Node {
       return std::nullopt;
   }
 
-  std::array<bool, 3> mirrors() const override {
+  std::array<bool, 3> nearest_copy_is_enough(Vec3 steps) const override {
     if constexpr (!passes_on)
       if (!type_.has_constant_numbers(data)) return {};
-    if constexpr (requires { data.mirrors(); })
-      return data.mirrors();
+    if constexpr (requires { data.nearest_copy_is_enough(steps); })
+      return data.nearest_copy_is_enough(steps);
     else if constexpr (passes_on)
-      return inputs().size() == 1 ? inputs()[0]->mirrors() : std::array<bool, 3>{};
+      return inputs().size() == 1 ? inputs()[0]->nearest_copy_is_enough(steps) : std::array<bool, 3>{};
     else
       return {};
   }

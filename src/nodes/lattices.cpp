@@ -53,9 +53,10 @@ struct Lattice {
 
   Metric metric() const { return segments_.size() == 1 ? Metric::exact() : Metric::bounded(); }
 
-  std::array<bool, 3> mirrors() const {
-    const bool is = is_mirrored();
-    return {is, is, is};
+  // The neighbours are mirror images, with their struts beyond the mirror.
+  std::array<bool, 3> nearest_copy_is_enough(Vec3 steps) const {
+    if (!is_mirrored()) return {};
+    return {steps.x >= size.x, steps.y >= size.y, steps.z >= size.z};
   }
 
   std::optional<Vec3> pitch() const { return cell == "none" ? std::nullopt : std::optional(size); }

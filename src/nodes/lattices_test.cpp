@@ -72,27 +72,56 @@ TEST(UnitCells, CubicHasItsExactVolume) {
   EXPECT_NEAR(tiled("cubic", r).share(Box::centered({0.5, 0.5, 0.5}), 80), exact, 2e-3);
 }
 
-// Cells know what their neighbours' struts add, at any thickness: all 27 around one are no more than it.
+// Cells know what their neighbours' struts add, at any thickness, also when they overlap or stand apart.
 TEST(Tile, IsWhatExplicitCopiesAre) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> at(-0.75, 0.75);
   for (const UnitCell& unit : unit_cells()) {
     const std::string name(unit.name);
-    for (const double radius : {0.05, 0.2}) {
+    for (const auto& [radius, step] : {std::pair(0.05, 1.0), {0.2, 1.0}, {0.1, 0.75}, {0.1, 1.25}}) {
       std::vector<design::NodePtr> copies;
-      for (int n = 0; n < 125; ++n) {
-        const std::string by =
-            std::to_string(n % 5 - 2) + ", " + std::to_string(n / 5 % 5 - 2) + ", " + std::to_string(n / 25 - 2);
+      const auto text = [step = step](int n) { return std::to_string(n * step); };
+      for (int n = 0; n < 343; ++n) {
+        const std::string by = text(n % 7 - 3) + ", " + text(n / 7 % 7 - 3) + ", " + text(n / 49 - 3);
         copies.push_back(
             Solid::node("translate", "{\"by\": [" + by + "]}", {Solid::node("lattice", cell(name, radius))}));
       }
-      const Solid explicit_copies(Solid::node("union", "{}", copies)), tile = tiled(name, radius);
-      for (int n = 0; n < 60; ++n) {
+      const std::string s = text(1);
+      const Solid explicit_copies(Solid::node("union", "{}", copies));
+      const Solid tile(Solid::node("tile", "{\"size\": [" + s + ", " + s + ", " + s + "]}",
+                                   {Solid::node("lattice", cell(name, radius))}));
+      for (int n = 0; n < 40; ++n) {
         const Vec3 p{at(random), at(random), at(random)};
-        EXPECT_NEAR(tile.distance(p), explicit_copies.distance(p), 1e-12)
-            << name << " " << p.x << " " << p.y << " " << p.z;
-        EXPECT_EQ(tile.inside(p), explicit_copies.inside(p)) << name;
+        EXPECT_NEAR(tile.distance(p), explicit_copies.distance(p), 1e-12) << name << " " << step;
+        EXPECT_EQ(tile.inside(p), explicit_copies.inside(p)) << name << " " << step;
       }
+    }
+  }
+}
+
+// Whose copies overlap.
+TEST(Tile, OfSimpleSolidsIsWhatExplicitCopiesAre) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> at(-3, 3);
+  for (const auto& [type, parameters] :
+       std::map<std::string, std::string>{{"sphere", R"({"radius": 1.2})"},
+                                          {"cube", R"({"side": 1.7})"},
+                                          {"rectprism", R"({"size": [0.5, 3, 1]})"},
+                                          {"cylinder", R"({"radius": 0.9, "height": 2.5})"},
+                                          {"ellipsoid", R"({"radii": [1.5, 0.5, 0.7]})"},
+                                          {"cone", R"({"base": 1, "top": 0.2, "height": 2.2})"}}) {
+    std::vector<design::NodePtr> copies;
+    for (int n = 0; n < 1331; ++n) {
+      const std::string by = std::to_string(2 * (n % 11 - 5)) + ", " + std::to_string(1.5 * (n / 11 % 11 - 5)) + ", " +
+                             std::to_string(1.8 * (n / 121 - 5));
+      copies.push_back(Solid::node("translate", "{\"by\": [" + by + "]}", {Solid::node(type, parameters)}));
+    }
+    const Solid explicit_copies(Solid::node("union", "{}", copies));
+    const Solid tile(Solid::node("tile", R"({"size": [2, 1.5, 1.8]})", {Solid::node(type, parameters)}));
+    for (int n = 0; n < 60; ++n) {
+      const Vec3 p{at(random), at(random), at(random)};
+      EXPECT_NEAR(tile.distance(p), explicit_copies.distance(p), 1e-12) << type;
+      EXPECT_EQ(tile.inside(p), explicit_copies.inside(p)) << type;
     }
   }
 }
@@ -110,7 +139,7 @@ TEST(Tile, AsksNeighboursThatReachIn) {
       copies.push_back(Solid::node(
           "translate", "{\"by\": [" + std::to_string(2 * i) + ", " + std::to_string(1.5 * j) + ", 0]}", {child()}));
   const Solid explicit_copies(Solid::node("union", "{}", copies));
-  const Solid tile(Solid::node("tile", R"({"size": [2, 1.5, 0], "from": [-2, -4, 0], "to": [3, 4, 0]})", {child()}));
+  const Solid tile(Solid::node("tile", R"({"size": [2, 1.5, 0], "first": [-2, -4, 0], "last": [3, 4, 0]})", {child()}));
   std::mt19937 random(5);
   std::uniform_real_distribution<double> at(-9, 12);
   for (int n = 0; n < 400; ++n) {

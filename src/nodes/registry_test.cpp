@@ -126,7 +126,7 @@ class RandomDesign {
     if (kind == "3 numbers" && type.name == "function")
       return Data(DataList(3, Data(parameter.name == "min" ? number(-6, -1) : number(1, 6))));
     if (kind == "3 numbers" && type.name == "tile" && parameter.name != "size") {
-      const double sign = parameter.name == "from" ? -1 : 1;
+      const double sign = parameter.name == "first" ? -1 : 1;
       return Data(DataList{Data(sign * static_cast<double>(index(3))), Data(sign * static_cast<double>(index(3))),
                            Data(sign * static_cast<double>(index(3)))});
     }

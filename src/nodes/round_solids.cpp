@@ -28,6 +28,8 @@ struct Sphere {
     return Box::centered({r, r, r});
   }
 
+  static std::array<bool, 3> nearest_copy_is_enough(Vec3) { return grows_outward; }
+
   Field distance(const Point& p) const { return length(p.x, p.y, p.z) - radius(p); }
 };
 
@@ -54,6 +56,8 @@ struct Ellipsoid {
     return Box::centered((margin > 0 ? 1 + margin / least : 1) * radii.upper(where));
   }
 
+  static std::array<bool, 3> nearest_copy_is_enough(Vec3) { return grows_outward; }
+
   Field distance(const Point& p) const {
     const Field a = radii.x(p), b = radii.y(p), c = radii.z(p);
     return (length(p.x / a, p.y / b, p.z / c) - 1) * min(min(a, b), c);
@@ -79,6 +83,8 @@ struct Cylinder {
     const double r = radius.range(where).hi;
     return Box::centered({r, r, height.range(where).hi / 2});
   }
+
+  static std::array<bool, 3> nearest_copy_is_enough(Vec3) { return grows_outward; }
 
   Field distance(const Point& p) const { return corner(length(p.x, p.y) - radius(p), abs(p.z) - height(p) * 0.5); }
 };

@@ -1,12 +1,17 @@
 // Distances that several solids share.
 #pragma once
 
+#include <array>
+
 #include "program/field.h"
 
 namespace ombre::nodes {
 
 using program::Field;
 using program::Point;
+
+// Solids whose g grows away from the planes x = 0, y = 0 and z = 0, so that of copies the nearest has the least.
+inline constexpr std::array<bool, 3> grows_outward{true, true, true};
 
 // To the corner region of a shape whose distance to each of two perpendicular faces is known.
 inline Field corner(Field a, Field b) {

@@ -16,20 +16,21 @@ using namespace design;
 struct Tile {
   static constexpr bool gives_cell = true;
 
-  std::optional<Vec3> size, from, to;
+  std::optional<Vec3> size, first, last;
 
   static Spec<Tile> spec() {
-    return {
-        "tile",
-        "lattices",
-        "Repeats its child along x, y and z, without end unless limited: cut it with an intersection. Below it, "
-        "expressions know the copy's indices ci, cj, ck.",
-        {{"size", &Tile::size, "Steps from copy to copy; 0: none along that axis. Without it, those of the unit cell",
-          unit::not_negative_mm},
-         {"from", &Tile::from, "Least indices of copies, whole numbers; the child itself is copy (0, 0, 0)", {}},
-         {"to", &Tile::to, "Greatest indices of copies", {}}},
-        one_solid,
-        "intersection() { sphere(10); tile() { lattice(\"bcc\", (5, 5, 5), 0.4, material=\"gray\"); } }"};
+    return {"tile",
+            "lattices",
+            "Repeats its child along x, y and z, without end unless limited: cut it with an intersection. Below it, "
+            "expressions know the copy's indices ci, cj, ck.",
+            {{"size", &Tile::size,
+              "Steps from copy to copy; 0: none along that axis. Without it, those of the unit cell, or the lengths of "
+              "the child's box",
+              unit::not_negative_mm},
+             {"first", &Tile::first, "Least indices of copies, whole numbers; the child itself is copy (0, 0, 0)", {}},
+             {"last", &Tile::last, "Greatest indices of copies", {}}},
+            one_solid,
+            "intersection() { sphere(10); tile() { lattice(\"bcc\", (5, 5, 5), 0.4, material=\"gray\"); } }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
@@ -37,31 +38,28 @@ struct Tile {
       reader.diagnostics.error(reader.where, message, hint);
       return false;
     };
-    const auto pitch = inputs[0]->pitch();
-    if (!size && !pitch)
-      return fail("tile does not know the steps from copy to copy", "write for example tile((10, 10, 10))");
-    const Vec3 step = size.value_or(pitch.value_or(Vec3{}));
-    if (step == Vec3{}) return fail("tile repeats along no axis", "write for example tile((10, 10, 0))");
     const Box box = inputs[0]->bounds(design_space());
-    const std::array<bool, 3> mirrors = inputs[0]->mirrors();
+    if (box.is_empty()) return fail("there is nothing in tile's braces to repeat", "");
+    const Vec3 step = size.value_or(inputs[0]->pitch().value_or(box.size()));
+    if (step == Vec3{}) return fail("tile repeats along no axis", "write for example tile((10, 10, 0))");
+    const std::array<bool, 3> is_one_enough = inputs[0]->nearest_copy_is_enough(step);
     double copies = 1;
     for (int n = 0; n < 3; ++n) {
       Axis& axis = axes_[static_cast<size_t>(n)];
       axis.step = step[n];
       axis.lo = box.lo[n];
       axis.hi = box.hi[n];
-      if (from) axis.first = (*from)[n];
-      if (to) axis.last = (*to)[n];
+      if (first) axis.first = (*first)[n];
+      if (last) axis.last = (*last)[n];
       if (axis.first > axis.last || !is_limit(axis.first) || !is_limit(axis.last))
-        return fail("the limits of tile are whole numbers, from not above to",
-                    "write for example from=(0, 0, 0), to=(9, 9, 0)");
+        return fail("the limits of tile are whole numbers, first not above last",
+                    "write for example first=(0, 0, 0), last=(9, 9, 0)");
       if (axis.step == 0) continue;
-      if (box.is_empty()) return fail("there is nothing in tile's braces to repeat", "");
       if (axis.hi - axis.lo >= design_limit_mm)
         return fail("what tile repeats has no end along " + std::string(1, "xyz"[n]),
                     "cut it to size first, or write 0 for that axis");
-      axis.is_mirrored = mirrors[static_cast<size_t>(n)];
-      axis.middle = axis.is_mirrored ? 0 : 0.5 * (axis.lo + axis.hi);
+      axis.is_one_enough = is_one_enough[static_cast<size_t>(n)];
+      axis.middle = axis.is_one_enough ? 0 : 0.5 * (axis.lo + axis.hi);
       copies *= 2 * axis.neighbours(true) + 1;
     }
     constexpr double most = 343;
@@ -75,7 +73,7 @@ struct Tile {
     const Metric metric = in.metric(0);
     if (metric.kind == Metric::Kind::exact) return Metric::bounded();
     for (const Axis& axis : axes_)
-      if (axis.step > 0 && !axis.is_mirrored) return Metric::implicit();
+      if (axis.step > 0 && !axis.is_one_enough) return Metric::implicit();
     return metric;
   }
 
@@ -140,15 +138,15 @@ struct Tile {
   struct Axis {
     double step = 0, lo = 0, hi = 0;  // 0: no copies; the child's extent
     double middle = 0;                // of the cell in which the child stands
-    bool is_mirrored = false;
+    bool is_one_enough = false;
     double first = -Box::inf, last = Box::inf;  // limits of indices
 
     bool is_limited() const { return std::isfinite(first) || std::isfinite(last); }
 
-    // How many copies to each side matter in a cell: those that reach into it, or those that may be nearest. Of one
-    // that is its own mirror image the own copy is always as near.
+    // How many copies to each side matter in a cell: those that reach into it, or those that may be nearest. None
+    // if the own copy is always as near.
     int neighbours(bool nearest) const {
-      if (step == 0 || is_mirrored) return 0;
+      if (step == 0 || is_one_enough) return 0;
       constexpr double rounding = 1e-9;
       const double half = std::max(hi - middle, middle - lo) / step;
       return static_cast<int>(std::floor((nearest ? 1 : 0.5) + half + rounding));

@@ -393,7 +393,7 @@ def test_cycles_are_found_in_every_walk():
 
 
 @pytest.mark.parametrize("name", [
-    "CAD", "Text", "PolygonExtrude", "Voxels", "SimulationField", "PointMap", "Offset", "Shell", "Tile", "Map",
+    "CAD", "Text", "PolygonExtrude", "Voxels", "SimulationField", "PointMap", "Offset", "Shell", "Map",
     "ConformalMap", "Blend", "Convolution", "SupportAnalyzer", "SupportAnalyzerParallel", "TetrahedralMesh",
     "HexahedralMesh"])
 def test_what_is_missing_says_so(name):
@@ -402,11 +402,6 @@ def test_what_is_missing_says_so(name):
 
 
 @pytest.mark.parametrize("code, text", [
-    (lambda: pv.Union(2.0), "Union with the smoothing radius 2"),
-    (lambda: pv.Union(2.0, True, [ball()]), "smoothing"),
-    (lambda: pv.BBoxUnion(1.5, [ball()]), "smoothing"),
-    (lambda: pv.Difference(0.5, ball(), ball()), "smoothing"),
-    (lambda: pv.GraphLattice(pv.LatticeType.Cubic, pv.Vec3(5, 5, 5), 0.35, 1), "Cubic"),
     (lambda: pv.TetrahedralMesh.from_tree(ball(), 30, 1, 1, 2, 1), "TetrahedralMesh.from_tree"),
     (lambda: compilers.InpWriter(), "InpWriter"),
     (lambda: compilers.DirectMaterialCompiler(ball(), 1, None, "x", "x", True, 2), "liquid_keep_out"),

@@ -48,12 +48,6 @@ class Shell(_Missing):
     """A wall along its child's surface, inward."""
 
 
-class Tile(_Missing):
-    """Its child, repeated without end."""
-
-    _instead = "make the repetitions you need with Translate and Union"
-
-
 class Map(_Missing):
     """Coordinates along a surface."""
 

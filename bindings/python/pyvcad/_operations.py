@@ -6,7 +6,6 @@ from typing import Any
 import ombre
 
 from ._arguments import Optional, Point, boolean, material, number, radius_of_blend, read, vector
-from ._errors import missing
 from ._functions import expression
 from ._tree import Binary, NAry, Node, Unary, as_node, as_nodes
 
@@ -59,6 +58,7 @@ class _Boolean(NAry):
     """Forms: (), (mix), (mix, children), (k), (k, mix), (k, mix, children).
 
     Where children overlap, mix=False takes the composition of the first that is there, mix=True all in equal parts.
+    The radius k (mm) rounds the seams.
     """
 
     _operation = ""
@@ -66,11 +66,12 @@ class _Boolean(NAry):
     def __init__(self, *arguments: Any, **named: Any) -> None:
         values = read(type(self).__name__, _boolean_forms, arguments, named)
         super().__init__(values.get("children", []))
-        _refuse_blend(type(self).__name__, values)
         self._mix: bool = values.get("mix", False)
+        self._blend: float = values.get("k", 0.0)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return getattr(ombre, self._operation)(solids, materials="mix" if self._mix else "first")
+        rule = "mix" if self._mix else "first"
+        return getattr(ombre, self._operation)(solids, materials=rule, blend=self._blend)
 
 
 class Union(_Boolean):
@@ -93,10 +94,10 @@ class BBoxUnion(NAry):
         values = read("BBoxUnion", ({"children": children}, {"k": radius_of_blend, "children": children}),
                       arguments, named)
         super().__init__(values["children"])
-        _refuse_blend("BBoxUnion", values)
+        self._blend: float = values.get("k", 0.0)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return ombre.union(solids, materials="first")
+        return ombre.union(solids, materials="first", blend=self._blend)
 
 
 class Difference(Binary):
@@ -107,10 +108,10 @@ class Difference(Binary):
         k = {"k": radius_of_blend}
         values = read("Difference", ({}, sides, k, {**k, **sides}), arguments, named)
         super().__init__(values.get("left"), values.get("right"))
-        _refuse_blend("Difference", values)
+        self._blend: float = values.get("k", 0.0)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return ombre.difference(*solids)
+        return ombre.difference(solids, blend=self._blend)
 
     def _composing(self) -> list[Node]:
         return self._inputs()[:1]
@@ -158,6 +159,23 @@ class FGrade(Unary):
         return []
 
 
+class Tile(Unary):
+    """Its child, repeated without end: Tile(child), Tile(cx, cy, cz, child) with the steps in mm; 0: not along that axis.
+
+    Without steps, those of the unit cell that the child is; of another child, the lengths of its bounding box. Cut it
+    with an Intersection.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        steps = {"cx": number, "cy": number, "cz": number}
+        values = read("Tile", ({}, {"child": as_node}, {**steps, **_child}), arguments, named)
+        super().__init__(values.get("child"))
+        self._steps: Point | None = tuple(values[c] for c in steps) if "cx" in values else None  # type: ignore[assignment]
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return ombre.tile(solids[0], self._steps)
+
+
 def _list_of(reader: Any) -> Any:
     def read_list(value: Any) -> list[Any]:
         if isinstance(value, str) or not hasattr(value, "__iter__"):
@@ -167,11 +185,6 @@ def _list_of(reader: Any) -> Any:
             raise ValueError("expected at least one element")
         return elements
     return read_list
-
-
-def _refuse_blend(what: str, values: dict[str, Any]) -> None:
-    if values.get("k", 0) > 0:
-        raise missing(f"{what} with the smoothing radius {values['k']:g}", "leave it out for sharp edges")
 
 
 _child = {"child": Optional(as_node, None)}

@@ -8,7 +8,6 @@ import ombre
 
 from ._arguments import Optional, Point, boolean, length, material, number, read, size, text, vector
 from ._enums import LatticeType
-from ._errors import missing
 from ._functions import expression
 from ._tree import Node, _call_place
 
@@ -106,22 +105,28 @@ def _lattice_type(value: Any) -> LatticeType:
     return value
 
 
+_cells = {LatticeType.BodyCenteredCubic: "bcc", LatticeType.FaceCenteredCubic: "fcc", LatticeType.Cubic: "cubic",
+          LatticeType.KelvinCell: "kelvin"}
+
+
 class GraphLattice(_Leaf):
-    """Struts with round ends along edges: GraphLattice(edges, radius, material=1); an edge is a pair of Vec3."""
+    """Struts with round ends along edges: GraphLattice(edges, radius, material=1); an edge is a pair of Vec3.
+
+    Or those of a unit cell, centred on the origin: GraphLattice(type, size, radius, material=1).
+    """
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__()
         values = read("GraphLattice", ({"edges": _edges, "radius": length, "material": _one},
                                        {"type": _lattice_type, "size": size, "radius": length, "material": _one}),
                       arguments, named)
-        if "type" in values:
-            raise missing(f"GraphLattice of the type {values['type'].name}", "give it the edges of the cell")
-        self._edges: list[tuple[Point, Point]] = values["edges"]
+        shape = ({"edges": values["edges"]} if "edges" in values
+                 else {"cell": _cells[values["type"]], "size": values["size"]})
+        self._shape: dict[str, Any] = shape
         self._radius, self._material = values["radius"], values["material"]
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        struts = [ombre.strut(start, end, self._radius, self._material, caps="round") for start, end in self._edges]
-        return ombre.union(struts, materials="first")
+        return ombre.lattice(**self._shape, radius=self._radius, material=self._material)
 
 
 class Function(_Leaf):
