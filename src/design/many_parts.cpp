@@ -34,6 +34,7 @@ class PartsMaker {
         node_from_program_(node_from_program),
         program_from_node_(inverse(node_from_program)) {
     new_slot(SlotKind::any);
+    if (falloff) set_->held_slot = new_slot(SlotKind::any);
     if (query == PartQuery::mix) made_.count_slot = new_slot(SlotKind::sum);
     if (query == PartQuery::along) made_.along_slot = new_slot(SlotKind::first);
     if (falloff) made_.weight_slot = new_slot(SlotKind::sum);
@@ -88,17 +89,20 @@ class PartsMaker {
     const Point p = Point::origin_frame(builder_).mapped(node_from_program_);
     const Field mark = query_ == PartQuery::interior ? list_.interior(in, part, p) : list_.inside(in, part, p);
     const Field weight = falloff_ ? falloff_->weight(list_.distance(in, part, p), p) : Field();
-    outputs_.assign(1, {"inside", mark});
-    slots_.assign(1, 0);
+    const Field felt = weight ? less(p.constant(0), weight) : mark;
+    outputs_.clear();
+    slots_.clear();
+    add_output(0, "reached", weight ? logical_or(mark, felt) : mark);
+    if (weight) add_output(set_->held_slot, "held", mark);
     if (weight) add_output(made_.weight_slot, "weight", weight);
     if (query_ == PartQuery::along) add_output(made_.along_slot, "t", list_.along(in, part, p));
-    if (query_ == PartQuery::mix) set_slot(made_.count_slot, 0);
+    if (query_ == PartQuery::mix) set_slot(made_.count_slot, weight ? 1 : 0);
     if (asks_composition()) {
       composition_ = list_.composition(in, part, p, weight ? Demand::everywhere : Demand::inside);
       note_material();
       add_fractions(mark, weight, p);
       add_checks(lowering, held_, mark, box);
-      if (weight) add_checks(lowering, weighed_, less(p.constant(0), weight), box);
+      if (weight) add_checks(lowering, weighed_, felt, box);
     }
     builder_.finish(outputs_, program_);
     if (!program_.reads.empty() || program_.has_parts()) return false;
@@ -106,9 +110,8 @@ class PartsMaker {
     sign_only(program_, workspace_, signs_);
     fuse(signs_, workspace_, batch_);
     add_to(set_->batch, batch_, box, program::Precision::batch);
-    // Where it is felt.
-    outputs_.assign(1, {"inside", weight ? logical_or(mark, less(p.constant(0), weight)) : mark});
-    builder_.finish(outputs_, inside_);
+    outputs_.resize(1);
+    builder_.finish(outputs_, reached_);
     add_pieces(part, program::PartIndex::rounded(box));
     ++part_count_;
     return true;
@@ -197,8 +200,8 @@ class PartsMaker {
       const Cells cells = open_.back();
       const Box box = cells.in(whole);
       open_.pop_back();
-      evaluate_intervals(inside_, program::grown_for_rounding(box), values_);
-      if (values_[inside_.outputs[0]] == Interval(0)) continue;
+      evaluate_intervals(reached_, program::grown_for_rounding(box), values_);
+      if (values_[reached_.outputs[0]] == Interval(0)) continue;
       const int longest = longest_axis(box);
       const auto axis = static_cast<size_t>(longest);
       const bool is_fine = box.size()[longest] <= finest_ || cells.first[axis] == cells.last[axis];
@@ -301,7 +304,7 @@ class PartsMaker {
   // Of the part being added; kept for their memory.
   Builder builder_;
   program::Workspace workspace_;
-  Program program_, signs_, batch_, inside_;  // `inside_` is its first output alone
+  Program program_, signs_, batch_, reached_;  // `reached_` is its first output alone
   program::Outputs outputs_;
   std::vector<int> slots_;  // outputs by slot, or -1
   std::vector<Interval> values_;
@@ -313,7 +316,7 @@ class PartsMaker {
 PartFields ManyParts::at(const Point& p) const {
   const auto slot = [&](size_t number) { return p.builder().parts(set, number, p.x, p.y, p.z); };
   PartFields fields;
-  fields.inside = slot(0);
+  fields.inside = slot(set->held_slot);
   if (count_slot > 0) fields.count = slot(count_slot);
   if (along_slot > 0) fields.along = slot(along_slot);
   if (weight_slot > 0) fields.weight = slot(weight_slot);

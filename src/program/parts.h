@@ -6,6 +6,7 @@
 // the region (passes/expand_parts.cpp), so that space decides what a tile costs, not the number of parts.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 #include <string>
@@ -21,8 +22,8 @@ namespace ombre::program {
 enum class SlotKind : uint8_t {
   any,    // is it 1 in some part?
   sum,    // in the order of the parts
-  first,  // of the first part that has slot 0
-  last,   // of the last part that has slot 0
+  first,  // of the first part that holds the point
+  last,   // of the last part that holds the point
 };
 
 // Rows of one form of the programs.
@@ -138,9 +139,12 @@ class PartIndex {
 struct PartSet {
   PartTable reference{Precision::reference}, batch{Precision::batch};
   PartIndex index;
-  std::vector<SlotKind> slots;   // slot 0 is "inside"
+  std::vector<SlotKind> slots;   // slot 0: does a part reach the point? Else its other slots are 0
+  size_t held_slot = 0;          // does it hold the point?
   std::vector<Interval> ranges;  // of each slot, wherever parts reach
 
+  // Are parts combined from the last to the first?
+  bool is_backwards() const { return std::find(slots.begin(), slots.end(), SlotKind::first) != slots.end(); }
   const PartTable& table(Precision precision) const { return precision == Precision::batch ? batch : reference; }
 };
 

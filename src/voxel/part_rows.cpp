@@ -33,13 +33,14 @@ const NoSources no_sources;
 
 }  // namespace
 
-PartBody::PartBody(const PartTable& table, uint32_t body, const std::vector<size_t>& slots,
+PartBody::PartBody(const program::PartSet& set, uint32_t body, const std::vector<size_t>& slots,
                    const eval::KernelSet& kernels)
-    : program_(table.body(body).code), batch_(kernels) {
+    : program_(set.batch.body(body).code), batch_(kernels) {
+  const PartTable& table = set.batch;
   const std::vector<int>& outputs = table.body(body).slots;
   const std::vector<ValueId> ids = std::move(program_.outputs);
   const auto id_of = [&](size_t slot) { return ids[static_cast<size_t>(outputs[slot])]; };
-  program_.outputs = {id_of(0)};
+  program_.outputs = {id_of(0), id_of(set.held_slot)};
   for (const size_t slot : slots) {
     const bool has = slot < outputs.size() && outputs[slot] >= 0;
     output_.push_back(has ? program_.outputs.size() : none);
@@ -96,8 +97,8 @@ void PartRows::begin(const program::Program& program, const TileBox& tile, const
   const Box region = centers(job_.lattice, tile);
   for (Set* set : read_) {
     set->parts->index.find(region, found_);
-    // What is set first stands: the first part comes last.
-    if (set->parts->slots.back() == SlotKind::first) std::reverse(found_.begin(), found_.end());
+    // What is set last stands.
+    if (set->parts->is_backwards()) std::reverse(found_.begin(), found_.end());
     for (const auto& entry : found_) {
       const TileBox box = voxels_in(entry.box);
       if (box.voxels() > 0) add_part(*set, entry.part, box);
@@ -151,7 +152,7 @@ void PartRows::add_part(Set& set, uint32_t part, const TileBox& box) {
   set.bodies.resize(std::min(table.body_count(), most_bodies));
   KeptBody& kept = set.bodies[number % most_bodies];
   if (!kept.body || kept.number != number)
-    kept = {number, std::make_unique<PartBody>(table, number, set.slots, batch_kernels_)};
+    kept = {number, std::make_unique<PartBody>(*set.parts, number, set.slots, batch_kernels_)};
   kept.body->take(table, part);
   descend(set, *kept.body, box, true);
 }
@@ -160,9 +161,9 @@ void PartRows::add_part(Set& set, uint32_t part, const TileBox& box) {
 void PartRows::descend(const Set& set, PartBody& body, const TileBox& box, bool ask) {
   if (ask && box.voxels() >= least_asked) {
     evaluate_intervals(body.program(), centers(job_.lattice, box), ranges_, nullptr, program::Precision::batch);
-    const Interval inside = ranges_[body.program().outputs[0]];
-    if (inside == Interval(0)) return;
-    ask = inside != Interval(1);
+    const Interval reached = ranges_[body.program().outputs[0]];
+    if (reached == Interval(0)) return;
+    ask = reached != Interval(1);
   }
   const int64_t width = static_cast<int64_t>(padded_width(box)), height = box.size(1), depth = box.size(2);
   if (width * height <= most_points && depth <= most_layers) return evaluate(set, body, box);
@@ -191,14 +192,14 @@ void PartRows::evaluate(const Set& set, PartBody& body, const TileBox& box) {
 }
 
 void PartRows::merge_row(const Set& set, const PartBody& body, size_t lane, RowPlace at, int64_t k, size_t width) {
-  const RowSpan span = kernels_.nonzero(body.inside().from(lane), width);
+  const RowSpan span = kernels_.nonzero(body.reached().from(lane), width);
   if (span.begin == span.end) return;
   const auto first = static_cast<size_t>(at.i - tile_.lo[0]) + span.begin, last = first + (span.end - span.begin) - 1;
   const uint64_t up_to_last = ~uint64_t{0} >> (63 - last / eval::batch_lanes);
   touch(row_number(at.j, k), up_to_last & ~uint64_t{0} << (first / eval::batch_lanes));
 
   static constexpr float zero = 0;
-  const eval::Values inside = body.inside().from(lane + span.begin);
+  const eval::Values held = body.held().from(lane + span.begin);
   const size_t count = span.end - span.begin;
   for (size_t n = 0; n < set.slots.size(); ++n) {
     float* slot = values_.data() + offset(set.first_plane + n, at.i + static_cast<int64_t>(span.begin), at.j, k);
@@ -213,7 +214,7 @@ void PartRows::merge_row(const Set& set, const PartBody& body, size_t lane, RowP
         break;
       case SlotKind::first:
       case SlotKind::last:
-        kernels_.merge_where(inside, values, slot, count);
+        kernels_.merge_where(held, values, slot, count);
         break;
     }
   }

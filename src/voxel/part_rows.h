@@ -14,13 +14,13 @@ namespace ombre::voxel {
 // Parts of one kind: their program, compiled once, into which each part's constants are put.
 class PartBody {
  public:
-  PartBody(const program::PartTable& table, uint32_t body, const std::vector<size_t>& slots,
-           const eval::KernelSet& kernels);
+  PartBody(const program::PartSet& set, uint32_t body, const std::vector<size_t>& slots, const eval::KernelSet& kernels);
   void take(const program::PartTable& table, uint32_t part);
 
   const program::Program& program() const { return program_; }
   eval::BatchEvaluator& batch() { return batch_; }
-  eval::Values inside() const { return batch_.output(0); }
+  eval::Values reached() const { return batch_.output(0); }
+  eval::Values held() const { return batch_.output(1); }
   // Of slots[n], if parts of this kind have it.
   bool has(size_t n) const { return output_[n] != none; }
   eval::Values output(size_t n) const { return batch_.output(output_[n]); }

@@ -89,13 +89,13 @@ class Expander {
       const ValueId value = at(part);
       if (kind == SlotKind::first || kind == SlotKind::last) {
         if (result == PartTable::none) result = constant(0);
-        result = apply(Op::select, part[0], value == PartTable::none ? constant(0) : value, result);
+        result = apply(Op::select, part[expansion.set->held_slot], value == PartTable::none ? constant(0) : value, result);
       } else if (value != PartTable::none) {
         result =
             result == PartTable::none ? value : apply(kind == SlotKind::any ? Op::logical_or : Op::add, result, value);
       }
     };
-    if (kind == SlotKind::first)
+    if (expansion.set->is_backwards())
       for (size_t n = expansion.values.size(); n-- > 0;) take(expansion.values[n]);
     else
       for (const auto& part : expansion.values) take(part);
