@@ -94,6 +94,31 @@ TEST(ManyParts, AreTheSameInTablesAndWrittenOut) {
   expect_one_result(flat(parts, "materials=\"last\""));
 }
 
+// Parts that are felt where they are not.
+TEST(ManyParts, AreJoinedSmoothly) {
+  const auto parts = some_parts(120);
+  for (const std::string rule : {"mix", "first", "last", "blend"})
+    expect_one_result(flat(parts, "blend=0.3, materials=\"" + rule + "\""));
+  expect_one_result(flat(parts, "blend=0.2, join=\"chamfer\""));
+  const Voxels sharp = slice_as(flat(parts), {}), smooth = slice_as(flat(parts, "blend=0.3"), {});
+  EXPECT_GT(smooth.volume(), 1.05 * sharp.volume());
+  std::string sum = flat(parts, "blend=0.3");
+  expect_one_result(sum.replace(0, 5, "sum"));
+}
+
+TEST(ManyParts, OfALatticeAreRowsToo) {
+  expect_one_result(
+      "lattice(edges=[for (i=[0:99]) let (p = rands(-3, 3, 6, i)) "
+      "[[p[0], p[1], p[2]], [p[3], p[4], p[5]]]], radius=\"0.1 + 0.2*t\", material=\"red\");");
+  expect_one_result("intersection() { sphere(3.5, \"red\"); tile() lattice(\"diamond\", (2, 2, 2.5), 0.2); }");
+  expect_one_result(
+      "intersection() { sphere(3.5, \"red\"); rotate(10, 20, 30) tile() fgrade([\"abs(ci)\", \"1 + abs(ck)\"], "
+      "[\"red\", \"blue\"]) lattice(\"octet\", (2, 2, 2.5), 0.2); }");
+  expect_one_result(
+      "intersection() { sphere(3.5, \"red\"); tile((2.5, 2, 0)) union() { cube(1, \"blue\"); "
+      "translate(0.7, 0.9, 0.2) sphere(0.8, \"cyan\"); } }");
+}
+
 TEST(ManyParts, FirstAndLastDoNotDependOnGroups) {
   const auto parts = some_parts(200);
   for (const std::string rule : {"materials=\"first\"", "materials=\"last\""})

@@ -141,11 +141,11 @@ struct Tpms {
     return compare(square(value), square(thickness(p) * 0.5) * slope);
   }
 
-  bool has_constant_cell() const { return cell.x.constant() && cell.y.constant() && cell.z.constant(); }
-
-  Sample at(const Point& p) const { return has_constant_cell() && level.constant() ? by_rule(p) : by_differences(p); }
-
   static Field phase(Field x, Field length) { return x / length * (2 * std::numbers::pi); }
+  Field phase_x(const Point& p) const { return phase(p.x, cell.x(p)); }
+  Field phase_y(const Point& p) const { return phase(p.y, cell.y(p)); }
+  Field phase_z(const Point& p) const { return phase(p.z, cell.z(p)); }
+  Field minus_level(const Point& p) const { return -level(p); }
 
   const Surface& chosen() const {
     for (const Surface& one : surfaces())
@@ -153,9 +153,9 @@ struct Tpms {
     return surfaces().front();  // the reader lets no other name through
   }
 
-  Sample by_rule(const Point& p) const {
-    const Waves x(phase(p.x, cell.x(p))), y(phase(p.y, cell.y(p))), z(phase(p.z, cell.z(p)));
-    Field value = -level(p), by_x = p.constant(0), by_y = by_x, by_z = by_x;
+  Sample at(const Point& p) const {
+    const Waves x(phase_x(p)), y(phase_y(p)), z(phase_z(p));
+    Field value = minus_level(p), by_x = p.constant(0), by_y = by_x, by_z = by_x;  // and by the phases
     for (const Term& term : chosen().terms) {
       const Field fx = x.value(term.x), fy = y.value(term.y), fz = z.value(term.z);
       value = value + fx * fy * fz * term.factor;
@@ -163,27 +163,31 @@ struct Tpms {
       by_y = by_y + fx * y.slope(term.y) * fz * term.factor;
       by_z = by_z + fx * fy * z.slope(term.z) * term.factor;
     }
-    const auto per_mm = [](const Number& length) { return 2 * std::numbers::pi / *length.constant(); };
-    return {value,
-            floored(square(by_x * per_mm(cell.x)) + square(by_y * per_mm(cell.y)) + square(by_z * per_mm(cell.z)))};
+    const Gradient gx = gradient(&Tpms::phase_x, p, cell.x, 0), gy = gradient(&Tpms::phase_y, p, cell.y, 1),
+                   gz = gradient(&Tpms::phase_z, p, cell.z, 2), gl = gradient(&Tpms::minus_level, p, level, -1);
+    Field squared = p.constant(0);
+    for (size_t n = 0; n < 3; ++n) squared = squared + square(by_x * gx[n] + by_y * gy[n] + by_z * gz[n] + gl[n]);
+    return {value, floored(squared)};
   }
 
-  // Where the cell or the level are fields, they add to the gradient.
-  Sample by_differences(const Point& p) const {
-    const double step = 1e-3;
-    const auto slope = [&](Vec3 by) {
-      const Field up = function(p.mapped(Affine::translation(by))), down = function(p.mapped(Affine::translation(-by)));
-      return square((up - down) / (2 * step));
-    };
-    return {function(p), floored(slope({step, 0, 0}) + slope({0, step, 0}) + slope({0, 0, step}))};
-  }
+  using Gradient = std::array<Field, 3>;  // 1/mm
 
-  Field function(const Point& p) const {
-    const Waves x(phase(p.x, cell.x(p))), y(phase(p.y, cell.y(p))), z(phase(p.z, cell.z(p)));
-    Field value = -level(p);
-    for (const Term& term : chosen().terms)
-      value = value + x.value(term.x) * y.value(term.y) * z.value(term.z) * term.factor;
-    return value;
+  // Of a phase along an axis, or of the level: by rule where its number is constant, else by differences.
+  Gradient gradient(Field (Tpms::*of)(const Point&) const, const Point& p, const Number& number, int axis) const {
+    Gradient result{p.constant(0), p.constant(0), p.constant(0)};
+    if (number.constant()) {
+      if (axis >= 0) result[static_cast<size_t>(axis)] = p.constant(2 * std::numbers::pi / *number.constant());
+      return result;
+    }
+    constexpr double step = 1e-3;  // mm
+    for (int n = 0; n < 3; ++n) {
+      Vec3 by;
+      by[n] = step;
+      const Field up = (this->*of)(p.mapped(Affine::translation(by)));
+      const Field down = (this->*of)(p.mapped(Affine::translation(-by)));
+      result[static_cast<size_t>(n)] = (up - down) / (2 * step);
+    }
+    return result;
   }
 
   // Where the gradient vanishes, the value stays finite.

@@ -14,7 +14,8 @@ namespace ombre::voxel {
 // Parts of one kind: their program, compiled once, into which each part's constants are put.
 class PartBody {
  public:
-  PartBody(const program::PartSet& set, uint32_t body, const std::vector<size_t>& slots, const eval::KernelSet& kernels);
+  PartBody(const program::PartSet& set, uint32_t body, const std::vector<size_t>& slots,
+           const eval::KernelSet& kernels);
   void take(const program::PartTable& table, uint32_t part);
 
   const program::Program& program() const { return program_; }

@@ -89,7 +89,8 @@ class Expander {
       const ValueId value = at(part);
       if (kind == SlotKind::first || kind == SlotKind::last) {
         if (result == PartTable::none) result = constant(0);
-        result = apply(Op::select, part[expansion.set->held_slot], value == PartTable::none ? constant(0) : value, result);
+        result =
+            apply(Op::select, part[expansion.set->held_slot], value == PartTable::none ? constant(0) : value, result);
       } else if (value != PartTable::none) {
         result =
             result == PartTable::none ? value : apply(kind == SlotKind::any ? Op::logical_or : Op::add, result, value);
