@@ -15,6 +15,7 @@ SCALES = {
     "paper": ((256, 512, 1024, 2048), 512, 2048, (256, 1024, 4096)),
 }
 MATERIALS = (2, 4, 8, 16, 64)
+CELLS = (1, 2, 5, 10, 20, 50)  # of a lattice along each axis
 
 
 @dataclasses.dataclass
@@ -96,12 +97,22 @@ def struts(rows):
     return Law("struts in one cube", "seconds over struts", points, "0.1 or less: 2 times for 1,000 times as many")
 
 
+def tiles(programs_of, size, limits, scratch):
+    n = SCALES[size][1]
+    points = []
+    for cells in CELLS:
+        job = jobs.Job("tile", lambda: jobs.tiled(cells), *jobs.centred((40, 40, 40)), (n, n, n))
+        points.append((8 * cells**3, _seconds(programs_of, job, [], limits, scratch)["seconds"]))
+    return Law("struts of a tiled cell in one cube", "seconds over struts", points, "0.1 or less")
+
+
 def laws(programs_of, size, rows, limits, scratch):
     """One after the other, as they are measured."""
     yield solid(programs_of, size, limits, scratch)
     by_struts = struts(rows)
     if len(by_struts.points) > 1:
         yield by_struts
+    yield tiles(programs_of, size, limits, scratch)
     yield materials(programs_of, size, limits, scratch, mixed, "materials in each voxel", "1 or less")
     yield materials(programs_of, size, limits, scratch, layered, "materials in the design, two in each voxel", "near 0")
     yield memory(programs_of, size, limits, scratch)

@@ -25,6 +25,7 @@ class Job:
     voxels: tuple  # as in the paper
     paper: tuple = None  # its seconds on 16 threads: evaluation, writing
     counts: str = "none"  # what the baseline must count alike: none, inside, or each material
+    published: bool = True  # whether the published method has its nodes
 
     def grid(self, size):
         """Voxels along each axis, in the proportions of the paper's."""
@@ -132,8 +133,49 @@ def table_4(data):
     ]
 
 
+def tiled(cells, side=40.0):
+    """Body-centred cells in a cube, so many along each axis; the same share of the cube is solid."""
+    size = side / cells
+    return (f"intersection(materials=\"first\") {{ tile() lattice(\"bcc\", ({size}, {size}, {size}), {size / 12}); "
+            f"cube({side}); }}")
+
+
+def copied(cells, side=40.0):
+    """The same from copies."""
+    size = side / cells
+    return (f"n = {cells}; s = {size};\n"
+            "at = [for (i = [0:n - 1], j = [0:n - 1], k = [0:n - 1]) s*[i - (n - 1)/2, j - (n - 1)/2, k - (n - 1)/2]];\n"
+            "half = [for (x = [-1, 1], y = [-1, 1], z = [-1, 1]) s/2*[x, y, z]];\n"
+            "intersection(materials=\"first\") {\n"
+            f"  union() for (p = at, h = half) strut(p, p + h, {size / 12}, caps=\"round\");\n"
+            f"  cube({side});\n}}")
+
+
+def balls(count, options, side=40.0):
+    """Balls of two materials in a cube, which take up a tenth of it."""
+    chance = random.Random(31)
+    radius = (0.1 * side**3 / count / (4 / 3 * math.pi)) ** (1 / 3)
+    lines = [f"union({options(radius)}) {{"]
+    for n in range(count):
+        at = ", ".join(f"{chance.uniform(-side / 2, side / 2):.4f}" for _ in range(3))
+        lines.append(f'translate({at}) sphere({radius:.4f}, "{("red", "blue")[n % 2]}");')
+    return "\n".join(lines + ["}"])
+
+
+def lattices(cells=10, parts=10_000):
+    cube, voxels = centred((40, 40, 40)), (1000, 1000, 1000)
+    return [
+        Job("tile", lambda: tiled(cells), *cube, voxels, published=False),
+        Job("its copies", lambda: copied(cells), *cube, voxels, published=False),
+        Job(f"{parts:,} smooth", lambda: balls(parts, lambda r: f"blend={r / 2}"), *cube, voxels, published=False),
+        Job(f"{parts:,} sharp", lambda: balls(parts, lambda r: ""), *cube, voxels, published=False),
+    ]
+
+
 def all_jobs(data, size, full=False):
     counts = STRUTS + (MORE_STRUTS if full else ())
-    if size == "tiny":
+    tiny = size == "tiny"
+    if tiny:
         counts = STRUTS[:3]
-    return table_3(data) + table_4(data) + [struts_job(count) for count in counts]
+    return (table_3(data) + table_4(data) + [struts_job(count) for count in counts]
+            + (lattices(3, 200) if tiny else lattices()))

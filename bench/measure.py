@@ -84,7 +84,7 @@ def row(programs_of, job, size, threads, limits, scratch):
     grid = job.grid(size)
     result = {"job": job.name, "voxels": grid, "paper": job.paper, "counts": job.counts,
               "ours": [ours(programs_of.ombre, design, job, grid, n, limits, scratch) for n in threads]}
-    if programs_of.baseline:
+    if programs_of.baseline and job.published:
         result["baseline"] = baseline(programs_of.baseline, programs_of.ombre, design, grid, limits, scratch)
         total = result["baseline"]["evaluate_seconds"] + result["baseline"]["write_seconds"]
         result["ratio"] = total / result["ours"][0]["seconds"]

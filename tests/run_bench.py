@@ -46,7 +46,7 @@ def rows_are_there(printed, figures):
         expect(f"\n{name} " in printed, f"the table has no row {name}")
     for row in figures["rows"]:
         expect([o["threads"] for o in row["ours"]] == [1, 2], f"{row['job']}: threads")
-    expect(len(figures["growth"]) == 5, f"{len(figures['growth'])} growth laws")
+    expect(len(figures["growth"]) == 6, f"{len(figures['growth'])} growth laws")
 
 
 def close(a, b):

@@ -57,7 +57,8 @@ struct Tile {
       if (axis.step == 0) continue;
       if (axis.hi - axis.lo >= design_limit_mm)
         return fail("what tile repeats has no end along " + std::string(1, "xyz"[n]),
-                    "cut it to size first, or write 0 for that axis");
+                    inputs[0]->uses_cell() ? "bound sizes that use ci, cj or ck, for example clamp(0.5, 1 + 0.1*ci, 2)"
+                                           : "cut it to size first, or write 0 for that axis");
       axis.is_one_enough = is_one_enough[static_cast<size_t>(n)];
       axis.middle = axis.is_one_enough ? 0 : 0.5 * (axis.lo + axis.hi);
       copies *= 2 * axis.neighbours(true) + 1;
