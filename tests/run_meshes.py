@@ -29,6 +29,10 @@ FARTHEST = {
     "tensile_bar_thresh": (1.5, 3e-4),
     "wheel": (4, 1e-3),             # where spokes and hub meet, whose shells go through each other
 }
+# Too many facets for CGAL at the tolerance that is usual for their sizes; mm.
+COARSE = {"bcc_ball": 0.1, "grading_strategies": 0.2, "gyroid_block": 0.1, "unit_cells": 0.2}
+# Distances to thousands of struts, each of which is asked for each point.
+TOO_MANY = {"organic_lattice"}
 BAR = 'fgrade(["x/20 + 0.5", "0.5 - x/20"], ["red", "blue"]) { rectprism(20, 10, 5); }'
 
 
@@ -92,7 +96,8 @@ def is_as_near_as_asked(design, meshes, tolerance):
 
 def is_closed_and_as_large_as_its_voxels(design, meshes):
     """A mesh beside the same design's voxels, of which each face may gain or lose half a layer."""
-    bodies = meshes.bodies("-o", "part.off", design=design)
+    coarse = COARSE.get(design.stem)
+    bodies = meshes.bodies("-o", "part.off", *(["--tolerance", coarse] if coarse else []), design=design)
     expect(len(bodies["bodies"]) == 1, str(bodies))
     (body,) = bodies["bodies"]
     if meshes.checker:
@@ -217,7 +222,7 @@ def main():
     programs = [path and path.resolve() for path in (given.ombre, given.checker, given.comparer)]
     run = functools.partial(in_a_folder, *programs)
     checks = [(design.stem, functools.partial(run, functools.partial(is_closed_and_as_large_as_its_voxels, design)))
-              for design in EXAMPLES]
+              for design in EXAMPLES if design.stem not in TOO_MANY]
     return program.check_all(checks + [(check.__name__, functools.partial(run, check)) for check in CHECKS])
 
 
