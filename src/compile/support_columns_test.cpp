@@ -83,7 +83,9 @@ TEST_F(SupportColumns, DistancesAreBounds) {
     const Vec3 p = point(3), q = p + Vec3{number(-1, 1), number(-1, 1), number(-1, 1)};
     const double here = source_->sample(1, p);
     EXPECT_LE(std::abs(here - source_->sample(1, q)), length(p - q) + 1e-12);
-    if (here > 0) EXPECT_LE(here, away(p, true) + 1e-12);
+    if (here > 0) {
+      EXPECT_LE(here, away(p, true) + 1e-12);
+    }
     EXPECT_EQ(here <= 0, source_->sample(0, p) == 1);
   }
 }

@@ -20,7 +20,7 @@ namespace {
 
 // Without a job: cells of a two-hundredth of the longest side.
 constexpr double cells_of_longest_side = 200;
-constexpr int64_t most_along_axis = 1'000'000, most_in_layer = int64_t{1} << 27;
+constexpr int64_t most_along_axis = 1'000'000, most_in_layer = int64_t{1} << 26;
 constexpr int64_t slab_layers = 8;
 // Angles so close to the limit are at it.
 constexpr double angle_slack_deg = 0.01;
@@ -163,6 +163,32 @@ class Sweep {
   bool is_empty_ = true;
 };
 
+// A ratio of a tidy number, which those of dots per inch and of pixels are not.
+std::optional<Pitch> pitch_of(double mm) {
+  if (const auto exact = Pitch::from_mm(mm)) return exact;
+  return Pitch::from_mm(parse_number(format_rounded(mm, 9)).value_or(mm));
+}
+
+// From the corner of the box, as most jobs have their voxels. Nothing when there would be too many cells.
+std::optional<voxel::Lattice> lattice_of(const Box& box, Vec3 cell) {
+  voxel::Lattice lattice;
+  lattice.origin = box.lo;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<size_t>(axis);
+    const std::optional<Pitch> pitch = pitch_of(cell[axis]);
+    if (!pitch || box.size()[axis] / cell[axis] > static_cast<double>(most_along_axis)) return std::nullopt;
+    lattice.pitch[a] = *pitch;
+    lattice.count[a] = voxel::voxels_along(box.size()[axis], *pitch);
+  }
+  if (lattice.count[0] > most_in_layer / lattice.count[1]) return std::nullopt;
+  return lattice;
+}
+
+std::string too_many(Vec3 cell) {
+  return "the part has too many cells of " + format_rounded(cell.x) + " x " + format_rounded(cell.y) + " x " +
+         format_rounded(cell.z) + " mm";
+}
+
 class SupportSource final : public design::PendingSource {
  public:
   SupportSource(const design::NodePtr& solid, const design::SupportUse& use, const design::MaterialTable& materials,
@@ -179,7 +205,10 @@ class SupportSource final : public design::PendingSource {
     const std::lock_guard lock(mutex_);
     const Vec3 cell = cell_for(voxel_mm);
     program::SourceField& made = made_[{cell.x, cell.y, cell.z}];
-    if (!made) made = sweep(lattice_of(cell));
+    if (made) return made;
+    const auto lattice = lattice_of(bounds_, cell);
+    if (!lattice) throw Error("support: " + too_many(cell) + "; give support a larger pitch");
+    made = sweep(*lattice);
     return made;
   }
 
@@ -190,26 +219,6 @@ class SupportSource final : public design::PendingSource {
     const Vec3 size = bounds_.size();
     const double side = std::max({size.x, size.y, size.z}) / cells_of_longest_side;
     return {side, side, side};
-  }
-
-  // From the corner of the bounds, as most jobs have their voxels.
-  voxel::Lattice lattice_of(Vec3 cell) const {
-    voxel::Lattice lattice;
-    lattice.origin = bounds_.lo;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<size_t>(axis);
-      const std::optional<Pitch> pitch = Pitch::from_mm(cell[axis]);
-      if (!pitch || bounds_.size()[axis] / cell[axis] > static_cast<double>(most_along_axis)) too_many(cell);
-      lattice.pitch[a] = *pitch;
-      lattice.count[a] = voxel::voxels_along(bounds_.size()[axis], *pitch);
-    }
-    if (lattice.count[0] > most_in_layer / lattice.count[1]) too_many(cell);
-    return lattice;
-  }
-
-  [[noreturn]] static void too_many(Vec3 cell) {
-    throw Error("support: the part has too many cells of " + format_rounded(cell.x) + " x " + format_rounded(cell.y) +
-                " x " + format_rounded(cell.z) + " mm; give support a larger pitch");
   }
 
   program::SourceField sweep(const voxel::Lattice& lattice) const {
@@ -253,6 +262,10 @@ design::PendingSourcePtr make_support_source(const design::NodePtr& solid, const
   design.parts.push_back({"part", solid});
   const auto box = design_box(design, reader.diagnostics);
   if (!box) return nullptr;
+  if (use.pitch_mm && !lattice_of(*box, *use.pitch_mm)) {
+    reader.diagnostics.error(reader.where, too_many(*use.pitch_mm), "choose a larger pitch");
+    return nullptr;
+  }
   return std::make_shared<SupportSource>(solid, use, reader.materials, *box);
 }
 

@@ -41,13 +41,10 @@ struct Support {
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
-    const auto fail = [&](const std::string& message, const std::string& hint = "") {
-      reader.diagnostics.error(reader.where, message, hint);
+    if (!reader.loader) {
+      reader.diagnostics.error(reader.where, "supports cannot be found here");
       return false;
-    };
-    if (!reader.loader) return fail("supports cannot be found here");
-    if (pitch && !(pitch->x > 0 && pitch->y > 0 && pitch->z > 0))
-      return fail("pitch of support: expected three sizes greater than 0 mm");
+    }
     if (clearance > 0 && inputs[0]->metric().is_implicit())
       reader.diagnostics.warning(reader.where, "clearance is kept from a shape of which only the sign is known",
                                  "its value is taken as it is, which need not be a distance in mm");
