@@ -242,7 +242,7 @@ class SupportSource final : public design::PendingSource {
     const auto consume = [&](size_t n, Slab& slab) {
       for (size_t l = slab.size(); l-- > 0;) sweep.take(slab[l].runs, begin_of(n) + static_cast<int64_t>(l));
     };
-    run_ordered<Slab>(static_cast<size_t>(slabs), 0, static_cast<size_t>(2 * core_count()), produce, consume);
+    run_ordered<Slab>(static_cast<size_t>(slabs), 0, 2 * static_cast<size_t>(core_count()), produce, consume);
     return make_columns(lattice, bounds_, sweep.finish(), content());
   }
 

@@ -61,14 +61,15 @@ std::optional<Vec3> LoweringContext::voxel_mm(const Node& node) {
 
 void LoweringContext::find_scales() {
   for (const NodePtr& root : roots_) scales_.emplace(root.get(), 1);
-  const std::vector<const Node*> nodes = topological(roots_);
-  for (auto it = nodes.rbegin(); it != nodes.rend(); ++it) {
+  std::vector<const Node*> nodes = topological(roots_);
+  std::reverse(nodes.begin(), nodes.end());
+  for (const Node* node : nodes) {
     program::Builder builder;
-    const auto inner = (*it)->inner(Point::origin_frame(builder));
+    const auto inner = node->inner(Point::origin_frame(builder));
     const auto input_from_node = inner ? inner->from_inputs() : std::nullopt;
     const double shrinks = input_from_node ? stretch(*input_from_node).least : 1;
-    const double scale = scales_.at(*it) * (shrinks > 0 ? shrinks : 1);
-    for (const NodePtr& input : (*it)->inputs()) {
+    const double scale = scales_.at(node) * (shrinks > 0 ? shrinks : 1);
+    for (const NodePtr& input : node->inputs()) {
       const auto [known, is_new] = scales_.emplace(input.get(), scale);
       if (!is_new) known->second = std::min(known->second, scale);
     }
