@@ -27,9 +27,13 @@
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <gp_Ax1.hxx>
 #include <gp_Ax2.hxx>
+#include <gp_Trsf.hxx>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,16 +51,13 @@ Quantity_Color colour(int red, int green, int blue) {
   return {red / 255.0, green / 255.0, blue / 255.0, Quantity_TOC_sRGB};
 }
 
-void write(const std::string& path, const std::vector<Item>& items, const char* unit = "MM") {
+opencascade::handle<TDocStd_Document> new_document() {
   opencascade::handle<TDocStd_Document> document;
   XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
-  const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
-  const auto colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
-  for (const Item& item : items) {
-    const TDF_Label label = shapes->AddShape(item.shape, false);
-    TDataStd_Name::Set(label, item.name.c_str());
-    if (item.colour) colours->SetColor(label, *item.colour, XCAFDoc_ColorSurf);
-  }
+  return document;
+}
+
+void write(const std::string& path, const opencascade::handle<TDocStd_Document>& document, const char* unit) {
   bool good = false;
   if (path.ends_with(".iges")) {
     IGESCAFControl_Writer writer;
@@ -73,6 +74,35 @@ void write(const std::string& path, const std::vector<Item>& items, const char* 
   if (good) return;
   std::fprintf(stderr, "cannot write %s\n", path.c_str());
   std::exit(1);
+}
+
+void write(const std::string& path, const std::vector<Item>& items, const char* unit = "MM") {
+  const auto document = new_document();
+  const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  const auto colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
+  for (const Item& item : items) {
+    const TDF_Label label = shapes->AddShape(item.shape, false);
+    TDataStd_Name::Set(label, item.name.c_str());
+    if (item.colour) colours->SetColor(label, *item.colour, XCAFDoc_ColorSurf);
+  }
+  write(path, document, unit);
+}
+
+// Two instances of one solid: one where it is, a green one turned about y by 90 degrees and moved.
+void write_assembly(const std::string& path, const TopoDS_Shape& solid) {
+  const auto document = new_document();
+  const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  const TDF_Label part = shapes->AddShape(solid, false), whole = shapes->NewShape();
+  TDataStd_Name::Set(part, "bolt");
+  TDataStd_Name::Set(whole, "pair");
+  gp_Trsf turn, move;
+  turn.SetRotation(gp_Ax1({0, 0, 0}, {0, 1, 0}), std::numbers::pi / 2);
+  move.SetTranslation({20, 0, 0});
+  shapes->AddComponent(whole, part, TopLoc_Location());
+  const TDF_Label second = shapes->AddComponent(whole, part, TopLoc_Location(move * turn));
+  XCAFDoc_DocumentTool::ColorTool(document->Main())->SetColor(second, colour(0, 255, 0), XCAFDoc_ColorSurf);
+  shapes->UpdateAssemblies();
+  write(path, document, "MM");
 }
 
 TopoDS_Shape box(gp_Pnt corner, gp_Pnt opposite) { return BRepPrimAPI_MakeBox(corner, opposite).Shape(); }
@@ -140,5 +170,6 @@ int main(int argc, char** argv) {
                                {"pin", cylinder({5, 5, 5}, {0, 0, 1}, 2, 10), colour(0, 0, 255)}};
   write(tests + "base_and_pin.step", pair);
   write(tests + "base_and_pin.iges", pair);
+  write_assembly(tests + "assembly.step", cylinder({0, 0, 0}, {0, 0, 1}, 2, 10));
   write(tests + "open_box.step", {{"open box", without_one_face(box({0, 0, 0}, {10, 10, 10})), {}}});
 }

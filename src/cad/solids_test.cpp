@@ -105,6 +105,20 @@ TEST_F(Cad, SolidsHaveNamesAndColours) {
   EXPECT_FALSE(read("cylinder.step")[0]->colour);
 }
 
+TEST_F(Cad, InstancesAreInTheirPlaces) {
+  const auto bolts = read("assembly.step");
+  ASSERT_EQ(bolts.size(), 2u);
+  for (const SolidPtr& bolt : bolts) {
+    EXPECT_EQ(bolt->name, "bolt");
+    EXPECT_NEAR(bolt->volume_mm3, 40 * pi, 1e-6);
+    EXPECT_NEAR(volume(bolt->triangulate(0.001)), 40 * pi, 0.1);
+  }
+  EXPECT_EQ(bolts[0]->bounds, (Box{{-2, -2, 0}, {2, 2, 10}}));
+  EXPECT_EQ(bolts[1]->bounds, (Box{{20, -2, -2}, {30, 2, 2}}));
+  EXPECT_EQ(bolts[1]->colour, (std::array<uint8_t, 4>{0, 255, 0, 255}));
+  EXPECT_NEAR(bolts[1]->query()->surface_distance({25, 0, 0}), 2, 1e-6);
+}
+
 TEST_F(Cad, TrianglesAreClosedAndNearTheSurface) {
   for (const char* name : {"cylinder.step", "sphere.step", "block.iges", "block_in_inches.step"})
     for (const double deflection : {0.2, 0.02}) {

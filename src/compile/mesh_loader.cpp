@@ -117,6 +117,10 @@ std::vector<design::MeshPart> MeshLoader::mesh(std::string& path, const design::
   const auto found = find_file(path, reader.where, reader.diagnostics);
   if (!found) return {};
   path = *found;
+  if (cad::is_cad_file(path)) {
+    reader.diagnostics.error(reader.where, "\"" + path + "\" is no mesh but a CAD file", "write cad in place of mesh");
+    return {};
+  }
   std::vector<design::MeshPart>& parts = known_[key_of(path, use)];
   if (parts.empty()) parts = read(path, use, reader);
   std::vector<design::MeshPart> result = parts;
