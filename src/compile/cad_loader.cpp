@@ -14,8 +14,9 @@ namespace {
 
 // Triangles stay so near to the solid, in voxels of the job.
 constexpr double voxels_of_tolerance = 0.25;
-// Without a job: a thousandth of the solid's diagonal. A millionth is the least.
-constexpr double diagonals_of_tolerance = 1e-3, least_diagonals = 1e-6;
+// Without a job: a thousandth of the solid's diagonal. Exact surfaces take triangles for a first look only, the closer
+// the less is left to ask. A millionth is the least.
+constexpr double diagonals_of_tolerance = 1e-3, diagonals_of_first_look = 1e-4, least_diagonals = 1e-6;
 
 class CadPart final : public design::PendingSource {
  public:
@@ -45,8 +46,7 @@ class CadPart final : public design::PendingSource {
  private:
   double tolerance_for(std::optional<Vec3> voxel_mm) const {
     const double diagonal = length(bounds_.size());
-    double tolerance = diagonals_of_tolerance * diagonal;
-    // Exact surfaces take triangles for a first look only.
+    double tolerance = (is_exact_ ? diagonals_of_first_look : diagonals_of_tolerance) * diagonal;
     if (tolerance_ > 0)
       tolerance = tolerance_;
     else if (voxel_mm && !is_exact_)
