@@ -7,6 +7,15 @@ import sys
 
 TESTS = pathlib.Path(__file__).resolve().parent
 SOURCE = TESTS.parent
+WITHOUT_CAD = "this ombre was built without Open CASCADE"
+
+
+def examples(ombre):
+    """Those that this build can read."""
+    def is_readable(design):
+        return "cad(" not in design.read_text(encoding="utf-8") or WITHOUT_CAD not in run(
+            [ombre, "probe", design, "--at", "0,0,0"]).stderr
+    return [design for design in sorted((SOURCE / "examples").glob("*.vcad")) if is_readable(design)]
 
 
 def environment():
@@ -27,9 +36,10 @@ def check_all(checks, threads=None):
     "skipped: why". Prints the failures and a summary; returns the exit status."""
     def guarded(function):
         try:
-            return function() or ""
+            problem = function() or ""
         except Exception as error:  # a check that breaks is a check that fails
-            return f"{type(error).__name__}: {error}"
+            problem = f"{type(error).__name__}: {error}"
+        return f"skipped: {WITHOUT_CAD}" if WITHOUT_CAD in problem else problem
 
     failed = skipped = 0
     with concurrent.futures.ThreadPoolExecutor(threads or os.cpu_count()) as pool:

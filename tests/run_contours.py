@@ -150,7 +150,7 @@ def expect_areas_of_voxels(drawing, example, by):
 
 def examples_have_the_areas_of_their_voxels(drawing):
     shutil.copytree(program.SOURCE / "examples", drawing.folder / "examples")
-    for path in sorted((drawing.folder / "examples").glob("*.vcad")):
+    for path in program.examples(drawing.ombre):
         expect_areas_of_voxels(drawing, f"examples/{path.name}", [])
         for name in ["probe.cli", "part.cli", "part.raw", "part.raw.json"]:
             (drawing.folder / name).unlink()

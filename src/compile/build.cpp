@@ -20,7 +20,7 @@ design::NodePtr whole_solid(const design::Design& design) {
 
 Built build_program(const design::Design& design) {
   const design::NodePtr solid = whole_solid(design);
-  design::LoweringContext context(design.materials, {solid});
+  design::LoweringContext context(design.materials, {solid}, design.voxel_mm());
   program::Builder builder;
   design::Lowering lowering(context, builder);
   const program::Point p = program::Point::origin_frame(builder);
@@ -42,6 +42,20 @@ Built build_program(const design::Design& design) {
   context.finish_bodies();
   built.materials.program = builder.finish(outputs);
   return built;
+}
+
+std::optional<voxel::MaterialProgram> build_inside_program(const design::Design& design, Diagnostics& diagnostics) {
+  const design::NodePtr solid = whole_solid(design);
+  design::LoweringContext context(design.materials, {solid}, design.voxel_mm());
+  program::Builder builder;
+  design::Lowering lowering(context, builder);
+  const program::Field inside = lowering.inside(*solid, program::Point::origin_frame(builder));
+  context.finish_bodies();
+  const design::Material& material = design.materials.first();
+  auto flat =
+      flatten(builder.finish({{"inside", inside}, {material.name, builder.constant(1)}}), solid->where(), diagnostics);
+  if (!flat) return std::nullopt;
+  return voxel::MaterialProgram{std::move(*flat), {material.id}, 0};
 }
 
 std::optional<program::Program> flatten(const program::Program& program, const SourceRange& where,

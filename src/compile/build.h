@@ -26,6 +26,9 @@ std::optional<program::Program> flatten(const program::Program& program, const S
 // build_program, ready to be evaluated. Nothing, and a diagnostic, when it would not fit into memory.
 std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics);
 
+// The shape alone, without calls and all of the first material. Nothing, and a diagnostic, like above.
+std::optional<voxel::MaterialProgram> build_inside_program(const design::Design& design, Diagnostics& diagnostics);
+
 // Leaves out materials and checks that cannot occur within the box, and what only they needed.
 void leave_out_impossible(Built& built, const Box& box);
 

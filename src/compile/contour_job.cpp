@@ -74,9 +74,10 @@ std::optional<ContourPlan> plan_contours(const Loaded& loaded, const ContourRequ
   plan.tolerance_mm = fineness->tolerance_mm;
   plan.corners = corners_in_layers(*box, fineness->cell, height, request.z_mm);
   if (!is_sensible(plan, request, where, diagnostics)) return std::nullopt;
-  auto program = build_regions(loaded.design, *box, request, diagnostics);
+  const design::Design design = for_tolerance(loaded.design, fineness->tolerance_mm);
+  auto program = build_regions(design, *box, request, diagnostics);
   if (!program) return std::nullopt;
-  const auto colours = region_colours(loaded.design, *program, *box, diagnostics);
+  const auto colours = region_colours(design, *program, *box, diagnostics);
   for (size_t n = 0; n < program->regions.size(); ++n)
     if (!is_void(program->regions[n]))
       plan.regions.push_back({static_cast<surface::Label>(n + 1), program->regions[n], colours[n]});

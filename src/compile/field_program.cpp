@@ -34,7 +34,7 @@ std::vector<std::pair<MaterialId, Field>> shares(const design::Composition& comp
 std::optional<program::Program> build_field_program(const design::Design& design, const FieldWishes& wishes,
                                                     Diagnostics& diagnostics) {
   const design::NodePtr solid = whole_solid(design);
-  design::LoweringContext context(design.materials, {solid});
+  design::LoweringContext context(design.materials, {solid}, design.voxel_mm());
   program::Builder builder;
   design::Lowering lowering(context, builder);
   const program::Point p = program::Point::origin_frame(builder);

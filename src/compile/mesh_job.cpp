@@ -6,9 +6,9 @@
 namespace ombre::compile {
 namespace {
 
-void add_bodies(const Loaded& loaded, const RegionProgram& program, const Box& box,
+void add_bodies(const design::Design& design, const RegionProgram& program, const Box& box,
                 const surface::RegionSurface& surface, MeshedDesign& made, Diagnostics& diagnostics) {
-  const std::vector<design::Rgba> colours = region_colours(loaded.design, program, box, diagnostics);
+  const std::vector<design::Rgba> colours = region_colours(design, program, box, diagnostics);
   const size_t count = program.regions.size();
   for (size_t n = 0; n < count; ++n) {
     const Region& region = program.regions[n];
@@ -29,7 +29,8 @@ std::optional<MeshedDesign> mesh_design(const Loaded& loaded, const MeshRequest&
   if (!box) return std::nullopt;
   const auto fineness = choose_fineness(loaded.design, *box, request, diagnostics);
   if (!fineness) return std::nullopt;
-  const auto program = build_regions(loaded.design, *box, request, diagnostics);
+  const design::Design design = for_tolerance(loaded.design, fineness->tolerance_mm);
+  const auto program = build_regions(design, *box, request, diagnostics);
   if (!program) return std::nullopt;
   MeshedDesign made;
   made.tolerance_mm = fineness->tolerance_mm;
@@ -40,7 +41,7 @@ std::optional<MeshedDesign> mesh_design(const Loaded& loaded, const MeshRequest&
   options.threads = request.threads;
   const surface::RegionSurface surface = surface::contour(program->partition, options, progress, stop);
   made.report = surface.report;
-  add_bodies(loaded, *program, *box, surface, made, diagnostics);
+  add_bodies(design, *program, *box, surface, made, diagnostics);
   return made;
 }
 

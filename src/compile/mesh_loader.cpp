@@ -1,33 +1,16 @@
 #include "compile/mesh_loader.h"
 
-#include <filesystem>
-
 #include "base/error.h"
 #include "base/text.h"
+#include "compile/find_file.h"
 #include "compile/mesh_materials.h"
+#include "compile/support_source.h"
 #include "formats/file.h"
 #include "formats/mesh_objects.h"
 #include "import/mesh_source.h"
 
 namespace ombre::compile {
 namespace {
-
-namespace fs = std::filesystem;
-
-// Where the path leads: beside the script first. Nothing, and a diagnostic, when no file is there.
-std::optional<std::string> find_file(const std::string& path, const SourceRange& where, Diagnostics& diagnostics) {
-  std::error_code ignored;
-  const fs::path wanted(path);
-  const fs::path script = where.source ? fs::path(where.source->name()) : fs::path();
-  const fs::path beside = wanted.is_absolute() ? wanted : script.parent_path() / wanted;
-  if (fs::exists(beside, ignored)) return beside.string();
-  if (fs::exists(wanted, ignored)) return path;
-  std::string looked = beside.string();
-  if (beside != wanted && !wanted.is_absolute())
-    looked += " and " + fs::absolute(wanted, ignored).lexically_normal().string();
-  diagnostics.error(where, "there is no file \"" + path + "\"", "looked for " + looked);
-  return std::nullopt;
-}
 
 importing::InsideRule rule_of(std::string_view name) {
   if (name == "parity") return importing::InsideRule::parity;
@@ -134,11 +117,28 @@ std::vector<design::MeshPart> MeshLoader::mesh(std::string& path, const design::
   const auto found = find_file(path, reader.where, reader.diagnostics);
   if (!found) return {};
   path = *found;
+  if (cad::is_cad_file(path)) {
+    reader.diagnostics.error(reader.where, "\"" + path + "\" is no mesh but a CAD file", "write cad in place of mesh");
+    return {};
+  }
   std::vector<design::MeshPart>& parts = known_[key_of(path, use)];
   if (parts.empty()) parts = read(path, use, reader);
   std::vector<design::MeshPart> result = parts;
   if (use.materials == "one" && !result.empty()) result[0].material = use.material;
   return result;
+}
+
+std::vector<design::CadPart> MeshLoader::cad(std::string& path, const design::CadUse& use,
+                                             const design::Reader& reader) {
+  const auto found = find_file(path, reader.where, reader.diagnostics);
+  if (!found) return {};
+  path = *found;
+  return cad_files_.parts(path, use, reader);
+}
+
+design::PendingSourcePtr MeshLoader::support(const design::NodePtr& solid, const design::SupportUse& use,
+                                             const design::Reader& reader) {
+  return make_support_source(solid, use, reader);
 }
 
 std::vector<design::MeshPart> MeshLoader::read(const std::string& path, const design::MeshUse& use,

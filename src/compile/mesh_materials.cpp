@@ -30,14 +30,14 @@ const Material* nearest(const Rgba& colour, const design::MaterialTable& table) 
 
 class MaterialFinder {
  public:
-  MaterialFinder(const std::string& path, const formats::Mesh& mesh, const design::MeshUse& use,
+  MaterialFinder(const GroupedFile& file, const std::vector<MeshGroup>& groups, const design::MeshUse& use,
                  const design::Reader& reader)
-      : path_(path), mesh_(mesh), use_(use), reader_(reader) {}
+      : file_(file), groups_(groups), use_(use), reader_(reader) {}
 
   // One for each group; null where a name is unknown.
   std::vector<const Material*> find() {
     std::vector<const Material*> found;
-    for (const MeshGroup& group : mesh_.groups) found.push_back(find(group));
+    for (const MeshGroup& group : groups_) found.push_back(find(group));
     return found;
   }
 
@@ -45,23 +45,21 @@ class MaterialFinder {
   bool check() const {
     const bool by_colours = use_.materials == "colours", has_names = any(&has_name), has_colours = any(&has_colour);
     if (!(by_colours ? has_colours || has_mapped_name() : has_names)) {
-      std::string hint = "leave materials out, or use a 3MF, AMF or OBJ file that has them";
+      std::string hint = "leave materials out, or " + file_.remedy;
       if (by_colours && has_names) hint = "write materials=\"names\": it names materials";
       if (!by_colours && has_colours) hint = "write materials=\"colours\" to take those of the nearest colours";
-      return fail("the mesh \"" + path_ + (by_colours ? "\" gives no colours" : "\" names no materials"), hint);
+      return fail(file_name() + (by_colours ? " gives no colours" : " names no materials"), hint);
     }
     return check_map();
   }
 
  private:
+  std::string file_name() const { return file_.kind + " \"" + file_.path + '"'; }
   static bool has_name(const MeshGroup& group) { return !group.material.empty(); }
   static bool has_colour(const MeshGroup& group) { return group.colour.has_value(); }
-  bool any(bool (*is_so)(const MeshGroup&)) const {
-    return std::any_of(mesh_.groups.begin(), mesh_.groups.end(), is_so);
-  }
+  bool any(bool (*is_so)(const MeshGroup&)) const { return std::any_of(groups_.begin(), groups_.end(), is_so); }
   bool has_mapped_name() const {
-    return std::any_of(mesh_.groups.begin(), mesh_.groups.end(),
-                       [&](const MeshGroup& g) { return mapped(g.material); });
+    return std::any_of(groups_.begin(), groups_.end(), [&](const MeshGroup& g) { return mapped(g.material); });
   }
 
   bool fail(const std::string& message, const std::string& hint) const {
@@ -72,7 +70,7 @@ class MaterialFinder {
   std::vector<std::string> names_of_file() const {
     std::vector<std::string> names;
     std::set<std::string_view> known;
-    for (const MeshGroup& group : mesh_.groups)
+    for (const MeshGroup& group : groups_)
       if (has_name(group) && known.insert(group.material).second) names.push_back(group.material);
     return names;
   }
@@ -84,7 +82,7 @@ class MaterialFinder {
       if (std::find(names.begin(), names.end(), name) != names.end()) continue;
       std::string hint = did_you_mean(name, names);
       if (hint.empty()) hint = "there are " + listed(names);
-      good = fail("material_map of mesh: the mesh \"" + path_ + "\" has no material \"" + name + '"', hint);
+      good = fail("material_map of " + file_.node + ": " + file_name() + " has no material \"" + name + '"', hint);
     }
     return good;
   }
@@ -113,7 +111,7 @@ class MaterialFinder {
   }
 
   void report_unknown(const MeshGroup& group) const {
-    std::string message = "the mesh \"" + path_ + "\" has the material \"" + group.material + '"';
+    std::string message = file_name() + " has the material \"" + group.material + '"';
     if (!group.name.empty() && group.name != group.material) message += " (of \"" + group.name + "\")";
     std::string hint = "there are " + join(reader_.materials.names(), ", ") + ": write for example material_map=[[\"" +
                        group.material + "\", \"" + reader_.materials.first().name + "\"]]";
@@ -121,8 +119,8 @@ class MaterialFinder {
     fail(message + ", which is not among the design's", hint);
   }
 
-  const std::string& path_;
-  const formats::Mesh& mesh_;
+  const GroupedFile& file_;
+  const std::vector<MeshGroup>& groups_;
   const design::MeshUse& use_;
   const design::Reader& reader_;
   std::set<std::string> unknown_;
@@ -130,18 +128,27 @@ class MaterialFinder {
 
 }  // namespace
 
+std::optional<std::vector<const Material*>> find_materials(const GroupedFile& file,
+                                                           const std::vector<MeshGroup>& groups,
+                                                           const design::MeshUse& use, const design::Reader& reader) {
+  MaterialFinder finder(file, groups, use, reader);
+  if (!finder.check()) return std::nullopt;
+  std::vector<const Material*> materials = finder.find();
+  if (std::find(materials.begin(), materials.end(), nullptr) != materials.end()) return std::nullopt;
+  return materials;
+}
+
 std::optional<std::vector<MaterialMesh>> by_material(const std::string& path, const formats::Mesh& mesh,
                                                      const design::MeshUse& use, const design::Reader& reader) {
-  MaterialFinder finder(path, mesh, use, reader);
-  if (!finder.check()) return std::nullopt;
-  const std::vector<const Material*> materials = finder.find();
-  if (std::find(materials.begin(), materials.end(), nullptr) != materials.end()) return std::nullopt;
+  const auto materials =
+      find_materials({"the mesh", "mesh", path, "use a 3MF, AMF or OBJ file that has them"}, mesh.groups, use, reader);
+  if (!materials) return std::nullopt;
   std::vector<MaterialMesh> parts;
   std::set<const Material*> done;
-  for (const Material* material : materials) {
+  for (const Material* material : *materials) {
     if (!done.insert(material).second) continue;
     std::vector<bool> marks;
-    for (const Material* other : materials) marks.push_back(other == material);
+    for (const Material* other : *materials) marks.push_back(other == material);
     parts.push_back({{material}, formats::groups_of(mesh, marks)});
   }
   return parts;

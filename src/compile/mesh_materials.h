@@ -16,8 +16,23 @@ struct MaterialMesh {
   formats::Mesh mesh;
 };
 
+// A file with named or coloured groups, for messages.
+struct GroupedFile {
+  std::string kind;  // "the mesh"
+  std::string node;  // that reads it
+  std::string path;
+  std::string remedy;  // where it names none: "use another"
+};
+
+// The design's material of each group. Nothing, and diagnostics, where the file says less of materials than `use` asks
+// for, or names some that the design does not know.
+std::optional<std::vector<const design::Material*>> find_materials(const GroupedFile& file,
+                                                                   const std::vector<formats::MeshGroup>& groups,
+                                                                   const design::MeshUse& use,
+                                                                   const design::Reader& reader);
+
 // Cuts a mesh by the design's materials, in the order in which its groups come to them. Nothing, and diagnostics,
-// where the file says less of materials than `use` asks for, or names some that the design does not know.
+// like above.
 std::optional<std::vector<MaterialMesh>> by_material(const std::string& path, const formats::Mesh& mesh,
                                                      const design::MeshUse& use, const design::Reader& reader);
 

@@ -54,7 +54,7 @@ class RegionBuilder {
         rule_(rule),
         diagnostics_(diagnostics),
         solid_(whole_solid(design)),
-        context_(design.materials, {solid_}),
+        context_(design.materials, {solid_}, design.voxel_mm()),
         lowering_(context_, builder_),
         p_(Point::origin_frame(builder_)) {}
 

@@ -139,6 +139,12 @@ class Studio {
     return {width_ * request_.samples, height, camera.height_mm / static_cast<double>(height)};
   }
 
+  // As fine as the picture's pixels.
+  design::Design design_for(const render::Film& film) const {
+    const double pixel = film.pixel_mm * static_cast<double>(request_.samples);
+    return design::for_voxels(loaded_.design, {pixel, pixel, pixel});
+  }
+
   std::optional<Shot> turned_solid(int frame) {
     const render::ViewOptions view = view_of(frame);
     aim_cuts(camera_around(whole_, view));
@@ -151,7 +157,7 @@ class Studio {
     shot.camera = camera_around(box, view);
     if (request_.frames > 1) shot.camera.height_mm = common_height(box);
     shot.film = film_of(shot.camera);
-    auto scene = make_scene(loaded_.design, box, shot.camera, options_, diagnostics_);
+    auto scene = make_scene(design_for(shot.film), box, shot.camera, options_, diagnostics_);
     if (!scene) return std::nullopt;
     shot.cast = [this, film = shot.film, scene = std::move(*scene)](int64_t begin, int64_t end) {
       return render::cast_rays(scene, film, begin - 1, end + 1, request_.threads, [&] { return stop_.requested(); });
@@ -178,7 +184,7 @@ class Studio {
     shot.camera = camera_around(plane(box), view);
     shot.film = film_of(shot.camera);
     shot.lighting = render::Lighting::none;
-    const auto made = make_section(loaded_.design, shot.camera, shot.film, options_, diagnostics_);
+    const auto made = make_section(design_for(shot.film), shot.camera, shot.film, options_, diagnostics_);
     if (!made) return std::nullopt;
     shot.cast = [this, made](int64_t begin, int64_t end) { return made->cast(begin, end, request_.threads, stop_); };
     return shot;

@@ -160,7 +160,7 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   const auto lattice = LatticePlanner(*loaded, options, *box, diagnostics).run();
   if (!lattice) return std::nullopt;
   const Hash design_hash = design::hash(design);  // before there are programs: both take memory
-  auto built = build_flat_program(design, diagnostics);
+  auto built = build_flat_program(design::for_voxels(design, lattice->voxel_mm()), diagnostics);
   if (!built) return std::nullopt;
   leave_out_impossible(*built, lattice->box());
   warn_of_features(options.printer, box->size(), {loaded->source, 0, 0}, diagnostics);

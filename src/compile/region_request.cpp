@@ -76,6 +76,11 @@ std::optional<Fineness> choose_fineness(const design::Design& design, const Box&
   return std::nullopt;
 }
 
+design::Design for_tolerance(const design::Design& design, double tolerance_mm) {
+  const double voxel = cells_of_tolerance / 2 * tolerance_mm;
+  return design::for_voxels(design, {voxel, voxel, voxel});
+}
+
 std::optional<RegionProgram> build_regions(const design::Design& design, const Box& box, const RegionRequest& request,
                                            Diagnostics& diagnostics) {
   const auto rule = region_rule(design, box, request, diagnostics);

@@ -35,6 +35,9 @@ struct Fineness {
 std::optional<Fineness> choose_fineness(const design::Design& design, const Box& box, const RegionRequest& request,
                                         Diagnostics& diagnostics);
 
+// With voxels that are fine enough for surfaces of this tolerance.
+design::Design for_tolerance(const design::Design& design, double tolerance_mm);
+
 // Nothing, and diagnostics, when the design cannot be cut so.
 std::optional<RegionProgram> build_regions(const design::Design& design, const Box& box, const RegionRequest& request,
                                            Diagnostics& diagnostics);

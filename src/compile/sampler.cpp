@@ -74,7 +74,7 @@ std::optional<Sampler> Sampler::build(const design::Design& design, const Sample
   const design::NodePtr solid = whole_solid(design);
   std::vector<design::NodePtr> roots = design.roots();
   roots.push_back(solid);
-  design::LoweringContext context(design.materials, roots);
+  design::LoweringContext context(design.materials, roots, design.voxel_mm());
   program::Builder builder;
   design::Lowering lowering(context, builder);
   const program::Point p = program::Point::origin_frame(builder);

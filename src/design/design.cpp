@@ -43,6 +43,16 @@ std::vector<NodePtr> Design::roots() const {
   return roots;
 }
 
+std::optional<Vec3> Design::voxel_mm() const {
+  if (job_voxel_mm || !sampling) return job_voxel_mm;
+  return Vec3{sampling->pitch[0].mm(), sampling->pitch[1].mm(), sampling->pitch[2].mm()};
+}
+
+Design for_voxels(Design design, Vec3 voxel_mm) {
+  design.job_voxel_mm = voxel_mm;
+  return design;
+}
+
 Data to_data(const Design& design) {
   const auto nodes = topological(design.roots());
   const auto ids = node_ids(nodes);

@@ -36,8 +36,9 @@ struct LoweringContext::Body {
   }
 };
 
-LoweringContext::LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots)
-    : materials_(materials) {
+LoweringContext::LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots,
+                                 std::optional<Vec3> voxel_mm)
+    : materials_(materials), roots_(roots), voxel_mm_(voxel_mm) {
   std::unordered_map<const Node*, int> uses;
   for (const Node* node : topological(roots)) {
     for (const NodePtr& input : node->inputs())
@@ -51,6 +52,29 @@ LoweringContext::LoweringContext(const MaterialTable& materials, const std::vect
 }
 
 LoweringContext::~LoweringContext() = default;
+
+std::optional<Vec3> LoweringContext::voxel_mm(const Node& node) {
+  if (!voxel_mm_) return std::nullopt;
+  if (scales_.empty()) find_scales();
+  return scales_.at(&node) * *voxel_mm_;
+}
+
+void LoweringContext::find_scales() {
+  for (const NodePtr& root : roots_) scales_.emplace(root.get(), 1);
+  std::vector<const Node*> nodes = topological(roots_);
+  std::reverse(nodes.begin(), nodes.end());
+  for (const Node* node : nodes) {
+    program::Builder builder;
+    const auto inner = node->inner(Point::origin_frame(builder));
+    const auto input_from_node = inner ? inner->from_inputs() : std::nullopt;
+    const double shrinks = input_from_node ? stretch(*input_from_node).least : 1;
+    const double scale = scales_.at(node) * (shrinks > 0 ? shrinks : 1);
+    for (const NodePtr& input : node->inputs()) {
+      const auto [known, is_new] = scales_.emplace(input.get(), scale);
+      if (!is_new) known->second = std::min(known->second, scale);
+    }
+  }
+}
 
 LoweringContext::Body& LoweringContext::body_of(const Node& node) {
   auto& slot = bodies_[&node];

@@ -25,13 +25,17 @@ struct ManyParts;
 // State that all lowerings of one design share: checks and bodies.
 class LoweringContext {
  public:
-  LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots);
+  // `voxel_mm` of the job, if it is known.
+  LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots,
+                  std::optional<Vec3> voxel_mm = std::nullopt);
   ~LoweringContext();
 
   const MaterialTable& materials() const { return materials_; }
   const std::vector<Check>& checks() const { return checks_; }
   const std::vector<AttributeDeclaration>& attributes() const { return attributes_; }
   uint32_t register_check(const Node& node, const std::string& message);
+  // As the node has them, where transforms above shrink or stretch it; where there are several ways to it, the least.
+  std::optional<Vec3> voxel_mm(const Node& node);
   // Parts of the node as a table, placed in the frame of the program that will hold it; null if they are
   // few, or most do not go into one.
   const ManyParts* many_parts(const Node& node, const PartList& list, PartQuery query, const Affine& node_from_program,
@@ -43,9 +47,13 @@ class LoweringContext {
   friend class Lowering;
   struct Body;
   Body& body_of(const Node& node);
+  void find_scales();
   bool is_shared(const Node& node) const { return shared_.contains(&node); }
 
   const MaterialTable& materials_;
+  std::vector<NodePtr> roots_;
+  std::optional<Vec3> voxel_mm_;
+  std::unordered_map<const Node*, double> scales_;  // a length there for one of the root's; found when asked for
   std::vector<Check> checks_;
   std::map<std::pair<const Node*, std::string>, uint32_t> check_numbers_;
   std::vector<AttributeDeclaration> attributes_;
@@ -86,6 +94,7 @@ class Lowering {
   bool has_attribute(const Node& node, std::string_view name);
   const AttributeDeclaration* declaration(std::string_view name) const;
   MaterialId material(const MaterialName& name) const;
+  std::optional<Vec3> voxel_mm(const Node& node) { return context_.voxel_mm(node); }
   uint32_t add_check(const Node& node, const std::string& message);
   program::Builder& builder() { return builder_; }
 

@@ -160,6 +160,8 @@ std::vector<Field> Inputs::interiors(const Point& p) const {
 
 MaterialId Inputs::material(const MaterialName& material_name) const { return lowering_->material(material_name); }
 
+std::optional<Vec3> Inputs::voxel_mm() const { return lowering_->voxel_mm(node_); }
+
 std::pair<uint32_t, Field> Inputs::check(Field bad, const std::string& message) const {
   return {lowering_->add_check(node_, message), bad};
 }

@@ -90,6 +90,8 @@ class Inputs {
   std::vector<Field> interiors(const Point& p) const;
 
   MaterialId material(const MaterialName& name) const;
+  // The size of the job's voxels in this node's space, if it is known.
+  std::optional<Vec3> voxel_mm() const;
   // A mark that is 1 where something is wrong; `message` is told once, with the count of voxels.
   std::pair<uint32_t, Field> check(Field bad, const std::string& message) const;
 

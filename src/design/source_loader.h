@@ -1,7 +1,7 @@
 // How nodes get at what lies in files: they ask, somebody else reads.
 #pragma once
 
-#include "design/values.h"
+#include "design/node.h"
 #include "program/field_source.h"
 
 namespace ombre::design {
@@ -21,12 +21,49 @@ struct MeshPart {
   program::SourceField source;  // with the channels "inside" and "distance"
 };
 
+// A source that is made when a job knows how finely. Thread-safe.
+class PendingSource {
+ public:
+  virtual ~PendingSource() = default;
+  virtual Hash content() const = 0;  // of what it is made from
+  virtual Box bounds() const = 0;    // outside of it, nothing is inside
+  // For voxels of this size, in the source's own space; without one, as finely as its size suggests. With the channels
+  // "inside" and "distance"; the same source for the same size. Throws Error.
+  virtual program::SourceField make(std::optional<Vec3> voxel_mm) const = 0;
+};
+using PendingSourcePtr = std::shared_ptr<const PendingSource>;
+
+// What of a CAD file is meant, and how near to it the solid must be.
+struct CadUse {
+  MeshUse parts;            // `inside` does not matter
+  bool is_exact = false;    // its surfaces, not triangles
+  double tolerance_mm = 0;  // of triangles; 0: a quarter of a voxel
+};
+
+// The solids of one material.
+struct CadPart {
+  MaterialName material;
+  PendingSourcePtr source;
+  bool is_single = true;  // one solid, not several
+};
+
+// Which parts of a solid need support, on which grid.
+struct SupportUse {
+  double angle_deg = 0;          // from the vertical; what hangs over by no more supports itself
+  std::optional<Vec3> pitch_mm;  // else the job's
+};
+
 class SourceLoader {
  public:
   virtual ~SourceLoader() = default;
   // A mesh by its materials, each once, in the order in which the file comes to them; with "one" a single part. `path`
   // is made relative to what was found. Nothing, and diagnostics, when it is missing, wrong or open.
   virtual std::vector<MeshPart> mesh(std::string& path, const MeshUse& use, const Reader& reader) = 0;
+  // A CAD file in the same way.
+  virtual std::vector<CadPart> cad(std::string& path, const CadUse& use, const Reader& reader) = 0;
+  // What stands under a solid that has bounds, in a printer that builds it layer by layer. It reaches up into the solid
+  // by part of a cell.
+  virtual PendingSourcePtr support(const NodePtr& solid, const SupportUse& use, const Reader& reader) = 0;
 };
 
 }  // namespace ombre::design

@@ -18,6 +18,7 @@ const design::Registry& registry() {
     add_material_gradients(r);
     add_attributes(r);
     add_parts(r);
+    add_supports(r);
     return r;
   }();
   return all;

@@ -18,6 +18,7 @@ void add_sums(design::Registry& registry);
 void add_material_gradients(design::Registry& registry);
 void add_attributes(design::Registry& registry);
 void add_parts(design::Registry& registry);
+void add_supports(design::Registry& registry);
 
 // All of the above.
 const design::Registry& registry();

@@ -12,6 +12,69 @@ namespace {
 
 using namespace design;
 
+using Parts = std::vector<MeshPart>;
+
+Field read(const MeshPart& part, const char* channel, const Point& p) {
+  const int number = part.source->channel(channel);
+  ASSERT(number >= 0);
+  return p.builder().source(part.source, number, p.x, p.y, p.z);
+}
+
+std::vector<Field> distances(const Parts& parts, const Point& p) {
+  std::vector<Field> fields;
+  for (const MeshPart& part : parts) fields.push_back(read(part, "distance", p));
+  return fields;
+}
+
+std::vector<Field> insides(const Parts& parts, const Point& p) {
+  std::vector<Field> fields;
+  for (const MeshPart& part : parts) fields.push_back(truth(read(part, "inside", p)));
+  return fields;
+}
+
+Field least_distance(const Parts& parts, const Point& p) { return program::fold(distances(parts, p), program::min); }
+// Along voxel rows this needs no distances.
+Field inside_any(const Parts& parts, const Point& p) { return program::fold(insides(parts, p), program::logical_or); }
+
+// Which parts count at a point; one at least does where it matters.
+std::vector<Field> weights(const Parts& parts, const Point& p, Demand demand) {
+  std::vector<Field> marks = insides(parts, p);
+  if (demand == Demand::inside) {
+    marks.back() = p.constant(1);  // what is inside, and in none of the others
+    return marks;
+  }
+  const Field none = logical_not(program::fold(marks, program::logical_or));
+  const std::vector<Field> close = nearest(distances(parts, p));
+  for (size_t n = 0; n < marks.size(); ++n) marks[n] = logical_or(marks[n], logical_and(none, close[n]));
+  return marks;
+}
+
+Composition composition_of(const Parts& parts, const Inputs& in, const Point& p, Demand demand) {
+  if (parts.size() == 1) return Composition::pure(in.material(parts[0].material), p.constant(1));
+  const std::vector<Field> shares = first_true(weights(parts, p, demand));
+  Composition result;
+  for (size_t n = 0; n < parts.size(); ++n) result.fractions.emplace_back(in.material(parts[n].material), shares[n]);
+  std::sort(result.fractions.begin(), result.fractions.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  return result;
+}
+
+// Of all parts' sources.
+template <class AnyParts>
+Hash content_of(const AnyParts& parts) {
+  if (parts.size() == 1) return parts[0].source->content();
+  std::string all;
+  for (const auto& part : parts) all += part.source->content().hex();
+  return hash_bytes(all);
+}
+
+template <class AnyParts>
+Box bounds_of(const AnyParts& parts) {
+  Box box;
+  for (const auto& part : parts) box = hull(box, part.source->bounds());
+  return box;
+}
+
 struct Mesh {
   FilePath path;
   MaterialName material;
@@ -19,7 +82,7 @@ struct Mesh {
   std::string object;
   Choice materials = "one";
   std::vector<MaterialForName> material_map;
-  std::vector<MeshPart> parts;  // read when the node is made
+  Parts parts;  // read when the node is made
 
   static Spec<Mesh> spec() {
     return {"mesh",
@@ -53,76 +116,90 @@ struct Mesh {
                   "write materials=\"names\" or materials=\"colours\" too");
     parts = reader.loader->mesh(path.path, {object, inside_rule, materials, material, material_map}, reader);
     if (parts.empty()) return false;
-    path.content = content();
+    path.content = content_of(parts);
     return true;
   }
 
   // Walls between two parts are nearer than the surface of the whole.
   Metric metric() const { return parts.size() == 1 ? Metric::exact() : Metric::bounded(); }
 
-  Box bounds(const Box&) const {
-    Box box;
-    for (const MeshPart& part : parts) box = hull(box, part.source->bounds());
-    return box;
+  Box bounds(const Box&) const { return bounds_of(parts); }
+  Field distance(const Point& p) const { return least_distance(parts, p); }
+  Field inside(const Inputs&, const Point& p) const { return inside_any(parts, p); }
+  Field interior(const Inputs& in, const Point& p) const { return inside(in, p); }
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return composition_of(parts, in, p, demand);
+  }
+};
+
+struct Cad {
+  FilePath path;
+  MaterialName material;
+  Choice mode = "fast";
+  double tolerance = 0;
+  std::string object;
+  Choice materials = "one";
+  std::vector<MaterialForName> material_map;
+  std::vector<CadPart> parts;  // read when the node is made
+
+  static Spec<Cad> spec() {
+    return {"cad",
+            "imported",
+            "Solid of a CAD file: STEP or IGES, in the file's own unit.",
+            {{"path", &Cad::path, "The file; relative to the script, then to the working directory", required()},
+             {"material", &Cad::material, "Its material; beside the file's materials, that of what has none there"},
+             {"mode", &Cad::mode,
+              "fast (by triangles) or exact (by the surfaces themselves: slow, and distances are exact)",
+              one_of({"fast", "exact"})},
+             {"tolerance", &Cad::tolerance, "How far triangles may be from the surface; 0: a quarter of a voxel",
+              unit::not_negative_mm},
+             {"object", &Cad::object, "The name of one of the file's solids; none: all of them"},
+             {"materials", &Cad::materials,
+              "Whose materials: one (the node's), names (by the names of the file's solids), or colours (those whose "
+              "colours are nearest to the solids'); where solids overlap, the file's first wins",
+              one_of({"one", "names", "colours"})},
+             {"material_map", &Cad::material_map,
+              "Materials for names of solids, before all others: [[\"bracket\", \"gray\"], [\"bushing\", \"red\"]]"}},
+            no_inputs,
+            "cad(\"models/bracket.step\", \"gray\");"};
   }
 
-  Field distance(const Point& p) const { return program::fold(distances(p), program::min); }
-  // Along voxel rows this needs no distances.
-  Field inside(const Inputs&, const Point& p) const { return program::fold(insides(p), program::logical_or); }
-  Field interior(const Inputs& in, const Point& p) const { return inside(in, p); }
+  bool complete(const Reader& reader) {
+    const auto fail = [&](const std::string& message, const std::string& hint = "") {
+      reader.diagnostics.error(reader.where, message, hint);
+      return false;
+    };
+    if (!reader.loader) return fail("CAD files cannot be read here");
+    if (materials == "one" && !material_map.empty())
+      return fail("material_map of cad: the materials of the file are not asked for",
+                  "write materials=\"names\" or materials=\"colours\" too");
+    const CadUse use{{object, "nonzero", materials, material, material_map}, mode == "exact", tolerance};
+    parts = reader.loader->cad(path.path, use, reader);
+    if (parts.empty()) return false;
+    path.content = content_of(parts);
+    return true;
+  }
 
+  // Walls between two solids are nearer than the surface of the whole.
+  Metric metric() const { return parts.size() == 1 && parts[0].is_single ? Metric::exact() : Metric::bounded(); }
+  Box bounds(const Box&) const { return bounds_of(parts); }
+  Field distance(const Inputs& in, const Point& p) const { return least_distance(made(in), p); }
+  Field inside(const Inputs& in, const Point& p) const { return inside_any(made(in), p); }
+  Field interior(const Inputs& in, const Point& p) const { return inside(in, p); }
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    if (parts.size() == 1) return Composition::pure(in.material(parts[0].material), p.constant(1));
-    const std::vector<Field> shares = first_true(weights(p, demand));
-    Composition result;
-    for (size_t n = 0; n < parts.size(); ++n) result.fractions.emplace_back(in.material(parts[n].material), shares[n]);
-    std::sort(result.fractions.begin(), result.fractions.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
-    return result;
+    return composition_of(made(in), in, p, demand);
   }
 
  private:
-  Hash content() const {
-    if (parts.size() == 1) return parts[0].source->content();
-    std::string all;
-    for (const MeshPart& part : parts) all += part.source->content().hex();
-    return hash_bytes(all);
-  }
-
-  static Field read(const MeshPart& part, const char* channel, const Point& p) {
-    const int number = part.source->channel(channel);
-    ASSERT(number >= 0);
-    return p.builder().source(part.source, number, p.x, p.y, p.z);
-  }
-
-  std::vector<Field> distances(const Point& p) const {
-    std::vector<Field> fields;
-    for (const MeshPart& part : parts) fields.push_back(read(part, "distance", p));
-    return fields;
-  }
-
-  std::vector<Field> insides(const Point& p) const {
-    std::vector<Field> fields;
-    for (const MeshPart& part : parts) fields.push_back(truth(read(part, "inside", p)));
-    return fields;
-  }
-
-  // Which parts count at a point; one at least does where it matters.
-  std::vector<Field> weights(const Point& p, Demand demand) const {
-    std::vector<Field> marks = insides(p);
-    if (demand == Demand::inside) {
-      marks.back() = p.constant(1);  // what is inside, and in none of the others
-      return marks;
-    }
-    const Field none = logical_not(program::fold(marks, program::logical_or));
-    const std::vector<Field> close = nearest(distances(p));
-    for (size_t n = 0; n < marks.size(); ++n) marks[n] = logical_or(marks[n], logical_and(none, close[n]));
-    return marks;
+  Parts made(const Inputs& in) const {
+    Parts sources;
+    for (const CadPart& part : parts) sources.push_back({part.material, part.source->make(in.voxel_mm())});
+    return sources;
   }
 };
 
 }  // namespace
 
-void add_imported(Registry& registry) { registry.add<Mesh>(); }
+void add_imported(Registry& registry) { registry.add<Mesh, Cad>(); }
 
 }  // namespace ombre::nodes

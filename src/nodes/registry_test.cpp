@@ -39,12 +39,32 @@ class BallSource : public program::FieldSource {
   }
 };
 
+class PendingBall : public PendingSource {
+ public:
+  Hash content() const override { return source_->content(); }
+  Box bounds() const override { return source_->bounds(); }
+  program::SourceField make(std::optional<Vec3>) const override { return source_; }
+
+ private:
+  program::SourceField source_ = std::make_shared<BallSource>();
+};
+
 class BallLoader : public SourceLoader {
  public:
   std::vector<MeshPart> mesh(std::string&, const MeshUse& use, const Reader& reader) override {
     std::vector<MeshPart> parts{{use.material, std::make_shared<BallSource>()}};
     if (use.materials != "one") parts.push_back({{reader.materials.find("clear")}, std::make_shared<BallSource>()});
     return parts;
+  }
+
+  std::vector<CadPart> cad(std::string&, const CadUse& use, const Reader& reader) override {
+    std::vector<CadPart> parts{{use.parts.material, std::make_shared<PendingBall>()}};
+    if (use.parts.materials != "one") parts.push_back({{reader.materials.find("clear")}, parts[0].source});
+    return parts;
+  }
+
+  PendingSourcePtr support(const NodePtr&, const SupportUse&, const Reader&) override {
+    return std::make_shared<PendingBall>();
   }
 };
 

@@ -20,6 +20,7 @@ struct Lattice {
   double center(size_t axis, int64_t n) const {
     return origin[static_cast<int>(axis)] + pitch[axis].times(static_cast<double>(n) + 0.5);
   }
+  Vec3 voxel_mm() const { return {pitch[0].mm(), pitch[1].mm(), pitch[2].mm()}; }
   uint64_t voxels() const {
     return static_cast<uint64_t>(count[0]) * static_cast<uint64_t>(count[1]) * static_cast<uint64_t>(count[2]);
   }

@@ -16,6 +16,7 @@
 #include "compile/build.h"
 #include "compile/load.h"
 #include "compile/partition_program.h"
+#include "compile/region_request.h"
 #include "off_soup.h"
 #include "surface/point_asker.h"
 
@@ -302,7 +303,10 @@ int compare(const std::string& design_path, const std::string& mesh_path, double
   Diagnostics diagnostics;
   const compile::LoadedPtr loaded = compile::load_design(design_path, {}, diagnostics);
   const auto box = loaded ? compile::design_box(loaded->design, diagnostics) : std::nullopt;
-  auto built = box ? compile::build_region_program(loaded->design, *box, {}, diagnostics) : std::nullopt;
+  // As fine as the mesh was asked for, where parts are as fine as the job.
+  auto built =
+      box ? compile::build_region_program(compile::for_tolerance(loaded->design, tolerance_mm), *box, {}, diagnostics)
+          : std::nullopt;
   if (!built) {
     std::cerr << to_text(diagnostics);
     return 1;

@@ -247,7 +247,15 @@ std::shared_ptr<const compile::Sampler> DesignHandle::sampler(const std::string&
   }
   // Built without the lock: it may call functions of Python. The first one counts.
   Diagnostics diagnostics;
-  auto built = compile::Sampler::build(design(), wishes_for(question, design()), diagnostics);
+  const compile::SampleWishes wishes = wishes_for(question, design());
+  std::optional<compile::Sampler> built;
+  try {
+    const py::gil_scoped_release unlocked;  // threads may call them
+    built = compile::Sampler::build(design(), wishes, diagnostics);
+  } catch (const HostFailure&) {
+    raise_failures();
+    throw;
+  }
   raise_errors(diagnostics);
   auto sampler = std::make_shared<const compile::Sampler>(std::move(*built));
   const std::scoped_lock lock(mutex_);

@@ -14,12 +14,6 @@ class _Missing(Node):
         raise missing(type(self).__name__, self._instead)
 
 
-class CAD(_Missing):
-    """Solid of a STEP or IGES file."""
-
-    _instead = "save the part as a mesh (STL, 3MF) and use Mesh"
-
-
 class Text(_Missing):
     """Letters with a depth."""
 
@@ -70,17 +64,6 @@ class Convolution(_Missing):
     @staticmethod
     def PassKernel(x: int, y: int, z: int) -> Any:
         raise missing("Convolution.PassKernel")
-
-
-class SupportAnalyzer:
-    """The volume that needs support in layered printing."""
-
-    def __init__(self, *arguments: Any, **named: Any) -> None:
-        raise missing(type(self).__name__)
-
-
-class SupportAnalyzerParallel(SupportAnalyzer):
-    """The same."""
 
 
 class TetrahedralMesh:

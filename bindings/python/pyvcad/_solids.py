@@ -166,7 +166,7 @@ class Mesh(_Leaf):
         options = {"material": _one, "disable_validation": Optional(boolean, False)}
         values = read("Mesh", ({"path": text, **options}, {"path": text, "sample_size": _sample_size, **options}),
                       arguments, named)
-        self._path = _find(values["path"])
+        self._path = _find("Mesh", values["path"])
         self._material, self._any_winding = values["material"], values["disable_validation"]
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
@@ -175,11 +175,28 @@ class Mesh(_Leaf):
         return ombre.mesh(self._path, self._material)
 
 
-def _find(path: str) -> str:
+class CAD(_Leaf):
+    """Solid of a STEP or IGES file: CAD(path, use_fast_mode=True, material=1).
+
+    The fast mode works by triangles, which are as fine as a job's voxels ask for; the other asks the surfaces themselves.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        form = {"path": text, "use_fast_mode": Optional(boolean, True), "material": _one}
+        values = read("CAD", (form,), arguments, named)
+        self._path = _find("CAD", values["path"])
+        self._is_fast, self._material = values["use_fast_mode"], values["material"]
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return ombre.cad(self._path, self._material, mode="fast" if self._is_fast else "exact")
+
+
+def _find(node: str, path: str) -> str:
     """A file, relative to the script, then to the working directory. Raises FileNotFoundError."""
     script = _call_place()[0]
     for folder in (os.path.dirname(os.path.abspath(script)), os.getcwd()):
         if os.path.isfile(os.path.join(folder, path)):
             return os.path.normpath(os.path.join(folder, path))
-    raise FileNotFoundError(f"Mesh: there is no file {path}, neither beside {os.path.basename(script)} nor in "
+    raise FileNotFoundError(f"{node}: there is no file {path}, neither beside {os.path.basename(script)} nor in "
                             f"{os.getcwd()}")

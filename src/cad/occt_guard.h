@@ -1,0 +1,25 @@
+// What Open CASCADE throws, as an Error.
+#pragma once
+
+#include <Standard_Failure.hxx>
+
+#include <new>
+#include <string>
+
+#include "base/error.h"
+
+namespace ombre::cad {
+
+template <class F>
+auto guarded(const std::string& what, F f) {
+  try {
+    return f();
+  } catch (const Standard_Failure& failure) {
+    const std::string reason = failure.GetMessageString();
+    throw Error(what + ": " + (reason.empty() ? failure.DynamicType()->Name() : reason));
+  } catch (const std::bad_alloc&) {
+    throw Error(what + ": not enough memory");
+  }
+}
+
+}  // namespace ombre::cad

@@ -1,0 +1,216 @@
+// Shapes, names and colours of STEP and IGES files.
+#ifdef OMBRE_CAD
+
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepLib.hxx>
+#include <BRep_Tool.hxx>
+#include <IGESCAFControl_Reader.hxx>
+#include <Quantity_ColorRGBA.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <TDF_LabelSequence.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Solid.hxx>
+#include <XCAFApp_Application.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "cad/occt_shapes.h"
+
+namespace ombre::cad {
+namespace {
+
+// Edges of two faces that lie so close to one another are one; mm.
+constexpr double sewing_tolerance = 1e-3;
+
+using Colour = std::array<uint8_t, 4>;
+using OptionalColour = std::optional<Colour>;
+
+// A document of the library's, which an application keeps until it is closed.
+class Document {
+ public:
+  Document() : application_(XCAFApp_Application::GetApplication()) {
+    application_->NewDocument("MDTV-XCAF", document_);
+  }
+  Document(const Document&) = delete;
+  Document& operator=(const Document&) = delete;
+  ~Document() { application_->Close(document_); }
+
+  opencascade::handle<TDocStd_Document>& handle() { return document_; }
+
+ private:
+  opencascade::handle<XCAFApp_Application> application_;
+  opencascade::handle<TDocStd_Document> document_;
+};
+
+uint8_t byte(double share) { return static_cast<uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0))); }
+
+// As files and screens have colours: with sRGB's curve.
+Colour colour_of(const Quantity_ColorRGBA& rgba) {
+  double red = 0, green = 0, blue = 0;
+  rgba.GetRGB().Values(red, green, blue, Quantity_TOC_sRGB);
+  return {byte(red), byte(green), byte(blue), byte(static_cast<double>(rgba.Alpha()))};
+}
+
+std::string name_of(const TDF_Label& label) {
+  opencascade::handle<TDataStd_Name> name;
+  if (!label.FindAttribute(TDataStd_Name::GetID(), name)) return "";
+  const TCollection_ExtendedString& text = name->Get();
+  std::string utf8(static_cast<size_t>(text.LengthOfCString()) + 1, '\0');
+  Standard_PCharacter begin = utf8.data();
+  utf8.resize(static_cast<size_t>(text.ToUTF8CString(begin)));
+  return utf8;
+}
+
+// Collects the solids of a document, and the faces that belong to none.
+class Collector {
+ public:
+  explicit Collector(const opencascade::handle<TDocStd_Document>& document)
+      : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())),
+        colours_(XCAFDoc_DocumentTool::ColorTool(document->Main())) {}
+
+  std::vector<NamedShape> solids, faces;
+
+  void run() {
+    TDF_LabelSequence roots;
+    shapes_->GetFreeShapes(roots);
+    for (const TDF_Label& root : roots) add(root, TopLoc_Location(), "", {});
+  }
+
+ private:
+  void add(const TDF_Label& label, const TopLoc_Location& place, const std::string& outer_name,
+           const OptionalColour& outer_colour) {
+    // An instance's own colour goes before that of what it is an instance of.
+    const OptionalColour own = colour_of_label(label);
+    const OptionalColour colour = outer_colour ? outer_colour : own;
+    TDF_Label referred;
+    if (XCAFDoc_ShapeTool::IsReference(label) && XCAFDoc_ShapeTool::GetReferredShape(label, referred)) {
+      add(referred, place * XCAFDoc_ShapeTool::GetLocation(label), name_of(label), colour);
+      return;
+    }
+    const std::string name = name_of(label).empty() ? outer_name : name_of(label);
+    TDF_LabelSequence components;
+    if (XCAFDoc_ShapeTool::IsAssembly(label) && XCAFDoc_ShapeTool::GetComponents(label, components)) {
+      for (const TDF_Label& component : components) add(component, place, name, colour);
+      return;
+    }
+    add_shape(label, place, name, colour);
+  }
+
+  void add_shape(const TDF_Label& label, const TopLoc_Location& place, const std::string& name,
+                 const OptionalColour& colour) {
+    const TopoDS_Shape whole = XCAFDoc_ShapeTool::GetShape(label);
+    for (TopExp_Explorer e(whole, TopAbs_SOLID); e.More(); e.Next()) {
+      const TopoDS_Shape& solid = e.Current();
+      TDF_Label own;
+      const bool has_label = shapes_->FindSubShape(label, solid, own);
+      const std::string own_name = has_label ? name_of(own) : "";
+      OptionalColour own_colour = has_label ? colour_of_label(own) : OptionalColour();
+      if (!own_colour) own_colour = colour ? colour : first_colour(solid);
+      solids.push_back({own_name.empty() ? name : own_name, own_colour, solid.Moved(place)});
+    }
+    for (TopExp_Explorer e(whole, TopAbs_FACE, TopAbs_SOLID); e.More(); e.Next()) {
+      const OptionalColour own = colour_of_shape(e.Current());
+      faces.push_back({name, own ? own : colour, e.Current().Moved(place)});
+    }
+  }
+
+  OptionalColour colour_of_label(const TDF_Label& label) const {
+    Quantity_ColorRGBA rgba;
+    for (const XCAFDoc_ColorType type : {XCAFDoc_ColorSurf, XCAFDoc_ColorGen})
+      if (colours_->GetColor(label, type, rgba)) return colour_of(rgba);
+    return std::nullopt;
+  }
+
+  OptionalColour colour_of_shape(const TopoDS_Shape& shape) const {
+    Quantity_ColorRGBA rgba;
+    for (const XCAFDoc_ColorType type : {XCAFDoc_ColorSurf, XCAFDoc_ColorGen})
+      if (colours_->GetColor(shape, type, rgba)) return colour_of(rgba);
+    return std::nullopt;
+  }
+
+  // Many programs give colours to faces alone.
+  OptionalColour first_colour(const TopoDS_Shape& solid) const {
+    for (TopExp_Explorer e(solid, TopAbs_FACE); e.More(); e.Next())
+      if (const OptionalColour colour = colour_of_shape(e.Current())) return colour;
+    return std::nullopt;
+  }
+
+  opencascade::handle<XCAFDoc_ShapeTool> shapes_;
+  opencascade::handle<XCAFDoc_ColorTool> colours_;
+};
+
+// Solids of closed shells that the faces make together.
+std::vector<NamedShape> sewn(const std::vector<NamedShape>& faces) {
+  BRepBuilderAPI_Sewing sewing(sewing_tolerance);
+  for (const NamedShape& face : faces) sewing.Add(face.shape);
+  sewing.Perform();
+  std::vector<NamedShape> solids;
+  for (TopExp_Explorer e(sewing.SewedShape(), TopAbs_SHELL); e.More(); e.Next()) {
+    if (!BRep_Tool::IsClosed(e.Current())) continue;
+    TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(e.Current()));
+    BRepLib::OrientClosedSolid(solid);
+    TopTools_IndexedMapOfShape own;
+    TopExp::MapShapes(e.Current(), TopAbs_FACE, own);
+    const auto first = std::find_if(faces.begin(), faces.end(),
+                                    [&](const NamedShape& f) { return own.Contains(sewing.Modified(f.shape)); });
+    if (first == faces.end())
+      solids.push_back({"", {}, solid});
+    else
+      solids.push_back({first->name, first->colour, solid});
+  }
+  return solids;
+}
+
+template <class Reader>
+void read_with(Reader& reader, const std::string& path, Document& document) {
+  reader.SetColorMode(true);
+  reader.SetNameMode(true);
+  const IFSelect_ReturnStatus status = reader.ReadFile(path.c_str());
+  if (status != IFSelect_RetDone)
+    throw Error("cannot read " + path + ": it is no valid file of its kind; export it again, as STEP AP214 or AP242");
+  if (!reader.Transfer(document.handle()))
+    throw Error("cannot read " + path + ": it holds no shapes; export the part as a solid");
+}
+
+bool is_iges(const std::string& path) {
+  const size_t dot = path.rfind('.');
+  return dot != std::string::npos && dot + 1 < path.size() && (path[dot + 1] == 'i' || path[dot + 1] == 'I');
+}
+
+}  // namespace
+
+std::vector<NamedShape> read_shapes(const std::string& path) {
+  Document document;
+  if (is_iges(path)) {
+    IGESCAFControl_Reader reader;
+    read_with(reader, path, document);
+  } else {
+    STEPCAFControl_Reader reader;
+    read_with(reader, path, document);
+  }
+  Collector found(document.handle());
+  found.run();
+  if (!found.faces.empty()) {
+    std::vector<NamedShape> closed = sewn(found.faces);
+    found.solids.insert(found.solids.end(), closed.begin(), closed.end());
+  }
+  if (!found.solids.empty()) return found.solids;
+  if (found.faces.empty()) throw Error(path + " holds no solid; export the part as a solid");
+  throw Error(path + " holds " + std::to_string(found.faces.size()) +
+              (found.faces.size() == 1 ? " surface" : " surfaces") +
+              " and no solid, and they do not close; export the part as a solid");
+}
+
+}  // namespace ombre::cad
+
+#endif

@@ -1,0 +1,171 @@
+#include "compile/cad_loader.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "compile/mesh_materials.h"
+#include "formats/file.h"
+#include "import/cad_source.h"
+
+namespace ombre::compile {
+namespace {
+
+// Triangles stay so near to the solid, in voxels of the job.
+constexpr double voxels_of_tolerance = 0.25;
+// Without a job: a thousandth of the solid's diagonal. Exact surfaces take triangles for a first look only, the closer
+// the less is left to ask. A millionth is the least.
+constexpr double diagonals_of_tolerance = 1e-3, diagonals_of_first_look = 1e-4, least_diagonals = 1e-6;
+
+class CadPart final : public design::PendingSource {
+ public:
+  CadPart(std::string name, Hash content, std::vector<cad::SolidPtr> solids, const design::CadUse& use)
+      : name_(std::move(name)),
+        content_(content),
+        solids_(std::move(solids)),
+        is_exact_(use.is_exact),
+        tolerance_(use.tolerance_mm) {
+    for (const cad::SolidPtr& solid : solids_) bounds_ = hull(bounds_, solid->bounds);
+  }
+
+  Hash content() const override { return content_; }
+  Box bounds() const override { return bounds_; }
+
+  program::SourceField make(std::optional<Vec3> voxel_mm) const override {
+    const std::lock_guard lock(mutex_);
+    const double tolerance = tolerance_for(voxel_mm);
+    program::SourceField& made = made_[tolerance];
+    if (made) return made;
+    const Hash own = hash_bytes(content_.hex() + format_number(tolerance));
+    made = is_exact_ ? importing::make_exact_source(name_, solids_, own, tolerance)
+                     : importing::make_triangle_source(name_, solids_, own, tolerance);
+    return made;
+  }
+
+ private:
+  double tolerance_for(std::optional<Vec3> voxel_mm) const {
+    const double diagonal = length(bounds_.size());
+    double tolerance = (is_exact_ ? diagonals_of_first_look : diagonals_of_tolerance) * diagonal;
+    if (tolerance_ > 0)
+      tolerance = tolerance_;
+    else if (voxel_mm && !is_exact_)
+      tolerance = voxels_of_tolerance * std::min({voxel_mm->x, voxel_mm->y, voxel_mm->z});
+    return std::max(tolerance, least_diagonals * diagonal);
+  }
+
+  std::string name_;
+  Hash content_;
+  std::vector<cad::SolidPtr> solids_;
+  bool is_exact_;
+  double tolerance_;
+  Box bounds_;
+  mutable std::mutex mutex_;
+  mutable std::map<double, program::SourceField> made_;
+};
+
+std::vector<std::string> names_of(const std::vector<cad::SolidPtr>& solids) {
+  std::vector<std::string> names;
+  for (const cad::SolidPtr& solid : solids)
+    if (!solid->name.empty() && std::find(names.begin(), names.end(), solid->name) == names.end())
+      names.push_back(solid->name);
+  return names;
+}
+
+// Those of one name, or all. None, and a diagnostic, when nothing has it.
+std::vector<cad::SolidPtr> choose(const std::string& path, const std::vector<cad::SolidPtr>& solids,
+                                  const std::string& object, const design::Reader& reader) {
+  if (object.empty()) return solids;
+  std::vector<cad::SolidPtr> chosen;
+  for (const cad::SolidPtr& solid : solids)
+    if (solid->name == object) chosen.push_back(solid);
+  if (!chosen.empty()) return chosen;
+  constexpr size_t most_listed = 20;
+  std::vector<std::string> names = names_of(solids);
+  std::string hint = did_you_mean(object, names);
+  const bool is_cut = names.size() > most_listed;
+  if (is_cut) names.resize(most_listed);
+  if (hint.empty())
+    hint = names.empty() ? "its solids have no names: leave object out"
+                         : "there are \"" + join(names, "\", \"") + '"' + (is_cut ? " and more" : "");
+  reader.diagnostics.error(reader.where, "the CAD file \"" + path + "\" has no solid \"" + object + '"', hint);
+  return {};
+}
+
+// A solid's name is also that of its material.
+std::vector<formats::MeshGroup> groups_of(const std::vector<cad::SolidPtr>& solids) {
+  std::vector<formats::MeshGroup> groups;
+  for (const cad::SolidPtr& solid : solids) {
+    formats::MeshGroup group{solid->name, 0, 0};
+    group.material = solid->name;
+    group.colour = solid->colour;
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+struct MaterialSolids {
+  design::MaterialName material;
+  std::vector<cad::SolidPtr> solids = {};
+};
+
+// In the order in which the file comes to the materials.
+std::optional<std::vector<MaterialSolids>> by_material(const std::string& path,
+                                                       const std::vector<cad::SolidPtr>& solids,
+                                                       const design::MeshUse& use, const design::Reader& reader) {
+  std::vector<MaterialSolids> parts;
+  if (use.materials == "one") {
+    parts.push_back({use.material, solids});
+    return parts;
+  }
+  const auto materials =
+      find_materials({"the CAD file", "cad", path, "give its solids names or colours"}, groups_of(solids), use, reader);
+  if (!materials) return std::nullopt;
+  for (size_t n = 0; n < solids.size(); ++n) {
+    const design::Material* material = (*materials)[n];
+    const auto same = [&](const MaterialSolids& part) { return part.material.material == material; };
+    auto part = std::find_if(parts.begin(), parts.end(), same);
+    if (part == parts.end()) part = parts.insert(part, MaterialSolids{{material}, {}});
+    part->solids.push_back(solids[n]);
+  }
+  return parts;
+}
+
+}  // namespace
+
+const CadFiles::File* CadFiles::file(const std::string& path, const design::Reader& reader) {
+  const auto known = files_.find(path);
+  if (known != files_.end()) return &known->second;
+  if (!cad::is_cad_file(path)) {
+    reader.diagnostics.error(reader.where, "\"" + path + "\" is no CAD file that can be read here",
+                             "cad reads STEP (.step, .stp) and IGES (.iges, .igs); write mesh for triangles");
+    return nullptr;
+  }
+  try {
+    File file{hash_bytes(formats::read_file(path)), cad::read_solids(path)};
+    return &files_.emplace(path, std::move(file)).first->second;
+  } catch (const Error& error) {
+    reader.diagnostics.error(reader.where, error.what());
+    return nullptr;
+  }
+}
+
+std::vector<design::CadPart> CadFiles::parts(const std::string& path, const design::CadUse& use,
+                                             const design::Reader& reader) {
+  const File* found = file(path, reader);
+  if (!found) return {};
+  const std::vector<cad::SolidPtr> solids = choose(path, found->solids, use.parts.object, reader);
+  if (solids.empty()) return {};
+  const auto materials = by_material(path, solids, use.parts, reader);
+  if (!materials) return {};
+  std::vector<design::CadPart> parts;
+  for (const MaterialSolids& part : *materials) {
+    std::string own = found->content.hex() + use.parts.object;
+    if (use.parts.materials != "one") own += part.material.material->name;
+    parts.push_back(
+        {part.material, std::make_shared<CadPart>(path, hash_bytes(own), part.solids, use), part.solids.size() == 1});
+  }
+  return parts;
+}
+
+}  // namespace ombre::compile

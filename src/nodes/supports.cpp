@@ -1,0 +1,93 @@
+// What holds a part up while it is printed.
+#include "design/source_loader.h"
+#include "design/spec.h"
+#include "nodes/all_nodes.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+struct Support {
+  double angle = 0;
+  MaterialName material;
+  double clearance = 0;
+  std::optional<Vec3> pitch;
+  PendingSourcePtr source;  // known when the node is made
+
+  static Spec<Support> spec() {
+    Domain angles = unit::degrees;
+    angles.least = 0;
+    angles.greatest = 90;
+    Spec<Support> spec{
+        "support",
+        "supports",
+        "What must stand under the solid in its braces when it is built layer by layer, down to its lowest layer or to "
+        "what of it lies below; the solid itself is not part of it.",
+        {{"angle", &Support::angle,
+          "From the vertical: surfaces that hang over by no more support themselves; 0: all that hangs is supported",
+          angles},
+         {"material", &Support::material, "Its material; none: \"support\", if there is one"},
+         {"clearance", &Support::clearance, "Gap that stays open between it and the solid", unit::not_negative_mm},
+         {"pitch", &Support::pitch, "Size of the cells by which it is found; none: the job's voxels",
+          unit::positive_mm}},
+        one_solid,
+        "support(angle=45) { translate(0, 0, 10) rectprism((20, 20, 4)); }"};
+    spec.parameters[1].fill = [](Support& node, const Reader& reader) {
+      const Material* usual = reader.materials.find("support");
+      if (!node.material.material) node.material.material = usual ? usual : &reader.materials.first();
+    };
+    return spec;
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
+    if (!reader.loader) {
+      reader.diagnostics.error(reader.where, "supports cannot be found here");
+      return false;
+    }
+    if (clearance > 0 && inputs[0]->metric().is_implicit())
+      reader.diagnostics.warning(reader.where, "clearance is kept from a shape of which only the sign is known",
+                                 "its value is taken as it is, which need not be a distance in mm");
+    source = reader.loader->support(inputs[0], {angle, pitch}, reader);
+    return source != nullptr;
+  }
+
+  Metric metric(const Inputs& in) const { return weaker(Metric::bounded(), in.metric(0)); }
+
+  Box reach(const Inputs&, const Box& where, double margin) const {
+    return intersect(source->bounds().expanded(margin), where);
+  }
+
+  Field distance(const Inputs& in, const Point& p) const {
+    return max(read(in, "distance", p), clearance - in.distance(0, p));
+  }
+  Field inside(const Inputs& in, const Point& p) const {
+    const Field is_free =
+        clearance > 0 ? less_equal(p.constant(clearance), in.distance(0, p)) : logical_not(in.interior(0, p));
+    return logical_and(truth(read(in, "inside", p)), is_free);
+  }
+  Field interior(const Inputs& in, const Point& p) const {
+    const Field is_free = clearance > 0 ? less(p.constant(clearance), in.distance(0, p)) : logical_not(in.inside(0, p));
+    return logical_and(truth(read(in, "inside", p)), is_free);
+  }
+
+  Composition composition(const Inputs& in, const Point& p, Demand) const {
+    return Composition::pure(in.material(material), p.constant(1));
+  }
+  // The solid's attributes are not its own.
+  std::optional<Field> attribute(const Inputs& in, std::string_view name, const Point& p, Demand) const {
+    return p.constant(in.declaration(name).default_value);
+  }
+
+ private:
+  Field read(const Inputs& in, const char* channel, const Point& p) const {
+    const program::SourceField columns = source->make(in.voxel_mm());
+    return p.builder().source(columns, columns->channel(channel), p.x, p.y, p.z);
+  }
+};
+
+}  // namespace
+
+void add_supports(Registry& registry) { registry.add<Support>(); }
+
+}  // namespace ombre::nodes
