@@ -12,6 +12,7 @@ const design::Registry& registry() {
     add_transforms(r);
     add_booleans(r);
     add_sums(r);
+    add_offsets(r);
     add_material_gradients(r);
     add_attributes(r);
     add_parts(r);

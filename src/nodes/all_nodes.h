@@ -12,6 +12,7 @@ void add_imported(design::Registry& registry);
 void add_transforms(design::Registry& registry);
 void add_booleans(design::Registry& registry);
 void add_sums(design::Registry& registry);
+void add_offsets(design::Registry& registry);
 void add_material_gradients(design::Registry& registry);
 void add_attributes(design::Registry& registry);
 void add_parts(design::Registry& registry);

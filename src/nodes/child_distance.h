@@ -1,4 +1,4 @@
-// The variable d of expressions: the signed distance of a node's input.
+// Distances of a node's input: the variable d of expressions, and warnings where they are none.
 #pragma once
 
 #include "design/node.h"
@@ -14,9 +14,11 @@ inline expr::Variables distance_variable(const design::Inputs& in, const program
   };
 }
 
-inline void warn_of_implicit_distance(const design::Reader& reader, const design::Node& input) {
+// `use` says who takes the value for a distance: "offset measures from".
+inline void warn_of_implicit_distance(const design::Reader& reader, const design::Node& input,
+                                      const std::string& use = "\"d\" is used over") {
   if (!input.metric().is_implicit()) return;
-  reader.diagnostics.warning(reader.where, "\"d\" is used over a shape of which only the sign is known",
+  reader.diagnostics.warning(reader.where, use + " a shape of which only the sign is known",
                              "its value is taken as it is, which need not be a distance in mm");
 }
 
