@@ -10,6 +10,7 @@ const design::Registry& registry() {
     add_implicit_solids(r);
     add_imported(r);
     add_transforms(r);
+    add_arrays(r);
     add_booleans(r);
     add_sums(r);
     add_offsets(r);

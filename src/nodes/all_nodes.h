@@ -10,6 +10,7 @@ void add_round_solids(design::Registry& registry);
 void add_implicit_solids(design::Registry& registry);
 void add_imported(design::Registry& registry);
 void add_transforms(design::Registry& registry);
+void add_arrays(design::Registry& registry);
 void add_booleans(design::Registry& registry);
 void add_sums(design::Registry& registry);
 void add_offsets(design::Registry& registry);
