@@ -1,16 +1,17 @@
 // Whole numbers as parameters.
+#include <algorithm>
 #include <cmath>
 
-#include "base/text.h"
 #include "design/values.h"
 
 namespace ombre::design {
 
 bool read(const Data& data, const Domain& domain, int& value, const Reader& reader) {
-  const double least = std::max(domain.least, -1e9), greatest = std::min(domain.greatest, 1e9);
+  const int least = static_cast<int>(std::max(domain.least, -1e9)),
+            greatest = static_cast<int>(std::min(domain.greatest, 1e9));
   const double* number = data.number();
   if (!number || *number != std::floor(*number) || *number < least || *number > greatest)
-    return reader.fail(data, "a whole number from " + format_number(least) + " to " + format_number(greatest));
+    return reader.fail(data, "a whole number from " + std::to_string(least) + " to " + std::to_string(greatest));
   value = static_cast<int>(*number);
   return true;
 }

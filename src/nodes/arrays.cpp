@@ -183,7 +183,7 @@ struct ArrayGrid : LatticeArray<ArrayGrid> {
             "Copies of its child in a grid along x, y and z.",
             {{"counts", &ArrayGrid::counts, "How many along x, y and z", required(from_to(1, 100'000))},
              {"steps", &ArrayGrid::steps, "From one copy to the next along x, y and z", required(unit::mm)},
-             {"centred", &ArrayGrid::centred, "Lies the grid around the child's place, or does it begin there?"},
+             {"centred", &ArrayGrid::centred, "Whether the grid lies around the child's place; else it begins there"},
              {"materials", &ArrayGrid::materials, overlap_doc, overlap_choices()}},
             one_solid,
             "array_grid((3, 3, 2), (5, 5, 5)) { sphere(2, \"red\"); }"};
@@ -233,8 +233,7 @@ struct ArrayPolar : Array<ArrayPolar> {
             "Copies of its child around an axis, turned on the way.",
             {{"count", &ArrayPolar::count, "How many, with the child itself", required(from_to(1, 10'000))},
              {"axis", &ArrayPolar::axis, "Direction of the axis, about which copies are turned right-handed"},
-             {"angle", &ArrayPolar::angle,
-              "From the first copy to the last; 360 goes all round, and the last one then ends a step before the first",
+             {"angle", &ArrayPolar::angle, "From the first copy to the last; 360: evenly all round",
               from_to(-360, 360, "deg")},
              {"radius", &ArrayPolar::radius,
               "How far the child is moved away from the axis first: along x, or along y where the axis is x", unit::mm},

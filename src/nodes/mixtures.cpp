@@ -123,7 +123,8 @@ Field overlapping_values(const std::vector<Field>& values, const std::vector<Fie
   const Field any = program::fold(marks, program::logical_or), zero = otherwise.builder->constant(0);
   const auto total = [&](const std::vector<Field>& weights) {
     std::vector<Field> terms;
-    for (size_t i = 0; i < values.size(); ++i) terms.push_back(select(weights[i], values[i], zero));
+    const size_t count = values.size();
+    for (size_t i = 0; i < count; ++i) terms.push_back(select(weights[i], values[i], zero));
     return program::fold(terms, add);
   };
   Field value = zero;

@@ -291,7 +291,7 @@ struct FormulaWarp {
   static Spec<FormulaWarp> spec() {
     return {"warp",
             "warps",
-            "Asks its child at another point, given by three formulas: a sphere at (x*2, y, z) is half as wide.",
+            "Asks its child at another point, given by three formulas: asked at (x*2, y, z), it is half as wide.",
             {{"x", &FormulaWarp::x, "Where to ask along x, for each point", required(unit::mm)},
              {"y", &FormulaWarp::y, "The same along y", required(unit::mm)},
              {"z", &FormulaWarp::z, "The same along z", required(unit::mm)},

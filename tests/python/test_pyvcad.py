@@ -393,8 +393,8 @@ def test_cycles_are_found_in_every_walk():
 
 
 @pytest.mark.parametrize("name", [
-    "CAD", "Text", "PolygonExtrude", "Voxels", "SimulationField", "PointMap", "Offset", "Shell", "Tile", "Map",
-    "ConformalMap", "Blend", "Convolution", "SupportAnalyzer", "SupportAnalyzerParallel", "TetrahedralMesh",
+    "CAD", "Text", "PolygonExtrude", "Voxels", "SimulationField", "PointMap", "Tile", "Map",
+    "Blend", "Convolution", "SupportAnalyzer", "SupportAnalyzerParallel", "TetrahedralMesh",
     "HexahedralMesh"])
 def test_what_is_missing_says_so(name):
     with pytest.raises(NotImplementedError, match=f"{name}: Ombre does not have this yet"):

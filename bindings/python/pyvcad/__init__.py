@@ -8,10 +8,10 @@
 from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
 from ._errors import MissingFeature
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
-from ._missing import (CAD, Blend, ConformalMap, Convolution, HexahedralMesh, Map, Offset, PointMap, PolygonExtrude,
-                       Shell, SimulationField, SupportAnalyzer, SupportAnalyzerParallel, TetrahedralMesh, Text, Tile,
-                       Voxels)
-from ._operations import BBoxUnion, Difference, FGrade, Intersection, Rotate, Scale, Sum, Translate, Union
+from ._missing import (CAD, Blend, Convolution, HexahedralMesh, Map, PointMap, PolygonExtrude, SimulationField,
+                       SupportAnalyzer, SupportAnalyzerParallel, TetrahedralMesh, Text, Tile, Voxels)
+from ._operations import (BBoxUnion, ConformalMap, Difference, FGrade, Intersection, Offset, Rotate, Scale, Shell, Sum,
+                          Translate, Union)
 from ._solids import Cylinder, Function, GraphLattice, Mesh, RectPrism, Sphere, Strut
 from ._texts import parse_vcad_text, version
 from ._tree import Node

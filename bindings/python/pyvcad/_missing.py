@@ -40,14 +40,6 @@ class PointMap(_Missing):
     """Composition from values at points."""
 
 
-class Offset(_Missing):
-    """Its child, grown by a distance."""
-
-
-class Shell(_Missing):
-    """A wall along its child's surface, inward."""
-
-
 class Tile(_Missing):
     """Its child, repeated without end."""
 
@@ -56,10 +48,6 @@ class Tile(_Missing):
 
 class Map(_Missing):
     """Coordinates along a surface."""
-
-
-class ConformalMap(_Missing):
-    """A pattern bent along a base."""
 
 
 class Blend(_Missing):
