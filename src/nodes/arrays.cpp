@@ -22,12 +22,15 @@ constexpr std::string_view overlap_doc =
 //   in_order(p)         the same, with the first copies first
 //   nearest_ones(p)     where the copies that may be the nearest are asked, the first ones first
 //   distances(in, p)    their distances
+//   most_asked_at_once  how many these can be
 template <class T>
 struct Array {
   Metric metric(const Inputs& in) const {
     const Metric metric = in.metric(0);
     return metric.is_implicit() ? metric : Metric::bounded(std::max(1.0, metric.lipschitz));
   }
+
+  double repetitions() const { return self().most_asked_at_once(); }
 
   Field inside(const Inputs& in, const Point& p) const {
     return program::fold(insides(in, self().holding(p)), program::logical_or);
@@ -89,6 +92,7 @@ template <class T>
 struct LatticeArray : Array<T> {
   LatticeCopies copies;
 
+  double most_asked_at_once() const { return copies.around_count(); }
   std::vector<Point> holding(const Point& p) const { return copies.holding(p); }
   std::vector<Point> in_order(const Point& p) const { return copies.holding(p); }
   std::vector<Point> nearest_ones(const Point& p) const { return copies.around(p); }
@@ -107,7 +111,9 @@ struct LatticeArray : Array<T> {
   }
 
   Box reach(const Inputs& in, const Box& where, double margin) const {
-    const Box reachable = in.reach(0, design_space(), margin);
+    // Of an exact distance it is known how far it reaches; of others only where they are asked.
+    const bool is_known = margin == 0 || in.metric(0).kind == Metric::Kind::exact;
+    const Box reachable = is_known ? copies.original().expanded(margin) : design_space();
     const LatticeCopies::Part part = copies.part(where, reachable);
     Box box = intersect(copies.others(margin), where);
     if (part.originals.is_empty()) return box;
@@ -261,6 +267,7 @@ struct ArrayPolar : Array<ArrayPolar> {
     return true;
   }
 
+  double most_asked_at_once() const { return count; }
   std::vector<Point> holding(const Point& p) const { return copies.holding(p); }
   std::vector<Point> in_order(const Point& p) const { return copies.is_in_order() ? copies.holding(p) : copies.all(p); }
   std::vector<Point> nearest_ones(const Point& p) const { return copies.all(p); }
@@ -307,6 +314,7 @@ struct ArrayMirror : Array<ArrayMirror> {
     return false;
   }
 
+  double most_asked_at_once() const { return 2; }
   std::vector<Point> holding(const Point& p) const { return {p, p.mapped(image_from_here())}; }
   std::vector<Point> in_order(const Point& p) const { return holding(p); }
   std::vector<Point> nearest_ones(const Point& p) const { return holding(p); }
@@ -316,7 +324,8 @@ struct ArrayMirror : Array<ArrayMirror> {
 
   Box reach(const Inputs& in, const Box& where, double margin) const {
     const Affine mirror = image_from_here();
-    return hull(in.reach(0, where, margin), image(mirror, in.reach(0, image(mirror, where), margin)));
+    const Box box = in.reach(0, hull(where, image(mirror, where)), margin);
+    return hull(intersect(box, where), intersect(image(mirror, box), where));
   }
 
  private:

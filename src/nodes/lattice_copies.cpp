@@ -22,7 +22,7 @@ Field ceil(Field v) { return v.builder->apply(program::Op::ceil, v); }
 }  // namespace
 
 LatticeCopies::LatticeCopies(const Affine& frame_from_here, const std::array<Row, 3>& rows, const Box& bounds)
-    : frame_from_here_(frame_from_here), rows_(rows) {
+    : frame_from_here_(frame_from_here), rows_(rows), original_(bounds) {
   box_ = bounds.is_empty() ? Box{{0, 0, 0}, {0, 0, 0}} : image(frame_from_here, bounds);
   for (size_t axis = 0; axis < 3; ++axis) steps_[axis] = dot(frame_from_here.rows[axis], rows[axis].step);
   const Box all = hull();

@@ -41,6 +41,7 @@ class LatticeCopies {
   };
   // Which points of the original the points of `where` ask, if these are asked within the box `reachable`.
   Part part(const Box& where, const Box& reachable) const;
+  const Box& original() const { return original_; }  // the bounds that were given
   // Encloses the points at which distance_of_others is `margin` or less.
   Box others(double margin) const;
 
@@ -58,7 +59,7 @@ class LatticeCopies {
   Affine frame_from_here_;
   std::array<Row, 3> rows_;
   std::array<double, 3> steps_{};  // along the frame's axes
-  Box box_;                        // in the frame
+  Box original_, box_;             // here, and in the frame
   Window holding_, around_;
 };
 

@@ -53,6 +53,7 @@ struct ConformalMap {
   }
 
   Metric metric() const { return Metric::implicit(); }
+  double repetitions() const { return 7; }  // the base: at the point, and twice along each axis
 
   Field distance(const Inputs& in, const Point& p) const { return in.distance(1, place(in, p)); }
   Field inside(const Inputs& in, const Point& p) const { return in.inside(1, place(in, p)); }

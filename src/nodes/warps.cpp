@@ -316,7 +316,8 @@ struct FormulaWarp {
 
   Box reach(const Inputs& in, const Box& where, double margin) const {
     const Box box = min ? intersect(Box{*min, *max}.expanded(margin), where) : where;
-    return searched(box, [&](const Box& part) { return !in.reach(0, asked_box(*this, part), margin).is_empty(); });
+    const Box child = in.reach(0, asked_box(*this, box), margin);
+    return searched(box, [&](const Box& part) { return !intersect(asked_box(*this, part), child).is_empty(); });
   }
 
   Field distance(const Inputs& in, const Point& p) const {
