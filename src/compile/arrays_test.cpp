@@ -147,6 +147,34 @@ TEST(Arrays, AskNoMoreWhereThereAreMoreCopies) {
   }
 }
 
+// What copies of copies would ask is counted before it is written out.
+TEST(Arrays, SayWhenCopiesOfCopiesAreTooMany) {
+  Diagnostics diagnostics;
+  std::string text = "cube(1, \"red\");";
+  for (int n = 0; n < 60; ++n) text = "array_mirror((1, 1, 0)) translate(1, 0, 0) " + text;
+  const LoadedPtr loaded = load_text(text, diagnostics);
+  ASSERT_TRUE(loaded) << to_text(diagnostics);
+  EXPECT_FALSE(plan_slice(loaded, {}, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("the design repeats its parts too often"), std::string::npos);
+}
+
+// A union of so many solids becomes a table; arrays that repeat little go into it.
+TEST(Arrays, GoIntoUnionsOfManySolids) {
+  std::string arrays, written_out;
+  for (int n = 0; n < 40; ++n) {
+    const std::string move = "translate(0, " + std::to_string(2 * n) + ", 0) ", ball = "sphere(0.8, \"red\");";
+    const std::string count = std::to_string(5 + n);
+    arrays += move + "array_grid((" + count + ", 2, 1), (2, 0.9, 1)) " + ball;
+    written_out += "for (j = [0, 1]) for (i = [1 : " + count + "]) translate(2*i - 2, 0.9*j, 0) " + move + ball;
+  }
+  const TestSolid table("union() {" + arrays + "}"), other("union() {" + written_out + "}");
+  RandomPoints points({{-1, -1, -1}, {90, 82, 1}});
+  for (int n = 0; n < 3000; ++n) {
+    const Vec3 p = points.next();
+    EXPECT_EQ(table.at(p).inside, other.at(p).inside) << p.x << " " << p.y << " " << p.z;
+  }
+}
+
 // Everywhere, also outside, there is a composition: the nearest copy's.
 TEST(Arrays, GiveTheCompositionOfTheNearestCopyOutside) {
   const TestSolid row("array_linear(30, (4, 0, 0)) fgrade([\"1 + x\", \"1 - x\"], [\"red\", \"blue\"]) sphere(1);",
