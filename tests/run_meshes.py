@@ -27,6 +27,8 @@ FARTHEST = {
     "soft_actuator": (4, 0.02),     # its ribs end in folds of a hundredth of a millimetre, half a cell
     "tensile_bar_prob": (1.5, 3e-4),    # along the edges of its fillets, where flat cells were joined
     "tensile_bar_thresh": (1.5, 3e-4),
+    "wrapped_pattern": (4, 2e-3),   # along the edges where tiles stand on the cup
+    "turned_handle": (2.5, 1e-4),   # along the sharp edges of its flutes
     "wheel": (4, 1e-3),             # where spokes and hub meet, whose shells go through each other
 }
 # Too many facets for CGAL at the tolerance that is usual for their sizes; mm.

@@ -21,6 +21,7 @@ declare -A options=(
   [graded_wing]="--from -20,35"
   [knob]="--cut x=0 --from -50,20"
   [soft_actuator]="--from -50,15"
+  [turned_handle]="--cut z=12 --from -50,35"
 )
 
 # render NAME PICTURE SIZE [OPTION ...]

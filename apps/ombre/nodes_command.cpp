@@ -36,6 +36,13 @@ std::string inputs_text(const design::InputInfo& inputs) {
   return least + " to " + std::to_string(inputs.most) + ", " + type;
 }
 
+std::string children_text(const design::InputInfo& inputs) {
+  if (inputs.most == 0) return "";
+  if (inputs.most == 1) return " Several children are joined first.";
+  return inputs.least == inputs.most ? " Takes " + std::to_string(inputs.most) + " children."
+                                     : " Any number of children.";
+}
+
 std::string parameter_text(const ParameterInfo& parameter) {
   std::string text = "  " + parameter.name + ": " + parameter.doc + '\n';
   std::string detail(parameter.kind);
@@ -118,8 +125,7 @@ std::string reference() {
     if (type->category != category) text += "\n## " + type->category + "\n";
     category = type->category;
     text += "\n### " + type->name + "\n\n" + type->sentence;
-    if (type->inputs.most > 0)
-      text += type->inputs.most == 1 ? " Several children are joined first." : " Any number of children.";
+    text += children_text(type->inputs);
     text += "\n\n```\n" + type->example + "\n```\n";
     if (!type->parameters.empty()) text += "\n| parameter | is | default | |\n| --- | --- | --- | --- |\n";
     for (const ParameterInfo& parameter : type->parameters) {

@@ -42,7 +42,7 @@ LoweringContext::LoweringContext(const MaterialTable& materials, const std::vect
   std::unordered_map<const Node*, int> uses;
   for (const Node* node : topological(roots)) {
     for (const NodePtr& input : node->inputs())
-      if (input.use_count() > 1 && ++uses[input.get()] == 2) shared_.insert(input.get());
+      if (node->repetitions() > 1 || (input.use_count() > 1 && ++uses[input.get()] == 2)) shared_.insert(input.get());
     if (const auto declared = node->declares()) {
       bool known = false;
       for (const auto& attribute : attributes_) known = known || attribute.name == declared->name;

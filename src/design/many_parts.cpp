@@ -21,6 +21,22 @@ using program::SlotKind;
 constexpr size_t least_parts = 32;
 // Pieces of a part, and of all parts together.
 constexpr size_t most_pieces = 8, most_pieces_together = 2'000'000;
+// Parts are written out in full, with all that they repeat.
+constexpr double most_repetitions = 64;
+constexpr int most_visits = 10'000;
+
+// How often the innermost nodes are asked; infinite for parts that are too large to tell.
+double repetitions(const Node& node, int& visits) {
+  if (++visits > most_visits) return std::numeric_limits<double>::infinity();
+  double most = 1;
+  for (const NodePtr& input : node.inputs()) most = std::max(most, repetitions(*input, visits));
+  return most * node.repetitions();
+}
+
+bool repeats_much(const Node& part) {
+  int visits = 0;
+  return repetitions(part, visits) > most_repetitions;
+}
 
 class PartsMaker {
  public:
@@ -80,6 +96,7 @@ class PartsMaker {
     const Box bounds = reach(part, design_space());
     const Vec3 size = bounds.size();
     if (bounds.is_empty() || std::max({size.x, size.y, size.z}) >= design_limit_mm) return false;
+    if (repeats_much(part)) return false;
     const Box box = program::grown_for_rounding(image(program_from_node_, bounds));
 
     builder_.clear();

@@ -27,7 +27,8 @@ void Node::finish(std::vector<NodePtr> inputs, SourceRange where) {
 }
 
 bool Node::has_along() const {
-  return gives_along() || std::ranges::any_of(inputs(), [](const NodePtr& input) { return input->has_along(); });
+  if (inputs().empty()) return gives_along();
+  return std::ranges::any_of(inputs(), [](const NodePtr& input) { return input->has_along(); });
 }
 
 Box BoundsMemory::of(const Node& node, const Box& where, double margin) {

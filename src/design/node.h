@@ -132,6 +132,8 @@ class Node {
   virtual std::array<bool, 3> nearest_copy_is_enough(Vec3 steps) const = 0;
   // At which steps copies of a unit cell join.
   virtual std::optional<Vec3> pitch() const = 0;
+  // At how many points it may ask an input, for one that is asked of itself.
+  virtual double repetitions() const = 0;
   // Field nodes give this.
   virtual Field value(const Inputs& in, const Point& p) const = 0;
 

@@ -44,6 +44,10 @@ bool check_inputs(const NodeType& type, const std::vector<NodePtr>& inputs, cons
     return false;
   };
   if (wanted.most == 0 && !inputs.empty()) return fail(type.name + " takes no children", "end it with \";\"");
+  if (!inputs.empty() && inputs.size() < wanted.least)
+    return fail(type.name + " takes " + std::to_string(wanted.least) + " inputs, " + std::to_string(inputs.size()) +
+                    (inputs.size() == 1 ? " was given" : " were given"),
+                type.example.empty() ? "" : "for example " + type.example);
   if (inputs.size() < wanted.least)
     return fail(type.name + " has nothing inside its braces", "write " + type.name + "(...) { sphere(5); }");
   if (inputs.size() > wanted.most)

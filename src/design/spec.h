@@ -9,7 +9,7 @@
 // and where the defaults do not fit
 //   Metric metric([Inputs]) const             default: exact for leaves with constant numbers
 //   inside, interior, composition, attribute, declares, value, complete, along, pitch,
-//   nearest_copy_is_enough
+//   nearest_copy_is_enough, repetitions
 #pragma once
 
 #include <algorithm>
@@ -181,6 +181,13 @@ class NodeOf final : public Node {
       return inputs().size() == 1 ? inputs()[0]->pitch() : std::nullopt;
     else
       return std::nullopt;
+  }
+
+  double repetitions() const override {
+    if constexpr (requires { data.repetitions(); })
+      return data.repetitions();
+    else
+      return 1;
   }
 
   Field value(const Inputs& in, const Point& p) const override {

@@ -1,6 +1,7 @@
 // The types that node parameters may have, and how plain data becomes them.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <map>
@@ -102,6 +103,9 @@ struct FilePath {
   bool operator==(const FilePath&) const = default;
 };
 
+// How many there are along x, y and z.
+using Counts3 = std::array<int, 3>;
+
 // What a parameter may be, for checks, help and forms.
 struct Domain {
   std::string_view unit;  // "mm", "deg", or none
@@ -126,6 +130,12 @@ inline Domain positive(std::string_view unit) {
 inline Domain not_negative(std::string_view unit) {
   Domain domain = any(unit);
   domain.least = 0;
+  return domain;
+}
+inline Domain from_to(double least, double greatest, std::string_view unit = "") {
+  Domain domain = any(unit);
+  domain.least = least;
+  domain.greatest = greatest;
   return domain;
 }
 inline Domain one_of(std::vector<std::string> choices) {
@@ -162,6 +172,8 @@ struct Reader {
 
 // True when `data` was right; else a diagnostic was added.
 bool read(const Data& data, const Domain& domain, double& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, int& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, Counts3& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Number& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Numbers3& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, bool& value, const Reader& reader);
@@ -179,6 +191,8 @@ bool read(const Data& data, const Domain& domain, std::vector<Edge>& value, cons
 
 // The reverse. For hashes, files are named by their content.
 Data write(double value, bool for_hash);
+Data write(int value, bool for_hash);
+Data write(const Counts3& value, bool for_hash);
 Data write(const Number& value, bool for_hash);
 Data write(const Numbers3& value, bool for_hash);
 Data write(bool value, bool for_hash);
@@ -198,6 +212,8 @@ Data write(const std::vector<Edge>& value, bool for_hash);
 template <class M>
 constexpr std::string_view kind_name() {
   if constexpr (std::is_same_v<M, double>) return "number";
+  if constexpr (std::is_same_v<M, int>) return "whole number";
+  if constexpr (std::is_same_v<M, Counts3>) return "3 whole numbers";
   if constexpr (std::is_same_v<M, Number>) return "number or field";
   if constexpr (std::is_same_v<M, Numbers3>) return "3 numbers or fields";
   if constexpr (std::is_same_v<M, bool>) return "true or false";

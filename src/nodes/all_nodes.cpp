@@ -13,8 +13,12 @@ const design::Registry& registry() {
     add_tiles(r);
     add_tpms(r);
     add_transforms(r);
+    add_arrays(r);
+    add_warps(r);
     add_booleans(r);
     add_sums(r);
+    add_offsets(r);
+    add_maps(r);
     add_material_gradients(r);
     add_attributes(r);
     add_parts(r);

@@ -1,4 +1,5 @@
-// The variables d and t of expressions: the signed distance of a node's input, and the place along its struts.
+// What expressions know of a node's input: d, its signed distance, and t, the place along its struts; warnings where
+// distances are none.
 #pragma once
 
 #include <algorithm>
@@ -18,9 +19,11 @@ inline expr::Variables child_variables(const design::Inputs& in, const program::
   };
 }
 
-inline void warn_of_implicit_distance(const design::Reader& reader, const design::Node& input) {
+// `use` says who takes the value for a distance: "offset measures from".
+inline void warn_of_implicit_distance(const design::Reader& reader, const design::Node& input,
+                                      const std::string& use = "\"d\" is used over") {
   if (!input.metric().is_implicit()) return;
-  reader.diagnostics.warning(reader.where, "\"d\" is used over a shape of which only the sign is known",
+  reader.diagnostics.warning(reader.where, use + " a shape of which only the sign is known",
                              "its value is taken as it is, which need not be a distance in mm");
 }
 

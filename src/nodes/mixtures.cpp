@@ -115,15 +115,20 @@ Field overlapping_attribute(const Inputs& in, std::string_view name, const Point
     values.push_back(in.attribute(i, name, p, demand));
   }
   const Field otherwise = p.constant(declaration.default_value);
-  if (values.empty()) return otherwise;
-  const Field any = program::fold(marks, program::logical_or), zero = p.constant(0);
+  return values.empty() ? otherwise : overlapping_values(values, marks, declaration.overlap, otherwise);
+}
+
+Field overlapping_values(const std::vector<Field>& values, const std::vector<Field>& marks, design::Overlap overlap,
+                         Field otherwise) {
+  const Field any = program::fold(marks, program::logical_or), zero = otherwise.builder->constant(0);
   const auto total = [&](const std::vector<Field>& weights) {
     std::vector<Field> terms;
-    for (size_t i = 0; i < values.size(); ++i) terms.push_back(select(weights[i], values[i], zero));
+    const size_t count = values.size();
+    for (size_t i = 0; i < count; ++i) terms.push_back(select(weights[i], values[i], zero));
     return program::fold(terms, add);
   };
   Field value = zero;
-  switch (declaration.overlap) {
+  switch (overlap) {
     case design::Overlap::first:
       value = total(first_true(marks));
       break;
@@ -134,7 +139,7 @@ Field overlapping_attribute(const Inputs& in, std::string_view name, const Point
       value = total(marks) / program::fold(marks, add);
       break;
     case design::Overlap::max: {
-      const Field least = p.constant(-std::numeric_limits<double>::infinity());
+      const Field least = otherwise.builder->constant(-std::numeric_limits<double>::infinity());
       std::vector<Field> present;
       for (size_t i = 0; i < values.size(); ++i) present.push_back(select(marks[i], values[i], least));
       value = program::fold(present, static_cast<Field (*)(Field, Field)>(program::max));

@@ -28,4 +28,8 @@ program::Field overlapping_attribute(const design::Inputs& in, std::string_view 
                                      design::Demand demand, const std::vector<program::Field>& insides,
                                      const design::AttributeDeclaration& declaration);
 
+// The same of values that are at hand, of which those with a mark count.
+program::Field overlapping_values(const std::vector<program::Field>& values, const std::vector<program::Field>& marks,
+                                  design::Overlap overlap, program::Field otherwise);
+
 }  // namespace ombre::nodes

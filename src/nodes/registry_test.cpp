@@ -77,7 +77,8 @@ class RandomDesign {
     for (int attempt = 0; attempt < 20; ++attempt) {
       std::vector<NodePtr> inputs;
       if (type.inputs.most > 0) {
-        const size_t count = type.inputs.most == 1 ? 1 : 1 + index(3);
+        const size_t count =
+            type.inputs.most == 1 ? 1 : std::clamp(1 + index(3), type.inputs.least, type.inputs.most);
         for (size_t i = 0; i < count; ++i) inputs.push_back(any_node(depth - 1));
       }
       Diagnostics diagnostics;
@@ -120,6 +121,8 @@ class RandomDesign {
     return Data(format_rounded(value + 1) + waves[index(4)]);
   }
 
+  Data whole_number(const Domain& domain) { return Data(std::max(0.0, domain.least) + static_cast<double>(index(4))); }
+
   Data vector(const Domain& domain, bool fields) {
     return Data(DataList{one_number(domain, fields), one_number(domain, fields), one_number(domain, fields)});
   }
@@ -139,6 +142,9 @@ class RandomDesign {
     const std::string_view kind = parameter.kind;
     if (!domain.choices.empty()) return Data(domain.choices[index(domain.choices.size())]);
     if (kind == "number") return one_number(domain, false);
+    if (kind == "whole number") return whole_number(domain);
+    if (kind == "3 whole numbers")
+      return Data(DataList{whole_number(domain), whole_number(domain), whole_number(domain)});
     if (kind == "number or field" && type.name == "function")
       return Data("x^2 + 2*y^2 + z^2 - " + format_rounded(number(4, 30)));
     if (kind == "number or field") return one_number(domain, true);

@@ -63,11 +63,16 @@ struct Tile {
       axis.middle = axis.is_one_enough ? 0 : 0.5 * (axis.lo + axis.hi);
       copies *= 2 * axis.neighbours(true) + 1;
     }
+    // A small child is written out for each copy, so that what does not reach into the cell is left out.
+    constexpr int small = 2;
+    repetitions_ = inputs[0]->depth() <= small ? 1 : copies;
     constexpr double most = 343;
     if (copies <= most) return true;
     return fail("what tile repeats is many times as large as its steps: " + format_number(copies) + " copies overlap",
                 "give steps at least half as long as the child is");
   }
+
+  double repetitions() const { return repetitions_; }
 
   // The nearest copy is among the neighbours by distance, not by a bound of it.
   Metric metric(const Inputs& in) const {
@@ -194,7 +199,7 @@ struct Tile {
     std::vector<Point> points;
     for (const auto& [i, j, k] : offsets) {
       const Axis::Copy x = axes_[0].copy(p.x, i), y = axes_[1].copy(p.y, j), z = axes_[2].copy(p.z, k);
-      Point q = Point::of(x.at, y.at, z.at);
+      Point q = p.moved_to(x.at, y.at, z.at);
       q.cell = {x.index, y.index, z.index};
       const Interval along_x = axes_[0].extent(i), along_y = axes_[1].extent(j), along_z = axes_[2].extent(k);
       q.set_within({{along_x.lo, along_y.lo, along_z.lo}, {along_x.hi, along_y.hi, along_z.hi}});
@@ -222,6 +227,7 @@ struct Tile {
   }
 
   std::array<Axis, 3> axes_;
+  double repetitions_ = 1;
 };
 
 }  // namespace

@@ -239,9 +239,11 @@ def solid_for_values(expression):
 
 def _doc(info):
     lines = [info["sentence"], "", "Args:"]
+    most = info["inputs"]["most"]
     if info["inputs"]["least"]:
         lines.append("    solids: what it works on, one or several (several are joined where it takes one)"
-                     if info["inputs"]["most"] is None else "    solid: what it works on")
+                     if most is None else "    solid: what it works on" if most == 1 else
+                     f"    solids: the {most:.0f} that it works on, in their order")
     for p in info["parameters"]:
         unit = f" ({p['unit']})" if p["unit"] else ""
         choices = f" One of {', '.join(p['choices'])}." if p["choices"] else ""

@@ -94,7 +94,8 @@ _questions = '''    bounds: tuple[tuple[float, float, float], tuple[float, float
     def show(self, path: Optional[Path] = ..., **options: Option) -> Any: ...
     def view(self, frames: int = ..., **options: Option) -> str: ...
 '''
-_kinds = {"number": "float", "number or field": "Number", "3 numbers or fields": "Numbers", "true or false": "bool",
+_kinds = {"number": "float", "whole number": "int", "3 whole numbers": "Sequence[int]", "number or field": "Number",
+          "3 numbers or fields": "Numbers", "true or false": "bool",
           "text": "str", "3 numbers": "Optional[Numbers]", "matrix": "ArrayLike", "material": "Material",
           "file": "Path", "list of numbers or fields": "Union[Number, Numbers]",
           "list of materials": "Union[Material, Sequence[Material]]",

@@ -8,9 +8,10 @@
 from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
 from ._errors import MissingFeature
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
-from ._missing import (Blend, ConformalMap, Convolution, HexahedralMesh, Map, Offset, PointMap, PolygonExtrude,
-                       Shell, SimulationField, TetrahedralMesh, Text, Voxels)
-from ._operations import BBoxUnion, Difference, FGrade, Intersection, Rotate, Scale, Sum, Tile, Translate, Union
+from ._missing import (Blend, Convolution, HexahedralMesh, Map, PointMap, PolygonExtrude, SimulationField,
+                       TetrahedralMesh, Text, Voxels)
+from ._operations import (BBoxUnion, ConformalMap, Difference, FGrade, Intersection, Offset, Rotate, Scale, Shell, Sum,
+                          Tile, Translate, Union)
 from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, Sphere, Strut
 from ._supports import SupportAnalyzer, SupportAnalyzerParallel
 from ._texts import parse_vcad_text, version

@@ -34,20 +34,8 @@ class PointMap(_Missing):
     """Composition from values at points."""
 
 
-class Offset(_Missing):
-    """Its child, grown by a distance."""
-
-
-class Shell(_Missing):
-    """A wall along its child's surface, inward."""
-
-
 class Map(_Missing):
     """Coordinates along a surface."""
-
-
-class ConformalMap(_Missing):
-    """A pattern bent along a base."""
 
 
 class Blend(_Missing):

@@ -5,7 +5,7 @@ from typing import Any
 
 import ombre
 
-from ._arguments import Optional, Point, boolean, material, number, radius_of_blend, read, vector
+from ._arguments import Optional, Point, boolean, length, material, number, radius_of_blend, read, vector
 from ._functions import expression
 from ._tree import Binary, NAry, Node, Unary, as_node, as_nodes
 
@@ -128,6 +128,51 @@ class Sum(NAry):
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return ombre.sum(solids, iso=self._iso)
+
+
+class Offset(Unary):
+    """Its child, grown by a distance, or shrunk by a negative one: Offset(d, child), mm."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        values = read("Offset", ({"distance": number, **_child},), arguments, named)
+        super().__init__(values["child"])
+        self._distance: float = values["distance"]
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return ombre.offset(solids[0], self._distance)
+
+
+class Shell(Unary):
+    """A wall along its child's surface, inward: Shell(thickness, child), mm."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        values = read("Shell", ({"thickness": length, **_child},), arguments, named)
+        super().__init__(values["child"])
+        self._thickness: float = values["thickness"]
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return ombre.shell(solids[0], self._thickness)
+
+
+class ConformalMap(Binary):
+    """A flat pattern (right) along the surface of a base (left): ConformalMap(base, pattern, ref_dir=Vec3(0, 0, 1)).
+
+    The pattern's z is the height above the base. Its x and y are the place on the surface, as it is seen along ref_dir.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        form = {"base": as_node, "pattern": as_node, "ref_dir": Optional(vector, (0.0, 0.0, 1.0))}
+        values = read("ConformalMap", ({}, form), arguments, named)
+        super().__init__(values.get("base"), values.get("pattern"))
+        self._direction: Point = values.get("ref_dir", (0.0, 0.0, 1.0))
+        if self._direction == (0, 0, 0):
+            raise ValueError("ConformalMap, ref_dir: expected a direction, found (0, 0, 0)")
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return ombre.conformal_map(*solids, ref_dir=self._direction)
+
+    def _composing(self) -> list[Node]:
+        return self._inputs()[1:]
 
 
 class FGrade(Unary):

@@ -1,0 +1,126 @@
+// Solids laid along the surfaces of others.
+#include <algorithm>
+#include <cmath>
+
+#include "design/spec.h"
+#include "nodes/all_nodes.h"
+#include "nodes/child_distance.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+using program::Op;
+
+// A base and a pattern. In scripts, what one statement makes is one of them.
+constexpr InputInfo two_solids{ValueType::solid, 2, 2, true};
+
+// The normals of the base are taken from differences over this length to both sides: finer than voxels, and coarse
+// enough for single precision.
+constexpr double normal_step_mm = 0.01;
+
+// A pattern of which x and y are the place on a surface, and z is the height above it. The place is that of the
+// surface's nearest point q, in a frame whose third axis is `direction`:
+//   planar       the first two coordinates of q
+//   cylindrical  the arc around the third axis that ends in q, and q's third coordinate
+//   spherical    arcs on the ball around `around` that q lies on: along its equator, and from there to q
+struct ConformalMap {
+  Choice mapping = "planar";
+  Vec3 direction{0, 0, 1}, around;
+
+  static Spec<ConformalMap> spec() {
+    return {
+        "conformal_map",
+        "maps",
+        "Lays a flat pattern, its second child, along the surface of its first: the pattern's z is the height above "
+        "it, its x and y a place on it.",
+        {{"mapping", &ConformalMap::mapping,
+          "What x and y are: planar, as seen along ref_dir; cylindrical, the way around ref_dir and along it; "
+          "spherical, the way around ref_dir and from the equator to the poles",
+          one_of({"planar", "cylindrical", "spherical"})},
+         {"ref_dir", &ConformalMap::direction, "Reference direction; x begins along x, or along y where ref_dir is x"},
+         {"around", &ConformalMap::around, "Where x, y and ref_dir begin", unit::mm}},
+        two_solids,
+        "conformal_map(mapping=\"cylindrical\") { cylinder(10, 20); rectprism((30, 6, 2), \"red\"); }"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
+    warn_of_implicit_distance(reader, *inputs[0], "conformal_map measures from");
+    if (length(direction) > 0) return true;
+    reader.diagnostics.error(reader.where, "the ref_dir of conformal_map has no direction",
+                             "write x, y, z or for example (1, 1, 0)");
+    return false;
+  }
+
+  Metric metric() const { return Metric::implicit(); }
+  double repetitions() const { return 7; }  // the base: at the point, and twice along each axis
+
+  Field distance(const Inputs& in, const Point& p) const { return in.distance(1, place(in, p)); }
+  Field inside(const Inputs& in, const Point& p) const { return in.inside(1, place(in, p)); }
+  Field interior(const Inputs& in, const Point& p) const { return in.interior(1, place(in, p)); }
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return in.composition(1, place(in, p), demand);
+  }
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    return in.attribute(1, name, place(in, p), demand);
+  }
+
+  // Where a pattern reaches: so high above the base, and, since a height is the way to the surface's point, no farther
+  // from that point's place.
+  Box reach(const Inputs& in, const Box& where, double margin) const {
+    const Box pattern = in.reach(1, design_space(), margin);
+    if (pattern.is_empty()) return pattern;
+    const Box box = in.reach(0, where, std::max(0.0, pattern.hi.z));
+    const double farthest = std::max(std::abs(pattern.lo.z), std::abs(pattern.hi.z)) * (1 + 1e-9);
+    Box places = Box::centered({design_limit_mm, design_limit_mm, design_limit_mm});
+    if (mapping == "planar") {
+      places = {{pattern.lo.x, pattern.lo.y, -design_limit_mm}, {pattern.hi.x, pattern.hi.y, design_limit_mm}};
+    } else if (mapping == "cylindrical") {
+      places.lo.z = pattern.lo.y;
+      places.hi.z = pattern.hi.y;
+    }
+    return intersect(box, image(inverse(frame()), places.expanded(farthest)));
+  }
+
+ private:
+  // Takes points to the frame of the places.
+  Affine frame() const {
+    const Vec3 w = (1 / length(direction)) * direction;
+    const bool is_x = w.y == 0 && w.z == 0;
+    const Vec3 along = is_x ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+    const Vec3 across = along - dot(along, w) * w, u = (1 / length(across)) * across;
+    return Affine{{u, cross(w, u), w}, {}} * Affine::translation(-around);
+  }
+
+  static Field difference(const Inputs& in, const Point& p, Vec3 step) {
+    return in.distance(0, p.mapped(Affine::translation(step))) - in.distance(0, p.mapped(Affine::translation(-step)));
+  }
+
+  // The nearest point of the base's surface.
+  static Point on_surface(const Inputs& in, const Point& p, Field height) {
+    const Field x = difference(in, p, {normal_step_mm, 0, 0}), y = difference(in, p, {0, normal_step_mm, 0}),
+                z = difference(in, p, {0, 0, normal_step_mm});
+    const Field size = max(length(x, y, z), 1e-9 * normal_step_mm);
+    // In intervals the quotients may be anything, but a normal has length one.
+    const auto part = [&](Field v) { return min(max(v / size, -1.0), p.constant(1)); };
+    return p.moved_to(p.x - height * part(x), p.y - height * part(y), p.z - height * part(z));
+  }
+
+  // Where the pattern is asked.
+  Point place(const Inputs& in, const Point& p) const {
+    const Field height = in.distance(0, p);
+    const Point q = on_surface(in, p, height).mapped(frame());
+    if (mapping == "planar") return q.moved_to(q.x, q.y, height);
+    const auto angle = [&](Field y, Field x) { return p.builder().apply(Op::atan2, y, x); };
+    const Field across = length(q.x, q.y), around_axis = angle(q.y, q.x);
+    if (mapping == "cylindrical") return q.moved_to(around_axis * across, q.z, height);
+    const Field radius = length(q.x, q.y, q.z);
+    return q.moved_to(around_axis * radius, angle(q.z, across) * radius, height);
+  }
+};
+
+}  // namespace
+
+void add_maps(Registry& registry) { registry.add<ConformalMap>(); }
+
+}  // namespace ombre::nodes
