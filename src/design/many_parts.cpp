@@ -33,9 +33,9 @@ double repetitions(const Node& node, int& visits) {
   return most * node.repetitions();
 }
 
-bool repeats_much(const Node& part) {
+bool repeats_much(std::span<const NodePtr> inputs, size_t part) {
   int visits = 0;
-  return repetitions(part, visits) > most_repetitions;
+  return part < inputs.size() && repetitions(*inputs[part], visits) > most_repetitions;
 }
 
 class PartsMaker {
@@ -96,7 +96,7 @@ class PartsMaker {
     const Box bounds = reach(part, design_space());
     const Vec3 size = bounds.size();
     if (bounds.is_empty() || std::max({size.x, size.y, size.z}) >= design_limit_mm) return false;
-    if (repeats_much(part)) return false;
+    if (repeats_much(node_.inputs(), part)) return false;
     const Box box = program::grown_for_rounding(image(program_from_node_, bounds));
 
     builder_.clear();
