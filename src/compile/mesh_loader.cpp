@@ -1,9 +1,8 @@
 #include "compile/mesh_loader.h"
 
-#include <filesystem>
-
 #include "base/error.h"
 #include "base/text.h"
+#include "compile/find_file.h"
 #include "compile/mesh_materials.h"
 #include "formats/file.h"
 #include "formats/mesh_objects.h"
@@ -11,23 +10,6 @@
 
 namespace ombre::compile {
 namespace {
-
-namespace fs = std::filesystem;
-
-// Where the path leads: beside the script first. Nothing, and a diagnostic, when no file is there.
-std::optional<std::string> find_file(const std::string& path, const SourceRange& where, Diagnostics& diagnostics) {
-  std::error_code ignored;
-  const fs::path wanted(path);
-  const fs::path script = where.source ? fs::path(where.source->name()) : fs::path();
-  const fs::path beside = wanted.is_absolute() ? wanted : script.parent_path() / wanted;
-  if (fs::exists(beside, ignored)) return beside.string();
-  if (fs::exists(wanted, ignored)) return path;
-  std::string looked = beside.string();
-  if (beside != wanted && !wanted.is_absolute())
-    looked += " and " + fs::absolute(wanted, ignored).lexically_normal().string();
-  diagnostics.error(where, "there is no file \"" + path + "\"", "looked for " + looked);
-  return std::nullopt;
-}
 
 importing::InsideRule rule_of(std::string_view name) {
   if (name == "parity") return importing::InsideRule::parity;

@@ -1,11 +1,13 @@
-// Reads the meshes that designs name.
+// Reads the meshes that designs name, and builds what else they need.
 #pragma once
 
 #include <map>
 #include <string>
 #include <vector>
 
+#include "compile/shape_loader.h"
 #include "design/source_loader.h"
+#include "import/path_source.h"
 
 namespace ombre::compile {
 
@@ -16,6 +18,13 @@ class MeshLoader : public design::SourceLoader {
   // can do without.
   std::vector<design::MeshPart> mesh(std::string& path, const design::MeshUse& use,
                                      const design::Reader& reader) override;
+  program::SourceField polygons(Polygons polygons, bool turns, const design::Reader& reader) override {
+    return load_polygons(std::move(polygons), turns, reader);
+  }
+  program::SourceField path(const std::vector<Vec3>& points) override { return importing::make_path_source(points); }
+  program::SourceField text(design::FontName& font, const design::TextUse& use, const design::Reader& reader) override {
+    return load_text(font, use, reader);
+  }
 
  private:
   std::vector<design::MeshPart> read(const std::string& path, const design::MeshUse& use,

@@ -1,6 +1,7 @@
-// How nodes get at what lies in files: they ask, somebody else reads.
+// How nodes get at what lies in files or needs more than formulas: they ask, somebody else reads and builds.
 #pragma once
 
+#include "base/polygons.h"
 #include "design/values.h"
 #include "program/field_source.h"
 
@@ -21,12 +22,26 @@ struct MeshPart {
   program::SourceField source;  // with the channels "inside" and "distance"
 };
 
+// How a text is set; sizes in mm.
+struct TextUse {
+  std::string text;
+  Choice style = "regular", h_align = "center", v_align = "center", measure = "capitals";
+  double height_mm = 10, line_spacing = 1;
+};
+
 class SourceLoader {
  public:
   virtual ~SourceLoader() = default;
   // A mesh by its materials, each once, in the order in which the file comes to them; with "one" a single part. `path`
   // is made relative to what was found. Nothing, and diagnostics, when it is missing, wrong or open.
   virtual std::vector<MeshPart> mesh(std::string& path, const MeshUse& use, const Reader& reader) = 0;
+  // What polygons bound, whatever z: channels "inside" and "distance". Where it turns about x = 0, edges there are no
+  // walls to what is inside. A warning for a ring that crosses itself.
+  virtual program::SourceField polygons(Polygons polygons, bool turns, const Reader& reader) = 0;
+  // The straight lines between points: channel "distance".
+  virtual program::SourceField path(const std::vector<Vec3>& points) = 0;
+  // The outlines of a text, as of polygons; `font` is told which font was found. Null, and diagnostics, without one.
+  virtual program::SourceField text(FontName& font, const TextUse& use, const Reader& reader) = 0;
 };
 
 }  // namespace ombre::design

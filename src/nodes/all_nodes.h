@@ -7,6 +7,9 @@ namespace ombre::nodes {
 
 void add_box_solids(design::Registry& registry);
 void add_round_solids(design::Registry& registry);
+void add_profiles(design::Registry& registry);
+void add_point_solids(design::Registry& registry);
+void add_text(design::Registry& registry);
 void add_implicit_solids(design::Registry& registry);
 void add_imported(design::Registry& registry);
 void add_transforms(design::Registry& registry);

@@ -39,8 +39,92 @@ class BallSource : public program::FieldSource {
   }
 };
 
+// Polygons and paths, edge by edge.
+class EdgeSource : public program::FieldSource {
+ public:
+  EdgeSource(Polygons polygons, bool turns) : polygons_(std::move(polygons)), turns_(turns) {}
+  std::string name() const override { return "edges"; }
+  Hash content() const override { return {3, 4}; }
+  Box bounds() const override {
+    Box box;
+    for (const Vec2 p : polygons_.solid[0]) box = hull(box, Box{{p.x, p.y, -Box::inf}, {p.x, p.y, Box::inf}});
+    return box;
+  }
+  int channel(std::string_view channel_name) const override {
+    return channel_name == "inside" ? 0 : channel_name == "distance" ? 1 : -1;
+  }
+  double sample(int channel, Vec3 p) const override {
+    const bool is_inside = winding(polygons_.solid, p) != 0 && winding(polygons_.holes, p) == 0;
+    if (channel == 0) return is_inside ? 1 : 0;
+    const double nearest = std::min(distance(polygons_.solid, p, is_inside), distance(polygons_.holes, p, is_inside));
+    return is_inside ? -nearest : nearest;
+  }
+
+ private:
+  template <class Visit>
+  static void for_edges(const std::vector<Ring>& rings, const Visit& visit) {
+    for (const Ring& ring : rings)
+      for (size_t n = 0; n < ring.size(); ++n) visit(ring[n], ring[(n + 1) % ring.size()]);
+  }
+  // By the angles under which edges are seen.
+  static long winding(const std::vector<Ring>& rings, Vec3 p) {
+    double turned = 0;
+    for_edges(rings, [&](Vec2 a, Vec2 b) {
+      const Vec2 from{a.x - p.x, a.y - p.y}, to{b.x - p.x, b.y - p.y};
+      turned += std::atan2(cross(from, to), dot(from, to));
+    });
+    return std::lround(turned / 6.283185307179586);
+  }
+  double distance(const std::vector<Ring>& rings, Vec3 p, bool is_inside) const {
+    double best = Box::inf;
+    for_edges(rings, [&](Vec2 a, Vec2 b) {
+      if (turns_ && is_inside && a.x == 0 && b.x == 0) return;
+      const Vec2 way = b - a, from{p.x - a.x, p.y - a.y};
+      const double t = std::clamp(dot(way, from) / dot(way, way), 0.0, 1.0);
+      best = std::min(best, length(from - t * way));
+    });
+    return best;
+  }
+
+  Polygons polygons_;
+  bool turns_;
+};
+
+class PathSource : public program::FieldSource {
+ public:
+  explicit PathSource(std::vector<Vec3> points) : points_(std::move(points)) {}
+  std::string name() const override { return "path"; }
+  Hash content() const override { return {5, 6}; }
+  Box bounds() const override {
+    Box box;
+    for (const Vec3& p : points_) box = hull(box, Box{p, p});
+    return box;
+  }
+  int channel(std::string_view channel_name) const override { return channel_name == "distance" ? 0 : -1; }
+  double sample(int, Vec3 p) const override {
+    double best = Box::inf;
+    for (size_t n = 1; n < points_.size(); ++n) {
+      const Vec3 way = points_[n] - points_[n - 1], from = p - points_[n - 1];
+      const double t = std::clamp(dot(way, from) / dot(way, way), 0.0, 1.0);
+      best = std::min(best, length(from - t * way));
+    }
+    return best;
+  }
+
+ private:
+  std::vector<Vec3> points_;
+};
+
 class BallLoader : public SourceLoader {
  public:
+  program::SourceField polygons(Polygons polygons, bool turns, const Reader&) override {
+    return std::make_shared<EdgeSource>(std::move(polygons), turns);
+  }
+  program::SourceField path(const std::vector<Vec3>& points) override { return std::make_shared<PathSource>(points); }
+  program::SourceField text(FontName&, const TextUse& use, const Reader&) override {
+    const double h = use.height_mm;
+    return std::make_shared<EdgeSource>(Polygons{{{{0, 0}, {h, 0}, {h / 3, h / 3}, {0, h}}}, {}}, false);
+  }
   std::vector<MeshPart> mesh(std::string&, const MeshUse& use, const Reader& reader) override {
     std::vector<MeshPart> parts{{use.material, std::make_shared<BallSource>()}};
     if (use.materials != "one") parts.push_back({{reader.materials.find("clear")}, std::make_shared<BallSource>()});
@@ -127,6 +211,9 @@ class RandomDesign {
                                    Data(number(-1, 1) + (r == 2 ? 2 : 0)), Data(number(-3, 3))});
       return Data(std::move(rows));
     }
+    if (kind == "font") return Data("DejaVu Sans");
+    if (kind == "list of points") return type.name == "revolve" ? star(true, 7, 6, 1) : points(type, 4 + index(4));
+    if (kind == "lists of points") return Data(DataList{star(true, 0, 0, 0.3)});
     if (kind == "list of names with materials")
       return Data(DataList{Data(DataList{Data("PLA"), Data("red")}), Data(DataList{Data("TPU"), Data("blue")})});
     DataList list;
@@ -134,6 +221,26 @@ class RandomDesign {
       list.push_back(kind == "list of materials" ? Data(i % 2 ? "red" : "clear")
                      : i % 2                     ? Data("0.1 + abs(d)/9")
                                                  : Data(number(0.1, 1)));
+    return Data(std::move(list));
+  }
+
+  // Corners around a middle, nearer and farther.
+  Data star(bool is_flat, double u, double v, double size) {
+    DataList list;
+    const size_t count = 3 + index(4);
+    for (size_t n = 0; n < count; ++n) {
+      const double angle = 6.283185307179586 * static_cast<double>(n) / static_cast<double>(count);
+      const double r = size * number(2, 6), x = u + r * std::cos(angle), y = v + r * std::sin(angle);
+      list.emplace_back(is_flat ? DataList{Data(x), Data(y)} : DataList{Data(x), Data(y), Data(0.5 * x - y)});
+    }
+    return Data(std::move(list));
+  }
+
+  Data points(const NodeType& type, size_t count) {
+    if (type.name == "polygon_extrude") return star(index(2) == 0, 0, 0, 1);
+    DataList list;
+    for (size_t n = 0; n < count; ++n)
+      list.emplace_back(DataList{Data(number(-8, 8)), Data(number(-8, 8)), Data(number(-8, 8))});
     return Data(std::move(list));
   }
 

@@ -1,0 +1,14 @@
+// Where the files lie that a design names.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/diagnostic.h"
+
+namespace ombre::compile {
+
+// Where the path leads: beside the script first. Nothing, and a diagnostic, when no file is there.
+std::optional<std::string> find_file(const std::string& path, const SourceRange& where, Diagnostics& diagnostics);
+
+}  // namespace ombre::compile
