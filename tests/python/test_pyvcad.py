@@ -393,7 +393,7 @@ def test_cycles_are_found_in_every_walk():
 
 
 @pytest.mark.parametrize("name", [
-    "CAD", "Text", "PolygonExtrude", "Voxels", "SimulationField", "PointMap", "Offset", "Shell", "Tile", "Map",
+    "CAD", "Voxels", "SimulationField", "PointMap", "Offset", "Shell", "Tile", "Map",
     "ConformalMap", "Blend", "Convolution", "SupportAnalyzer", "SupportAnalyzerParallel", "TetrahedralMesh",
     "HexahedralMesh"])
 def test_what_is_missing_says_so(name):

@@ -8,10 +8,10 @@
 from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
 from ._errors import MissingFeature
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
-from ._missing import (CAD, Blend, ConformalMap, Convolution, HexahedralMesh, Map, Offset, PointMap, PolygonExtrude,
-                       Shell, SimulationField, SupportAnalyzer, SupportAnalyzerParallel, TetrahedralMesh, Text, Tile,
-                       Voxels)
+from ._missing import (CAD, Blend, ConformalMap, Convolution, HexahedralMesh, Map, Offset, PointMap, Shell,
+                       SimulationField, SupportAnalyzer, SupportAnalyzerParallel, TetrahedralMesh, Tile, Voxels)
 from ._operations import BBoxUnion, Difference, FGrade, Intersection, Rotate, Scale, Sum, Translate, Union
+from ._outlines import PolygonExtrude, Text
 from ._solids import Cylinder, Function, GraphLattice, Mesh, RectPrism, Sphere, Strut
 from ._texts import parse_vcad_text, version
 from ._tree import Node

@@ -20,14 +20,6 @@ class CAD(_Missing):
     _instead = "save the part as a mesh (STL, 3MF) and use Mesh"
 
 
-class Text(_Missing):
-    """Letters with a depth."""
-
-
-class PolygonExtrude(_Missing):
-    """Outline with a height."""
-
-
 class Voxels(_Missing):
     """Solid of a grid of voxels."""
 
