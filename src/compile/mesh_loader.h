@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compile/image_loader.h"
 #include "compile/shape_loader.h"
 #include "design/source_loader.h"
 #include "import/path_source.h"
@@ -22,6 +23,9 @@ class MeshLoader : public design::SourceLoader {
     return load_polygons(std::move(polygons), turns, reader);
   }
   program::SourceField path(const std::vector<Vec3>& points) override { return importing::make_path_source(points); }
+  design::HeightImage heights(design::FilePath& path, const design::Reader& reader) override {
+    return load_heights(path, reader);
+  }
   program::SourceField text(design::FontName& font, const design::TextUse& use, const design::Reader& reader) override {
     return load_text(font, use, reader);
   }

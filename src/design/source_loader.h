@@ -29,6 +29,13 @@ struct TextUse {
   double height_mm = 10, line_spacing = 1;
 };
 
+// An image as a field: channel "value", 0 for black to 1 for white, in pixels from its left lower corner.
+struct HeightImage {
+  program::SourceField source;          // null: it could not be read
+  double columns = 0, rows = 0;         // pixels
+  double step_across = 0, step_up = 0;  // the greatest differences between neighbours
+};
+
 class SourceLoader {
  public:
   virtual ~SourceLoader() = default;
@@ -40,6 +47,8 @@ class SourceLoader {
   virtual program::SourceField polygons(Polygons polygons, bool turns, const Reader& reader) = 0;
   // The straight lines between points: channel "distance".
   virtual program::SourceField path(const std::vector<Vec3>& points) = 0;
+  // The file's content is noted in `path`.
+  virtual HeightImage heights(FilePath& path, const Reader& reader) = 0;
   // The outlines of a text, as of polygons; `font` is told which font was found. Null, and diagnostics, without one.
   virtual program::SourceField text(FontName& font, const TextUse& use, const Reader& reader) = 0;
 };

@@ -12,6 +12,7 @@ const design::Registry& registry() {
     add_text(r);
     add_implicit_solids(r);
     add_imported(r);
+    add_relief(r);
     add_transforms(r);
     add_booleans(r);
     add_sums(r);

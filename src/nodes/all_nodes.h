@@ -12,6 +12,7 @@ void add_point_solids(design::Registry& registry);
 void add_text(design::Registry& registry);
 void add_implicit_solids(design::Registry& registry);
 void add_imported(design::Registry& registry);
+void add_relief(design::Registry& registry);
 void add_transforms(design::Registry& registry);
 void add_booleans(design::Registry& registry);
 void add_sums(design::Registry& registry);

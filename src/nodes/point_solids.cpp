@@ -23,7 +23,7 @@ struct Hull {
 
   static Spec<Hull> spec() {
     return {"hull",
-            "profiles",
+            "point solids",
             "The smallest solid without dents that holds all points.",
             {{"points", &Hull::points, "At least four, not all in one plane", required(unit::points)},
              {"material", &Hull::material, "Its material"}},
@@ -79,7 +79,7 @@ struct Tube {
 
   static Spec<Tube> spec() {
     return {"tube",
-            "profiles",
+            "point solids",
             "Round bar along lines or a smooth curve through points; joints are round.",
             {{"points", &Tube::points, "At least two, along its middle", required(unit::points)},
              {"radius", &Tube::radius, "Its radius", unit::positive_mm},

@@ -40,8 +40,8 @@ struct PolygonExtrude {
   static Spec<PolygonExtrude> spec() {
     return {"polygon_extrude",
             "profiles",
-            "Polygon with a height, along the normal around which its points go counterclockwise; from below, points "
-            "of two numbers rise from XY.",
+            "Polygon with a height: points of two numbers rise from XY, points of three along the normal around which "
+            "they go counterclockwise.",
             {{"vertices", &PolygonExtrude::vertices,
               "Its corners in order: [x, y] in the plane XY, or [x, y, z], all in one plane; where it crosses itself, "
               "what it goes round is inside",

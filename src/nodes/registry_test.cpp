@@ -115,12 +115,25 @@ class PathSource : public program::FieldSource {
   std::vector<Vec3> points_;
 };
 
+// Hills and valleys.
+class WaveSource : public program::FieldSource {
+ public:
+  std::string name() const override { return "waves"; }
+  Hash content() const override { return {7, 8}; }
+  Box bounds() const override { return {{0, 0, 0}, {20, 10, 0}}; }
+  int channel(std::string_view channel_name) const override { return channel_name == "value" ? 0 : -1; }
+  double sample(int, Vec3 p) const override { return 0.5 + 0.25 * (std::sin(p.x / 8) + std::sin(p.y / 4)); }
+};
+
 class BallLoader : public SourceLoader {
  public:
   program::SourceField polygons(Polygons polygons, bool turns, const Reader&) override {
     return std::make_shared<EdgeSource>(std::move(polygons), turns);
   }
   program::SourceField path(const std::vector<Vec3>& points) override { return std::make_shared<PathSource>(points); }
+  HeightImage heights(FilePath&, const Reader&) override {
+    return {std::make_shared<WaveSource>(), 20, 10, 0.25 / 8, 0.25 / 4};
+  }
   program::SourceField text(FontName&, const TextUse& use, const Reader&) override {
     const double h = use.height_mm;
     return std::make_shared<EdgeSource>(Polygons{{{{0, 0}, {h, 0}, {h / 3, h / 3}, {0, h}}}, {}}, false);
