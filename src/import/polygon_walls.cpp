@@ -34,9 +34,22 @@ double extent_of(const std::vector<Edge>& edges) {
   return most;
 }
 
+// With x and y exchanged where that makes edges shorter along x: then fewer lie beside each other.
+std::vector<Edge> turned_for_sweep(std::vector<Edge> edges) {
+  double along_x = 0, along_y = 0;
+  for (const Edge& e : edges) {
+    along_x += e.hi_x() - e.lo_x();
+    along_y += e.hi_y() - e.lo_y();
+  }
+  if (along_x <= along_y) return edges;
+  for (Edge& e : edges) e = {{e.from.y, e.from.x}, {e.to.y, e.to.x}};
+  return edges;
+}
+
 // Calls visit(a, b) for the edges whose boxes meet, each two once; it ends when visit says true.
 template <class Visit>
-bool find_neighbours(const std::vector<Edge>& edges, double room, const Visit& visit) {
+void find_neighbours(const std::vector<Edge>& all, double room, const Visit& visit) {
+  const std::vector<Edge> edges = turned_for_sweep(all);
   std::vector<size_t> order(edges.size()), open;
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return edges[a].lo_x() < edges[b].lo_x(); });
@@ -44,10 +57,9 @@ bool find_neighbours(const std::vector<Edge>& edges, double room, const Visit& v
     const Edge& edge = edges[a];
     std::erase_if(open, [&](size_t b) { return edges[b].hi_x() + room < edge.lo_x(); });
     for (const size_t b : open)
-      if (edges[b].lo_y() <= edge.hi_y() + room && edge.lo_y() <= edges[b].hi_y() + room && visit(b, a)) return true;
+      if (edges[b].lo_y() <= edge.hi_y() + room && edge.lo_y() <= edges[b].hi_y() + room && visit(b, a)) return;
     open.push_back(a);
   }
-  return false;
 }
 
 // Where an edge is to be cut, from 0 at its beginning to 1.

@@ -77,7 +77,7 @@ struct Letters {
   Field ask(const char* channel, const Point& p) const {
     const int number = outline->channel(channel);
     ASSERT(number >= 0);
-    return p.builder().source(outline, number, p.x, p.y, p.z);
+    return p.builder().source(outline, number, p.x, p.y, p.constant(0));
   }
 };
 
