@@ -62,16 +62,21 @@ std::optional<Affine> plane_of(const Points& outer, const Reader& reader) {
 std::optional<Ring> laid(const Points& points, const Affine& plane_from_here, double room, const std::string& what,
                          const Reader& reader) {
   Ring ring;
+  size_t worst = 0;
+  double farthest = 0;  // off the plane
   for (size_t n = 0; n < points.at.size(); ++n) {
     const Vec3 p = plane_from_here(points.at[n]);
-    if (std::abs(p.z) > room) {
-      fail(reader,
-           "point " + std::to_string(n + 1) + " of " + what + " lies " + format_rounded(std::abs(p.z)) +
-               " mm off the plane of the others",
-           "all points of a polygon and its holes lie in one plane");
-      return std::nullopt;
-    }
     ring.push_back({p.x, p.y});
+    if (std::abs(p.z) <= farthest) continue;
+    farthest = std::abs(p.z);
+    worst = n;
+  }
+  if (farthest > room) {
+    fail(reader,
+         "point " + std::to_string(worst + 1) + " of " + what + " lies " + format_rounded(farthest) +
+             " mm off the plane of the others",
+         "all points of a polygon and its holes lie in one plane");
+    return std::nullopt;
   }
   return checked_ring(std::move(ring), what, reader);
 }

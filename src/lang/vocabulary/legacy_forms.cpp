@@ -33,6 +33,7 @@ constexpr Alias aliases[] = {
     {"polygon_extrude", "points", "vertices"},
     {"revolve", "points", "profile"},
     {"tube", "r", "radius"},
+    {"text", "size", "height"},
 };
 
 constexpr std::string_view vector_nodes[] = {"rectprism", "ellipsoid", "translate", "scale",
