@@ -126,6 +126,19 @@ TEST(PolygonSource, CutsHolesThatOverlapAndReachOut) {
   EXPECT_EQ(source->sample(distance, {6.5, 0, 0}), 2.5);  // to (5, 2)
 }
 
+TEST(PolygonSource, IsTheSameFarAway) {
+  const Vec2 far{3e5, -7e5};
+  const auto source = make_polygon_source("s", {{square(3, far), square(3, {far.x + 2, far.y})}, {square(1, far)}});
+  EXPECT_NEAR(source->sample(distance, {far.x, far.y + 1.5, 0}), -0.5, 1e-9);
+  EXPECT_NEAR(source->sample(distance, {far.x + 3, far.y, 0}), -2, 1e-9);
+  EXPECT_NEAR(source->sample(distance, {far.x, far.y, 0}), 1, 1e-9);
+}
+
+TEST(PolygonSource, KnowsDistancesToSlivers) {
+  const auto source = make_polygon_source("s", {{Ring{{0, 0}, {10, 0}, {10, 1e-11}}}, {}});
+  EXPECT_NEAR(source->sample(distance, {5, 3, 0}), 3, 1e-9);
+}
+
 TEST(PolygonSource, OpensWhereItTurns) {
   const Ring half{{0, -2}, {4, -2}, {4, 2}, {0, 2}};
   const auto flat = make_polygon_source("s", {{half}, {}}), turned = make_polygon_source("s", {{half}, {}}, {true});

@@ -7,10 +7,11 @@
 namespace ombre::importing {
 namespace {
 
-// Of lengths, relative to the extent of all: nearer than this, lines are one.
-constexpr double nearest_lines = 1e-12;
-// How far beside an edge it is looked what is inside there.
-constexpr double beside = 1e-9;
+// Relative to the size of all. Nearer than the first, lines are one; so far beside an edge it is looked what is inside
+// there.
+constexpr double nearest_lines = 1e-12, beside = 1e-9;
+// Of coordinates, relative to how far they lie from the origin.
+constexpr double rounding = 1e-15;
 
 struct Edge {
   Vec2 from, to;
@@ -27,12 +28,16 @@ std::vector<Edge> edges_of(const Ring& ring) {
   return edges;
 }
 
-double extent_of(const std::vector<Edge>& edges) {
-  double most = 0;
-  for (const Edge& e : edges)
-    for (const Vec2 p : {e.from, e.to}) most = std::max({most, std::abs(p.x), std::abs(p.y)});
-  return most;
-}
+struct Extent {
+  double size = 0, farthest = 0;  // of the box around all; from the origin
+
+  explicit Extent(const std::vector<Edge>& edges) {
+    Box box;
+    for (const Edge& e : edges) box = hull(box, Box{{e.lo_x(), e.lo_y(), 0}, {e.hi_x(), e.hi_y(), 0}});
+    size = length(box.size());
+    farthest = box.is_empty() ? 0 : std::max(length(box.lo), length(box.hi));
+  }
+};
 
 // With x and y exchanged where that makes edges shorter along x: then fewer lie beside each other.
 std::vector<Edge> turned_for_sweep(std::vector<Edge> edges) {
@@ -137,14 +142,18 @@ std::vector<LineSegment> polygon_walls(const Polygons& polygons, const PolygonCr
       const std::vector<Edge> more = edges_of(ring);
       edges.insert(edges.end(), more.begin(), more.end());
     }
-  const double extent = extent_of(edges), room = nearest_lines * extent;
+  const Extent extent(edges);
+  const double room = nearest_lines * extent.size + rounding * extent.farthest;
+  const double step = beside * extent.size + 10 * rounding * extent.farthest;
   std::vector<std::vector<double>> cuts(edges.size());
   find_neighbours(edges, room, [&](size_t a, size_t b) {
     cut_each_other(edges[a], cuts[a], edges[b], cuts[b], room);
     return false;
   });
   std::vector<LineSegment> walls;
-  for (size_t n = 0; n < edges.size(); ++n) append_walls(edges[n], cuts[n], beside * extent, crossings, walls);
+  for (size_t n = 0; n < edges.size(); ++n) append_walls(edges[n], cuts[n], step, crossings, walls);
+  if (!walls.empty()) return walls;
+  for (const Edge& e : edges) walls.push_back({{e.from.x, e.from.y, 0}, {e.to.x, e.to.y, 0}});  // thinner than a step
   return walls;
 }
 
