@@ -134,11 +134,6 @@ TEST(PolygonSource, IsTheSameFarAway) {
   EXPECT_NEAR(source->sample(distance, {far.x, far.y, 0}), 1, 1e-9);
 }
 
-TEST(PolygonSource, KnowsDistancesToSlivers) {
-  const auto source = make_polygon_source("s", {{Ring{{0, 0}, {10, 0}, {10, 1e-11}}}, {}});
-  EXPECT_NEAR(source->sample(distance, {5, 3, 0}), 3, 1e-9);
-}
-
 TEST(PolygonSource, OpensWhereItTurns) {
   const Ring half{{0, -2}, {4, -2}, {4, 2}, {0, 2}};
   const auto flat = make_polygon_source("s", {{half}, {}}), turned = make_polygon_source("s", {{half}, {}}, {true});

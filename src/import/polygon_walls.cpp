@@ -152,8 +152,6 @@ std::vector<LineSegment> polygon_walls(const Polygons& polygons, const PolygonCr
   });
   std::vector<LineSegment> walls;
   for (size_t n = 0; n < edges.size(); ++n) append_walls(edges[n], cuts[n], step, crossings, walls);
-  if (!walls.empty()) return walls;
-  for (const Edge& e : edges) walls.push_back({{e.from.x, e.from.y, 0}, {e.to.x, e.to.y, 0}});  // thinner than a step
   return walls;
 }
 
