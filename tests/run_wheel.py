@@ -26,7 +26,7 @@ print(pyvcad.Sphere(pyvcad.Vec3(0, 0, 0), 10).evaluate(15, 0, 0))
 def compiler_flags(build):
     """Those of the build that is there, which its compiler cache knows."""
     wanted = ("CMAKE_BUILD_TYPE", "CMAKE_CXX_FLAGS_RELWITHDEBINFO", "OMBRE_OPENVDB", "OMBRE_3MF", "OMBRE_FREETYPE",
-              "OMBRE_MESH_DISTANCE")
+              "OMBRE_TEXT", "OMBRE_QHULL", "OMBRE_MESH_DISTANCE")
     lines = (build / "CMakeCache.txt").read_text(encoding="utf-8").splitlines()
     values = dict(line.split("=", 1) for line in lines if "=" in line and not line.startswith(("#", "//")))
     return [f"-D{name}={value}" for key, value in values.items() if (name := key.split(":")[0]) in wanted]

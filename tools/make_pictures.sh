@@ -19,6 +19,7 @@ trap 'rm -rf "$scratch"' EXIT
 declare -A options=(
   [calibration_sheet]="--from -20,55"
   [graded_wing]="--from -20,35"
+  [keychain]="--from -20,50"
   [knob]="--cut x=0 --from -50,20"
   [soft_actuator]="--from -50,15"
   [turned_handle]="--cut z=12 --from -50,35"

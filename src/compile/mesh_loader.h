@@ -1,4 +1,4 @@
-// Reads the meshes that designs name.
+// Reads the meshes that designs name, and builds what else they need.
 #pragma once
 
 #include <map>
@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "compile/cad_loader.h"
+#include "compile/image_loader.h"
+#include "compile/shape_loader.h"
 #include "design/source_loader.h"
+#include "import/path_source.h"
 
 namespace ombre::compile {
 
@@ -20,6 +23,16 @@ class MeshLoader : public design::SourceLoader {
   std::vector<design::CadPart> cad(std::string& path, const design::CadUse& use, const design::Reader& reader) override;
   design::PendingSourcePtr support(const design::NodePtr& solid, const design::SupportUse& use,
                                    const design::Reader& reader) override;
+  program::SourceField polygons(Polygons polygons, bool turns, const design::Reader& reader) override {
+    return load_polygons(std::move(polygons), turns, reader);
+  }
+  program::SourceField path(const std::vector<Vec3>& points) override { return importing::make_path_source(points); }
+  design::HeightImage heights(design::FilePath& path, const design::Reader& reader) override {
+    return load_heights(path, reader);
+  }
+  program::SourceField text(design::FontName& font, const design::TextUse& use, const design::Reader& reader) override {
+    return load_text(font, use, reader);
+  }
 
  private:
   std::vector<design::MeshPart> read(const std::string& path, const design::MeshUse& use,

@@ -106,6 +106,20 @@ struct FilePath {
 // How many there are along x, y and z.
 using Counts3 = std::array<int, 3>;
 
+// Points in a list, all of three numbers, or all of two, with z = 0.
+struct Points {
+  std::vector<Vec3> at;
+  bool are_flat = false;  // of two numbers
+  bool operator==(const Points&) const = default;
+};
+
+// A font by its name, or by the path of its file.
+struct FontName {
+  std::string name;
+  Hash content;  // of the font that was found
+  bool operator==(const FontName&) const = default;
+};
+
 // What a parameter may be, for checks, help and forms.
 struct Domain {
   std::string_view unit;  // "mm", "deg", or none
@@ -154,6 +168,7 @@ inline Domain with_variables(std::vector<std::string> variables, Domain domain =
 
 namespace unit {
 inline const Domain mm = any("mm"), degrees = any("deg"), none = any();
+inline const Domain points = from_to(-design_limit_mm, design_limit_mm, "mm");
 inline const Domain positive_mm = positive("mm"), not_negative_mm = not_negative("mm");
 }  // namespace unit
 
@@ -188,6 +203,9 @@ bool read(const Data& data, const Domain& domain, std::vector<Number>& value, co
 bool read(const Data& data, const Domain& domain, std::vector<MaterialName>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<MaterialForName>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<Edge>& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, Points& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, std::vector<Points>& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, FontName& value, const Reader& reader);
 
 // The reverse. For hashes, files are named by their content.
 Data write(double value, bool for_hash);
@@ -207,6 +225,9 @@ Data write(const std::vector<Number>& value, bool for_hash);
 Data write(const std::vector<MaterialName>& value, bool for_hash);
 Data write(const std::vector<MaterialForName>& value, bool for_hash);
 Data write(const std::vector<Edge>& value, bool for_hash);
+Data write(const Points& value, bool for_hash);
+Data write(const std::vector<Points>& value, bool for_hash);
+Data write(const FontName& value, bool for_hash);
 
 // "number or field", "material", ...: for help.
 template <class M>
@@ -226,6 +247,9 @@ constexpr std::string_view kind_name() {
   if constexpr (std::is_same_v<M, std::vector<MaterialName>>) return "list of materials";
   if constexpr (std::is_same_v<M, std::vector<MaterialForName>>) return "list of names with materials";
   if constexpr (std::is_same_v<M, std::vector<Edge>>) return "list of edges";
+  if constexpr (std::is_same_v<M, Points>) return "list of points";
+  if constexpr (std::is_same_v<M, std::vector<Points>>) return "lists of points";
+  if constexpr (std::is_same_v<M, FontName>) return "font";
 }
 
 }  // namespace ombre::design

@@ -25,6 +25,7 @@ class BuiltinCall {
   size_t size() const { return arguments_.size(); }
   bool has(size_t i) const { return i < size() && !arguments_[i].is_undef(); }
   const Value& operator[](size_t i) const { return arguments_[i]; }
+  const char* name() const { return name_; }
   double number(size_t i) const;
   const List& list(size_t i) const;
   const std::string& text(size_t i) const;
@@ -51,5 +52,6 @@ struct Builtin {
 std::span<const Builtin> math_builtins();
 std::span<const Builtin> list_builtins();
 std::span<const Builtin> text_builtins();
+std::span<const Builtin> point_builtins();
 
 }  // namespace ombre::lang

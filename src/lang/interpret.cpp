@@ -14,7 +14,7 @@ Interpreter::Interpreter(const Program& program, Vocabulary& vocabulary, const O
       captured_(options.limits),
       children_name_(program.names->intern("children")),
       children_count_name_(program.names->intern("$children")) {
-  for (const auto table : {math_builtins(), list_builtins(), text_builtins()})
+  for (const auto table : {math_builtins(), list_builtins(), text_builtins(), point_builtins()})
     for (const Builtin& builtin : table) builtins_[program.names->intern(builtin.name)] = &builtin;
   constants_[program.names->intern("PI")] = 3.14159265358979323846;
   // What OpenSCAD's own special variables are before anyone sets them.

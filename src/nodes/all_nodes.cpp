@@ -7,8 +7,12 @@ const design::Registry& registry() {
     design::Registry r;
     add_box_solids(r);
     add_round_solids(r);
+    add_profiles(r);
+    add_point_solids(r);
+    add_text(r);
     add_implicit_solids(r);
     add_imported(r);
+    add_relief(r);
     add_lattices(r);
     add_tiles(r);
     add_tpms(r);

@@ -7,8 +7,12 @@ namespace ombre::nodes {
 
 void add_box_solids(design::Registry& registry);
 void add_round_solids(design::Registry& registry);
+void add_profiles(design::Registry& registry);
+void add_point_solids(design::Registry& registry);
+void add_text(design::Registry& registry);
 void add_implicit_solids(design::Registry& registry);
 void add_imported(design::Registry& registry);
+void add_relief(design::Registry& registry);
 void add_lattices(design::Registry& registry);
 void add_tiles(design::Registry& registry);
 void add_tpms(design::Registry& registry);

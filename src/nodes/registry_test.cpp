@@ -7,14 +7,15 @@
 #include "base/text.h"
 #include "design/design.h"
 #include "design/lowering.h"
-#include "design/source_loader.h"
 #include "nodes/all_nodes.h"
+#include "nodes/test_sources.h"
 #include "program/passes/passes.h"
 
 namespace ombre::nodes {
 namespace {
 
 using namespace design;
+using test::BallLoader;
 
 MaterialTable test_materials() {
   Diagnostics diagnostics;
@@ -23,50 +24,6 @@ MaterialTable test_materials() {
                                diagnostics);
   return *MaterialTable::read(*data, diagnostics);
 }
-
-// A ball that knows its distance exactly, in place of a file.
-class BallSource : public program::FieldSource {
- public:
-  std::string name() const override { return "ball"; }
-  Hash content() const override { return {1, 2}; }
-  Box bounds() const override { return Box::centered({4, 4, 4}); }
-  int channel(std::string_view channel_name) const override {
-    return channel_name == "inside" ? 0 : channel_name == "distance" ? 1 : -1;
-  }
-  double sample(int channel, Vec3 p) const override {
-    const double distance = length(p) - 4;
-    return channel == 1 ? distance : distance <= 0 ? 1 : 0;
-  }
-};
-
-class PendingBall : public PendingSource {
- public:
-  Hash content() const override { return source_->content(); }
-  Box bounds() const override { return source_->bounds(); }
-  program::SourceField make(std::optional<Vec3>) const override { return source_; }
-
- private:
-  program::SourceField source_ = std::make_shared<BallSource>();
-};
-
-class BallLoader : public SourceLoader {
- public:
-  std::vector<MeshPart> mesh(std::string&, const MeshUse& use, const Reader& reader) override {
-    std::vector<MeshPart> parts{{use.material, std::make_shared<BallSource>()}};
-    if (use.materials != "one") parts.push_back({{reader.materials.find("clear")}, std::make_shared<BallSource>()});
-    return parts;
-  }
-
-  std::vector<CadPart> cad(std::string&, const CadUse& use, const Reader& reader) override {
-    std::vector<CadPart> parts{{use.parts.material, std::make_shared<PendingBall>()}};
-    if (use.parts.materials != "one") parts.push_back({{reader.materials.find("clear")}, parts[0].source});
-    return parts;
-  }
-
-  PendingSourcePtr support(const NodePtr&, const SupportUse&, const Reader&) override {
-    return std::make_shared<PendingBall>();
-  }
-};
 
 class RandomDesign {
  public:
@@ -171,6 +128,9 @@ class RandomDesign {
       return Data(std::move(rows));
     }
     if (kind == "list of edges") return edges();
+    if (kind == "font") return Data("DejaVu Sans");
+    if (kind == "list of points") return type.name == "revolve" ? star(true, 7, 6, 1) : points(type, 4 + index(4));
+    if (kind == "lists of points") return Data(DataList{star(true, 0, 0, 0.3)});
     if (kind == "list of names with materials")
       return Data(DataList{Data(DataList{Data("PLA"), Data("red")}), Data(DataList{Data("TPU"), Data("blue")})});
     DataList list;
@@ -178,6 +138,26 @@ class RandomDesign {
       list.push_back(kind == "list of materials" ? Data(i % 2 ? "red" : "clear")
                      : i % 2                     ? Data("0.1 + abs(d)/9")
                                                  : Data(number(0.1, 1)));
+    return Data(std::move(list));
+  }
+
+  // Corners around a middle, nearer and farther.
+  Data star(bool is_flat, double u, double v, double size) {
+    DataList list;
+    const size_t count = 3 + index(4);
+    for (size_t n = 0; n < count; ++n) {
+      const double angle = 6.283185307179586 * static_cast<double>(n) / static_cast<double>(count);
+      const double r = size * number(2, 6), x = u + r * std::cos(angle), y = v + r * std::sin(angle);
+      list.emplace_back(is_flat ? DataList{Data(x), Data(y)} : DataList{Data(x), Data(y), Data(0.5 * x - y)});
+    }
+    return Data(std::move(list));
+  }
+
+  Data points(const NodeType& type, size_t count) {
+    if (type.name == "polygon_extrude") return star(index(2) == 0, 0, 0, 1);
+    DataList list;
+    for (size_t n = 0; n < count; ++n)
+      list.emplace_back(DataList{Data(number(-8, 8)), Data(number(-8, 8)), Data(number(-8, 8))});
     return Data(std::move(list));
   }
 

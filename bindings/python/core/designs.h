@@ -44,5 +44,6 @@ class DesignHandle {
 
 void add_designs(py::module_& module);
 void add_commands(py::module_& module);
+void add_point_sets(py::module_& module);
 
 }  // namespace ombre::python

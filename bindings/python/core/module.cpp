@@ -23,6 +23,7 @@ PYBIND11_MODULE(_core, module) {
   });
   add_designs(module);
   add_commands(module);
+  add_point_sets(module);
 }
 
 }  // namespace ombre::python

@@ -28,6 +28,7 @@ from ._expressions import Expression, d, where
 from ._expressions import coordinates as _coordinates, functions as _functions
 from ._functions import pointwise
 from ._materials import Materials
+from ._points import delaunay_edges, voronoi_edges
 from ._script import option
 from ._solid import Solid, node_classes as _node_classes
 
@@ -40,5 +41,5 @@ globals().update({**{n: f for n, f in _functions.items() if n != "if"},
                   **_coordinates, **_nodes})
 
 __all__ = ["Design", "Voxels", "load", "CheckError", "DesignError", "DesignWarning", "FunctionError", "MachineError",
-           "Expression", "d", "where", "pointwise", "Materials", "option", "Solid", *_coordinates, *_nodes,
+           "Expression", "d", "where", "pointwise", "Materials", "delaunay_edges", "voronoi_edges", "option", "Solid", *_coordinates, *_nodes,
            *(n for n in _functions if n != "if" and n not in _builtin_names)]

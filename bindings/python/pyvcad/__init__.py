@@ -8,10 +8,10 @@
 from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
 from ._errors import MissingFeature
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
-from ._missing import (Blend, Convolution, HexahedralMesh, Map, PointMap, PolygonExtrude, SimulationField,
-                       TetrahedralMesh, Text, Voxels)
+from ._missing import (Blend, Convolution, HexahedralMesh, Map, PointMap, SimulationField, TetrahedralMesh, Voxels)
 from ._operations import (BBoxUnion, ConformalMap, Difference, FGrade, Intersection, Offset, Rotate, Scale, Shell, Sum,
                           Tile, Translate, Union)
+from ._outlines import PolygonExtrude, Text
 from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, Sphere, Strut
 from ._supports import SupportAnalyzer, SupportAnalyzerParallel
 from ._texts import parse_vcad_text, version

@@ -14,12 +14,6 @@ class _Missing(Node):
         raise missing(type(self).__name__, self._instead)
 
 
-class Text(_Missing):
-    """Letters with a depth."""
-
-
-class PolygonExtrude(_Missing):
-    """Outline with a height."""
 
 
 class Voxels(_Missing):

@@ -30,6 +30,10 @@ constexpr Alias aliases[] = {
     {"mesh", "file", "path"},
     {"sum", "b", "blend"},
     {"ellipsoid", "r", "radii"},
+    {"polygon_extrude", "points", "vertices"},
+    {"revolve", "points", "profile"},
+    {"tube", "r", "radius"},
+    {"text", "size", "height"},
 };
 
 constexpr std::string_view vector_nodes[] = {"rectprism", "ellipsoid", "translate", "scale",

@@ -1,0 +1,14 @@
+// What can be wrong with points of which something is asked.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "base/vec.h"
+
+namespace ombre {
+
+// For people; "" when nothing is.
+std::string problem_of_points(std::span<const Vec3> points, size_t least, bool may_repeat);
+
+}  // namespace ombre

@@ -1,0 +1,80 @@
+#include "draw/font_search.h"
+
+#ifdef OMBRE_TEXT
+
+#include <fontconfig/fontconfig.h>
+
+#include <memory>
+
+#include "base/text.h"
+
+namespace ombre::draw {
+namespace {
+
+struct Destroy {
+  void operator()(FcPattern* pattern) const { FcPatternDestroy(pattern); }
+};
+using Pattern = std::unique_ptr<FcPattern, Destroy>;
+
+const FcChar8* letters(const std::string& text) { return reinterpret_cast<const FcChar8*>(text.c_str()); }
+
+// The language is set too: else it comes from the locale.
+Pattern wanted_font(const std::string& family, bool bold, bool italic) {
+  Pattern wanted(FcPatternCreate());
+  if (!wanted) return nullptr;
+  FcPatternAddString(wanted.get(), FC_FAMILY, letters(family));
+  FcPatternAddInteger(wanted.get(), FC_WEIGHT, bold ? FC_WEIGHT_BOLD : FC_WEIGHT_REGULAR);
+  FcPatternAddInteger(wanted.get(), FC_SLANT, italic ? FC_SLANT_ITALIC : FC_SLANT_ROMAN);
+  FcPatternAddBool(wanted.get(), FC_SCALABLE, FcTrue);
+  FcPatternAddBool(wanted.get(), FC_VARIABLE, FcFalse);
+  FcPatternAddString(wanted.get(), FC_LANG, letters("en"));
+  FcConfigSubstitute(nullptr, wanted.get(), FcMatchPattern);
+  FcDefaultSubstitute(wanted.get());
+  return wanted;
+}
+
+std::string family_of(FcPattern* pattern, const std::string& asked, bool& has_name) {
+  std::string first;
+  FcChar8* name = nullptr;
+  for (int n = 0; FcPatternGetString(pattern, FC_FAMILY, n, &name) == FcResultMatch; ++n) {
+    const std::string family = reinterpret_cast<const char*>(name);
+    if (n == 0) first = family;
+    has_name = has_name || to_lower(family) == to_lower(asked);
+  }
+  return first;
+}
+
+int number_of(FcPattern* pattern, const char* what) {
+  int number = 0;
+  return FcPatternGetInteger(pattern, what, 0, &number) == FcResultMatch ? number : 0;
+}
+
+}  // namespace
+
+std::optional<FoundFont> search_font(const std::string& family, bool bold, bool italic) {
+  const Pattern wanted = wanted_font(family, bold, italic);
+  if (!wanted) return std::nullopt;
+  FcResult result = FcResultMatch;
+  const Pattern found(FcFontMatch(nullptr, wanted.get(), &result));
+  FcChar8* file = nullptr;
+  if (!found || FcPatternGetString(found.get(), FC_FILE, 0, &file) != FcResultMatch) return std::nullopt;
+  FoundFont font;
+  font.file = reinterpret_cast<const char*>(file);
+  font.index = number_of(found.get(), FC_INDEX);
+  font.family = family_of(found.get(), family, font.has_name);
+  font.is_bold = number_of(found.get(), FC_WEIGHT) > FC_WEIGHT_MEDIUM;
+  font.is_italic = number_of(found.get(), FC_SLANT) != FC_SLANT_ROMAN;
+  return font;
+}
+
+}  // namespace ombre::draw
+
+#else
+
+namespace ombre::draw {
+
+std::optional<FoundFont> search_font(const std::string&, bool, bool) { return std::nullopt; }
+
+}  // namespace ombre::draw
+
+#endif

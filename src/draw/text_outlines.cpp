@@ -1,0 +1,237 @@
+#include "draw/text_outlines.h"
+
+namespace ombre::draw {
+
+bool can_outline_text() {
+#ifdef OMBRE_TEXT
+  return true;
+#else
+  return false;
+#endif
+}
+
+}  // namespace ombre::draw
+
+#ifdef OMBRE_TEXT
+
+#include <ft2build.h>
+#include <hb.h>
+#include FT_FREETYPE_H
+#include FT_OUTLINE_H
+
+#include <algorithm>
+#include <memory>
+
+#include "base/curves.h"
+#include "base/text.h"
+#include "base/utf8.h"
+
+namespace ombre::draw {
+namespace {
+
+constexpr double tolerance_em = 1.0 / 2000;
+constexpr double usual_capital_em = 0.7;  // where a font has no H
+
+template <auto destroy>
+struct Destroy {
+  template <class T>
+  void operator()(T* pointer) const {
+    destroy(pointer);
+  }
+};
+
+// A font for both libraries; lengths are its own units.
+class Face {
+ public:
+  Face(const std::string& bytes, int index) {
+    if (FT_Init_FreeType(&library_) != 0) return;
+    const auto* data = reinterpret_cast<const FT_Byte*>(bytes.data());
+    if (FT_New_Memory_Face(library_, data, static_cast<FT_Long>(bytes.size()), index, &face_) != 0) return;
+    const std::unique_ptr<hb_blob_t, Destroy<hb_blob_destroy>> blob(
+        hb_blob_create(bytes.data(), static_cast<unsigned>(bytes.size()), HB_MEMORY_MODE_READONLY, nullptr, nullptr));
+    const std::unique_ptr<hb_face_t, Destroy<hb_face_destroy>> face(
+        hb_face_create(blob.get(), static_cast<unsigned>(index) & 0xFFFF));
+    shaper_.reset(hb_font_create(face.get()));
+    hb_font_set_scale(shaper_.get(), face_->units_per_EM, face_->units_per_EM);
+  }
+  ~Face() {
+    if (face_) FT_Done_Face(face_);
+    if (library_) FT_Done_FreeType(library_);
+  }
+  Face(const Face&) = delete;
+  Face& operator=(const Face&) = delete;
+
+  bool has_outlines() const { return face_ && shaper_ && FT_IS_SCALABLE(face_) && face_->units_per_EM > 0; }
+  double em() const { return face_->units_per_EM; }
+  double line_height() const { return face_->height > 0 ? face_->height : 1.2 * em(); }
+  hb_font_t* shaper() const { return shaper_.get(); }
+
+  // Null when the glyph cannot be had.
+  FT_Outline* outline(uint32_t glyph) const {
+    if (FT_Load_Glyph(face_, glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) return nullptr;
+    return face_->glyph->format == FT_GLYPH_FORMAT_OUTLINE ? &face_->glyph->outline : nullptr;
+  }
+
+  double capital_height() const {
+    const FT_UInt glyph = FT_Get_Char_Index(face_, 'H');
+    FT_Outline* const letter = glyph == 0 ? nullptr : outline(glyph);
+    if (!letter || letter->n_points == 0) return usual_capital_em * em();
+    FT_BBox box;
+    FT_Outline_Get_CBox(letter, &box);
+    return box.yMax > 0 ? static_cast<double>(box.yMax) : usual_capital_em * em();
+  }
+
+ private:
+  FT_Library library_ = nullptr;
+  FT_Face face_ = nullptr;
+  std::unique_ptr<hb_font_t, Destroy<hb_font_destroy>> shaper_;
+};
+
+struct PlacedGlyph {
+  uint32_t glyph;
+  Vec2 at;         // from the beginning of its line
+  uint32_t place;  // of its letter in the text
+};
+
+struct Line {
+  std::vector<PlacedGlyph> glyphs;
+  double width = 0;
+};
+
+Line shape(const Face& face, const std::string& text) {
+  const std::unique_ptr<hb_buffer_t, Destroy<hb_buffer_destroy>> buffer(hb_buffer_create());
+  hb_buffer_add_utf8(buffer.get(), text.data(), static_cast<int>(text.size()), 0, static_cast<int>(text.size()));
+  hb_buffer_set_language(buffer.get(), hb_language_from_string("en", -1));  // else it comes from the locale
+  hb_buffer_guess_segment_properties(buffer.get());
+  hb_shape(face.shaper(), buffer.get(), nullptr, 0);
+  unsigned count = 0;
+  const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer.get(), &count);
+  const hb_glyph_position_t* places = hb_buffer_get_glyph_positions(buffer.get(), &count);
+  Line line;
+  for (unsigned n = 0; n < count; ++n) {
+    line.glyphs.push_back({infos[n].codepoint,
+                           {line.width + places[n].x_offset, static_cast<double>(places[n].y_offset)},
+                           infos[n].cluster});
+    line.width += places[n].x_advance;
+  }
+  return line;
+}
+
+// Collects the rings of a glyph as FreeType goes along them.
+struct RingMaker {
+  std::vector<Ring>* rings;
+  Vec2 at;           // of the glyph
+  double tolerance;  // in units of the font
+
+  Vec2 place(const FT_Vector& v) const { return {at.x + static_cast<double>(v.x), at.y + static_cast<double>(v.y)}; }
+  Ring& ring() const { return rings->back(); }
+
+  static const RingMaker& of(void* user) { return *static_cast<RingMaker*>(user); }
+  static int move(const FT_Vector* to, void* user) {
+    of(user).rings->push_back({of(user).place(*to)});
+    return 0;
+  }
+  static int line(const FT_Vector* to, void* user) {
+    of(user).ring().push_back(of(user).place(*to));
+    return 0;
+  }
+  static int conic(const FT_Vector* by, const FT_Vector* to, void* user) {
+    const Vec2 from = of(user).ring().back(), middle = of(user).place(*by), end = of(user).place(*to);
+    const Vec2 first = from + (2.0 / 3) * (middle - from), second = end + (2.0 / 3) * (middle - end);
+    append_chords(Cubic<Vec2>{from, first, second, end}, of(user).tolerance, of(user).ring());
+    return 0;
+  }
+  static int cubic(const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, void* user) {
+    const RingMaker& maker = of(user);
+    const Cubic<Vec2> curve{maker.ring().back(), maker.place(*first), maker.place(*second), maker.place(*to)};
+    append_chords(curve, maker.tolerance, maker.ring());
+    return 0;
+  }
+};
+
+// Without points that repeat, and rings of fewer than three.
+void tidy(std::vector<Ring>& rings) {
+  for (Ring& ring : rings) {
+    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+    while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+  }
+  std::erase_if(rings, [](const Ring& ring) { return ring.size() < 3; });
+}
+
+void append_rings(const Face& face, uint32_t glyph, Vec2 at, std::vector<Ring>& rings) {
+  FT_Outline* const outline = face.outline(glyph);
+  if (!outline) return;
+  RingMaker maker{&rings, at, tolerance_em * face.em()};
+  const FT_Outline_Funcs calls{RingMaker::move, RingMaker::line, RingMaker::conic, RingMaker::cubic, 0, 0};
+  FT_Outline_Decompose(outline, &calls, &maker);
+}
+
+// Control characters have no letters.
+std::vector<std::string> lines_of(std::string text) {
+  std::erase(text, '\r');
+  std::replace(text.begin(), text.end(), '\t', ' ');
+  return split(text, '\n');
+}
+
+double first_foot(TextLevel level, double capitals, double below_first) {
+  switch (level) {
+    case TextLevel::bottom:
+      return below_first;
+    case TextLevel::center:
+      return (below_first - capitals) / 2;
+    case TextLevel::top:
+      return -capitals;
+    case TextLevel::first_line:
+      break;
+  }
+  return 0;
+}
+
+double left_end(TextSide side, double width) {
+  return side == TextSide::left ? 0 : side == TextSide::center ? -width / 2 : -width;
+}
+
+void note_missing(const std::string& text, size_t place, std::vector<std::string>& missing) {
+  const std::string letter = text.substr(place, std::max<size_t>(1, code_point_size(text, place)));
+  if (std::find(missing.begin(), missing.end(), letter) == missing.end()) missing.push_back(letter);
+}
+
+}  // namespace
+
+std::optional<TextOutlines> outline_text(const std::string& font_bytes, int font_index, const std::string& text,
+                                         const TextLayout& layout) {
+  const Face face(font_bytes, font_index);
+  if (!face.has_outlines()) return std::nullopt;
+  const std::vector<std::string> lines = lines_of(text);
+  const double line_height = face.line_height() * layout.line_spacing, capitals = face.capital_height();
+  double foot = first_foot(layout.level, capitals, line_height * static_cast<double>(lines.size() - 1));
+  TextOutlines outlines;
+  for (const std::string& words : lines) {
+    const Line line = shape(face, words);
+    const double left = left_end(layout.side, line.width);
+    for (const PlacedGlyph& placed : line.glyphs) {
+      if (placed.glyph == 0) note_missing(words, placed.place, outlines.missing);
+      append_rings(face, placed.glyph, {left + placed.at.x, foot + placed.at.y}, outlines.rings);
+    }
+    foot -= line_height;
+  }
+  const double mm = layout.height_mm / (layout.is_height_of_capitals ? capitals : face.em());
+  for (Ring& ring : outlines.rings)
+    for (Vec2& p : ring) p = {mm * (p.x + layout.slant * p.y), mm * p.y};
+  tidy(outlines.rings);
+  return outlines;
+}
+
+}  // namespace ombre::draw
+
+#else
+
+namespace ombre::draw {
+
+std::optional<TextOutlines> outline_text(const std::string&, int, const std::string&, const TextLayout&) {
+  return std::nullopt;
+}
+
+}  // namespace ombre::draw
+
+#endif

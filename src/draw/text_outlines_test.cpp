@@ -1,0 +1,206 @@
+// Texts as polygons: areas by the curves of the font, places by its measures.
+#include "draw/text_outlines.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "draw/font_files.h"
+#include "draw/font_search.h"
+
+#ifdef OMBRE_TEXT
+#include <ft2build.h>
+#include FT_FREETYPE_H
+#include FT_OUTLINE_H
+#endif
+
+namespace ombre::draw {
+namespace {
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class Texts : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto file = find_font_file();
+    if (!can_outline_text() || !file || !is_usual(*file)) GTEST_SKIP() << "without HarfBuzz, or DejaVu Sans";
+    font_ = bytes_of(*file);
+  }
+  TextOutlines outlined(const std::string& text, const TextLayout& layout = {}) const {
+    return *outline_text(font_, 0, text, layout);
+  }
+  std::string font_;
+};
+
+struct Extent {
+  Vec2 lo{1e9, 1e9}, hi{-1e9, -1e9};
+};
+
+Extent extent_of(const std::vector<Ring>& rings) {
+  Extent e;
+  for (const Ring& ring : rings)
+    for (const Vec2 p : ring) {
+      e.lo = {std::min(e.lo.x, p.x), std::min(e.lo.y, p.y)};
+      e.hi = {std::max(e.hi.x, p.x), std::max(e.hi.y, p.y)};
+    }
+  return e;
+}
+
+double area_of(const std::vector<Ring>& rings) {
+  double sum = 0;
+  for (const Ring& ring : rings) sum += doubled_area(ring) / 2;
+  return std::abs(sum);
+}
+
+#ifdef OMBRE_TEXT
+// The area within curves, from x dy - y dx along each, in closed form.
+struct CurveArea {
+  double area = 0;
+  FT_Vector at{};
+
+  static CurveArea& of(void* user) { return *static_cast<CurveArea*>(user); }
+  static double cross_of(const FT_Vector& a, const FT_Vector& b) {
+    return static_cast<double>(a.x) * static_cast<double>(b.y) - static_cast<double>(a.y) * static_cast<double>(b.x);
+  }
+  static int move(const FT_Vector* to, void* user) {
+    of(user).at = *to;
+    return 0;
+  }
+  static int line(const FT_Vector* to, void* user) {
+    of(user).area += cross_of(of(user).at, *to) / 2;
+    of(user).at = *to;
+    return 0;
+  }
+  static int conic(const FT_Vector* by, const FT_Vector* to, void* user) {
+    const FT_Vector from = of(user).at;
+    of(user).area += (2 * cross_of(from, *by) + 2 * cross_of(*by, *to) + cross_of(from, *to)) / 6;
+    of(user).at = *to;
+    return 0;
+  }
+  static int cubic(const FT_Vector*, const FT_Vector*, const FT_Vector*, void*) { return 1; }  // of other fonts
+};
+
+double curve_area(const std::string& font, uint32_t letter) {
+  FT_Library library = nullptr;
+  FT_Face face = nullptr;
+  FT_Init_FreeType(&library);
+  FT_New_Memory_Face(library, reinterpret_cast<const FT_Byte*>(font.data()), static_cast<FT_Long>(font.size()), 0,
+                     &face);
+  FT_Load_Glyph(face, FT_Get_Char_Index(face, letter), FT_LOAD_NO_SCALE);
+  CurveArea sum;
+  const FT_Outline_Funcs calls{CurveArea::move, CurveArea::line, CurveArea::conic, CurveArea::cubic, 0, 0};
+  EXPECT_EQ(FT_Outline_Decompose(&face->glyph->outline, &calls, &sum), 0);
+  FT_Done_Face(face);
+  FT_Done_FreeType(library);
+  return std::abs(sum.area);
+}
+#endif
+
+}  // namespace
+
+#ifdef OMBRE_TEXT
+TEST_F(Texts, HaveTheAreaOfTheirCurves) {
+  TextLayout layout;
+  layout.is_height_of_capitals = false;
+  layout.height_mm = 20;
+  const double scale = 20.0 / 2048;  // DejaVu Sans has 2048 units in an em
+  for (const char letter : std::string("OB%gS8")) {
+    const double expected = curve_area(font_, static_cast<uint32_t>(letter)) * scale * scale;
+    const auto rings = outlined(std::string(1, letter), layout).rings;
+    EXPECT_NEAR(area_of(rings), expected, 2e-3 * expected) << letter;
+    const size_t count = letter == '%' ? 5 : letter == 'B' || letter == '8' ? 3 : letter == 'S' ? 1 : 2;
+    EXPECT_EQ(rings.size(), count) << letter;
+  }
+}
+#endif
+
+// The letter I of DejaVu Sans is a bar of 202 x 1493 units.
+TEST_F(Texts, CapitalsHaveTheHeight) {
+  const auto text = outlined("I");
+  ASSERT_EQ(text.rings.size(), 1u);
+  const Extent e = extent_of(text.rings);
+  EXPECT_NEAR(e.hi.y - e.lo.y, 10, 1e-9);
+  EXPECT_NEAR(e.hi.x - e.lo.x, 10 * 202.0 / 1493, 1e-9);
+  EXPECT_NEAR(e.hi.y, 5, 1e-9);
+  TextLayout em;
+  em.is_height_of_capitals = false;
+  const Extent f = extent_of(outlined("I", em).rings);
+  EXPECT_NEAR(f.hi.y - f.lo.y, 10 * 1493.0 / 2048, 1e-9);
+}
+
+TEST_F(Texts, StandWhereTheyShould) {
+  const auto extent = [&](TextSide side, TextLevel level) {
+    TextLayout layout;
+    layout.side = side;
+    layout.level = level;
+    return extent_of(outlined("HI\nH", layout).rings);
+  };
+  EXPECT_GT(extent(TextSide::left, TextLevel::center).lo.x, 0);
+  EXPECT_LT(extent(TextSide::right, TextLevel::center).hi.x, 0);
+  EXPECT_NEAR(extent(TextSide::left, TextLevel::bottom).lo.y, 0, 1e-9);
+  EXPECT_NEAR(extent(TextSide::left, TextLevel::top).hi.y, 0, 1e-9);
+  EXPECT_NEAR(extent(TextSide::left, TextLevel::first_line).hi.y, 10, 1e-9);
+  const Extent middle = extent(TextSide::center, TextLevel::center);
+  EXPECT_NEAR(middle.lo.y, -middle.hi.y, 1e-9);
+  // 2384 units from line to line, by the font's table.
+  EXPECT_NEAR(middle.hi.y - middle.lo.y, 10 + 10 * 2384.0 / 1493, 1e-9);
+  TextLayout wide;
+  wide.line_spacing = 2;
+  const Extent apart = extent_of(outlined("H\nH", wide).rings);
+  EXPECT_NEAR(apart.hi.y - apart.lo.y, 10 + 20 * 2384.0 / 1493, 1e-9);
+}
+
+TEST_F(Texts, AreShaped) {
+  // A and V stand closer than their widths say.
+  const auto width = [&](const std::string& text) {
+    const Extent e = extent_of(outlined(text).rings);
+    return e.hi.x - e.lo.x;
+  };
+  EXPECT_LT(width("AVA"), width("A") + width("V") + width("A") - 1);
+  // Letters with marks apart are the ones with marks.
+  EXPECT_EQ(outlined("a\u0308").rings, outlined("\u00e4").rings);
+  // Arabic letters change where they join: the two of "beh beh" are not twice the single one.
+  EXPECT_NE(outlined("\u0628\u0628").rings.size(), 0u);
+  EXPECT_GT(std::abs(area_of(outlined("\u0628\u0628").rings) - 2 * area_of(outlined("\u0628").rings)), 1);
+}
+
+TEST_F(Texts, TellWhatIsMissing) {
+  EXPECT_TRUE(outlined("Größe Ω µ").missing.empty());
+  const auto text = outlined("a\xF0\xB0\x80\x80 \xF0\xB0\x80\x80");  // no usual font has that ideograph
+  EXPECT_EQ(text.missing, (std::vector<std::string>{"\xF0\xB0\x80\x80"}));
+  EXPECT_TRUE(outlined(" \n\t").rings.empty());
+  for (const char* bytes : {"\xFF\xFE", "\xC3", "a\xE2\x82", ""}) outlined(bytes);
+}
+
+TEST_F(Texts, SlantWhatHasNoItalics) {
+  TextLayout layout;
+  layout.slant = 0.2;
+  const auto plain = outlined("B"), slanted = outlined("B", layout);
+  EXPECT_NEAR(area_of(plain.rings), area_of(slanted.rings), 1e-9);
+  const Extent e = extent_of(plain.rings), f = extent_of(slanted.rings);
+  EXPECT_NEAR((f.hi.x - f.lo.x) - (e.hi.x - e.lo.x), 2, 1);
+}
+
+TEST_F(Texts, KeepToTheFont) {
+  EXPECT_FALSE(outline_text("no font", 0, "A", {}));
+  EXPECT_FALSE(outline_text("", 0, "A", {}));
+}
+
+TEST_F(Texts, FindFontsByName) {
+  const auto found = search_font("dejavu sans", false, false);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->has_name);
+  EXPECT_TRUE(is_usual(found->file)) << found->file;
+  EXPECT_FALSE(found->is_bold);
+  EXPECT_TRUE(search_font("DejaVu Sans", true, false)->is_bold);
+  EXPECT_FALSE(search_font("No Such Font at All", false, false)->has_name);
+}
+
+}  // namespace ombre::draw

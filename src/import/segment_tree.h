@@ -1,0 +1,38 @@
+// The distance to the nearest of many segments.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/box.h"
+
+namespace ombre::importing {
+
+struct LineSegment {
+  Vec3 from, to;
+};
+
+double squared_distance(const LineSegment& segment, Vec3 p);
+
+// Boxes within boxes around the segments.
+class SegmentTree {
+ public:
+  explicit SegmentTree(std::vector<LineSegment> segments);
+  // Infinite when there are none.
+  double distance(Vec3 p) const;
+  Box bounds() const { return nodes_.empty() ? Box::empty() : nodes_[0].box; }
+
+ private:
+  // A leaf holds segments [begin, end); a branch has its first child behind it, and the other at `other`.
+  struct Node {
+    Box box;
+    uint32_t begin = 0, end = 0;
+    uint32_t other = 0;  // 0: a leaf
+  };
+  void build(uint32_t begin, uint32_t end);
+
+  std::vector<LineSegment> segments_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace ombre::importing

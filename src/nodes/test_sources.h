@@ -1,0 +1,160 @@
+// What a test gives to nodes in place of files: sources whose values are plain to see.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "design/source_loader.h"
+
+namespace ombre::nodes::test {
+
+using design::FilePath;
+using design::FontName;
+using design::HeightImage;
+using design::MeshPart;
+using design::MeshUse;
+using design::Reader;
+using design::TextUse;
+
+// A ball that knows its distance exactly, in place of a file.
+class BallSource : public program::FieldSource {
+ public:
+  std::string name() const override { return "ball"; }
+  Hash content() const override { return {1, 2}; }
+  Box bounds() const override { return Box::centered({4, 4, 4}); }
+  int channel(std::string_view channel_name) const override {
+    return channel_name == "inside" ? 0 : channel_name == "distance" ? 1 : -1;
+  }
+  double sample(int channel, Vec3 p) const override {
+    const double distance = length(p) - 4;
+    return channel == 1 ? distance : distance <= 0 ? 1 : 0;
+  }
+};
+
+// Polygons and paths, edge by edge.
+class EdgeSource : public program::FieldSource {
+ public:
+  EdgeSource(Polygons polygons, bool turns) : polygons_(std::move(polygons)), turns_(turns) {}
+  std::string name() const override { return "edges"; }
+  Hash content() const override { return {3, 4}; }
+  Box bounds() const override {
+    Box box;
+    for (const Vec2 p : polygons_.solid[0]) box = hull(box, Box{{p.x, p.y, -Box::inf}, {p.x, p.y, Box::inf}});
+    return box;
+  }
+  int channel(std::string_view channel_name) const override {
+    return channel_name == "inside" ? 0 : channel_name == "distance" ? 1 : -1;
+  }
+  double sample(int channel, Vec3 p) const override {
+    const bool is_inside = winding(polygons_.solid, p) != 0 && winding(polygons_.holes, p) == 0;
+    if (channel == 0) return is_inside ? 1 : 0;
+    const double nearest = std::min(distance(polygons_.solid, p, is_inside), distance(polygons_.holes, p, is_inside));
+    return is_inside ? -nearest : nearest;
+  }
+
+ private:
+  template <class Visit>
+  static void for_edges(const std::vector<Ring>& rings, const Visit& visit) {
+    for (const Ring& ring : rings)
+      for (size_t n = 0; n < ring.size(); ++n) visit(ring[n], ring[(n + 1) % ring.size()]);
+  }
+  // By the angles under which edges are seen.
+  static long winding(const std::vector<Ring>& rings, Vec3 p) {
+    double turned = 0;
+    for_edges(rings, [&](Vec2 a, Vec2 b) {
+      const Vec2 from{a.x - p.x, a.y - p.y}, to{b.x - p.x, b.y - p.y};
+      turned += std::atan2(cross(from, to), dot(from, to));
+    });
+    return std::lround(turned / 6.283185307179586);
+  }
+  double distance(const std::vector<Ring>& rings, Vec3 p, bool is_inside) const {
+    double best = Box::inf;
+    for_edges(rings, [&](Vec2 a, Vec2 b) {
+      if (turns_ && is_inside && a.x == 0 && b.x == 0) return;
+      const Vec2 way = b - a, from{p.x - a.x, p.y - a.y};
+      const double t = std::clamp(dot(way, from) / dot(way, way), 0.0, 1.0);
+      best = std::min(best, length(from - t * way));
+    });
+    return best;
+  }
+
+  Polygons polygons_;
+  bool turns_;
+};
+
+class PathSource : public program::FieldSource {
+ public:
+  explicit PathSource(std::vector<Vec3> points) : points_(std::move(points)) {}
+  std::string name() const override { return "path"; }
+  Hash content() const override { return {5, 6}; }
+  Box bounds() const override {
+    Box box;
+    for (const Vec3& p : points_) box = hull(box, Box{p, p});
+    return box;
+  }
+  int channel(std::string_view channel_name) const override { return channel_name == "distance" ? 0 : -1; }
+  double sample(int, Vec3 p) const override {
+    double best = Box::inf;
+    for (size_t n = 1; n < points_.size(); ++n) {
+      const Vec3 way = points_[n] - points_[n - 1], from = p - points_[n - 1];
+      const double t = std::clamp(dot(way, from) / dot(way, way), 0.0, 1.0);
+      best = std::min(best, length(from - t * way));
+    }
+    return best;
+  }
+
+ private:
+  std::vector<Vec3> points_;
+};
+
+// Hills and valleys.
+class WaveSource : public program::FieldSource {
+ public:
+  std::string name() const override { return "waves"; }
+  Hash content() const override { return {7, 8}; }
+  Box bounds() const override { return {{0, 0, 0}, {20, 10, 0}}; }
+  int channel(std::string_view channel_name) const override { return channel_name == "value" ? 0 : -1; }
+  double sample(int, Vec3 p) const override { return 0.5 + 0.25 * (std::sin(p.x / 8) + std::sin(p.y / 4)); }
+};
+
+class PendingBall : public design::PendingSource {
+ public:
+  Hash content() const override { return source_->content(); }
+  Box bounds() const override { return source_->bounds(); }
+  program::SourceField make(std::optional<Vec3>) const override { return source_; }
+
+ private:
+  program::SourceField source_ = std::make_shared<BallSource>();
+};
+
+class BallLoader : public design::SourceLoader {
+ public:
+  std::vector<design::CadPart> cad(std::string&, const design::CadUse& use, const Reader& reader) override {
+    std::vector<design::CadPart> parts{{use.parts.material, std::make_shared<PendingBall>()}};
+    if (use.parts.materials != "one") parts.push_back({{reader.materials.find("clear")}, parts[0].source});
+    return parts;
+  }
+  design::PendingSourcePtr support(const design::NodePtr&, const design::SupportUse&, const Reader&) override {
+    return std::make_shared<PendingBall>();
+  }
+  program::SourceField polygons(Polygons polygons, bool turns, const Reader&) override {
+    return std::make_shared<EdgeSource>(std::move(polygons), turns);
+  }
+  program::SourceField path(const std::vector<Vec3>& points) override { return std::make_shared<PathSource>(points); }
+  HeightImage heights(FilePath&, const Reader&) override {
+    return {std::make_shared<WaveSource>(), 20, 10, 0.25 / 8, 0.25 / 4};
+  }
+  program::SourceField text(FontName&, const TextUse& use, const Reader&) override {
+    const double h = use.height_mm;
+    return std::make_shared<EdgeSource>(Polygons{{{{0, 0}, {h, 0}, {h / 3, h / 3}, {0, h}}}, {}}, false);
+  }
+  std::vector<MeshPart> mesh(std::string&, const MeshUse& use, const Reader& reader) override {
+    std::vector<MeshPart> parts{{use.material, std::make_shared<BallSource>()}};
+    if (use.materials != "one") parts.push_back({{reader.materials.find("clear")}, std::make_shared<BallSource>()});
+    return parts;
+  }
+};
+
+}  // namespace ombre::nodes::test
