@@ -22,6 +22,7 @@ declare -A options=(
   [keychain]="--from -20,50"
   [knob]="--cut x=0 --from -50,20"
   [soft_actuator]="--from -50,15"
+  [unit_cells]="--from -15,50"
   [turned_handle]="--cut z=12 --from -50,35"
 )
 
