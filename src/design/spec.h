@@ -67,6 +67,20 @@ struct Spec {
   ValueType output = ValueType::solid;
 };
 
+// The box that `within` gives for `where`. Where it depends on fields it is better within its last answer, since what
+// is looked for lies there.
+template <class Within>
+Box tightened(const Box& where, const Within& within) {
+  constexpr int most = 16;
+  Box box = within(where);
+  for (int n = 0; n < most && !box.is_empty(); ++n) {
+    const Box next = within(box);
+    if (next == box || next.is_empty() || length(next.size()) > 0.99 * length(box.size())) return next;
+    box = next;
+  }
+  return box;
+}
+
 template <class T>
 class NodeTypeOf;
 
@@ -87,8 +101,7 @@ class NodeOf final : public Node {
       const auto within = [&](const Box& box) {
         return intersect(data.bounds(box.expanded(margin)).expanded(margin), box);
       };
-      // Fields are bounded better within the first answer: what is looked for lies there.
-      return within(within(where));
+      return tightened(where, within);
     } else
       return in.count() > 0 ? in.reach(0, where, margin) : where;
   }

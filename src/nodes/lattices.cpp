@@ -124,8 +124,10 @@ struct Lattice {
     explicit Rows(const Lattice& lattice) : lattice_(lattice) {}
     size_t count() const override { return lattice_.segments_.size(); }
     Box reach(size_t i, const Box& where, double margin) const override {
-      const double greatest = lattice_.radius.range(where, {{"t", {0, 1}}}).hi;
-      return intersect(lattice_.segments_[i].reach(where, greatest, margin), where);
+      return tightened(where, [&](const Box& box) {
+        const double greatest = lattice_.radius.range(box, {{"t", {0, 1}}}).hi;
+        return intersect(lattice_.segments_[i].reach(box, greatest, margin), box);
+      });
     }
     bool uses_cell(size_t) const override { return lattice_.radius.uses_cell(); }
     Field distance(const Inputs&, size_t i, const Point& p) const override {

@@ -34,8 +34,7 @@ class RandomDesign {
     for (int attempt = 0; attempt < 20; ++attempt) {
       std::vector<NodePtr> inputs;
       if (type.inputs.most > 0) {
-        const size_t count =
-            type.inputs.most == 1 ? 1 : std::clamp(1 + index(3), type.inputs.least, type.inputs.most);
+        const size_t count = type.inputs.most == 1 ? 1 : std::clamp(1 + index(3), type.inputs.least, type.inputs.most);
         for (size_t i = 0; i < count; ++i) inputs.push_back(any_node(depth - 1));
       }
       Diagnostics diagnostics;

@@ -179,7 +179,7 @@ struct Tpms {
       if (axis >= 0) result[static_cast<size_t>(axis)] = p.constant(2 * std::numbers::pi / *number.constant());
       return result;
     }
-    constexpr double step = 1e-3;  // mm
+    constexpr double step = 1e-2;  // mm
     for (int n = 0; n < 3; ++n) {
       Vec3 by;
       by[n] = step;

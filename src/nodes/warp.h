@@ -58,7 +58,8 @@ struct Warp {
   Field distance(const design::Inputs& in, const Point& p) const {
     if (metric(in).is_implicit()) return in.distance(0, self().inner(p));
     const auto clamped = [&](Field v, Interval range) { return min(max(v, range.lo), p.constant(range.hi)); };
-    const Point near = p.moved_to(clamped(p.x, shape.axis(0)), clamped(p.y, shape.axis(1)), clamped(p.z, shape.axis(2)));
+    const Point near =
+        p.moved_to(clamped(p.x, shape.axis(0)), clamped(p.y, shape.axis(1)), clamped(p.z, shape.axis(2)));
     const Vec3 c = shape.center(), h = 0.5 * shape.size();
     const Field from_box = corner(abs(p.x - c.x) - h.x, abs(p.y - c.y) - h.y, abs(p.z - c.z) - h.z);
     return max(in.distance(0, self().inner(near)) / stretch, from_box);
