@@ -19,6 +19,30 @@ constexpr InputInfo two_solids{ValueType::solid, 2, 2, true};
 // enough for single precision.
 constexpr double normal_step_mm = 0.01;
 
+// Two surfaces and what stands on the first.
+constexpr InputInfo three_solids{ValueType::solid, 3, 3, true};
+
+Field difference(const Inputs& in, size_t solid, const Point& p, Vec3 step) {
+  return in.distance(solid, p.mapped(Affine::translation(step))) -
+         in.distance(solid, p.mapped(Affine::translation(-step)));
+}
+
+// The point `way` along the normal of a solid's distance, from p.
+Point along_normal(const Inputs& in, size_t solid, const Point& p, const Point& from, Field way) {
+  const Field x = difference(in, solid, p, {normal_step_mm, 0, 0}),
+              y = difference(in, solid, p, {0, normal_step_mm, 0}),
+              z = difference(in, solid, p, {0, 0, normal_step_mm});
+  const Field size = max(length(x, y, z), 1e-9 * normal_step_mm);
+  // In intervals the quotients may be anything, but a normal has length one.
+  const auto part = [&](Field v) { return min(max(v / size, -1.0), p.constant(1)); };
+  return from.moved_to(from.x + way * part(x), from.y + way * part(y), from.z + way * part(z));
+}
+
+// The nearest point of a solid's surface, where its distance at p is known.
+Point on_surface(const Inputs& in, size_t solid, const Point& p, Field distance) {
+  return along_normal(in, solid, p, p, -distance);
+}
+
 // A pattern of which x and y are the place on a surface, and z is the height above it. The place is that of the
 // surface's nearest point q, in a frame whose third axis is `direction`:
 //   planar       the first two coordinates of q
@@ -64,6 +88,7 @@ struct ConformalMap {
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
     return in.attribute(1, name, place(in, p), demand);
   }
+  Field along(const Inputs& in, const Point& p) const { return in.along(1, place(in, p)); }
 
   // Where a pattern reaches: so high above the base, and, since a height is the way to the surface's point, no farther
   // from that point's place.
@@ -92,24 +117,10 @@ struct ConformalMap {
     return Affine{{u, cross(w, u), w}, {}} * Affine::translation(-around);
   }
 
-  static Field difference(const Inputs& in, const Point& p, Vec3 step) {
-    return in.distance(0, p.mapped(Affine::translation(step))) - in.distance(0, p.mapped(Affine::translation(-step)));
-  }
-
-  // The nearest point of the base's surface.
-  static Point on_surface(const Inputs& in, const Point& p, Field height) {
-    const Field x = difference(in, p, {normal_step_mm, 0, 0}), y = difference(in, p, {0, normal_step_mm, 0}),
-                z = difference(in, p, {0, 0, normal_step_mm});
-    const Field size = max(length(x, y, z), 1e-9 * normal_step_mm);
-    // In intervals the quotients may be anything, but a normal has length one.
-    const auto part = [&](Field v) { return min(max(v / size, -1.0), p.constant(1)); };
-    return p.moved_to(p.x - height * part(x), p.y - height * part(y), p.z - height * part(z));
-  }
-
   // Where the pattern is asked.
   Point place(const Inputs& in, const Point& p) const {
     const Field height = in.distance(0, p);
-    const Point q = on_surface(in, p, height).mapped(frame());
+    const Point q = on_surface(in, 0, p, height).mapped(frame());
     if (mapping == "planar") return q.moved_to(q.x, q.y, height);
     const auto angle = [&](Field y, Field x) { return p.builder().apply(Op::atan2, y, x); };
     const Field across = length(q.x, q.y), around_axis = angle(q.y, q.x);
@@ -119,8 +130,60 @@ struct ConformalMap {
   }
 };
 
+// What stands on one surface, put onto another. A point p, at the height h over the second, belongs to the nearest
+// point q of it; q belongs to the nearest point of the first, over which the child is asked at the height h.
+struct SurfaceMap {
+  double height = 10;
+
+  static Spec<SurfaceMap> spec() {
+    return {
+        "surface_map",
+        "maps",
+        "Puts what stands on the surface of its first child onto that of its second, at the same heights; its "
+        "third child is what stands there.",
+        {{"height", &SurfaceMap::height, "How far over and under the surfaces it reaches; what is farther is cut off",
+          required(unit::positive_mm)}},
+        three_solids,
+        "surface_map(height=3) { sphere(8); ellipsoid((12, 9, 7)); translate(8, 0, 0) cube(2, \"red\"); }"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
+    for (size_t i = 0; i < 2; ++i) warn_of_implicit_distance(reader, *inputs[i], "surface_map measures from");
+    return true;
+  }
+
+  Metric metric() const { return Metric::implicit(); }
+  double repetitions() const { return 14; }  // a surface: at a point, and twice along each axis, for two points
+
+  Field distance(const Inputs& in, const Point& p) const {
+    return max(in.distance(2, place(in, p)), abs(in.distance(1, p)) - height);
+  }
+  Field inside(const Inputs& in, const Point& p) const {
+    return logical_and(in.inside(2, place(in, p)), less_equal(abs(in.distance(1, p)), p.constant(height)));
+  }
+  Field interior(const Inputs& in, const Point& p) const {
+    return logical_and(in.interior(2, place(in, p)), less(abs(in.distance(1, p)), p.constant(height)));
+  }
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return in.composition(2, place(in, p), demand);
+  }
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    return in.attribute(2, name, place(in, p), demand);
+  }
+  Field along(const Inputs& in, const Point& p) const { return in.along(2, place(in, p)); }
+
+  Box reach(const Inputs& in, const Box& where, double margin) const { return in.reach(1, where, height + margin); }
+
+ private:
+  static Point place(const Inputs& in, const Point& p) {
+    const Field h = in.distance(1, p);
+    const Point there = on_surface(in, 1, p, h), here = on_surface(in, 0, there, in.distance(0, there));
+    return along_normal(in, 0, here, here, h);
+  }
+};
+
 }  // namespace
 
-void add_maps(Registry& registry) { registry.add<ConformalMap>(); }
+void add_maps(Registry& registry) { registry.add<ConformalMap, SurfaceMap>(); }
 
 }  // namespace ombre::nodes
