@@ -73,7 +73,7 @@ def test_ombre_takes_arrays_of_edges():
     edges = [(points[i], points[j]) for i in range(4) for j in range(i)]
     graph = ombre.lattice(edges=edges, radius=0.5, material="red")
     assert graph.inside([5, 5, 0]) and not graph.inside([3, 3, 3])
-    graded = graph.fgrade(["t", "1 - t"], ["red", "blue"])
+    graded = graph.fgrade([ombre.t, 1 - ombre.t], ["red", "blue"])
     assert graded.material([[2.5, 0, 0]])["red"][0] == pytest.approx(0.75)  # that edge begins at (10, 0, 0)
 
 

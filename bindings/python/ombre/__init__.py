@@ -24,7 +24,7 @@ if "OMBRE_DATA" not in _os.environ:
 
 from ._design import Design, Voxels, _document_jobs, load
 from ._errors import CheckError, DesignError, DesignWarning, FunctionError, MachineError
-from ._expressions import Expression, d, where
+from ._expressions import Expression, d, t, where
 from ._expressions import coordinates as _coordinates, functions as _functions
 from ._functions import pointwise
 from ._materials import Materials
@@ -41,5 +41,6 @@ globals().update({**{n: f for n, f in _functions.items() if n != "if"},
                   **_coordinates, **_nodes})
 
 __all__ = ["Design", "Voxels", "load", "CheckError", "DesignError", "DesignWarning", "FunctionError", "MachineError",
-           "Expression", "d", "where", "pointwise", "Materials", "delaunay_edges", "voronoi_edges", "option", "Solid", *_coordinates, *_nodes,
+           "Expression", "d", "t", "where", "pointwise", "Materials", "delaunay_edges", "voronoi_edges", "option", "Solid",
+           *_coordinates, *_nodes,
            *(n for n in _functions if n != "if" and n not in _builtin_names)]

@@ -150,6 +150,7 @@ def where(condition, yes, no):
 functions = {name: _function(name, arguments, meaning) for name, arguments, meaning in _core.functions()}
 coordinates = {name: Expression(name, "atom") for name in _core.coordinates()}
 d = Expression("d", "atom")
+t = Expression("t", "atom")
 
 _ufuncs = {name: functions[name] for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log", "log10", "log2",
                                               "sqrt", "hypot", "floor", "ceil", "trunc") if name in functions}

@@ -166,7 +166,7 @@ def stub():
     for info in infos:
         out.append(f"\nclass {info['name']}(Solid):\n" + _docstring(_solid._doc(info), 4) +
                    f"    def __init__(self, *arguments: Argument{_keywords(info)}) -> None: ...\n")
-    out += ["\n"] + [f"{name}: Expression\n" for name in (*ombre._coordinates, "d")]
+    out += ["\n"] + [f"{name}: Expression\n" for name in (*ombre._coordinates, "d", "t")]
     out += [f"def {name}(*values: Number) -> Expression: ...\n" for name in ombre._functions
             if name != "if" and name not in ombre._nodes]
     return "".join(out)
