@@ -1,12 +1,9 @@
 // Loads the module of CAD files when the first is read.
 #include "cad/solids.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
-#include <filesystem>
-
 #include "base/error.h"
+#include "base/loaded_module.h"
 #include "base/text.h"
 #include "cad/module.h"
 
@@ -17,25 +14,8 @@ using ReadCad = decltype(&ombre_read_cad);
 
 #ifdef OMBRE_CAD_MODULE
 
-// Beside this code, where it is installed, else where it was built.
-std::string module_path() {
-  const std::filesystem::path built = OMBRE_CAD_MODULE;
-  std::error_code ignored;
-  Dl_info here{};
-  if (dladdr(reinterpret_cast<void*>(&module_path), &here) != 0) {  // NOLINT
-    const auto beside = std::filesystem::path(here.dli_fname).parent_path() / built.filename();
-    if (std::filesystem::exists(beside, ignored)) return beside.string();
-  }
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const auto installed = program.parent_path().parent_path() / "lib" / "ombre" / built.filename();
-  return std::filesystem::exists(installed, ignored) ? installed.string() : built.string();
-}
-
 ReadCad load_module() {
-  const std::string path = module_path();
-  void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!module) throw Error("CAD files need " + path + ", which cannot be loaded: " + dlerror());  // NOLINT
-  return reinterpret_cast<ReadCad>(dlsym(module, "ombre_read_cad"));                              // NOLINT
+  return reinterpret_cast<ReadCad>(load_function(OMBRE_CAD_MODULE, "ombre_read_cad", "CAD files"));  // NOLINT
 }
 
 #else

@@ -3,6 +3,7 @@
 #include "nodes/all_nodes.h"
 #include "nodes/lattice_copies.h"
 #include "nodes/mixtures.h"
+#include "nodes/shapes.h"
 #include "nodes/turned_copies.h"
 
 namespace ombre::nodes {
@@ -268,7 +269,7 @@ struct ArrayPolar : Array<ArrayPolar> {
       return fail("the angle of array_polar is 0: the copies would lie on one another", "write for example angle=90");
     const bool is_full = std::abs(angle) == 360;
     const double degrees = count == 1 ? 0 : angle / (is_full ? count : count - 1);
-    const Affine turn_from_here = frame() * Affine::translation(-around);
+    const Affine turn_from_here = turned_to_z(axis) * Affine::translation(-around);
     const Affine turn_from_original = Affine::translation({radius, 0, 0}) * turn_from_here;
     copies =
         TurnedCopies(turn_from_here, turn_from_original, count, degrees, is_full, inputs[0]->bounds(design_space()));
@@ -287,16 +288,6 @@ struct ArrayPolar : Array<ArrayPolar> {
 
   Box reach(const Inputs& in, const Box& where, double margin) const {
     return copies.copies(in.reach(0, copies.originals(where), margin), where);
-  }
-
- private:
-  // A rotation that takes the axis to z.
-  Affine frame() const {
-    const Vec3 w = (1 / length(axis)) * axis;
-    const bool is_x = w.y == 0 && w.z == 0;
-    const Vec3 along = is_x ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
-    const Vec3 across = along - dot(along, w) * w, u = (1 / length(across)) * across;
-    return {{u, cross(w, u), w}, {}};
   }
 };
 

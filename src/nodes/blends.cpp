@@ -18,8 +18,6 @@ using program::Point;
 
 namespace {
 
-Field add(Field a, Field b) { return a + b; }
-
 PartQuery query_for(std::string_view rule) {
   return rule == "first" ? PartQuery::first : rule == "last" ? PartQuery::last : PartQuery::mix;
 }
@@ -29,7 +27,7 @@ std::vector<Field> shares(const Inputs& in, const Point& p, Demand demand, std::
                           const Falloff& falloff) {
   std::vector<Field> result = weights(in, p, falloff);
   if (demand == Demand::everywhere) {
-    const Field reached = less(p.constant(0), program::fold(result, add));
+    const Field reached = less(p.constant(0), program::sum(result));
     const std::vector<Field> close = nearest(in.distances(p));
     for (size_t i = 0; i < result.size(); ++i) result[i] = select(reached, result[i], close[i]);
   }
@@ -41,42 +39,6 @@ std::vector<Field> shares(const Inputs& in, const Point& p, Demand demand, std::
   for (size_t i = 0; i < result.size(); ++i) result[i] = select(any, marks[i], result[i]);
   return result;
 }
-
-// Sums over a table and the inputs beside it.
-class Sums {
- public:
-  Sums(const Composition& start, Field total) : total_(total) {
-    for (const auto& [id, sum] : start.fractions) sums_[id] = sum;
-    for (const auto& [number, mark] : start.checks) checks_[number] = mark;
-  }
-
-  void add_input(const Composition& input, Field weight) {
-    const Field zero = weight.builder->constant(0), counts = truth(weight);
-    total_ = total_ + weight;
-    for (const auto& [id, fraction] : input.fractions) {
-      const Field term = select(counts, fraction * weight, zero);
-      Field& sum = sums_[id];
-      sum = sum ? sum + term : term;
-    }
-    for (const auto& [number, mark] : input.checks) {
-      const Field bad = logical_and(counts, mark);
-      Field& known = checks_[number];
-      known = known ? logical_or(known, bad) : bad;
-    }
-  }
-
-  Composition shares() const {
-    Composition result;
-    for (const auto& [id, sum] : sums_) result.fractions.emplace_back(id, share(sum, total_));
-    for (const auto& check : checks_) result.checks.push_back(check);
-    return result;
-  }
-
- private:
-  Field total_;
-  std::map<MaterialId, Field> sums_;
-  std::map<uint32_t, Field> checks_;
-};
 
 // `yes` where the condition is true, else `no`.
 Composition choose(Field condition, const Composition& yes, const Composition& no) {
@@ -108,14 +70,14 @@ bool all_of_one(const Inputs& in, const Point& p, const PartFields& parts) {
 Composition from_table(const Inputs& in, const Point& p, std::string_view rule, const Falloff& falloff,
                        const PartFields& parts) {
   if (all_of_one(in, p, parts)) return Composition::pure(*parts.only, p.constant(1));
-  Sums weighed(parts.weighed, parts.weight);
-  Sums held(rule == "mix" ? parts.composition : Composition{}, rule == "mix" ? parts.count : p.constant(0));
+  WeighedSums weighed(parts.weighed, parts.weight);
+  WeighedSums held(rule == "mix" ? parts.composition : Composition{}, rule == "mix" ? parts.count : p.constant(0));
   Field any = parts.inside;
   for (const size_t i : parts.others) {
     const Composition other = in.composition(i, p, Demand::everywhere);
     const Field inside = in.inside(i, p);
-    weighed.add_input(other, falloff.weight(in.distance(i, p), p));
-    held.add_input(other, inside);
+    weighed.add(other, falloff.weight(in.distance(i, p), p));
+    held.add(other, inside);
     any = logical_or(any, inside);
   }
   if (rule == "blend") return weighed.shares();
@@ -170,7 +132,7 @@ Felt felt(const Inputs& in, const Point& p, PartQuery query, const Falloff& fall
   const bool interior = query == PartQuery::interior;
   const auto parts = in.many_parts(query, p, &falloff);
   if (!parts)
-    return {program::fold(weights(in, p, falloff), add),
+    return {program::sum(weights(in, p, falloff)),
             program::fold(interior ? in.interiors(p) : in.insides(p), program::logical_or)};
   Felt sum{parts->weight, parts->inside};
   for (const size_t i : parts->others) {

@@ -92,7 +92,7 @@ struct Union {
   Field distance(const Inputs& in, const Point& p) const {
     const Field least = program::fold(in.distances(p), program::min);
     if (blend().is_plain() || in.count() == 1) return least;
-    const Field total = program::fold(weights(in, p, blend().falloff()), [](Field a, Field b) { return a + b; });
+    const Field total = program::sum(weights(in, p, blend().falloff()));
     return blend().distance(total, least, p);
   }
 
@@ -195,7 +195,7 @@ struct Carved {
     const Falloff falloff = blend.falloff();
     std::vector<Field> values;
     for (const Field depth : depths) values.push_back(falloff.weight(depth, p));
-    return program::fold(values, [](Field a, Field b) { return a + b; });
+    return program::sum(values);
   }
   Field distance(const Point& p) const { return -blend.distance(total(p), program::fold(depths, program::min), p); }
   // In the whole where the joint's interior is not.

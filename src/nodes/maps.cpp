@@ -5,6 +5,7 @@
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
 #include "nodes/child_distance.h"
+#include "nodes/shapes.h"
 
 namespace ombre::nodes {
 namespace {
@@ -109,13 +110,7 @@ struct ConformalMap {
 
  private:
   // Takes points to the frame of the places.
-  Affine frame() const {
-    const Vec3 w = (1 / length(direction)) * direction;
-    const bool is_x = w.y == 0 && w.z == 0;
-    const Vec3 along = is_x ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
-    const Vec3 across = along - dot(along, w) * w, u = (1 / length(across)) * across;
-    return Affine{{u, cross(w, u), w}, {}} * Affine::translation(-around);
-  }
+  Affine frame() const { return turned_to_z(direction) * Affine::translation(-around); }
 
   // Where the pattern is asked.
   Point place(const Inputs& in, const Point& p) const {

@@ -10,8 +10,6 @@ namespace {
 
 using namespace design;
 
-Field add(Field a, Field b) { return a + b; }
-
 bool same_length(const Reader& reader, size_t functions, size_t materials, std::string_view noun) {
   if (functions == materials) return true;
   reader.diagnostics.error(reader.where,
@@ -59,7 +57,7 @@ struct Mixture {
                                Field usable, Field zero) {
     Composition result;
     for (const auto& [id, list] : terms) {
-      const Field share = list.empty() ? zero : program::fold(list, add);
+      const Field share = list.empty() ? zero : program::sum(list);
       Field otherwise = zero;
       for (const auto& [own_id, fraction] : own.fractions)
         if (own_id == id) otherwise = fraction;
@@ -69,7 +67,7 @@ struct Mixture {
   }
 
   static std::vector<Field> normalised(const std::vector<Field>& values) {
-    const Field total = program::fold(values, add);
+    const Field total = program::sum(values);
     std::vector<Field> shares;
     for (const Field v : values) shares.push_back(share(v, total));
     return shares;

@@ -12,8 +12,6 @@ using program::Point;
 
 namespace {
 
-Field add(Field a, Field b) { return a + b; }
-
 // All inputs are of one and the same single material everywhere, and nothing can be wrong with it.
 bool is_one_material(const std::vector<Composition>& parts) {
   for (const Composition& part : parts)
@@ -42,11 +40,39 @@ Composition weighted(const std::vector<Composition>& parts, const std::vector<Fi
       terms[id].push_back(select(truth(weights[i]), fraction * weights[i], zero));
     for (const auto& [number, mark] : parts[i].checks) marks[number].push_back(logical_and(truth(weights[i]), mark));
   }
-  const Field total = program::fold(weights, add);
+  const Field total = program::sum(weights);
   Composition result;
-  for (auto& [id, list] : terms) result.fractions.emplace_back(id, share(program::fold(std::move(list), add), total));
+  for (auto& [id, list] : terms) result.fractions.emplace_back(id, share(program::sum(std::move(list)), total));
   for (auto& [number, list] : marks)
     result.checks.emplace_back(number, program::fold(std::move(list), program::logical_or));
+  return result;
+}
+
+WeighedSums::WeighedSums(const Composition& sums, Field total) : total_(total) {
+  for (const auto& [id, sum] : sums.fractions) fractions_[id] = sum;
+  for (const auto& [number, mark] : sums.checks) checks_[number] = mark;
+}
+
+void WeighedSums::add(const Composition& composition, Field weight) {
+  const Field zero = weight.builder->constant(0), counts = truth(weight);
+  const bool is_mark = weight.builder->is_truth(weight);
+  total_ = total_ + weight;
+  for (const auto& [id, fraction] : composition.fractions) {
+    const Field term = select(counts, is_mark ? fraction : fraction * weight, zero);
+    Field& sum = fractions_[id];
+    sum = sum ? sum + term : term;
+  }
+  for (const auto& [number, mark] : composition.checks) {
+    const Field bad = logical_and(counts, mark);
+    Field& known = checks_[number];
+    known = known ? logical_or(known, bad) : bad;
+  }
+}
+
+Composition WeighedSums::shares() const {
+  Composition result;
+  for (const auto& [id, sum] : fractions_) result.fractions.emplace_back(id, share(sum, total_));
+  for (const auto& check : checks_) result.checks.push_back(check);
   return result;
 }
 
@@ -59,29 +85,9 @@ Composition mixed(const design::Inputs& in, const Point& p, const design::PartFi
     others.pop_back();
   }
 
-  const Field zero = p.constant(0);
-  Field count = parts.count;
-  std::map<MaterialId, Field> sums;
-  std::map<uint32_t, Field> marks;
-  for (const auto& [id, sum] : parts.composition.fractions) sums[id] = sum;
-  for (const auto& [number, mark] : parts.composition.checks) marks[number] = mark;
-  for (size_t n = 0; n < others.size(); ++n) {
-    const Field holds = in.inside(parts.others[n], p);
-    count = count + holds;
-    for (const auto& [id, fraction] : others[n].fractions) {
-      const Field term = select(holds, fraction, zero);
-      Field& sum = sums[id];
-      sum = sum ? sum + term : term;
-    }
-    for (const auto& [number, mark] : others[n].checks) {
-      Field& bad = marks[number];
-      bad = bad ? logical_or(bad, logical_and(holds, mark)) : logical_and(holds, mark);
-    }
-  }
-  Composition result;
-  for (const auto& [id, sum] : sums) result.fractions.emplace_back(id, share(sum, count));
-  for (const auto& [number, mark] : marks) result.checks.emplace_back(number, mark);
-  return result;
+  WeighedSums sums(parts.composition, parts.count);
+  for (size_t n = 0; n < others.size(); ++n) sums.add(others[n], in.inside(parts.others[n], p));
+  return sums.shares();
 }
 
 std::vector<Field> first_true(const std::vector<Field>& marks) {
@@ -125,7 +131,7 @@ Field overlapping_values(const std::vector<Field>& values, const std::vector<Fie
     std::vector<Field> terms;
     const size_t count = values.size();
     for (size_t i = 0; i < count; ++i) terms.push_back(select(weights[i], values[i], zero));
-    return program::fold(terms, add);
+    return program::sum(terms);
   };
   Field value = zero;
   switch (overlap) {
@@ -136,7 +142,7 @@ Field overlapping_values(const std::vector<Field>& values, const std::vector<Fie
       value = total(marks);
       break;
     case design::Overlap::mean:
-      value = total(marks) / program::fold(marks, add);
+      value = total(marks) / program::sum(marks);
       break;
     case design::Overlap::max: {
       const Field least = otherwise.builder->constant(-std::numeric_limits<double>::infinity());

@@ -1,6 +1,8 @@
 // Compositions and attributes where several solids meet.
 #pragma once
 
+#include <map>
+
 #include "design/node.h"
 
 namespace ombre::nodes {
@@ -12,6 +14,20 @@ design::Composition weighted(const design::Inputs& in, const program::Point& p, 
 
 // The same of compositions that are at hand, one for each weight.
 design::Composition weighted(const std::vector<design::Composition>& parts, const std::vector<program::Field>& weights);
+
+// Sums of compositions by weights, and their shares of the total.
+class WeighedSums {
+ public:
+  // Begins with what a table has summed: fractions times weights, checks where they are 1, and the sum of the weights.
+  WeighedSums(const design::Composition& sums, program::Field total);
+  void add(const design::Composition& composition, program::Field weight);
+  design::Composition shares() const;
+
+ private:
+  program::Field total_;
+  std::map<MaterialId, program::Field> fractions_;
+  std::map<uint32_t, program::Field> checks_;
+};
 
 // The mean of all inputs that hold the point, when most of them are rows of a table.
 design::Composition mixed(const design::Inputs& in, const program::Point& p, const design::PartFields& parts);

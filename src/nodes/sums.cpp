@@ -9,8 +9,6 @@ namespace {
 
 using namespace design;
 
-Field add(Field a, Field b) { return a + b; }
-
 // The 2023 paper's summing operation (Figs 17 and 18). Each child gives a falloff of its distance, 1 at
 // -blend, 1/2 at 0 and 0 from blend on, a smooth step between; solid where they add up to 1/2.
 struct Sum {
@@ -54,8 +52,8 @@ struct Sum {
 
   // The distance at which one child alone would give this total: a single child stays as it is.
   Field distance(const Inputs& in, const Point& p) const {
-    if (is_level_set()) return program::fold(in.distances(p), add) - iso(p);
-    const Field t = min(program::fold(weights(in, p, falloff()), add), p.constant(1));
+    if (is_level_set()) return program::sum(in.distances(p)) - iso(p);
+    const Field t = min(program::sum(weights(in, p, falloff())), p.constant(1));
     program::Builder& builder = p.builder();
     // Inverse of the smooth step: 1/2 - sin(asin(1 - 2t) / 3).
     const Field angle = builder.apply(program::Op::asin, min(max(1 - t * 2.0, -1.0), p.constant(1))) / 3;

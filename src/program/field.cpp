@@ -312,6 +312,8 @@ Field fold(std::vector<Field> fields, Field (*combine)(Field, Field)) {
   return fields[0];
 }
 
+Field sum(std::vector<Field> fields) { return fold(std::move(fields), operator+); }
+
 Point Point::origin_frame(Builder& builder) { return {builder.input(0), builder.input(1), builder.input(2), Affine{}}; }
 
 Point::Point(Field bx, Field by, Field bz, const Affine& map)

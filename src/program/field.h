@@ -111,6 +111,7 @@ Field select(Field condition, Field a, Field b);
 Field is_finite(Field a);
 // Folds a list pairwise, as a balanced tree, so that a part of it can be settled alone.
 Field fold(std::vector<Field> fields, Field (*combine)(Field, Field));
+Field sum(std::vector<Field> fields);
 
 // A point at which nodes are asked: an affine image of a base point whose coordinates are fields.
 class Point {

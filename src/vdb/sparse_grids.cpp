@@ -1,11 +1,8 @@
 // Loads the module of sparse grids when the first are made.
 #include "vdb/sparse_grids.h"
 
-#include <dlfcn.h>
-
-#include <filesystem>
-
 #include "base/error.h"
+#include "base/loaded_module.h"
 #include "vdb/grid_store.h"
 
 namespace ombre::vdb {
@@ -15,25 +12,9 @@ using MakeGridStore = decltype(&ombre_make_grid_store);
 
 #ifdef OMBRE_OPENVDB_MODULE
 
-// Beside this code, where it is installed, else where it was built.
-std::string module_path() {
-  const std::filesystem::path built = OMBRE_OPENVDB_MODULE;
-  std::error_code ignored;
-  Dl_info here{};
-  if (dladdr(reinterpret_cast<void*>(&module_path), &here) != 0) {  // NOLINT
-    const auto beside = std::filesystem::path(here.dli_fname).parent_path() / built.filename();
-    if (std::filesystem::exists(beside, ignored)) return beside.string();
-  }
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const auto installed = program.parent_path().parent_path() / "lib" / "ombre" / built.filename();
-  return std::filesystem::exists(installed, ignored) ? installed.string() : built.string();
-}
-
 MakeGridStore load_module() {
-  const std::string path = module_path();
-  void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!module) throw Error("sparse grids need " + path + ", which cannot be loaded: " + dlerror());  // NOLINT
-  return reinterpret_cast<MakeGridStore>(dlsym(module, "ombre_make_grid_store"));                    // NOLINT
+  return reinterpret_cast<MakeGridStore>(
+      load_function(OMBRE_OPENVDB_MODULE, "ombre_make_grid_store", "sparse grids"));  // NOLINT
 }
 
 #else

@@ -1,0 +1,12 @@
+// Code with heavy libraries, which is loaded when it is first needed.
+#pragma once
+
+#include <string>
+
+namespace ombre {
+
+// A function of a module by its C name. `built` is the module's path where it was built; it is looked for beside this
+// code and where it is installed first. Throws Error: "`what` need ..., which cannot be loaded".
+void* load_function(const std::string& built, const char* function, const std::string& what);
+
+}  // namespace ombre
