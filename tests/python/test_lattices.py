@@ -85,3 +85,51 @@ def test_cells_know_their_indices():
     assert numpy.allclose(found, [0, 0.25, 0.5, 0.75, 1])
     with pytest.raises(ombre.DesignError, match="nothing repeats it"):
         cell.distance([0, 0, 0])
+
+
+def surface(name, x, y, z):
+    """The usual formulas of minimal surfaces, for a period of one."""
+    sin, cos = numpy.sin, numpy.cos
+    x, y, z = 2 * math.pi * x, 2 * math.pi * y, 2 * math.pi * z
+    return {
+        "gyroid": lambda: sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x),
+        "schwarz_p": lambda: cos(x) + cos(y) + cos(z),
+        "schwarz_d": lambda: (sin(x) * sin(y) * sin(z) + sin(x) * cos(y) * cos(z) + cos(x) * sin(y) * cos(z)
+                              + cos(x) * cos(y) * sin(z)),
+        "neovius": lambda: 3 * (cos(x) + cos(y) + cos(z)) + 4 * cos(x) * cos(y) * cos(z),
+        "iwp": lambda: (2 * (cos(x) * cos(y) + cos(y) * cos(z) + cos(z) * cos(x))
+                        - (cos(2 * x) + cos(2 * y) + cos(2 * z))),
+        "lidinoid": lambda: (0.5 * (sin(2 * x) * cos(y) * sin(z) + sin(2 * y) * cos(z) * sin(x)
+                                    + sin(2 * z) * cos(x) * sin(y))
+                             - 0.5 * (cos(2 * x) * cos(2 * y) + cos(2 * y) * cos(2 * z) + cos(2 * z) * cos(2 * x)) + 0.15),
+        "split_p": lambda: (1.1 * (sin(2 * x) * sin(z) * cos(y) + sin(2 * y) * sin(x) * cos(z)
+                                   + sin(2 * z) * sin(y) * cos(x))
+                            - 0.2 * (cos(2 * x) * cos(2 * y) + cos(2 * y) * cos(2 * z) + cos(2 * z) * cos(2 * x))
+                            - 0.4 * (cos(2 * x) + cos(2 * y) + cos(2 * z))),
+    }[name]()
+
+
+@pytest.mark.parametrize("name", ["gyroid", "schwarz_p", "schwarz_d", "neovius", "iwp", "lidinoid", "split_p"])
+def test_minimal_surfaces_are_their_formulas(name):
+    p = numpy.random.default_rng(3).uniform(0, 1, (200000, 3))
+    f = surface(name, *p.T)
+    for level in (0, 0.3):
+        solid = ombre.tpms(name, "solid", cell=(10, 10, 10), level=level).inside(10 * p)
+        clear = abs(f - level) > 1e-9
+        assert numpy.array_equal(solid[clear], (f <= level)[clear])
+    # A sheet's share is the mean of |f| <= t/2 |grad f|, with gradients from differences.
+    step = 1e-5
+    squares = sum((surface(name, *(p + by).T) - surface(name, *(p - by).T)) ** 2 for by in step * numpy.eye(3))
+    share = numpy.mean(abs(f) <= 0.5 * 0.06 * numpy.sqrt(squares) / (2 * step))
+    sheet = ombre.tpms(name, cell=(10, 10, 10), thickness=0.6).inside(10 * p).mean()
+    assert sheet == pytest.approx(share, abs=1e-4)
+
+
+def test_what_was_laid_around_a_cylinder_is_unrolled_by_formulas():
+    flat = ombre.rectprism((40, 8, 3)) - ombre.sphere(2).translate(5, 1, 1)
+    unrolled = flat.remap(radius=10).warp("(10 + z)*cos(x/10)", "(10 + z)*sin(x/10)", "y",
+                                          min=(-31, -9, -9), max=(31, 9, 9))
+    p = numpy.random.default_rng(4).uniform((-25, -6, -3), (25, 6, 3), (20000, 3))
+    clear = abs(flat.distance(p)) > 1e-6
+    assert numpy.array_equal(unrolled.inside(p)[clear], flat.inside(p)[clear])
+    assert flat.inside(p).sum() > 1000
