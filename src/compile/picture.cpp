@@ -203,7 +203,8 @@ class Studio {
       is_empty_ = is_empty_ && std::ranges::none_of(band.hits, [](const render::RayHit& ray) {
                     return ray.surface != render::RayHit::none;
                   });
-      render::shade(band, shot.film, shot.camera, shot.lighting, samples, request_.background, begin, end, pixels);
+      render::shade(band, shot.film, shot.camera, {shot.lighting, samples, request_.background}, begin, end,
+                    request_.threads, pixels);
     }
     return pixels;
   }

@@ -30,6 +30,14 @@ void write_structure(const Program& program, const std::vector<int>& slots, bool
   for (const int slot : slots) append(slot < 0 ? PartTable::none : program.outputs[static_cast<size_t>(slot)]);
 }
 
+// In an excerpt, what operands below this stand for are inputs.
+constexpr ValueId input_places = 3;
+
+size_t parameters_of(const Program& program, const Instruction& in) {
+  if (in.op == Op::affine) return program.maps[in.aux].size();
+  return in.op == Op::constant ? 1 : 0;
+}
+
 }  // namespace
 
 void PartTable::add(const Program& program, const std::vector<int>& slots, bool may_be_unknown) {
@@ -53,8 +61,7 @@ uint32_t PartTable::body_number(const Program& program, const std::vector<int>& 
   const auto inputs = static_cast<size_t>(std::find_if_not(code.begin(), code.end(), is_input) - code.begin());
   ASSERT(std::none_of(code.begin() + static_cast<ptrdiff_t>(inputs), code.end(), is_input));
   size_t parameters = 0;
-  for (const Instruction& in : code)
-    parameters += in.op == Op::constant ? 1 : in.op == Op::affine ? program.maps[in.aux].size() : 0;
+  for (const Instruction& in : code) parameters += parameters_of(program, in);
   bodies_.push_back({program, slots, may_be_unknown, inputs, parameters});
   parameters_.emplace_back();
   return it->second;
@@ -74,33 +81,51 @@ double PartTable::parameter(uint32_t part, size_t number) const {
   return precision_ == Precision::batch ? static_cast<double>(parameters.floats[n]) : parameters.doubles[n];
 }
 
-void PartTable::append(uint32_t part, Program& to, const std::array<ValueId, 3>& inputs,
+PartTable::Excerpt PartTable::excerpt(uint32_t number, const std::vector<bool>& wanted) const {
+  const Body& body = bodies_[number];
+  const std::vector<Instruction>& code = body.code.code;
+  const auto output = [&](int slot) { return body.code.outputs[static_cast<size_t>(slot)]; };
+  std::vector<bool> needed(code.size(), false);
+  for (size_t slot = 0; slot < body.slots.size(); ++slot)
+    if (wanted[slot] && body.slots[slot] >= 0) needed[output(body.slots[slot])] = true;
+  for (size_t n = code.size(); n-- > body.input_count;)
+    if (needed[n]) each_operand(code[n], [&](ValueId id) { needed[id] = true; });
+
+  Excerpt made;
+  std::vector<ValueId> place(code.size());  // inputs stay where they are, before the lines
+  size_t parameter = 0;
+  for (ValueId n = 0; n < code.size(); ++n) {
+    if (n < body.input_count) place[n] = static_cast<ValueId>(code[n].value);
+    if (n >= body.input_count && needed[n]) {
+      place[n] = static_cast<ValueId>(input_places + made.lines.size());
+      Instruction in = code[n];
+      each_operand(in, [&](ValueId& id) { id = place[id]; });
+      made.lines.push_back({in, parameter});
+    }
+    parameter += parameters_of(body.code, code[n]);
+  }
+  for (size_t slot = 0; slot < body.slots.size(); ++slot)
+    made.slots.push_back(wanted[slot] && body.slots[slot] >= 0 ? place[output(body.slots[slot])] : none);
+  return made;
+}
+
+void PartTable::append(uint32_t part, const Excerpt& excerpt, Program& to, const std::array<ValueId, 3>& inputs,
                        std::vector<ValueId>& slots) const {
-  const Body& body = bodies_[body_of(part)];
-  size_t number = 0;
-  const auto next_parameter = [&] { return parameter(part, number++); };
-  // A body begins with its inputs; whatever follows keeps its distance from there.
-  const size_t input_count = body.input_count;
-  const auto shift = static_cast<ValueId>(to.code.size() - input_count);
-  const auto renamed = [&](ValueId id) {
-    return id < input_count ? inputs[static_cast<size_t>(body.code.code[id].value)] : id + shift;
-  };
-  for (size_t n = input_count; n < body.code.code.size(); ++n) {
-    Instruction in = body.code.code[n];
-    const int arity = info(in.op).arity;
-    if (arity > 0) in.a = renamed(in.a);
-    if (arity > 1) in.b = renamed(in.b);
-    if (arity > 2) in.c = renamed(in.c);
-    if (in.op == Op::constant) in.value = next_parameter();
+  const auto first = static_cast<ValueId>(to.code.size());
+  const auto renamed = [&](ValueId id) { return id < input_places ? inputs[id] : first + (id - input_places); };
+  for (const auto& [line, parameter_number] : excerpt.lines) {
+    Instruction in = line;
+    each_operand(in, [&](ValueId& id) { id = renamed(id); });
+    if (in.op == Op::constant) in.value = parameter(part, parameter_number);
     if (in.op == Op::affine) {
       in.aux = static_cast<uint32_t>(to.maps.size());
-      for (double& value : to.maps.emplace_back()) value = next_parameter();
+      size_t number = parameter_number;
+      for (double& value : to.maps.emplace_back()) value = parameter(part, number++);
     }
     to.code.push_back(in);
   }
   slots.clear();
-  for (const int slot : body.slots)
-    slots.push_back(slot < 0 ? none : renamed(body.code.outputs[static_cast<size_t>(slot)]));
+  for (const ValueId slot : excerpt.slots) slots.push_back(slot == none ? none : renamed(slot));
 }
 
 Cells Cells::around(const Box& box, const Box& whole) {

@@ -43,10 +43,21 @@ class PartTable {
   // `slots[s]` is the program's output for slot s, or -1. The program has neither calls nor sources.
   // `may_be_unknown`: can any of its values be NaN where the part is?
   void add(const Program& program, const std::vector<int>& slots, bool may_be_unknown);
-  // Appends the code of a part to `to`; its inputs are the three given values. `slots` gets the value of
-  // each slot, or none for those that it does not have; it may be shorter than the set's slots.
+  // What of a body some slots need.
+  struct Excerpt {
+    struct Line {
+      Instruction in;        // its operands count from the excerpt's first line, if they are no inputs
+      size_t parameter = 0;  // number of its first one
+    };
+    std::vector<Line> lines;
+    std::vector<ValueId> slots;  // the line of each slot; none if it is not wanted, or not there
+  };
   static constexpr ValueId none = ~ValueId{0};
-  void append(uint32_t part, Program& to, const std::array<ValueId, 3>& inputs, std::vector<ValueId>& slots) const;
+  Excerpt excerpt(uint32_t body, const std::vector<bool>& wanted) const;  // by slot
+  // Appends the excerpt of a part's body to `to`; its inputs are the three given values. `slots` gets the value of
+  // each slot, or none; it may be shorter than the set's slots.
+  void append(uint32_t part, const Excerpt& excerpt, Program& to, const std::array<ValueId, 3>& inputs,
+              std::vector<ValueId>& slots) const;
   size_t size() const { return rows_.size(); }
   size_t body_count() const { return bodies_.size(); }
   const Body& body(uint32_t number) const { return bodies_[number]; }

@@ -107,6 +107,13 @@ Interval apply_reference(Op op, Interval a, Interval b, Interval c) {
 
 }  // namespace
 
+Interval apply_interval(const Instruction& in, Interval a, Interval b, Interval c, Precision precision) {
+  const bool is_quotient = in.op == Op::divide || in.op == Op::share;
+  const bool of_itself = is_quotient && in.a == in.b && a.is_bounded();
+  if (of_itself && (a.lo > 0 || (a.hi < 0 && in.op == Op::divide))) return 1;
+  return precision == Precision::batch ? apply_single(in.op, a, b, c) : apply_reference(in.op, a, b, c);
+}
+
 void evaluate_intervals(const Program& program, const Box& box, std::vector<Interval>& values,
                         const SourceRanges& source_ranges, Precision precision) {
   const bool batch = precision == Precision::batch;
@@ -148,15 +155,8 @@ void evaluate_intervals(const Program& program, const Box& box, std::vector<Inte
         values[i] = asked.reaches ? set.ranges[static_cast<size_t>(in.value)] : Interval(0);
         break;
       }
-      case Op::divide:
-      case Op::share:
-        if (in.a == in.b && a.is_bounded() && (a.lo > 0 || (a.hi < 0 && in.op == Op::divide))) {
-          values[i] = 1;
-          break;
-        }
-        [[fallthrough]];
       default:
-        values[i] = batch ? apply_single(in.op, a, b, c) : apply_reference(in.op, a, b, c);
+        values[i] = apply_interval(in, a, b, c, precision);
     }
   }
 }

@@ -20,6 +20,14 @@ struct Instruction {
   double value = 0;  // of constants; the number of an input or of a slot
 };
 
+template <class AnyInstruction, class F>
+void each_operand(AnyInstruction& in, F f) {
+  const int arity = info(in.op).arity;
+  if (arity > 0) f(in.a);
+  if (arity > 1) f(in.b);
+  if (arity > 2) f(in.c);
+}
+
 struct Read {
   SourceField source;
   int channel = 0;
@@ -57,6 +65,9 @@ using SourceRanges = std::function<Interval(const Read&, const Box&)>;
 
 // Which evaluator's rounded values intervals enclose: the reference's, or those of float batches.
 enum class Precision : uint8_t { reference, batch };
+
+// Of an arithmetic instruction whose operands are in these intervals.
+Interval apply_interval(const Instruction& in, Interval a, Interval b, Interval c, Precision precision);
 
 // The value of each instruction over a box of inputs; encloses every point's rounded value.
 // `code` may not hold calls. For batches see program/single.h.

@@ -1,58 +1,39 @@
 #include "render/ray_cast.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <deque>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <tuple>
 
 #include "base/error.h"
-#include "eval/batch/batch.h"
 #include "program/passes/passes.h"
-#include "render/ray_steps.h"
+#include "render/ray_batch.h"
+#include "render/ray_tiles.h"
 #include "voxel/place_sources.h"
-#include "voxel/tile.h"
 
 namespace ombre::render {
 namespace {
 
 using voxel::StripSources;
-using voxel::TileBox;
 
-// Tiles of rays that are sampled without further questions.
-constexpr int64_t leaf_steps = 32, leaf_columns = 16, leaf_rows = 8;
+// Rays are asked in blocks of samples; those of a leaf together.
+constexpr TileSize leaf{64, 16, 16}, block{steps_together, 4, 4};
+constexpr size_t most_samples = 1024;          // in a row of a leaf
 constexpr int64_t tile_edge = 32;              // of the picture's tiles, in pixels
 constexpr size_t many_parts = 4;               // while so many reach a tile, it is cut before they are written out
 constexpr int64_t behind = fine_per_step / 2;  // a surface, its colour is taken
 constexpr float dark = 0.01F;                  // less light than that is none
 
-// Samples of the rays at work.
-class RaySamples : public eval::SourceRows {
- public:
-  struct Ray {
-    int64_t column = 0, first = 0;  // the fine place of its first sample
-  };
-  std::vector<Ray> rays;
-  int64_t row = 0, stride = 1;  // of the picture; from sample to sample
-  const StripSources* sources = nullptr;
-
-  bool has(const program::Read& read) const override { return sources->has(read.tag); }
-  void fill(const program::Read& read, const eval::RowsToFill& to) const override {
-    for (size_t n = 0; n < to.count; ++n)
-      for (size_t i = 0; i < to.width; ++i)
-        to.values[n * to.stride + i] =
-            sources->inside(read.tag, rays[n].first + stride * static_cast<int64_t>(i), rays[n].column, row) ? 1 : 0;
-  }
-};
-
 // For batches. While surfaces are looked for, colours matter in translucent material only.
 struct Programs {
   program::Program whole, walk;
-  Programs(const Scene& scene, const program::Program& reference) : whole(fuse(sign_only(reference))), walk(whole) {
-    if (scene.is_translucent) return;
-    walk.outputs.resize(Scene::red);
-    walk.output_names.resize(Scene::red);
+  Programs(const Scene& scene, const program::Program& reference) : whole(fuse(sign_only(reference))) {
+    whole.output_names.clear();
+    walk = whole;
+    if (!scene.is_translucent) walk.outputs.resize(Scene::red);
   }
 };
 
@@ -66,36 +47,39 @@ class RayCaster {
         steps_(steps),
         clarity_(clarity),
         is_stopped_(is_stopped),
-        batch_(eval::kernel_sets().front()),
+        batch_(steps),
+        blocks_(steps),
         hits_(hits) {}
 
   void cast(const TileBox& tile, const StripSources& sources) {
-    samples_.sources = &sources;
-    descend(programs_.walk, tile);
+    sources_ = &sources;
+    descend(programs_.walk, tile, 0);
     colour_ends();
   }
 
  private:
   // Where a ray ends in opaque material.
   struct End {
-    RaySamples::Ray ray;
+    Ray ray;
     int64_t row = 0;
   };
-
-  // Tiles are boxes of steps, columns and rows. Samples that look closer lie up to a step before the first.
-  static TileBox fine_box(const TileBox& tile) {
-    TileBox fine = tile;
-    fine.lo[0] = RaySteps::fine_of(tile.lo[0] - 1);
-    fine.hi[0] = RaySteps::fine_of(tile.hi[0] - 1) + 1;
-    return fine;
-  }
-
-  void find_ranges(const program::Program& program, const TileBox& fine, std::vector<Interval>& values) {
-    const Film& film = steps_.film;
-    const Box points{{steps_.depth(fine.lo[0]), film.right_of(fine.lo[1]), film.down_of(fine.lo[2])},
-                     {steps_.depth(fine.hi[0] - 1), film.right_of(fine.hi[1] - 1), film.down_of(fine.hi[2] - 1)}};
-    evaluate_intervals(program, points, values, samples_.sources->ranges(fine), program::Precision::batch);
-  }
+  // A program that was asked about some tiles, and what is left of it in one of them or some.
+  struct Level {
+    explicit Level(const RaySteps& steps) : intervals(steps) {}
+    void begin(const program::Program& program, std::vector<TileBox> fine, const StripSources& sources) {
+      intervals.evaluate(program, std::move(fine), sources);
+      shortener.begin(program);
+    }
+    template <class Tiles>
+    void shorten(const Tiles& tiles) {
+      intervals.values(tiles, values);
+      shortener.shorten(values, left, kept);
+    }
+    TileIntervals intervals;
+    program::Shortener shortener;
+    std::vector<Interval> values, kept;
+    program::Program left;
+  };
 
   RayHit& hit(int64_t column, int64_t row) { return hits_.at(column, row); }
   bool is_open(int64_t column, int64_t row) { return hit(column, row).end == RayHit::none; }
@@ -106,26 +90,51 @@ class RayCaster {
     return true;
   }
 
-  void descend(const program::Program& program, const TileBox& tile) {
-    if (is_hidden(tile) || is_stopped_()) return;
-    std::vector<Interval> values, kept;
-    find_ranges(program, fine_box(tile), values);
-    const auto range = [&](Scene::Output output) { return values[program.outputs[output]]; };
-    if (range(Scene::inside) == Interval(0)) return;
-    const bool is_murky = range(Scene::inside) == Interval(1) && range(Scene::opaque) == Interval(0);
-    if (is_murky && is_uniform(range)) return absorb_all(tile, range);
-    program::Program shorter = program::shorten(program, values, &kept);
-    if (shorter.has_parts()) {
-      if (!is_small(tile, false) && parts_in_reach(shorter, kept, many_parts) >= many_parts) return cut(shorter, tile);
-      return descend(program::expand_parts(shorter, kept, program::Precision::batch), tile);
+  Level& level(size_t depth) {
+    while (levels_.size() <= depth) levels_.emplace_back(steps_);
+    return levels_[depth];
+  }
+
+  // The near pieces first, which may hide the others.
+  void descend(const program::Program& program, const TileBox& tile, size_t depth) {
+    if (is_stopped_()) return;
+    const std::vector<TileBox> pieces = cut(tile, leaf);
+    Level& here = level(depth);
+    here.begin(program, fine_boxes(pieces), *sources_);
+    for (size_t n = 0; n < pieces.size(); ++n) {
+      const auto range = [&](Scene::Output output) { return here.intervals.output(output, n); };
+      if (range(Scene::inside) == Interval(0) || is_hidden(pieces[n])) continue;
+      const bool is_murky = range(Scene::inside) == Interval(1) && range(Scene::opaque) == Interval(0);
+      if (is_murky && is_uniform(range))
+        absorb_all(pieces[n], range);
+      else
+        enter(program, here, n, pieces[n], is_murky, depth);
     }
-    if (is_small(tile, is_murky)) return is_murky ? sample_murk(shorter, kept, tile) : sample(shorter, kept, tile);
-    cut(shorter, tile);
+  }
+
+  static std::vector<TileBox> fine_boxes(const std::vector<TileBox>& tiles) {
+    std::vector<TileBox> fine;
+    fine.reserve(tiles.size());
+    for (const TileBox& tile : tiles) fine.push_back(fine_box(tile));
+    return fine;
+  }
+
+  // Of the tiles that were asked together, number `n`.
+  void enter(const program::Program& program, Level& asked, size_t n, const TileBox& tile, bool is_murky,
+             size_t depth) {
+    const bool is_leaf = is_small(tile, false);
+    if (is_leaf && !is_murky && !program.has_parts()) return sample(program, tile);
+    asked.shorten(n);
+    const bool is_sampled = is_leaf || (is_murky && is_small(tile, true));
+    if (asked.left.has_parts() && (is_sampled || parts_in_reach(asked.left, asked.kept, many_parts) < many_parts))
+      asked.left = program::expand_parts(asked.left, asked.kept, program::Precision::batch);
+    if (!is_sampled) return descend(asked.left, tile, depth + 1);
+    return is_murky ? sample_murk(asked.left, tile) : sample(asked.left, tile);
   }
 
   static bool is_small(const TileBox& tile, bool is_murky) {
-    return tile.size(0) <= (is_murky ? leaf_steps * murky_steps : leaf_steps) && tile.size(1) <= leaf_columns &&
-           tile.size(2) <= leaf_rows;
+    return tile.size(0) <= (is_murky ? leaf[0] * murky_steps : leaf[0]) && tile.size(1) <= leaf[1] &&
+           tile.size(2) <= leaf[2];
   }
 
   template <class Range>
@@ -140,118 +149,96 @@ class RayCaster {
   void absorb_all(const TileBox& tile, Range range) {
     const auto value = [&](Scene::Output output) { return static_cast<float>(range(output).lo); };
     const Colour colour{value(Scene::red), value(Scene::green), value(Scene::blue)};
-    const float depth = steps_.sample(RaySteps::fine_of(tile.lo[0]));
-    const float through = clarity_.through(value(Scene::opacity), tile.size(0));
+    const float depth = static_cast<float>(steps_.depth(RaySteps::fine_of(tile.lo[0])));
+    const float opacity = value(Scene::opacity);
     for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row)
       for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column)
-        if (is_open(column, row)) absorb(hit(column, row), through, depth, colour);
+        if (is_open(column, row)) absorb(hit(column, row), opacity, tile.size(0), depth, colour);
   }
 
   // A few samples for many steps.
-  void sample_murk(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile) {
-    batch_.compile(program, ranges, static_cast<size_t>(leaf_columns * leaf_steps), 1, samples_);
+  void sample_murk(const program::Program& program, const TileBox& tile) {
+    blocks_.begin(program, {fine_box(tile)}, *sources_);
+    blocks_.shorten(size_t{0});
+    batch_.compile(blocks_.left, blocks_.kept, most_samples, *sources_);
     const int64_t count = (tile.size(0) + murky_steps - 1) / murky_steps;
     for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row) {
-      find_open(row, tile);
-      if (samples_.rays.empty()) continue;
-      evaluate(fine_per_step * murky_steps, static_cast<size_t>(count), true);
-      for (size_t n = 0; n < samples_.rays.size(); ++n) {
-        RayHit& ray = hit(samples_.rays[n].column, row);
+      rays_.clear();
+      for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column)
+        if (is_open(column, row)) rays_.push_back({column, RaySteps::fine_of(tile.lo[0])});
+      if (rays_.empty()) continue;
+      batch_.evaluate(rays_, row, fine_per_step * murky_steps, static_cast<size_t>(count), true);
+      for (size_t n = 0; n < rays_.size(); ++n) {
+        RayHit& ray = hit(rays_[n].column, row);
         for (int64_t i = 0; i < count; ++i) {
           const int64_t steps = std::min(murky_steps, tile.size(0) - i * murky_steps);
           const auto at = static_cast<size_t>(i);
-          const float through = clarity_.through(value(Scene::opacity, n, at), steps);
-          if (absorb(ray, through, depths_[n * stride_ + at], colour(n, at))) break;
+          if (absorb(ray, batch_.value(Scene::opacity, n, at), steps, batch_.depth(n, at), batch_.colour(n, at))) break;
         }
       }
     }
   }
 
-  void find_open(int64_t row, const TileBox& tile) {
-    samples_.row = row;
-    samples_.rays.clear();
-    for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column)
-      if (is_open(column, row)) samples_.rays.push_back({column, RaySteps::fine_of(tile.lo[0])});
-  }
-
-  // The near half first, which may hide the other one.
-  void cut(const program::Program& program, const TileBox& tile) {
-    const int64_t sizes[] = {(tile.size(0) + leaf_steps - 1) / leaf_steps,
-                             (tile.size(1) + leaf_columns - 1) / leaf_columns,
-                             (tile.size(2) + leaf_rows - 1) / leaf_rows};
-    const auto axis = static_cast<size_t>(std::max_element(sizes, sizes + 3) - sizes);
-    TileBox low = tile, high = tile;
-    low.hi[axis] = high.lo[axis] = (tile.lo[axis] + tile.hi[axis]) / 2;
-    descend(program, low);
-    descend(program, high);
-  }
-
-  void sample(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile) {
-    batch_.compile(program, ranges, static_cast<size_t>(leaf_columns * leaf_steps), 1, samples_);
+  // The blocks of a leaf in which something may be met.
+  void sample(const program::Program& program, const TileBox& tile) {
+    const std::vector<TileBox> pieces = cut(tile, block);
+    blocks_.begin(program, fine_boxes(pieces), *sources_);
+    met_.clear();
+    for (size_t n = 0; n < pieces.size(); ++n)
+      if (blocks_.intervals.output(Scene::inside, n) != Interval(0) && !is_hidden(pieces[n])) met_.push_back(n);
+    if (met_.empty()) return;
+    blocks_.shorten(met_);
+    batch_.compile(blocks_.left, blocks_.kept, most_samples, *sources_);
     for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row) {
-      find_open(row, tile);
-      if (samples_.rays.empty()) continue;
-      evaluate(fine_per_step, static_cast<size_t>(tile.size(0)), scene_.is_translucent);
-      find_hits(tile);
-      if (!surfaces_.empty()) look_closer(surfaces_, Scene::inside);
-      if (!ends_.empty()) look_closer(ends_, Scene::opaque);
+      surfaces_.clear();
+      ends_.clear();
+      for (size_t n = 0; n < met_.size();) {
+        n = find_open(pieces, n, row);
+        if (rays_.empty()) continue;
+        batch_.evaluate(rays_, row, fine_per_step, static_cast<size_t>(steps_together), scene_.is_translucent);
+        find_hits(row);
+      }
+      if (!surfaces_.empty()) look_closer(surfaces_, row, Scene::inside);
+      if (!ends_.empty()) look_closer(ends_, row, Scene::opaque);
     }
   }
 
-  void evaluate(int64_t stride, size_t width, bool all_outputs) {
-    samples_.stride = stride;
-    width_ = width;
-    stride_ = eval::padded(width);
-    depths_.resize(stride_ * samples_.rays.size());
-    rows_.clear();
-    for (size_t n = 0; n < samples_.rays.size(); ++n) {
-      float* const depths = depths_.data() + n * stride_;
-      for (size_t i = 0; i < stride_; ++i)
-        depths[i] = steps_.sample(samples_.rays[n].first + stride * static_cast<int64_t>(std::min(i, width - 1)));
-      rows_.push_back({depths, static_cast<float>(steps_.film.right_of(samples_.rays[n].column))});
+  // Rays of a row through the next blocks that matter, those that are as near as number `n` of them. Returns the
+  // number of the first one behind.
+  size_t find_open(const std::vector<TileBox>& pieces, size_t n, int64_t row) {
+    rays_.clear();
+    const int64_t nearest = pieces[met_[n]].lo[0];
+    for (; n < met_.size() && pieces[met_[n]].lo[0] == nearest; ++n) {
+      const TileBox& piece = pieces[met_[n]];
+      if (row < piece.lo[2] || row >= piece.hi[2]) continue;
+      for (int64_t column = piece.lo[1]; column < piece.hi[1]; ++column)
+        if (is_open(column, row)) rays_.push_back({column, RaySteps::fine_of(nearest)});
     }
-    const auto down = static_cast<float>(steps_.film.down_of(samples_.row));
-    batch_.place({rows_, {&down, 1}, width});
-    batch_.begin_layer(0);
-    batch_.begin_row(0);
-    if (all_outputs) batch_.finish_row();
+    return n;
   }
 
-  // Of sample `i` of ray `n`. What floats cannot hold counts as 0.
-  float value(Scene::Output output, size_t n, size_t i) const {
-    const float value = batch_.output(output)[n * stride_ + i];
-    return std::isnan(value) ? 0 : value;
-  }
-  Colour colour(size_t n, size_t i) const {
-    return {value(Scene::red, n, i), value(Scene::green, n, i), value(Scene::blue, n, i)};
-  }
-
-  // Notes between which samples rays meet a surface, and what the light loses in each.
-  void find_hits(const TileBox& tile) {
-    surfaces_.clear();
-    ends_.clear();
-    for (size_t n = 0; n < samples_.rays.size(); ++n) {
-      RayHit& ray = hit(samples_.rays[n].column, samples_.row);
-      bool is_new = ray.surface == RayHit::none;
-      for (size_t i = 0; i < width_; ++i) {
-        if (value(Scene::inside, n, i) == 0) continue;
-        const RaySamples::Ray before{samples_.rays[n].column,
-                                     RaySteps::fine_of(tile.lo[0] + static_cast<int64_t>(i) - 1)};
-        if (is_new) surfaces_.push_back(before);
-        is_new = false;
-        if (!scene_.is_translucent) break;
-        if (value(Scene::opaque, n, i) != 0) {
-          ends_.push_back(before);
-          break;
+  // Notes behind which samples rays meet a surface, for a closer look, and what the light loses at each.
+  void find_hits(int64_t row) {
+    for (size_t n = 0; n < rays_.size(); ++n) {
+      RayHit& ray = hit(rays_[n].column, row);
+      for (size_t i = 0; (i = batch_.first_set(Scene::inside, n, i)) < static_cast<size_t>(steps_together); ++i) {
+        const Ray before{rays_[n].column, rays_[n].first + (static_cast<int64_t>(i) - 1) * fine_per_step};
+        const float depth = batch_.depth(n, i);
+        if (ray.surface == RayHit::none) {
+          surfaces_.push_back(before);
+          ray.surface = depth;
         }
-        const float through = clarity_.through(value(Scene::opacity, n, i), 1);
-        if (absorb(ray, through, depths_[n * stride_ + i], colour(n, i))) break;
+        const bool is_end = !scene_.is_translucent || batch_.value(Scene::opaque, n, i) != 0;
+        if (is_end) ray.end = depth;
+        if (is_end && scene_.is_translucent) ends_.push_back(before);
+        if (is_end || absorb(ray, batch_.value(Scene::opacity, n, i), 1, depth, batch_.colour(n, i))) break;
       }
     }
   }
 
   // True: no light is left.
-  bool absorb(RayHit& ray, float through, float depth, const Colour& here) {
+  bool absorb(RayHit& ray, float opacity, int64_t steps, float depth, const Colour& here) {
+    const float through = clarity_.through(opacity, steps);
     const float taken = ray.passes * (1 - through);
     ray.veil.red += taken * here.red;
     ray.veil.green += taken * here.green;
@@ -264,47 +251,49 @@ class RayCaster {
   }
 
   // From places before a surface to the first fine step behind it. An opaque surface also ends its ray.
-  void look_closer(const std::vector<RaySamples::Ray>& before, Scene::Output what) {
-    samples_.rays = before;
+  void look_closer(std::vector<Ray>& rays, int64_t row, Scene::Output what) {
     for (const int64_t stride : {finer, int64_t{1}}) {
-      for (RaySamples::Ray& ray : samples_.rays) ray.first += stride;
-      evaluate(stride, finer, what != Scene::inside);
-      for (size_t n = 0; n < samples_.rays.size(); ++n) {
-        size_t i = 0;
-        while (i + 1 < finer && value(what, n, i) == 0) ++i;
-        samples_.rays[n].first += stride * (static_cast<int64_t>(i) - (stride > 1 ? 1 : 0));
+      for (Ray& ray : rays) ray.first += stride;
+      batch_.evaluate(rays, row, stride, finer, what != Scene::inside);
+      for (size_t n = 0; n < rays.size(); ++n) {
+        const size_t i = std::min(batch_.first_set(what, n, 0), static_cast<size_t>(finer) - 1);
+        rays[n].first += stride * (static_cast<int64_t>(i) - (stride > 1 ? 1 : 0));
       }
     }
     const bool is_end = what == Scene::opaque || !scene_.is_translucent;
-    for (const RaySamples::Ray& ray : samples_.rays) {
-      RayHit& found = hit(ray.column, samples_.row);
-      const float depth = steps_.sample(ray.first);
+    for (const Ray& ray : rays) {
+      RayHit& found = hit(ray.column, row);
+      const float depth = static_cast<float>(steps_.depth(ray.first));
       if (what == Scene::inside) found.surface = depth;
       if (!is_end) continue;
       found.end = depth;
-      ends_met_.push_back({ray, samples_.row});
+      ends_met_.push_back({ray, row});
     }
   }
 
   // The ends of rays that were found in opaque material get its colour, those that lie together at a time.
   void colour_ends() {
-    const auto block = [](const End& end) {
-      return std::tuple(end.row / leaf_rows, end.ray.column / leaf_columns,
-                        end.ray.first / (leaf_steps * fine_per_step));
+    const auto place = [](const End& end) {
+      return std::tuple(end.row / leaf[2], end.ray.column / leaf[1], end.ray.first / (leaf[0] * fine_per_step));
     };
     std::sort(ends_met_.begin(), ends_met_.end(), [&](const End& a, const End& b) {
-      return std::tuple(block(a), a.row, a.ray.column) < std::tuple(block(b), b.row, b.ray.column);
+      return std::tuple(place(a), a.row, a.ray.column) < std::tuple(place(b), b.row, b.ray.column);
     });
-    for (auto begin = ends_met_.begin(); begin != ends_met_.end() && !is_stopped_();) {
+    std::vector<std::span<const End>> groups;
+    std::vector<TileBox> boxes;
+    for (auto begin = ends_met_.begin(); begin != ends_met_.end();) {
       const auto end =
-          std::find_if(begin, ends_met_.end(), [&](const End& other) { return block(other) != block(*begin); });
-      colour_block({begin, end});
+          std::find_if(begin, ends_met_.end(), [&](const End& other) { return place(other) != place(*begin); });
+      groups.emplace_back(begin, end);
+      boxes.push_back(around(groups.back()));
       begin = end;
     }
+    if (!groups.empty()) colour(groups, boxes);
     ends_met_.clear();
   }
 
-  void colour_block(std::span<const End> ends) {
+  // In fine steps.
+  static TileBox around(std::span<const End> ends) {
     TileBox fine{{ends[0].ray.first, ends[0].ray.column, ends[0].row}, {}};
     for (const End& end : ends) {
       const int64_t first[] = {end.ray.first, end.ray.column, end.row};
@@ -314,31 +303,41 @@ class RayCaster {
         fine.hi[axis] = std::max(fine.hi[axis], last[axis] + 1);
       }
     }
-    std::vector<Interval> kept;
-    program::Program program = shortened(programs_.whole, fine, kept);
-    if (program.has_parts())
-      program = shortened(program::expand_parts(program, kept, program::Precision::batch), fine, kept);
-    batch_.compile(program, kept, static_cast<size_t>(leaf_columns * leaf_steps), 1, samples_);
-    for (size_t n = 0; n < ends.size();) {
-      samples_.row = ends[n].row;
-      samples_.rays.clear();
-      for (; n < ends.size() && ends[n].row == samples_.row; ++n) samples_.rays.push_back(ends[n].ray);
-      take_colours();
+    return fine;
+  }
+
+  void colour(const std::vector<std::span<const End>>& groups, const std::vector<TileBox>& boxes) {
+    Level& all = level(0);
+    all.begin(programs_.whole, {around(ends_met_)}, *sources_);
+    all.shorten(size_t{0});
+    Level& each = level(1);
+    each.begin(all.left, boxes, *sources_);
+    for (size_t n = 0; n < groups.size() && !is_stopped_(); ++n) {
+      each.shorten(n);
+      const Level& here = each.left.has_parts() ? without_parts(each, boxes[n]) : each;
+      batch_.compile(here.left, here.kept, most_samples, *sources_);
+      take_colours(groups[n]);
     }
   }
 
-  program::Program shortened(const program::Program& program, const TileBox& fine, std::vector<Interval>& kept) {
-    std::vector<Interval> values;
-    find_ranges(program, fine, values);
-    return program::shorten(program, values, &kept);
+  const Level& without_parts(Level& of, const TileBox& fine) {
+    of.left = program::expand_parts(of.left, of.kept, program::Precision::batch);
+    blocks_.begin(of.left, {fine}, *sources_);
+    blocks_.shorten(size_t{0});
+    return blocks_;
   }
 
   // A little behind the surface, if the solid is thick enough: where surfaces of two materials coincide, rounding
   // decides which is met first.
-  void take_colours() {
-    evaluate(behind, 2, true);
-    for (size_t n = 0; n < samples_.rays.size(); ++n)
-      hit(samples_.rays[n].column, samples_.row).at_end = colour(n, value(Scene::opaque, n, 1) != 0 ? 1 : 0);
+  void take_colours(std::span<const End> ends) {
+    for (size_t begin = 0; begin < ends.size();) {
+      const int64_t row = ends[begin].row;
+      rays_.clear();
+      for (; begin < ends.size() && ends[begin].row == row; ++begin) rays_.push_back(ends[begin].ray);
+      batch_.evaluate(rays_, row, behind, 2, true);
+      for (size_t n = 0; n < rays_.size(); ++n)
+        hit(rays_[n].column, row).at_end = batch_.colour(n, batch_.value(Scene::opaque, n, 1) != 0 ? 1 : 0);
+    }
   }
 
   const Scene& scene_;
@@ -346,14 +345,40 @@ class RayCaster {
   const RaySteps& steps_;
   const Clarity& clarity_;
   const std::function<bool()>& is_stopped_;
-  eval::BatchEvaluator batch_;
-  RaySamples samples_;
+  const StripSources* sources_ = nullptr;
+  RayBatch batch_;
+  std::deque<Level> levels_;
+  Level blocks_;
   RayBand& hits_;
-  size_t width_ = 0, stride_ = 0;
-  std::vector<float> depths_;  // of the samples at work
-  std::vector<eval::PointRow> rows_;
-  std::vector<RaySamples::Ray> surfaces_, ends_;
+  std::vector<size_t> met_;  // of the blocks that were asked
+  std::vector<Ray> rays_, surfaces_, ends_;
   std::vector<End> ends_met_;
+};
+
+// Casters that wait for work, one for each thread that asked for one at the same time.
+class RayCasters {
+ public:
+  explicit RayCasters(std::function<std::unique_ptr<RayCaster>()> make) : make_(std::move(make)) {}
+  template <class Use>
+  void with_one(Use use) {
+    std::unique_ptr<RayCaster> caster = take();
+    use(*caster);
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(caster));
+  }
+
+ private:
+  std::unique_ptr<RayCaster> take() {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return make_();
+    std::unique_ptr<RayCaster> caster = std::move(idle_.back());
+    idle_.pop_back();
+    return caster;
+  }
+
+  std::function<std::unique_ptr<RayCaster>()> make_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<RayCaster>> idle_;
 };
 
 // Drops the outputs that are there for this alone.
@@ -380,6 +405,7 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
   const auto samplers = place_sources(reference, scene, steps);
   const Programs programs(scene, reference);
   RayBand band{begin, end, film.width, std::vector<RayHit>(static_cast<size_t>(film.width * (end - begin)))};
+  RayCasters casters([&] { return std::make_unique<RayCaster>(scene, programs, steps, clarity, is_stopped, band); });
   const int64_t across = (film.width + tile_edge - 1) / tile_edge, down = (end - begin + tile_edge - 1) / tile_edge;
   run_parallel(static_cast<size_t>(across * down), threads, [&](size_t n) {
     if (is_stopped()) return;
@@ -390,7 +416,7 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
     TileBox strip = tile;
     strip.hi[0] = steps.steps * fine_per_step;
     const StripSources sources(samplers, strip);
-    RayCaster(scene, programs, steps, clarity, is_stopped, band).cast(tile, sources);
+    casters.with_one([&](RayCaster& caster) { caster.cast(tile, sources); });
   });
   return band;
 }

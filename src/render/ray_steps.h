@@ -13,6 +13,8 @@ namespace ombre::render {
 // Rays are sampled in steps. Where one finds a surface, sixteenths of the step are tried, and sixteenths of those.
 inline constexpr double steps_per_pixel = 4;
 inline constexpr int64_t finer = 16, fine_per_step = finer * finer;
+// So many steps of a ray are sampled together.
+inline constexpr int64_t steps_together = 16;
 // Within translucent material, where no surface is, one sample stands for so many steps.
 inline constexpr int64_t murky_steps = 8;
 
@@ -25,11 +27,12 @@ struct RaySteps {
   RaySteps(const Scene& scene, const Film& of_film) : near_mm(scene.near_mm), film(of_film) {
     const double step = film.pixel_mm / steps_per_pixel;
     fine_mm = step / static_cast<double>(fine_per_step);
-    steps = static_cast<int64_t>(std::ceil((scene.far_mm - scene.near_mm) / step)) + 1;
+    const auto needed = static_cast<int64_t>(std::ceil((scene.far_mm - scene.near_mm) / step)) + 1;
+    steps = (needed + steps_together - 1) / steps_together * steps_together;
   }
   static int64_t fine_of(int64_t step) { return step * fine_per_step + fine_per_step / 2; }
   double depth(int64_t fine) const { return near_mm + (static_cast<double>(fine) + 0.5) * fine_mm; }
-  float sample(int64_t fine) const { return static_cast<float>(depth(fine)); }
+  float sample(double fine) const { return static_cast<float>(near_mm + (fine + 0.5) * fine_mm); }
   Vec3 first() const { return {depth(0), film.right_of(0), film.down_of(0)}; }
   Vec3 step() const { return {fine_mm, film.pixel_mm, film.pixel_mm}; }
 };

@@ -1,26 +1,44 @@
 #include "render/shade.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "base/math.h"
+#include "base/tasks.h"
 
 namespace ombre::render {
 namespace {
 
 // In the view's frame, towards the light: from behind the eye, left and above.
 const Vec3 key_light{-0.74, -0.42, -0.53};
-constexpr double ambient = 0.32, diffuse = 0.62, from_the_eye = 0.12, highlight = 0.10, sharpness = 40;
+constexpr double ambient = 0.32, diffuse = 0.62, from_the_eye = 0.12, highlight = 0.10;
+
+// How sharp the highlight is.
+double to_the_40th(double v) {
+  const double v4 = (v * v) * (v * v), v8 = v4 * v4, v16 = v8 * v8;
+  return v16 * v16 * v8;
+}
 
 double to_linear(uint8_t value) {
   const double v = value / 255.0;
   return v <= 0.04045 ? v / 12.92 : math::pow((v + 0.055) / 1.055, 2.4);
 }
 
+// The colour halfway between byte values n - 1 and n.
+double border_below(size_t n) {
+  const double v = (static_cast<double>(n) - 0.5) / 255;
+  return v <= 12.92 * 0.0031308 ? v / 12.92 : math::pow((v + 0.055) / 1.055, 2.4);
+}
+
 uint8_t to_srgb(double linear) {
-  const double v = std::clamp(linear, 0.0, 1.0);
-  const double s = v <= 0.0031308 ? 12.92 * v : 1.055 * math::pow(v, 1 / 2.4) - 0.055;
-  return static_cast<uint8_t>(std::lround(255 * s));
+  static const std::array<double, 255> borders = [] {
+    std::array<double, 255> made;
+    for (size_t n = 0; n < made.size(); ++n) made[n] = border_below(n + 1);
+    return made;
+  }();
+  return static_cast<uint8_t>(std::upper_bound(borders.begin(), borders.end(), linear) - borders.begin());
 }
 
 struct Light {
@@ -32,7 +50,7 @@ Light light_on(Vec3 normal) {
   const Vec3 eye{-1, 0, 0};
   const Vec3 half = (1 / length(eye + key_light)) * (eye + key_light);
   const double glance = std::max(0.0, dot(normal, half));
-  return {ambient + diffuse * towards_light + from_the_eye * towards_eye, highlight * math::pow(glance, sharpness)};
+  return {ambient + diffuse * towards_light + from_the_eye * towards_eye, highlight * to_the_40th(glance)};
 }
 
 // Depths as a field over the film, and the surface's direction in it.
@@ -92,43 +110,74 @@ Colour linear(Rgba8 srgb) {
           static_cast<float>(to_linear(srgb[2]))};
 }
 
-void shade(const RayBand& band, const Film& film, const Camera& camera, Lighting lighting, int64_t samples,
-           const Background& background, int64_t begin, int64_t end, std::vector<uint8_t>& pixels) {
-  const Relief outer(band, film, camera, &RayHit::surface), inner(band, film, camera, &RayHit::end);
-  const int64_t width = film.width / samples;
-  const Colour behind = linear(background.colour);
-  const auto light = [&](const Relief& relief, int64_t column, int64_t row) {
-    return lighting == Lighting::none ? Light{} : light_on(relief.normal(column, row));
-  };
-  const double rays = static_cast<double>(samples * samples);
-  for (int64_t y = begin; y < end; ++y) {
-    for (int64_t x = 0; x < width; ++x) {
-      Sum sum;
-      for (int64_t row = y * samples; row < (y + 1) * samples; ++row) {
-        for (int64_t column = x * samples; column < (x + 1) * samples; ++column) {
-          const RayHit& ray = band.at(column, row);
-          double left = 1;
-          if (ray.surface != RayHit::none && ray.surface != ray.end) {
-            const Light here = light(outer, column, row);
-            sum.add(ray.veil, here.share, here.shine);
-            left = static_cast<double>(ray.passes);
-          }
-          if (ray.end != RayHit::none) {
-            const Light here = light(inner, column, row);
-            sum.add(ray.at_end, left * here.share, left * here.shine);
-            left = 0;
-          }
-          sum.cover += 1 - left;
-          if (!background.is_transparent) sum.add(behind, left, 0);
-        }
-      }
-      // Colours of transparent pictures are not premultiplied.
-      const double over = background.is_transparent ? (sum.cover > 0 ? sum.cover : 1) : rays;
-      for (const double value : {sum.red, sum.green, sum.blue}) pixels.push_back(to_srgb(value / over));
-      const double alpha = background.is_transparent ? sum.cover / rays : 1;
-      pixels.push_back(static_cast<uint8_t>(std::lround(255 * alpha)));
-    }
+namespace {
+
+// Makes pixels of rays.
+class Shader {
+ public:
+  Shader(const RayBand& band, const Film& film, const Camera& camera, const ShadeOptions& options)
+      : band_(band),
+        outer_(band, film, camera, &RayHit::surface),
+        inner_(band, film, camera, &RayHit::end),
+        options_(options),
+        behind_(linear(options.background.colour)) {}
+
+  void shade_row(int64_t y, std::span<uint8_t> pixels) const {
+    for (size_t x = 0; 4 * x < pixels.size(); ++x) shade_pixel(static_cast<int64_t>(x), y, pixels.data() + 4 * x);
   }
+
+ private:
+  void shade_pixel(int64_t x, int64_t y, uint8_t* pixel) const {
+    const int64_t samples = options_.samples;
+    Sum sum;
+    for (int64_t row = y * samples; row < (y + 1) * samples; ++row)
+      for (int64_t column = x * samples; column < (x + 1) * samples; ++column) add_ray(column, row, sum);
+    // Colours of transparent pictures are not premultiplied.
+    const double rays = static_cast<double>(samples * samples);
+    const bool is_transparent = options_.background.is_transparent;
+    const double over = is_transparent ? (sum.cover > 0 ? sum.cover : 1) : rays;
+    for (const double value : {sum.red, sum.green, sum.blue}) *pixel++ = to_srgb(value / over);
+    const double alpha = is_transparent ? sum.cover / rays : 1;
+    *pixel = static_cast<uint8_t>(std::lround(255 * alpha));
+  }
+
+  void add_ray(int64_t column, int64_t row, Sum& sum) const {
+    const RayHit& ray = band_.at(column, row);
+    double left = 1;
+    if (ray.surface != RayHit::none && ray.surface != ray.end) {
+      const Light here = light(outer_, column, row);
+      sum.add(ray.veil, here.share, here.shine);
+      left = static_cast<double>(ray.passes);
+    }
+    if (ray.end != RayHit::none) {
+      const Light here = light(inner_, column, row);
+      sum.add(ray.at_end, left * here.share, left * here.shine);
+      left = 0;
+    }
+    sum.cover += 1 - left;
+    if (!options_.background.is_transparent) sum.add(behind_, left, 0);
+  }
+
+  Light light(const Relief& relief, int64_t column, int64_t row) const {
+    return options_.lighting == Lighting::none ? Light{} : light_on(relief.normal(column, row));
+  }
+
+  const RayBand& band_;
+  Relief outer_, inner_;
+  ShadeOptions options_;
+  Colour behind_;
+};
+
+}  // namespace
+
+void shade(const RayBand& band, const Film& film, const Camera& camera, const ShadeOptions& options, int64_t begin,
+           int64_t end, int threads, std::vector<uint8_t>& pixels) {
+  const auto row_bytes = static_cast<size_t>(film.width / options.samples) * 4, before = pixels.size();
+  pixels.resize(before + static_cast<size_t>(end - begin) * row_bytes);
+  const Shader shader(band, film, camera, options);
+  run_parallel(static_cast<size_t>(end - begin), threads, [&](size_t n) {
+    shader.shade_row(begin + static_cast<int64_t>(n), std::span(pixels).subspan(before + n * row_bytes, row_bytes));
+  });
 }
 
 }  // namespace ombre::render

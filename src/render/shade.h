@@ -25,9 +25,15 @@ enum class Lighting {
   none,          // the materials' own colours
 };
 
-// Appends rows [begin, end) of pixels, RGBA from left to right: the mean of samples x samples rays each. The band has
-// their rays, and for light a row more above and below.
-void shade(const RayBand& band, const Film& film, const Camera& camera, Lighting lighting, int64_t samples,
-           const Background& background, int64_t begin, int64_t end, std::vector<uint8_t>& pixels);
+struct ShadeOptions {
+  Lighting lighting = Lighting::from_the_eye;
+  int64_t samples = 1;  // a pixel is the mean of samples x samples rays
+  Background background;
+};
+
+// Appends rows [begin, end) of pixels, RGBA from left to right. The band has their rays, and for light a row more
+// above and below.
+void shade(const RayBand& band, const Film& film, const Camera& camera, const ShadeOptions& options, int64_t begin,
+           int64_t end, int threads, std::vector<uint8_t>& pixels);
 
 }  // namespace ombre::render

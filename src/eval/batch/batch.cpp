@@ -20,14 +20,6 @@ constexpr ValueId none = ~ValueId{0};
 // The axis along which values that depend on these axes are stored; 0: they are one number.
 uint8_t row_axis(uint8_t mask) { return mask & axis_x ? axis_x : mask & axis_y ? axis_y : mask; }
 
-template <class F>
-void each_operand(const Instruction& in, F f) {
-  const int arity = info(in.op).arity;
-  if (arity > 0) f(in.a);
-  if (arity > 1) f(in.b);
-  if (arity > 2) f(in.c);
-}
-
 }  // namespace
 
 void BatchEvaluator::begin(const program::Program& program, const std::vector<Interval>& ranges,

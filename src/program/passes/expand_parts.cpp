@@ -1,4 +1,6 @@
-// Writes out those of many parts that reach a region.
+// Writes out those of many parts that reach a region, as far as the program needs them.
+#include <map>
+
 #include "program/parts.h"
 #include "program/passes/copy_tables.h"
 #include "program/passes/passes.h"
@@ -19,10 +21,7 @@ class Expander {
         renamed.push_back(slot(in, renamed));
         continue;
       }
-      const int arity = info(in.op).arity;
-      if (arity > 0) in.a = renamed[in.a];
-      if (arity > 1) in.b = renamed[in.b];
-      if (arity > 2) in.c = renamed[in.c];
+      each_operand(in, [&](ValueId& id) { id = renamed[id]; });
       copy_tables(from_, to_, in);
       renamed.push_back(push(in));
     }
@@ -36,8 +35,9 @@ class Expander {
   struct Expansion {
     const PartSet* set;
     std::array<ValueId, 3> at;
-    std::vector<std::vector<ValueId>> values;  // [part][slot]
-    std::vector<ValueId> slots;                // combined; PartTable::none until asked for
+    std::vector<std::vector<ValueId>> values;         // [part][slot]
+    std::vector<ValueId> slots;                       // combined; PartTable::none until asked for
+    std::map<uint32_t, PartTable::Excerpt> excerpts;  // by body
   };
 
   ValueId push(const Instruction& in) {
@@ -71,12 +71,31 @@ class Expander {
     const std::array<ValueId, 3> at{renamed[in.a], renamed[in.b], renamed[in.c]};
     for (Expansion& known : expansions_)
       if (known.set == set && known.at == at) return known;
-    Expansion& made = expansions_.emplace_back(Expansion{set, at, {}, {}});
+    Expansion& made = expansions_.emplace_back(Expansion{set, at, {}, {}, {}});
     made.slots.assign(set->slots.size(), PartTable::none);
     const Interval &x = values_[in.a], &y = values_[in.b], &z = values_[in.c];
     set->index.find({{x.lo, y.lo, z.lo}, {x.hi, y.hi, z.hi}}, found_);
-    for (const uint32_t part : found_) set->table(precision_).append(part, to_, at, made.values.emplace_back());
+    const PartTable& table = set->table(precision_);
+    for (const uint32_t part : found_) {
+      const uint32_t body = table.body_of(part);
+      auto excerpt = made.excerpts.find(body);
+      if (excerpt == made.excerpts.end()) excerpt = made.excerpts.emplace(body, table.excerpt(body, wanted(in))).first;
+      table.append(part, excerpt->second, to_, at, made.values.emplace_back());
+    }
     return made;
+  }
+
+  // Which slots are asked for at the place of an instruction.
+  std::vector<bool> wanted(const Instruction& place) const {
+    const PartSet& set = *from_.part_sets[place.aux];
+    std::vector<bool> slots(set.slots.size(), false);
+    for (const Instruction& in : from_.code) {
+      if (in.op != Op::parts || from_.part_sets[in.aux].get() != &set) continue;
+      const auto slot = static_cast<size_t>(in.value);
+      slots[slot] = true;
+      if (set.slots[slot] == SlotKind::first || set.slots[slot] == SlotKind::last) slots[set.held_slot] = true;
+    }
+    return slots;
   }
 
   ValueId combine(const Expansion& expansion, size_t number) {

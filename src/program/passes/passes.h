@@ -1,6 +1,7 @@
 // Passes: program in, equal program out.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -22,6 +23,27 @@ size_t parts_in_reach(const Program& program, const std::vector<Interval>& value
 // becomes a constant, what cannot win a min, max or select falls away.
 // `kept`, if given, gets the values of the instructions that are left.
 Program shorten(const Program& program, const std::vector<Interval>& values, std::vector<Interval>* kept = nullptr);
+
+// The same for many regions, with allocations kept from one to the next.
+class Shortener {
+ public:
+  // The program outlives the regions.
+  void begin(const Program& program);
+  void shorten(const std::vector<Interval>& values, Program& result, std::vector<Interval>& kept);
+
+ private:
+  ValueId settled(ValueId i) const;
+  ValueId logical_target(ValueId i) const;
+  bool is_known(ValueId i) const;
+  void find_needed();
+  void copy_needed(Program& to, std::vector<Interval>& kept);
+
+  const Program* from_ = nullptr;
+  const std::vector<Interval>* values_ = nullptr;
+  std::vector<uint8_t> zero_sign_matters_;  // empty: not looked for yet
+  std::vector<ValueId> target_, renamed_;
+  std::vector<uint8_t> needed_;
+};
 
 // Where a distance is only compared with zero, compares what decides its sign. Sets and materials stay
 // what they are but for rounding at boundaries.

@@ -10,9 +10,27 @@ namespace {
 
 bool lacks_zero(Interval v) { return v.lo > 0 || v.hi < 0; }
 
+}  // namespace
+
+void Shortener::begin(const Program& program) {
+  from_ = &program;
+  zero_sign_matters_.clear();
+}
+
+void Shortener::shorten(const std::vector<Interval>& values, Program& result, std::vector<Interval>& kept) {
+  values_ = &values;
+  if (zero_sign_matters_.empty()) zero_sign_matters_ = zero_signs_that_matter(*from_);
+  find_needed();
+  copy_needed(result, kept);
+  result.outputs.clear();
+  for (const ValueId output : from_->outputs) result.outputs.push_back(renamed_[target_[output]]);
+  result.output_names = from_->output_names;
+}
+
 // The operand that an instruction is sure to equal, or the instruction itself.
-ValueId settled(const Program& program, ValueId i, const std::vector<Interval>& values, bool zero_sign_matters) {
-  const Instruction& in = program.code[i];
+ValueId Shortener::settled(ValueId i) const {
+  const Instruction& in = from_->code[i];
+  const std::vector<Interval>& values = *values_;
   const auto never_nan = [&](ValueId v) { return !values[v].is_everything(); };
   switch (in.op) {
     case Op::min:
@@ -31,113 +49,99 @@ ValueId settled(const Program& program, ValueId i, const std::vector<Interval>& 
       if (values[in.a].lo > 0 || values[in.a].hi < 0) return in.b;
       if (values[in.a] == Interval(0)) return in.c;
       return i;
-    case Op::add:
+    case Op::add: {
       // Zeros aside, whose sign a sum may change.
-      if (values[in.a] == Interval(0) && (!zero_sign_matters || lacks_zero(values[in.b]))) return in.b;
-      if (values[in.b] == Interval(0) && (!zero_sign_matters || lacks_zero(values[in.a]))) return in.a;
+      const bool any_zero = zero_sign_matters_[i] == 0;
+      if (values[in.a] == Interval(0) && (any_zero || lacks_zero(values[in.b]))) return in.b;
+      if (values[in.b] == Interval(0) && (any_zero || lacks_zero(values[in.a]))) return in.a;
       return i;
+    }
     case Op::multiply:
       if (values[in.a] == Interval(1)) return in.b;
       if (values[in.b] == Interval(1)) return in.a;
       return i;
+    case Op::logical_or:
+    case Op::logical_and:
+      return logical_target(i);
     default:
       return i;
   }
 }
 
-class Shortener {
- public:
-  Shortener(const Program& program, const std::vector<Interval>& values, std::vector<Interval>* kept)
-      : from_(program), values_(values), kept_(kept), zero_sign_matters_(zero_signs_that_matter(program)) {
-    if (kept_) kept_->clear();
-  }
+// An `or` with a side that is surely false is its other side, and the like.
+ValueId Shortener::logical_target(ValueId i) const {
+  const Instruction& in = from_->code[i];
+  const std::vector<Interval>& values = *values_;
+  const double neutral = in.op == Op::logical_and ? 1 : 0;
+  const auto is_neutral = [&](ValueId v) { return values[v] == Interval(neutral); };
+  const auto is_truth = [&](ValueId v) {
+    return values[v].lo >= 0 && values[v].hi <= 1 && gives_truth(from_->code[v].op);
+  };
+  if (is_neutral(in.a) && is_truth(in.b)) return in.b;
+  if (is_neutral(in.b) && is_truth(in.a)) return in.a;
+  return i;
+}
 
-  Program run() {
-    find_needed();
-    copy_needed();
-    for (const ValueId output : from_.outputs) to_.outputs.push_back(renamed_[target_[output]]);
-    to_.output_names = from_.output_names;
-    return std::move(to_);
-  }
+// Inputs stay what they are, also where the region is one point wide: others look for them. Intervals do not
+// know the sign of a 0.
+bool Shortener::is_known(ValueId i) const {
+  const Op op = from_->code[i].op;
+  const Interval value = (*values_)[i];
+  if (op == Op::input || !value.is_point() || !std::isfinite(value.lo)) return false;
+  return op == Op::constant || value.lo != 0 || zero_sign_matters_[i] == 0;
+}
 
- private:
-  // Inputs stay what they are, also where the region is one point wide: others look for them. Intervals do not
-  // know the sign of a 0.
-  bool is_known(ValueId i) const {
-    const Op op = from_.code[i].op;
-    if (op == Op::input || !values_[i].is_point() || !std::isfinite(values_[i].lo)) return false;
-    return op == Op::constant || values_[i].lo != 0 || !zero_sign_matters_[i];
+void Shortener::find_needed() {
+  const size_t n = from_->code.size();
+  target_.resize(n);
+  needed_.assign(n, 0);
+  for (ValueId i = 0; i < n; ++i) {
+    const ValueId next = is_known(i) ? i : settled(i);
+    target_[i] = next == i ? i : target_[next];
   }
-
-  // An `or` with a side that is surely false is its other side, and the like.
-  ValueId logical_target(ValueId i) const {
-    const Instruction& in = from_.code[i];
-    if (in.op != Op::logical_or && in.op != Op::logical_and) return i;
-    const double neutral = in.op == Op::logical_and ? 1 : 0;
-    const auto is_neutral = [&](ValueId v) { return values_[v] == Interval(neutral); };
-    const auto is_truth = [&](ValueId v) {
-      return values_[v].lo >= 0 && values_[v].hi <= 1 && gives_truth(from_.code[v].op);
-    };
-    if (is_neutral(in.a) && is_truth(in.b)) return in.b;
-    if (is_neutral(in.b) && is_truth(in.a)) return in.a;
-    return i;
+  for (const ValueId output : from_->outputs) needed_[target_[output]] = 1;
+  for (size_t i = n; i-- > 0;) {
+    if (needed_[i] == 0 || is_known(static_cast<ValueId>(i))) continue;
+    each_operand(from_->code[i], [&](ValueId id) { needed_[target_[id]] = 1; });
   }
+}
 
-  void find_needed() {
-    const size_t n = from_.code.size();
-    target_.resize(n);
-    needed_.assign(n, false);
-    for (ValueId i = 0; i < n; ++i) {
-      const ValueId next = is_known(i) ? i : logical_target(settled(from_, i, values_, zero_sign_matters_[i]));
-      target_[i] = next == i ? i : target_[next];
+void Shortener::copy_needed(Program& to, std::vector<Interval>& kept) {
+  const size_t n = from_->code.size();
+  renamed_.resize(n);
+  to.code.clear();
+  to.maps.clear();
+  to.reads.clear();
+  to.calls.clear();
+  to.part_sets.clear();
+  kept.clear();
+  const auto count = static_cast<size_t>(std::count(needed_.begin(), needed_.end(), 1));
+  to.code.reserve(count);
+  kept.reserve(count);
+  for (ValueId i = 0; i < n; ++i) {
+    if (needed_[i] == 0) continue;
+    Instruction in = from_->code[i];
+    if (is_known(i)) {
+      in = Instruction{};
+      in.value = (*values_)[i].lo;
+    } else {
+      each_operand(in, [&](ValueId& id) { id = renamed_[target_[id]]; });
+      copy_tables(*from_, to, in);
     }
-    for (const ValueId output : from_.outputs) needed_[target_[output]] = true;
-    for (size_t i = n; i-- > 0;) {
-      if (!needed_[i] || is_known(static_cast<ValueId>(i))) continue;
-      const Instruction& in = from_.code[i];
-      const int arity = info(in.op).arity;
-      if (arity > 0) needed_[target_[in.a]] = true;
-      if (arity > 1) needed_[target_[in.b]] = true;
-      if (arity > 2) needed_[target_[in.c]] = true;
-    }
+    renamed_[i] = static_cast<ValueId>(to.code.size());
+    to.code.push_back(in);
+    kept.push_back((*values_)[i]);
   }
-
-  void copy_needed() {
-    renamed_.assign(from_.code.size(), 0);
-    const auto count = static_cast<size_t>(std::count(needed_.begin(), needed_.end(), true));
-    to_.code.reserve(count);
-    if (kept_) kept_->reserve(count);
-    for (ValueId i = 0; i < from_.code.size(); ++i) {
-      if (!needed_[i]) continue;
-      Instruction in = from_.code[i];
-      if (is_known(i)) {
-        in = Instruction{};
-        in.value = values_[i].lo;
-      } else {
-        in.a = renamed_[target_[in.a]];
-        in.b = renamed_[target_[in.b]];
-        in.c = renamed_[target_[in.c]];
-        copy_tables(from_, to_, in);
-      }
-      renamed_[i] = static_cast<ValueId>(to_.code.size());
-      to_.code.push_back(in);
-      if (kept_) kept_->push_back(values_[i]);
-    }
-  }
-
-  const Program& from_;
-  const std::vector<Interval>& values_;
-  std::vector<Interval>* kept_;
-  Program to_;
-  std::vector<bool> zero_sign_matters_;
-  std::vector<ValueId> target_, renamed_;
-  std::vector<bool> needed_;
-};
-
-}  // namespace
+}
 
 Program shorten(const Program& program, const std::vector<Interval>& values, std::vector<Interval>* kept) {
-  return Shortener(program, values, kept).run();
+  Shortener shortener;
+  shortener.begin(program);
+  Program result;
+  std::vector<Interval> left;
+  shortener.shorten(values, result, left);
+  if (kept) *kept = std::move(left);
+  return result;
 }
 
 }  // namespace ombre::program

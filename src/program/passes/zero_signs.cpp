@@ -10,8 +10,8 @@ bool forgets_sign(Op op) {
 
 }  // namespace
 
-std::vector<bool> zero_signs_that_matter(const Program& program) {
-  std::vector<bool> matters(program.code.size(), false);
+std::vector<uint8_t> zero_signs_that_matter(const Program& program) {
+  std::vector<uint8_t> matters(program.code.size(), false);
   const auto may_be_zero = [&](ValueId id) {
     return program.code[id].op != Op::constant || program.code[id].value == 0;
   };

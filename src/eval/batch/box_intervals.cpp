@@ -1,0 +1,110 @@
+#include "eval/batch/box_intervals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/assert.h"
+#include "eval/batch/kernels.h"
+#include "program/parts.h"
+
+namespace ombre::eval {
+
+using program::Instruction;
+using program::Op;
+using program::ValueId;
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+void BoxIntervals::evaluate(const program::Program& program, std::span<const Box> boxes, const SourceRanges& sources) {
+  program_ = &program;
+  count_ = boxes.size();
+  stride_ = padded(count_);
+  reserve(program.code.size());
+  for (ValueId id = 0; id < program.code.size(); ++id) evaluate_one(id, boxes, sources);
+}
+
+void BoxIntervals::reserve(size_t instructions) {
+  const size_t floats = stride_ * (2 * instructions + 1) + batch_lanes;
+  if (memory_.size() < floats) memory_.resize(floats);
+  const auto address = reinterpret_cast<uintptr_t>(memory_.data());
+  constexpr uintptr_t alignment = batch_lanes * sizeof(float);
+  floats_ = memory_.data() + (alignment - address % alignment) % alignment / sizeof(float);
+}
+
+// The padding repeats the last box.
+template <class F>
+void BoxIntervals::fill(ValueId id, F value_of) {
+  const IntervalRow to = row(id);
+  for (size_t n = 0; n < stride_; ++n) {
+    const Interval value = n < count_ ? value_of(n) : this->value(id, count_ - 1);
+    to.lo[n] = static_cast<float>(value.lo);
+    to.hi[n] = static_cast<float>(value.hi);
+  }
+}
+
+Box BoxIntervals::operands(const Instruction& in, size_t box) const {
+  const Interval a = value(in.a, box), b = value(in.b, box), c = value(in.c, box);
+  return {{a.lo, b.lo, c.lo}, {a.hi, b.hi, c.hi}};
+}
+
+void BoxIntervals::evaluate_one(ValueId id, std::span<const Box> boxes, const SourceRanges& sources) {
+  const Instruction& in = program_->code[id];
+  const auto one = [&](size_t box) {
+    return apply_interval(in, value(in.a, box), value(in.b, box), value(in.c, box), program::Precision::batch);
+  };
+  switch (in.op) {
+    case Op::input:
+      return fill(id, [&](size_t box) { return boxes[box].axis(static_cast<int>(in.value)); });
+    case Op::constant: {
+      const bool is_known = !std::isnan(in.value);
+      const auto value = static_cast<float>(in.value);
+      const IntervalRow to = row(id);
+      std::fill_n(to.lo, stride_, is_known ? value : -inf);
+      std::fill_n(to.hi, stride_, is_known ? value : inf);
+      return;
+    }
+    case Op::source:
+      return fill(id, [&](size_t box) { return sources(box, program_->reads[in.aux], operands(in, box)); });
+    case Op::parts:
+      return ask_parts(id);
+    case Op::affine:
+    case Op::call:
+      ASSERT(false && "calls are inlined and maps written out before evaluation in batches");
+      return;
+    default:
+      break;
+  }
+  const bool is_own_quotient = in.a == in.b && (in.op == Op::divide || in.op == Op::share);
+  const IntervalKernel kernel = is_own_quotient ? nullptr : kernels_.kernel(in.op);
+  if (!kernel) return fill(id, one);
+  kernel(row(in.a), row(in.b), row(in.c), row(id), stride_);
+}
+
+// Slots of one set at one place follow each other, so the index is asked once.
+void BoxIntervals::ask_parts(ValueId id) {
+  const Instruction& in = program_->code[id];
+  const program::PartSet& set = *program_->part_sets[in.aux];
+  const auto asks_the_same = [&](const Instruction& other) {
+    return other.op == Op::parts && other.aux == in.aux && other.a == in.a && other.b == in.b && other.c == in.c;
+  };
+  if (id == 0 || !asks_the_same(program_->code[id - 1])) {
+    reached_.resize(count_);
+    for (size_t box = 0; box < count_; ++box) reached_[box] = set.index.reaches(operands(in, box));
+  }
+  const Interval range = set.ranges[static_cast<size_t>(in.value)];
+  fill(id, [&](size_t box) { return reached_[box] ? range : Interval(0); });
+}
+
+void BoxIntervals::values(size_t box, std::vector<Interval>& values) const {
+  values.resize(program_->code.size());
+  for (ValueId id = 0; id < values.size(); ++id) values[id] = value(id, box);
+}
+
+void BoxIntervals::values(std::span<const size_t> boxes, std::vector<Interval>& values) {
+  std::fill_n(chosen(), stride_, 0.0F);
+  for (const size_t box : boxes) chosen()[box] = 1;
+  values.resize(program_->code.size());
+  for (ValueId id = 0; id < values.size(); ++id) values[id] = kernels_.hull(row(id), chosen(), stride_);
+}
+
+}  // namespace ombre::eval

@@ -1,0 +1,50 @@
+// Evaluates a program's intervals over many boxes at once: what evaluate_intervals does for one, with SIMD.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "eval/batch/interval_kernels.h"
+#include "program/program.h"
+
+namespace ombre::eval {
+
+class BoxIntervals {
+ public:
+  // What a source can be over operands' ranges, in box number `box`.
+  using SourceRanges = std::function<Interval(size_t box, const program::Read&, const Box&)>;
+
+  explicit BoxIntervals(const IntervalKernelSet& kernels) : kernels_(kernels) {}
+
+  // The values enclose what float batches compute (program/single.h). `program` without calls and affine maps; it
+  // must outlive the questions. Equal to evaluate_intervals, but for sines and cosines, which are some 1e-6 wider.
+  void evaluate(const program::Program& program, std::span<const Box> boxes, const SourceRanges& sources);
+  Interval output(size_t n, size_t box) const { return value(program_->outputs[n], box); }
+  // Of each instruction: over one box, or the hull over some.
+  void values(size_t box, std::vector<Interval>& values) const;
+  void values(std::span<const size_t> boxes, std::vector<Interval>& values);
+
+ private:
+  IntervalRow row(program::ValueId id) { return {floats_ + 2 * id * stride_, floats_ + (2 * id + 1) * stride_}; }
+  float* chosen() { return floats_ + 2 * program_->code.size() * stride_; }
+  Interval value(program::ValueId id, size_t box) const {
+    const float* lo = floats_ + 2 * id * stride_ + box;
+    return {static_cast<double>(*lo), static_cast<double>(lo[stride_])};
+  }
+  Box operands(const program::Instruction& in, size_t box) const;
+  void reserve(size_t instructions);
+  template <class F>
+  void fill(program::ValueId id, F value_of);  // box by box
+  void evaluate_one(program::ValueId id, std::span<const Box> boxes, const SourceRanges& sources);
+  void ask_parts(program::ValueId id);
+
+  const IntervalKernelSet& kernels_;
+  const program::Program* program_ = nullptr;
+  size_t count_ = 0, stride_ = 0;  // boxes; floats from row to row
+  std::vector<float> memory_;
+  float* floats_ = nullptr;    // for each instruction the lower ends, then the upper ones; then marks
+  std::vector<bool> reached_;  // by box: do parts reach it? Of the last `parts` instruction
+};
+
+}  // namespace ombre::eval

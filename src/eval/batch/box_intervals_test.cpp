@@ -1,0 +1,154 @@
+// Intervals over many boxes at once are those over one box each, on every instruction set.
+#include "eval/batch/box_intervals.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "program/field.h"
+#include "program/passes/passes.h"
+#include "program/single.h"
+
+namespace ombre::eval {
+namespace {
+
+using program::Builder;
+using program::Field;
+using program::Op;
+using program::Program;
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+constexpr Op all_ops[] = {
+#define OMBRE_ROW(name, arity) Op::name,
+    OMBRE_OPS(OMBRE_ROW)
+#undef OMBRE_ROW
+};
+
+bool is_wave(Op op) { return op == Op::sin || op == Op::cos; }
+
+// Every value is an output. Constants are out of the range of floats too.
+Program random_program(std::mt19937& random, size_t size, bool with_waves) {
+  Builder builder;
+  std::vector<Field> fields{builder.input(0), builder.input(1), builder.input(2)};
+  for (const double v : {0.0, 1.0, 0.5, -2.0, 3e38, 1e300, inf, std::nan("")}) fields.push_back(builder.constant(v));
+  const auto any = [&] { return fields[random() % fields.size()]; };
+  for (size_t n = 0; n < size; ++n) {
+    const Op op = all_ops[random() % std::size(all_ops)];
+    if (with_waves || !is_wave(op)) fields.push_back(builder.apply(op, any(), any(), any()));
+  }
+  std::vector<std::pair<std::string, Field>> outputs;
+  for (const Field& field : fields) outputs.emplace_back("v", field);
+  return fuse(builder.finish(outputs));
+}
+
+// Points, thin and wide boxes, around 0 and away from it.
+std::vector<Box> random_boxes(std::mt19937& random, size_t count) {
+  const auto between = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
+  constexpr double sizes[] = {0, 1e-3, 0.5, 8};
+  std::vector<Box> boxes;
+  for (size_t n = 0; n < count; ++n) {
+    const Vec3 lo{between(-6, 6), between(-6, 6), random() % 4 == 0 ? 0 : between(-6, 6)};
+    const double size = sizes[random() % std::size(sizes)];
+    boxes.push_back({lo, lo + Vec3{between(0, size), between(0, size), between(0, size)}});
+  }
+  return boxes;
+}
+
+Interval no_sources(size_t, const program::Read&, const Box&) { return Interval::everything(); }
+
+std::string text(Interval v) { return "[" + std::to_string(v.lo) + ", " + std::to_string(v.hi) + "]"; }
+
+}  // namespace
+
+TEST(BoxIntervals, AreThoseOfOneBoxEach) {
+  for (const IntervalKernelSet& kernels : interval_kernel_sets()) {
+    std::mt19937 random(11);
+    BoxIntervals evaluator(kernels);
+    for (int round = 0; round < 3000; ++round) {
+      const Program program = random_program(random, 25, false);
+      const std::vector<Box> boxes = random_boxes(random, 1 + random() % 40);
+      evaluator.evaluate(program, boxes, no_sources);
+      for (size_t box = 0; box < boxes.size(); ++box) {
+        std::vector<Interval> alone, together;
+        evaluate_intervals(program, boxes[box], alone, nullptr, program::Precision::batch);
+        evaluator.values(box, together);
+        for (size_t id = 0; id < alone.size(); ++id)
+          ASSERT_EQ(together[id], alone[id])
+              << kernels.name << "\n"
+              << to_text(program) << "v" << id << " is " << text(together[id]) << ", alone " << text(alone[id]);
+      }
+    }
+  }
+}
+
+// Wider than those of double precision by what floats lose, and never narrower than the crests and ends say.
+TEST(BoxIntervals, WavesHoldTheirCrestsAndAreTight) {
+  for (const IntervalKernelSet& kernels : interval_kernel_sets()) {
+    std::mt19937 random(12);
+    BoxIntervals evaluator(kernels);
+    Builder builder;
+    const Field x = builder.input(0);
+    const Program program =
+        builder.finish({{"sine", builder.apply(Op::sin, x, x, x)}, {"cosine", builder.apply(Op::cos, x, x, x)}});
+    for (int round = 0; round < 20000; ++round) {
+      const double scale = std::pow(10, static_cast<double>(random() % 6) - 1);
+      const double lo = static_cast<double>(std::uniform_real_distribution<float>(-1, 1)(random)) * scale;
+      const double size = static_cast<double>(random() % 4) + 1e-3;
+      const Box box{{lo, 0, 0}, {static_cast<double>(static_cast<float>(lo + size)), 0, 0}};
+      evaluator.evaluate(program, {&box, 1}, no_sources);
+      for (size_t output = 0; output < 2; ++output) {
+        const Interval argument = program::to_single(box.axis(0));
+        const Interval exact = output == 0 ? math::sin(argument) : math::cos(argument);
+        const Interval found = evaluator.output(output, 0);
+        ASSERT_LE(found.lo, exact.lo + 1e-12) << text(argument);
+        ASSERT_GE(found.hi, exact.hi - 1e-12) << text(argument);
+        // The slope of a wave is at most its argument's slack, and crests are flat.
+        const double slack = 1e-6 + 1e-11 * scale * scale;
+        ASSERT_GE(found.lo, exact.lo - slack) << text(argument);
+        ASSERT_LE(found.hi, exact.hi + slack) << text(argument);
+      }
+    }
+  }
+}
+
+TEST(BoxIntervals, EveryInstructionSetGivesTheSame) {
+  const auto& sets = interval_kernel_sets();
+  if (sets.size() < 2) GTEST_SKIP() << "one instruction set";
+  std::mt19937 random(13);
+  for (int round = 0; round < 2000; ++round) {
+    const Program program = random_program(random, 30, true);
+    const std::vector<Box> boxes = random_boxes(random, 16);
+    BoxIntervals first(sets[0]);
+    first.evaluate(program, boxes, no_sources);
+    for (size_t s = 1; s < sets.size(); ++s) {
+      BoxIntervals other(sets[s]);
+      other.evaluate(program, boxes, no_sources);
+      for (size_t box = 0; box < boxes.size(); ++box)
+        for (size_t n = 0; n < program.outputs.size(); ++n)
+          ASSERT_EQ(first.output(n, box), other.output(n, box)) << to_text(program) << n;
+    }
+  }
+}
+
+TEST(BoxIntervals, HullsHoldTheBoxesTheyAreOf) {
+  const auto& sets = interval_kernel_sets();
+  if (sets.empty()) GTEST_SKIP() << "no hardware multiply-add";
+  std::mt19937 random(14);
+  const Program program = random_program(random, 20, true);
+  const std::vector<Box> boxes = random_boxes(random, 20);
+  BoxIntervals evaluator(sets[0]);
+  evaluator.evaluate(program, boxes, no_sources);
+  const std::vector<size_t> some{3, 4, 19};
+  std::vector<Interval> all, one;
+  evaluator.values(some, all);
+  std::vector<Interval> expected(program.code.size(), Interval(inf, -inf));
+  for (const size_t box : some) {
+    evaluator.values(box, one);
+    for (size_t id = 0; id < one.size(); ++id) expected[id] = hull(expected[id], one[id]);
+  }
+  EXPECT_EQ(all, expected);
+}
+
+}  // namespace ombre::eval

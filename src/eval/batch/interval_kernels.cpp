@@ -1,0 +1,252 @@
+#include "eval/batch/interval_kernels.h"
+
+#include <numbers>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "eval/batch/interval_kernels.cpp"
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#include <hwy/foreach_target.h>
+//
+#include "eval/batch/math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ombre::eval {
+namespace HWY_NAMESPACE {
+namespace {
+
+using batch::D;
+using batch::M;
+using batch::number;
+using batch::V;
+using program::Op;
+namespace hn = hwy::HWY_NAMESPACE;
+
+struct Ends {
+  V lo, hi;
+};
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+// Zeros have no sign here, and NaN does not occur: the processor's own minimum does.
+HWY_INLINE V least(V a, V b) { return hn::Min(a, b); }
+HWY_INLINE V most(V a, V b) { return hn::Max(a, b); }
+HWY_INLINE V zero() { return hn::Zero(D()); }
+HWY_INLINE M lacks_zero(Ends v) { return hn::Or(hn::Gt(v.lo, zero()), hn::Lt(v.hi, zero())); }
+HWY_INLINE M is_zero(Ends v) { return hn::And(hn::Eq(v.lo, zero()), hn::Eq(v.hi, zero())); }
+HWY_INLINE M is_bounded(Ends v) {
+  return hn::And(hn::Lt(hn::Abs(v.lo), number(inf)), hn::Lt(hn::Abs(v.hi), number(inf)));
+}
+HWY_INLINE M is_everything(Ends v) { return hn::And(hn::Eq(v.lo, number(-inf)), hn::Eq(v.hi, number(inf))); }
+HWY_INLINE Ends everything_where(M m, Ends otherwise) {
+  return {hn::IfThenElse(m, number(-inf), otherwise.lo), hn::IfThenElse(m, number(inf), otherwise.hi)};
+}
+HWY_INLINE Ends truth_of(M surely, M never) { return {batch::one_where(surely), batch::one_where(hn::Not(never))}; }
+// Of results at the corners of two operands.
+HWY_INLINE Ends around(V p, V q, V r, V s) { return {least(least(p, q), least(r, s)), most(most(p, q), most(r, s))}; }
+HWY_INLINE Ends absolute(Ends v) {
+  const V below = hn::Neg(v.hi);
+  return {most(most(v.lo, below), zero()), most(hn::Neg(v.lo), v.hi)};
+}
+
+// Does some phase + 2 pi n lie in v? Errs towards yes.
+HWY_INLINE M meets(Ends v, float phase) {
+  constexpr float turn = 2 * std::numbers::pi_v<float>;
+  const V slack = hn::Mul(number(2e-6F), hn::Add(number(1), most(hn::Abs(v.lo), hn::Abs(v.hi))));
+  const V from = hn::Sub(hn::Sub(v.lo, slack), number(phase));
+  const V n = hn::Ceil(hn::Div(from, number(turn)));
+  return hn::Le(hn::Add(number(phase), hn::Mul(number(turn), n)), hn::Add(v.hi, slack));
+}
+
+// A wave of height 1 whose crests are at `crest` + 2 pi n; a and b are its values at the ends of v.
+HWY_INLINE Ends wave(Ends v, V a, V b, float crest) {
+  constexpr float half_turn = std::numbers::pi_v<float>;
+  const V error = number(static_cast<float>(program::batch_trigonometric_error)), one = number(1);
+  const V lo = hn::Sub(least(a, b), error), hi = hn::Add(most(a, b), error);
+  const Ends met{hn::IfThenElse(meets(v, crest - half_turn), number(-1), most(lo, number(-1))),
+                 hn::IfThenElse(meets(v, crest), one, least(hi, one))};
+  const V limit = number(static_cast<float>(program::batch_trigonometric_limit));
+  const M outside = hn::Or(hn::Gt(hn::Neg(limit), v.lo), hn::Gt(v.hi, limit));
+  return everything_where(outside, met);
+}
+
+HWY_INLINE Ends fused(Ends a, Ends b, Ends c) {
+  const auto corners = [&](V z) {
+    return around(batch::fma(a.lo, b.lo, z), batch::fma(a.lo, b.hi, z), batch::fma(a.hi, b.lo, z),
+                  batch::fma(a.hi, b.hi, z));
+  };
+  return {corners(c.lo).lo, corners(c.hi).hi};
+}
+
+HWY_INLINE Ends share(Ends part, Ends total) {
+  const M surely = hn::Gt(total.lo, zero()), none = hn::Le(total.hi, zero());
+  const V lo = hn::IfThenElse(hn::Ge(part.lo, zero()), hn::Div(part.lo, total.hi),
+                              hn::IfThenElse(surely, hn::Div(part.lo, total.lo), number(-inf)));
+  const V hi = hn::IfThenElse(hn::Le(part.hi, zero()), hn::Div(part.hi, total.hi),
+                              hn::IfThenElse(surely, hn::Div(part.hi, total.lo), number(inf)));
+  const Ends quotient{least(lo, number(1)), least(hi, number(1))};
+  return {hn::IfThenZeroElse(none, hn::IfThenElse(surely, quotient.lo, least(quotient.lo, zero()))),
+          hn::IfThenZeroElse(none, hn::IfThenElse(surely, quotient.hi, most(quotient.hi, zero())))};
+}
+
+HWY_INLINE Ends select(Ends condition, Ends a, Ends b) {
+  const M is_a = lacks_zero(condition), is_b = is_zero(condition);
+  const Ends either{least(a.lo, b.lo), most(a.hi, b.hi)};
+  const Ends one{hn::IfThenElse(is_a, a.lo, hn::IfThenElse(is_b, b.lo, either.lo)),
+                 hn::IfThenElse(is_a, a.hi, hn::IfThenElse(is_b, b.hi, either.hi))};
+  return everything_where(is_everything(condition), one);
+}
+
+// On bounded operands. Sums, products, quotients and roots are rounded once, which keeps the order.
+template <Op op>
+HWY_INLINE Ends on(Ends a, [[maybe_unused]] Ends b, [[maybe_unused]] Ends c) {
+  if constexpr (op == Op::add) return {hn::Add(a.lo, b.lo), hn::Add(a.hi, b.hi)};
+  if constexpr (op == Op::subtract) return {hn::Sub(a.lo, b.hi), hn::Sub(a.hi, b.lo)};
+  if constexpr (op == Op::multiply)
+    return around(hn::Mul(a.lo, b.lo), hn::Mul(a.lo, b.hi), hn::Mul(a.hi, b.lo), hn::Mul(a.hi, b.hi));
+  if constexpr (op == Op::divide)
+    return everything_where(hn::Not(lacks_zero(b)),
+                            around(hn::Div(a.lo, b.lo), hn::Div(a.lo, b.hi), hn::Div(a.hi, b.lo), hn::Div(a.hi, b.hi)));
+  if constexpr (op == Op::negate) return {hn::Neg(a.hi), hn::Neg(a.lo)};
+  if constexpr (op == Op::min) return {least(a.lo, b.lo), least(a.hi, b.hi)};
+  if constexpr (op == Op::max) return {most(a.lo, b.lo), most(a.hi, b.hi)};
+  if constexpr (op == Op::abs) return absolute(a);
+  if constexpr (op == Op::sqrt)
+    return everything_where(hn::Lt(a.lo, zero()), {hn::Sqrt(most(a.lo, zero())), hn::Sqrt(most(a.hi, zero()))});
+  if constexpr (op == Op::square) {
+    const Ends size = absolute(a);
+    return {hn::Mul(size.lo, size.lo), hn::Mul(size.hi, size.hi)};
+  }
+  if constexpr (op == Op::floor) return {batch::floor(a.lo), batch::floor(a.hi)};
+  if constexpr (op == Op::ceil) return {batch::ceil(a.lo), batch::ceil(a.hi)};
+  if constexpr (op == Op::round) return {batch::round(a.lo), batch::round(a.hi)};
+  if constexpr (op == Op::trunc) return {batch::trunc(a.lo), batch::trunc(a.hi)};
+  if constexpr (op == Op::sin) return wave(a, batch::sin(a.lo), batch::sin(a.hi), std::numbers::pi_v<float> / 2);
+  if constexpr (op == Op::cos) return wave(a, batch::cos(a.lo), batch::cos(a.hi), 0);
+  if constexpr (op == Op::less) return truth_of(hn::Lt(a.hi, b.lo), hn::Ge(a.lo, b.hi));
+  if constexpr (op == Op::less_equal) return truth_of(hn::Le(a.hi, b.lo), hn::Gt(a.lo, b.hi));
+  if constexpr (op == Op::equal) {
+    const M points = hn::And(hn::Eq(a.lo, a.hi), hn::Eq(b.lo, b.hi));
+    return truth_of(hn::And(points, hn::Eq(a.lo, b.lo)), hn::Or(hn::Lt(a.hi, b.lo), hn::Lt(b.hi, a.lo)));
+  }
+  if constexpr (op == Op::truth) return truth_of(lacks_zero(a), is_zero(a));
+  if constexpr (op == Op::logical_not) return truth_of(is_zero(a), lacks_zero(a));
+  if constexpr (op == Op::logical_and)
+    return truth_of(hn::And(lacks_zero(a), lacks_zero(b)), hn::Or(is_zero(a), is_zero(b)));
+  if constexpr (op == Op::logical_or)
+    return truth_of(hn::Or(lacks_zero(a), lacks_zero(b)), hn::And(is_zero(a), is_zero(b)));
+  if constexpr (op == Op::select) return select(a, b, c);
+  if constexpr (op == Op::is_finite) return {number(1), number(1)};
+  if constexpr (op == Op::fma) return fused(a, b, c);
+  if constexpr (op == Op::share) return share(a, b);
+}
+
+constexpr bool is_one_by_one(Op op) {
+  switch (op) {
+    case Op::mod:
+    case Op::pow:
+    case Op::tan:
+    case Op::asin:
+    case Op::acos:
+    case Op::atan:
+    case Op::atan2:
+    case Op::sinh:
+    case Op::cosh:
+    case Op::tanh:
+    case Op::exp:
+    case Op::log:
+    case Op::log10:
+    case Op::log2:
+      return true;
+    default:
+      return false;
+  }
+}
+
+HWY_INLINE Ends load(IntervalRow row, size_t n) { return {hn::Load(D(), row.lo + n), hn::Load(D(), row.hi + n)}; }
+Interval at(IntervalRow row, size_t n) { return {static_cast<double>(row.lo[n]), static_cast<double>(row.hi[n])}; }
+
+template <Op op, int arity>
+void run(IntervalRow a, IntervalRow b, IntervalRow c, IntervalRow out, size_t count) {
+  for (size_t n = 0; n < count; n += hn::Lanes(D())) {
+    const Ends x = load(a, n);
+    M known = is_bounded(x);
+    Ends y = x, z = x;
+    if constexpr (arity > 1) {
+      y = load(b, n);
+      known = hn::And(known, is_bounded(y));
+    }
+    if constexpr (arity > 2) {
+      z = load(c, n);
+      known = hn::And(known, is_bounded(z));
+    }
+    const Ends result = on<op>(x, y, z);
+    hn::Store(result.lo, D(), out.lo + n);
+    hn::Store(result.hi, D(), out.hi + n);
+    if (op == Op::select || hn::AllTrue(D(), known)) continue;
+    for (size_t i = n; i < n + hn::Lanes(D()); ++i) {
+      const Interval first = at(a, i), second = arity > 1 ? at(b, i) : first, third = arity > 2 ? at(c, i) : first;
+      if (first.is_bounded() && second.is_bounded() && third.is_bounded()) continue;
+      const Interval value = program::apply_single(op, first, second, third);
+      out.lo[i] = static_cast<float>(value.lo);
+      out.hi[i] = static_cast<float>(value.hi);
+    }
+  }
+}
+
+IntervalKernel kernel(Op op) {
+  switch (op) {
+#define OMBRE_ROW(name, arity)                                           \
+  case Op::name:                                                         \
+    if constexpr (is_one_by_one(Op::name)) return nullptr;               \
+    if constexpr (!is_one_by_one(Op::name)) return run<Op::name, arity>; \
+    break;
+    OMBRE_OPS(OMBRE_ROW)
+#undef OMBRE_ROW
+    default:
+      break;
+  }
+  return nullptr;
+}
+
+Interval hull(IntervalRow row, const float* chosen, size_t count) {
+  V lo = number(inf), hi = number(-inf);
+  for (size_t n = 0; n < count; n += hn::Lanes(D())) {
+    const M is_chosen = batch::is_set(hn::Load(D(), chosen + n));
+    const Ends v = load(row, n);
+    lo = least(lo, hn::IfThenElse(is_chosen, v.lo, number(inf)));
+    hi = most(hi, hn::IfThenElse(is_chosen, v.hi, number(-inf)));
+  }
+  return {static_cast<double>(hn::GetLane(hn::MinOfLanes(D(), lo))),
+          static_cast<double>(hn::GetLane(hn::MaxOfLanes(D(), hi)))};
+}
+
+IntervalKernelSet interval_kernel_set() {
+  constexpr const char* name = HWY_TARGET <= HWY_AVX3 ? "avx512" : HWY_TARGET == HWY_AVX2 ? "avx2" : "portable";
+  return {name, kernel, hull};
+}
+
+}  // namespace
+IntervalKernelSet interval_kernels_here() { return interval_kernel_set(); }
+}  // namespace HWY_NAMESPACE
+}  // namespace ombre::eval
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ombre::eval {
+
+const std::vector<IntervalKernelSet>& interval_kernel_sets() {
+  static const std::vector<IntervalKernelSet> sets = [] {
+    std::vector<IntervalKernelSet> found;
+#if HWY_ARCH_X86
+    if (hwy::SupportedTargets() & HWY_AVX3) found.push_back(N_AVX3::interval_kernels_here());
+    if (hwy::SupportedTargets() & HWY_AVX2) found.push_back(N_AVX2::interval_kernels_here());
+    if (found.empty()) return found;
+#endif
+    found.push_back(HWY_STATIC_DISPATCH(interval_kernels_here)());
+    return found;
+  }();
+  return sets;
+}
+
+}  // namespace ombre::eval
+#endif
