@@ -136,7 +136,7 @@ class Studio {
 
   render::Film film_of(const render::Camera& camera) const {
     const int64_t height = height_ * request_.samples;
-    return {width_ * request_.samples, height, camera.height_mm / static_cast<double>(height)};
+    return {width_ * request_.samples, height, camera.height_mm / static_cast<double>(height), request_.samples};
   }
 
   // As fine as the picture's pixels.

@@ -23,12 +23,13 @@ class RayBatch : private eval::SourceRows {
   // `ranges` are the program's, which outlives this, wherever it is asked. At most so many samples at a time.
   void compile(const program::Program& program, const std::vector<Interval>& ranges, size_t most_samples,
                const voxel::StripSources& sources);
-  // `width` samples of each ray, `stride` fine places apart. Only the program's output 0, or all of them.
+  // `width` samples of each ray, `stride` fine places apart; rays of one column follow each other. Only the program's
+  // output 0, or all of them.
   void evaluate(const std::vector<Ray>& rays, int64_t row, int64_t stride, size_t width, bool all_outputs);
 
   // Of sample `i` of ray `n`. What floats cannot hold counts as 0.
   float value(Scene::Output output, size_t n, size_t i) const {
-    const float value = outputs_[output][n * stride_ + i];
+    const float value = outputs_[output][places_[n] + i];
     return std::isnan(value) ? 0 : value;
   }
   // The first of a ray's samples at or behind `from` whose value is not 0; `width` if there is none.
@@ -36,7 +37,7 @@ class RayBatch : private eval::SourceRows {
   Colour colour(size_t n, size_t i) const {
     return {value(Scene::red, n, i), value(Scene::green, n, i), value(Scene::blue, n, i)};
   }
-  float depth(size_t n, size_t i) const { return depths_[n * stride_ + i]; }
+  float depth(size_t n, size_t i) const { return depths_[places_[n] + i]; }
 
  private:
   bool has(const program::Read& read) const override { return sources_->has(read.tag); }
@@ -46,10 +47,13 @@ class RayBatch : private eval::SourceRows {
   eval::BatchEvaluator batch_;
   const voxel::StripSources* sources_ = nullptr;
   const std::vector<Ray>* rays_ = nullptr;
+  void place_rays();
+
   int64_t row_ = 0, fine_stride_ = 1;
   std::vector<eval::Values> outputs_;
-  size_t width_ = 0, stride_ = 0;  // samples of a ray; from ray to ray
-  std::vector<float> depths_;      // of the samples at work
+  size_t width_ = 0;            // samples of a ray
+  std::vector<size_t> places_;  // of each ray's samples
+  std::vector<float> depths_;   // of the samples at work
   std::vector<eval::PointRow> rows_;
 };
 

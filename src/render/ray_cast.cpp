@@ -1,16 +1,19 @@
 #include "render/ray_cast.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "base/error.h"
 #include "program/passes/passes.h"
 #include "render/ray_batch.h"
+#include "render/ray_places.h"
 #include "render/ray_tiles.h"
 #include "voxel/place_sources.h"
 
@@ -20,8 +23,8 @@ namespace {
 using voxel::StripSources;
 
 // Rays are asked in blocks of samples; those of a leaf together.
-constexpr TileSize leaf{64, 16, 16}, block{steps_together, 4, 4};
-constexpr size_t most_samples = 1024;          // in a row of a leaf
+constexpr TileSize leaf{32, 16, 16}, block{steps_together, 4, 4};
+constexpr size_t most_samples = 512;           // in a row of a leaf
 constexpr int64_t tile_edge = 32;              // of the picture's tiles, in pixels
 constexpr size_t many_parts = 4;               // while so many reach a tile, it is cut before they are written out
 constexpr int64_t behind = fine_per_step / 2;  // a surface, its colour is taken
@@ -48,6 +51,7 @@ class RayCaster {
         clarity_(clarity),
         is_stopped_(is_stopped),
         batch_(steps),
+        colours_(steps),
         blocks_(steps),
         hits_(hits) {}
 
@@ -122,14 +126,17 @@ class RayCaster {
   // Of the tiles that were asked together, number `n`.
   void enter(const program::Program& program, Level& asked, size_t n, const TileBox& tile, bool is_murky,
              size_t depth) {
-    const bool is_leaf = is_small(tile, false);
-    if (is_leaf && !is_murky && !program.has_parts()) return sample(program, tile);
+    if (!is_murky && is_small(tile, false)) return sample(program, tile);
     asked.shorten(n);
-    const bool is_sampled = is_leaf || (is_murky && is_small(tile, true));
+    const bool is_sampled = is_murky && is_small(tile, true);
     if (asked.left.has_parts() && (is_sampled || parts_in_reach(asked.left, asked.kept, many_parts) < many_parts))
-      asked.left = program::expand_parts(asked.left, asked.kept, program::Precision::batch);
-    if (!is_sampled) return descend(asked.left, tile, depth + 1);
-    return is_murky ? sample_murk(asked.left, tile) : sample(asked.left, tile);
+      write_out_parts(asked);
+    if (is_sampled) return sample_murk(asked.left, tile);
+    descend(asked.left, tile, depth + 1);
+  }
+
+  static void write_out_parts(Level& of) {
+    of.left = program::expand_parts(of.left, of.kept, program::Precision::batch);
   }
 
   static bool is_small(const TileBox& tile, bool is_murky) {
@@ -181,20 +188,22 @@ class RayCaster {
 
   // The blocks of a leaf in which something may be met.
   void sample(const program::Program& program, const TileBox& tile) {
-    const std::vector<TileBox> pieces = cut(tile, block);
-    blocks_.begin(program, fine_boxes(pieces), *sources_);
-    met_.clear();
-    for (size_t n = 0; n < pieces.size(); ++n)
-      if (blocks_.intervals.output(Scene::inside, n) != Interval(0) && !is_hidden(pieces[n])) met_.push_back(n);
-    if (met_.empty()) return;
-    blocks_.shorten(met_);
+    std::vector<TileBox> pieces = cut(tile, block);
+    std::erase_if(pieces, [&](const TileBox& piece) { return is_hidden(piece); });
+    if (!pieces.empty()) keep_met(program, pieces);
+    if (pieces.empty()) return;
+    if (program.has_parts()) {
+      write_out_parts(blocks_);
+      std::swap(parts_, blocks_.left);
+      keep_met(parts_, pieces);
+      if (pieces.empty()) return;
+    }
     batch_.compile(blocks_.left, blocks_.kept, most_samples, *sources_);
     for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row) {
       surfaces_.clear();
       ends_.clear();
-      for (size_t n = 0; n < met_.size();) {
-        n = find_open(pieces, n, row);
-        if (rays_.empty()) continue;
+      list_runs(pieces, tile, row);
+      for (size_t round = 0; take_runs(tile, row, round); ++round) {
         batch_.evaluate(rays_, row, fine_per_step, static_cast<size_t>(steps_together), scene_.is_translucent);
         find_hits(row);
       }
@@ -203,24 +212,47 @@ class RayCaster {
     }
   }
 
-  // Rays of a row through the next blocks that matter, those that are as near as number `n` of them. Returns the
-  // number of the first one behind.
-  size_t find_open(const std::vector<TileBox>& pieces, size_t n, int64_t row) {
-    rays_.clear();
-    const int64_t nearest = pieces[met_[n]].lo[0];
-    for (; n < met_.size() && pieces[met_[n]].lo[0] == nearest; ++n) {
-      const TileBox& piece = pieces[met_[n]];
+  // Those in which something may be; blocks_ is asked, and its program shortened for them.
+  void keep_met(const program::Program& program, std::vector<TileBox>& pieces) {
+    blocks_.begin(program, fine_boxes(pieces), *sources_);
+    met_.clear();
+    for (size_t n = 0; n < pieces.size(); ++n) {
+      if (blocks_.intervals.output(Scene::inside, n) == Interval(0)) continue;
+      pieces[met_.size()] = pieces[n];
+      met_.push_back(n);
+    }
+    pieces.resize(met_.size());
+    if (!pieces.empty()) blocks_.shorten(met_);
+  }
+
+  // The runs of samples of a row that matter, for each column, the near ones first.
+  void list_runs(const std::vector<TileBox>& pieces, const TileBox& tile, int64_t row) {
+    for (auto& runs : runs_) runs.clear();
+    for (const TileBox& piece : pieces) {
       if (row < piece.lo[2] || row >= piece.hi[2]) continue;
       for (int64_t column = piece.lo[1]; column < piece.hi[1]; ++column)
-        if (is_open(column, row)) rays_.push_back({column, RaySteps::fine_of(nearest)});
+        runs_[static_cast<size_t>(column - tile.lo[1])].push_back(RaySteps::fine_of(piece.lo[0]));
     }
-    return n;
+  }
+
+  // The next ones of each open column, as many as are evaluated at the cost of one. False: there are none.
+  bool take_runs(const TileBox& tile, int64_t row, size_t round) {
+    constexpr size_t together = eval::batch_lanes / steps_together;
+    rays_.clear();
+    for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column) {
+      const std::vector<int64_t>& runs = runs_[static_cast<size_t>(column - tile.lo[1])];
+      if (runs.size() <= together * round || !is_open(column, row)) continue;
+      for (size_t n = together * round; n < std::min(together * (round + 1), runs.size()); ++n)
+        rays_.push_back({column, runs[n]});
+    }
+    return !rays_.empty();
   }
 
   // Notes behind which samples rays meet a surface, for a closer look, and what the light loses at each.
   void find_hits(int64_t row) {
     for (size_t n = 0; n < rays_.size(); ++n) {
       RayHit& ray = hit(rays_[n].column, row);
+      if (ray.end != RayHit::none) continue;  // in an earlier run
       for (size_t i = 0; (i = batch_.first_set(Scene::inside, n, i)) < static_cast<size_t>(steps_together); ++i) {
         const Ray before{rays_[n].column, rays_[n].first + (static_cast<int64_t>(i) - 1) * fine_per_step};
         const float depth = batch_.depth(n, i);
@@ -252,12 +284,12 @@ class RayCaster {
 
   // From places before a surface to the first fine step behind it. An opaque surface also ends its ray.
   void look_closer(std::vector<Ray>& rays, int64_t row, Scene::Output what) {
-    for (const int64_t stride : {finer, int64_t{1}}) {
+    for (const auto& [stride, count] : {std::pair{finest, finer}, std::pair{int64_t{1}, finest}}) {
       for (Ray& ray : rays) ray.first += stride;
-      batch_.evaluate(rays, row, stride, finer, what != Scene::inside);
+      batch_.evaluate(rays, row, stride, static_cast<size_t>(count), what != Scene::inside);
       for (size_t n = 0; n < rays.size(); ++n) {
-        const size_t i = std::min(batch_.first_set(what, n, 0), static_cast<size_t>(finer) - 1);
-        rays[n].first += stride * (static_cast<int64_t>(i) - (stride > 1 ? 1 : 0));
+        const auto i = static_cast<int64_t>(std::min(batch_.first_set(what, n, 0), static_cast<size_t>(count) - 1));
+        rays[n].first += stride * (i - (stride > 1 ? 1 : 0));
       }
     }
     const bool is_end = what == Scene::opaque || !scene_.is_translucent;
@@ -314,14 +346,12 @@ class RayCaster {
     each.begin(all.left, boxes, *sources_);
     for (size_t n = 0; n < groups.size() && !is_stopped_(); ++n) {
       each.shorten(n);
-      const Level& here = each.left.has_parts() ? without_parts(each, boxes[n]) : each;
-      batch_.compile(here.left, here.kept, most_samples, *sources_);
-      take_colours(groups[n]);
+      take_colours(each.left.has_parts() ? without_parts(each, boxes[n]) : each, groups[n]);
     }
   }
 
   const Level& without_parts(Level& of, const TileBox& fine) {
-    of.left = program::expand_parts(of.left, of.kept, program::Precision::batch);
+    write_out_parts(of);
     blocks_.begin(of.left, {fine}, *sources_);
     blocks_.shorten(size_t{0});
     return blocks_;
@@ -329,15 +359,14 @@ class RayCaster {
 
   // A little behind the surface, if the solid is thick enough: where surfaces of two materials coincide, rounding
   // decides which is met first.
-  void take_colours(std::span<const End> ends) {
-    for (size_t begin = 0; begin < ends.size();) {
-      const int64_t row = ends[begin].row;
-      rays_.clear();
-      for (; begin < ends.size() && ends[begin].row == row; ++begin) rays_.push_back(ends[begin].ray);
-      batch_.evaluate(rays_, row, behind, 2, true);
-      for (size_t n = 0; n < rays_.size(); ++n)
-        hit(rays_[n].column, row).at_end = batch_.colour(n, batch_.value(Scene::opaque, n, 1) != 0 ? 1 : 0);
-    }
+  void take_colours(const Level& asked, std::span<const End> ends) {
+    places_.clear();
+    for (const auto& [ray, row] : ends)
+      for (const int64_t fine : {ray.first, ray.first + behind}) places_.push_back({ray.column, row, fine});
+    colours_.evaluate(asked.left, asked.kept, places_, *sources_);
+    for (size_t n = 0; n < ends.size(); ++n)
+      hit(ends[n].ray.column, ends[n].row).at_end =
+          colours_.colour(colours_.value(Scene::opaque, 2 * n + 1) != 0 ? 2 * n + 1 : 2 * n);
   }
 
   const Scene& scene_;
@@ -347,10 +376,14 @@ class RayCaster {
   const std::function<bool()>& is_stopped_;
   const StripSources* sources_ = nullptr;
   RayBatch batch_;
+  RayPlaces colours_;
+  std::vector<RayPlace> places_;
   std::deque<Level> levels_;
   Level blocks_;
   RayBand& hits_;
   std::vector<size_t> met_;  // of the blocks that were asked
+  program::Program parts_;   // of a leaf, written out
+  std::array<std::vector<int64_t>, leaf[1]> runs_;
   std::vector<Ray> rays_, surfaces_, ends_;
   std::vector<End> ends_met_;
 };
@@ -400,7 +433,7 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
                   const std::function<bool()>& is_stopped) {
   if (eval::kernel_sets().empty()) throw Error("pictures need a processor with hardware multiply-add");
   const RaySteps steps(scene, film);
-  const Clarity clarity(film.pixel_mm / steps_per_pixel / scene.clarity_mm);
+  const Clarity clarity(RaySteps::length_of(film) / scene.clarity_mm);
   program::Program reference = scene.program;
   const auto samplers = place_sources(reference, scene, steps);
   const Programs programs(scene, reference);

@@ -25,8 +25,9 @@ struct RayHit {
 };
 
 struct Film {
-  int64_t width = 0, height = 0;
-  double pixel_mm = 0;  // the picture plane's; its middle is the middle of the film
+  int64_t width = 0, height = 0;  // rays
+  double pixel_mm = 0;            // from ray to ray, in the picture plane; its middle is the middle of the film
+  int64_t samples = 1;            // so many by so many rays make up a pixel of the picture
   double right_of(int64_t column) const { return (static_cast<double>(2 * column + 1 - width)) * 0.5 * pixel_mm; }
   double down_of(int64_t row) const { return (static_cast<double>(2 * row + 1 - height)) * 0.5 * pixel_mm; }
 };
@@ -43,8 +44,8 @@ struct RayBand {
 
 // Of rows [begin, end), which may lie beyond the film. The same whatever the band, but for sums over translucent
 // material, and the number of threads.
-// Surfaces are found to some thousandths of a pixel; what is thinner than a quarter of a pixel along the ray may be
-// missed. `is_stopped` is asked now and then; if it says so, the rest is left empty.
+// Surfaces are found to some thousandths of a pixel of the picture; what is thinner than a quarter of one along the
+// ray may be missed. `is_stopped` is asked now and then; if it says so, the rest is left empty.
 RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t end, int threads,
                   const std::function<bool()>& is_stopped);
 

@@ -10,25 +10,28 @@
 
 namespace ombre::render {
 
-// Rays are sampled in steps. Where one finds a surface, sixteenths of the step are tried, and sixteenths of those.
-inline constexpr double steps_per_pixel = 4;
-inline constexpr int64_t finer = 16, fine_per_step = finer * finer;
+// Rays are sampled in steps. Where one finds a surface, sixteenths of the step are tried, and 32nds of those.
+inline constexpr double steps_per_pixel = 4;  // of the picture
+inline constexpr int64_t finer = 16, finest = 32, fine_per_step = finer * finest;
 // So many steps of a ray are sampled together.
-inline constexpr int64_t steps_together = 16;
+inline constexpr int64_t steps_together = 8;
 // Within translucent material, where no surface is, one sample stands for so many steps.
 inline constexpr int64_t murky_steps = 8;
 
-// Samples along rays, one after the other; places are counted in fine steps, of which a step has 256.
+// Samples along rays, one after the other; places are counted in fine steps, of which a step has 512.
 struct RaySteps {
   double near_mm = 0, fine_mm = 0;
   int64_t steps = 0;
   Film film;
 
   RaySteps(const Scene& scene, const Film& of_film) : near_mm(scene.near_mm), film(of_film) {
-    const double step = film.pixel_mm / steps_per_pixel;
+    const double step = length_of(film);
     fine_mm = step / static_cast<double>(fine_per_step);
     const auto needed = static_cast<int64_t>(std::ceil((scene.far_mm - scene.near_mm) / step)) + 1;
     steps = (needed + steps_together - 1) / steps_together * steps_together;
+  }
+  static double length_of(const Film& film) {
+    return film.pixel_mm * static_cast<double>(film.samples) / steps_per_pixel;
   }
   static int64_t fine_of(int64_t step) { return step * fine_per_step + fine_per_step / 2; }
   double depth(int64_t fine) const { return near_mm + (static_cast<double>(fine) + 0.5) * fine_mm; }

@@ -24,7 +24,7 @@ uint8_t row_axis(uint8_t mask) { return mask & axis_x ? axis_x : mask & axis_y ?
 
 void BatchEvaluator::begin(const program::Program& program, const std::vector<Interval>& ranges,
                            const BoxPoints& points, const SourceRows& sources) {
-  compile(program, ranges, Shape{false, {points.xs.size(), points.ys.size(), points.zs.size()}}, sources);
+  compile(program, ranges, Shape{Form::box, {points.xs.size(), points.ys.size(), points.zs.size()}}, sources);
   width_ = points.xs.size();
   rows_ = points.ys.size();
   layers_ = points.zs.size();
@@ -42,7 +42,12 @@ void BatchEvaluator::begin(const program::Program& program, const std::vector<In
 
 void BatchEvaluator::compile(const program::Program& program, const std::vector<Interval>& ranges, size_t most_points,
                              size_t most_layers, const SourceRows& sources) {
-  compile(program, ranges, Shape{true, {most_points, 1, most_layers}}, sources);
+  compile(program, ranges, Shape{Form::layers, {most_points, 1, most_layers}}, sources);
+}
+
+void BatchEvaluator::compile_for_list(const program::Program& program, const std::vector<Interval>& ranges,
+                                      size_t most_points, const SourceRows& sources) {
+  compile(program, ranges, Shape{Form::list, {most_points, 1, 1}}, sources);
 }
 
 void BatchEvaluator::compile(const program::Program& program, const std::vector<Interval>& ranges, const Shape& shape,
@@ -78,6 +83,18 @@ void BatchEvaluator::place(const BoxLayers& points) {
     float* to = facts_[id].base;
     for (const PointRow& row : points.rows) to = std::fill_n(to, padded(box_width_), row.y);
   }
+  place_input(2, points.zs);
+  run_before_layers();
+}
+
+void BatchEvaluator::place(const PointList& points) {
+  box_width_ = points.xs.size();
+  box_rows_ = 1;
+  width_ = padded(box_width_);
+  rows_ = layers_ = 1;
+  ASSERT(box_width_ <= shape_.most[0]);
+  place_input(0, points.xs);
+  place_input(1, points.ys);
   place_input(2, points.zs);
   run_before_layers();
 }
@@ -125,14 +142,19 @@ void BatchEvaluator::each_read(const Instruction& in, F f) const {
   each_operand(in, f);
 }
 
+// Points of a layer, or all of them, lie along one row.
+uint8_t BatchEvaluator::mask_of_input(size_t axis) const {
+  const bool is_along_row = shape_.form == Form::list || (shape_.form == Form::layers && axis == 1);
+  return is_along_row ? axis_x : static_cast<uint8_t>(1 << axis);
+}
+
 // Which axes does each value depend on, and who needs it?
 void BatchEvaluator::classify() {
   facts_.assign(program_->code.size(), Fact{});
   for (size_t i = 0; i < facts_.size(); ++i) {
     const Instruction& in = program_->code[i];
     uint8_t& mask = facts_[i].mask;
-    if (in.op == Op::input)
-      mask = shape_.by_layers && in.value == 1 ? axis_x : static_cast<uint8_t>(1 << static_cast<int>(in.value));
+    if (in.op == Op::input) mask = mask_of_input(static_cast<size_t>(in.value));
     each_operand(in, [&](ValueId id) { mask |= facts_[id].mask; });
     if (in.op == Op::parts || (in.op == Op::source && sources_->has(program_->reads[in.aux]))) mask = all_axes;
   }
@@ -316,7 +338,7 @@ void BatchEvaluator::run(const std::vector<Step>& steps, size_t j, size_t count)
 
 // The rows of the box that the row at work stands for.
 RowsToFill BatchEvaluator::rows_of(const Step& step, size_t j, size_t count) const {
-  if (!shape_.by_layers) return {k_, j, 1, step.out.at(j), count, count};
+  if (shape_.form == Form::box) return {k_, j, 1, step.out.at(j), count, count};
   return {k_, 0, box_rows_, step.out.at(j), box_width_, padded(box_width_)};
 }
 

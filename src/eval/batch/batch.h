@@ -57,6 +57,11 @@ struct BoxLayers {
   size_t width = 0;
 };
 
+// Points anywhere, as many in each list.
+struct PointList {
+  std::span<const float> xs, ys, zs;
+};
+
 class BatchEvaluator {
  public:
   explicit BatchEvaluator(const KernelSet& kernels) : kernels_(kernels) {}
@@ -75,6 +80,10 @@ class BatchEvaluator {
                size_t most_layers, const SourceRows& sources);
   void set_constant(program::ValueId constant, float value);
   void place(const BoxLayers& points);
+  // And on lists of at most so many points: row 0 of layer 0.
+  void compile_for_list(const program::Program& program, const std::vector<Interval>& ranges, size_t most_points,
+                        const SourceRows& sources);
+  void place(const PointList& points);
 
   void begin_layer(size_t k);
   // Computes output 0 along row j of the layer; finish_row then the other outputs.
@@ -108,10 +117,12 @@ class BatchEvaluator {
     float* base = nullptr;
   };
 
+  enum class Form : uint8_t { box, layers, list };
   struct Shape {
-    bool by_layers = false;
+    Form form = Form::box;
     std::array<size_t, 3> most{};  // points along each axis
   };
+  uint8_t mask_of_input(size_t axis) const;
   void compile(const program::Program& program, const std::vector<Interval>& ranges, const Shape& shape,
                const SourceRows& sources);
   void run_before_layers();
@@ -137,7 +148,7 @@ class BatchEvaluator {
   const SourceRows* sources_ = nullptr;
   Shape shape_;
   size_t width_ = 0, rows_ = 0, layers_ = 0, j_ = 0, k_ = 0;
-  size_t box_width_ = 0, box_rows_ = 0;                  // by layers: of the box
+  size_t box_width_ = 0, box_rows_ = 0;                  // of the points of a layer
   std::array<std::vector<program::ValueId>, 3> inputs_;  // that are needed
   std::vector<Fact> facts_;
   std::vector<program::ValueId> order_, seen_;

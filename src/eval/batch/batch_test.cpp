@@ -201,6 +201,33 @@ TEST(Batch, BoxesOfAnyShapeGiveTheSameBits) {
   }
 }
 
+TEST(Batch, ListsOfPointsGiveTheSameBits) {
+  const auto& sets = kernel_sets();
+  if (sets.empty()) GTEST_SKIP();
+  std::mt19937 random(5);
+  for (int n = 0; n < 300; ++n) {
+    const Program program = random_program(random, 30);
+    const Points axes = random_points(random, 5, 4, 3);
+    const std::vector<float> expected = evaluate(sets[0], program, axes);
+    Points list;
+    for (const float z : axes.zs)
+      for (const float y : axes.ys)
+        for (const float x : axes.xs) list.xs.push_back(x), list.ys.push_back(y), list.zs.push_back(z);
+    std::vector<Interval> ranges;
+    program::evaluate_intervals(program, axes.box(), ranges, nullptr, program::Precision::batch);
+    BatchEvaluator evaluator(sets[0]);
+    const NoRows no_rows;
+    evaluator.compile_for_list(program, ranges, list.xs.size(), no_rows);
+    evaluator.place(PointList{list.xs, list.ys, list.zs});
+    evaluator.begin_layer(0);
+    evaluator.begin_row(0);
+    evaluator.finish_row();
+    for (size_t o = 0; o < program.outputs.size(); ++o)
+      for (size_t p = 0; p < list.xs.size(); ++p)
+        ASSERT_TRUE(same_bits(evaluator.output(o)[p], expected[o * list.xs.size() + p])) << to_text(program) << o;
+  }
+}
+
 TEST(Batch, IntervalsHoldEveryValueAndShorteningKeepsThem) {
   const auto& sets = kernel_sets();
   if (sets.empty()) GTEST_SKIP();
