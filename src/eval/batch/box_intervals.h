@@ -26,10 +26,11 @@ class BoxIntervals {
   void values(std::span<const size_t> boxes, std::vector<Interval>& values);
 
  private:
-  IntervalRow row(program::ValueId id) { return {floats_ + 2 * id * stride_, floats_ + (2 * id + 1) * stride_}; }
+  size_t place(program::ValueId id) const { return 2 * stride_ * id; }
+  IntervalRow row(program::ValueId id) { return {floats_ + place(id), floats_ + place(id) + stride_}; }
   float* chosen() { return floats_ + 2 * program_->code.size() * stride_; }
   Interval value(program::ValueId id, size_t box) const {
-    const float* lo = floats_ + 2 * id * stride_ + box;
+    const float* lo = floats_ + place(id) + box;
     return {static_cast<double>(*lo), static_cast<double>(lo[stride_])};
   }
   Box operands(const program::Instruction& in, size_t box) const;
