@@ -1,5 +1,7 @@
 #include "program/single.h"
 
+#include <iterator>
+
 #include "program/quick_intervals.h"
 
 namespace ombre::program {
@@ -23,22 +25,21 @@ Interval trigonometric(Interval argument, Interval value) {
       {std::max(-1.0, value.lo - batch_trigonometric_error), std::min(1.0, value.hi + batch_trigonometric_error)});
 }
 
-// Rounded once, which keeps the order: the extremes are at corners.
+double fused_single(double a, double b, double c) {
+  return static_cast<double>(std::fma(static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)));
+}
+
+// Rounded once, which keeps the order: the extremes are at those of the products, which are exact in doubles.
 Interval fused(Interval a, Interval b, Interval c) {
   if (math::multiply(a, b).is_everything()) return Interval::everything();
-  float lo = std::numeric_limits<float>::infinity(), hi = -lo;
-  for (const double x : {a.lo, a.hi}) {
-    for (const double y : {b.lo, b.hi}) {
-      const auto at = [&](double z) {
-        return std::fma(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
-      };
-      const float low = at(c.lo), high = at(c.hi);
-      if (std::isnan(low) || std::isnan(high)) return Interval::everything();
-      lo = std::min(lo, low);
-      hi = std::max(hi, high);
-    }
-  }
-  return {static_cast<double>(lo), static_cast<double>(hi)};
+  double products[] = {a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi};
+  const auto [least, most] = std::minmax_element(std::begin(products), std::end(products));
+  const auto at = [&](const double* product, double z) {
+    const auto corner = product - products;
+    return fused_single(corner < 2 ? a.lo : a.hi, corner % 2 == 0 ? b.lo : b.hi, z);
+  };
+  const double lo = at(least, c.lo), hi = at(most, c.hi);
+  return std::isnan(lo) || std::isnan(hi) ? Interval::everything() : Interval(lo, hi);
 }
 
 Interval select(Interval condition, Interval a, Interval b) {

@@ -8,6 +8,40 @@
 namespace ombre::program {
 namespace {
 
+// So many parts of the index are asked one by one whether they reach a region.
+constexpr size_t worth_asking = 3;
+
+// Can parts of one body reach a region? Sharper than their boxes in the index.
+class PartReach {
+ public:
+  PartReach(const PartTable& table, uint32_t body) : table_(table) {
+    std::vector<bool> only_reached(table.body(body).slots.size(), false);
+    only_reached[0] = true;
+    excerpt_ = table.excerpt(body, only_reached);
+  }
+
+  bool may_reach(uint32_t part, const Box& where, Precision precision) {
+    if (excerpt_.slots.empty() || excerpt_.slots[0] == PartTable::none) return true;
+    program_.code.clear();
+    program_.maps.clear();
+    std::array<ValueId, 3> inputs{};
+    for (ValueId axis = 0; axis < 3; ++axis) {
+      inputs[axis] = axis;
+      program_.code.push_back({Op::input, 0, 0, 0, 0, static_cast<double>(axis)});
+    }
+    table_.append(part, excerpt_, program_, inputs, slots_);
+    evaluate_intervals(program_, where, values_, nullptr, precision);
+    return values_[slots_[0]] != Interval(0);
+  }
+
+ private:
+  const PartTable& table_;
+  PartTable::Excerpt excerpt_;
+  Program program_;
+  std::vector<ValueId> slots_;
+  std::vector<Interval> values_;
+};
+
 class Expander {
  public:
   Expander(const Program& program, const std::vector<Interval>& values, Precision precision)
@@ -73,8 +107,7 @@ class Expander {
       if (known.set == set && known.at == at) return known;
     Expansion& made = expansions_.emplace_back(Expansion{set, at, {}, {}, {}});
     made.slots.assign(set->slots.size(), PartTable::none);
-    const Interval &x = values_[in.a], &y = values_[in.b], &z = values_[in.c];
-    set->index.find({{x.lo, y.lo, z.lo}, {x.hi, y.hi, z.hi}}, found_);
+    find_reaching(*set, in);
     const PartTable& table = set->table(precision_);
     for (const uint32_t part : found_) {
       const uint32_t body = table.body_of(part);
@@ -83,6 +116,19 @@ class Expander {
       table.append(part, excerpt->second, to_, at, made.values.emplace_back());
     }
     return made;
+  }
+
+  void find_reaching(const PartSet& set, const Instruction& place) {
+    const Interval &x = values_[place.a], &y = values_[place.b], &z = values_[place.c];
+    const Box where{{x.lo, y.lo, z.lo}, {x.hi, y.hi, z.hi}};
+    set.index.find(where, found_);
+    if (found_.size() < worth_asking) return;
+    const PartTable& table = set.table(precision_);
+    std::map<uint32_t, PartReach> reaches;
+    std::erase_if(found_, [&](uint32_t part) {
+      auto& reach = reaches.try_emplace(table.body_of(part), table, table.body_of(part)).first->second;
+      return !reach.may_reach(part, where, precision_);
+    });
   }
 
   // Which slots are asked for at the place of an instruction.
