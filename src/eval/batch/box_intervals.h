@@ -18,7 +18,8 @@ class BoxIntervals {
   explicit BoxIntervals(const IntervalKernelSet& kernels) : kernels_(kernels) {}
 
   // The values enclose what float batches compute (program/single.h). `program` without calls and affine maps; it
-  // must outlive the questions. Equal to evaluate_intervals, but for sines and cosines, which are some 1e-6 wider.
+  // must outlive the questions. Equal to evaluate_intervals, but for sine, cosine, atan2 and exp, which are some 1e-6
+  // wider.
   void evaluate(const program::Program& program, std::span<const Box> boxes, const SourceRanges& sources);
   Interval output(size_t n, size_t box) const { return value(program_->outputs[n], box); }
   // Of each instruction: over one box, or the hull over some.

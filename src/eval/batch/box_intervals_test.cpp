@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "eval/batch/kernels.h"
 #include "program/field.h"
 #include "program/passes/passes.h"
 #include "program/single.h"
@@ -26,17 +28,19 @@ constexpr Op all_ops[] = {
 #undef OMBRE_ROW
 };
 
-bool is_wave(Op op) { return op == Op::sin || op == Op::cos; }
+// Their functions on floats stand in for those on doubles.
+constexpr Op wider_ops[] = {Op::sin, Op::cos, Op::atan2, Op::exp};
+bool is_wider(Op op) { return std::find(std::begin(wider_ops), std::end(wider_ops), op) != std::end(wider_ops); }
 
 // Every value is an output. Constants are out of the range of floats too.
-Program random_program(std::mt19937& random, size_t size, bool with_waves) {
+Program random_program(std::mt19937& random, size_t size, bool with_wider) {
   Builder builder;
   std::vector<Field> fields{builder.input(0), builder.input(1), builder.input(2)};
   for (const double v : {0.0, 1.0, 0.5, -2.0, 3e38, 1e300, inf, std::nan("")}) fields.push_back(builder.constant(v));
   const auto any = [&] { return fields[random() % fields.size()]; };
   for (size_t n = 0; n < size; ++n) {
     const Op op = all_ops[random() % std::size(all_ops)];
-    if (with_waves || !is_wave(op)) fields.push_back(builder.apply(op, any(), any(), any()));
+    if (with_wider || !is_wider(op)) fields.push_back(builder.apply(op, any(), any(), any()));
   }
   std::vector<std::pair<std::string, Field>> outputs;
   for (const Field& field : fields) outputs.emplace_back("v", field);
@@ -108,6 +112,43 @@ TEST(BoxIntervals, WavesHoldTheirCrestsAndAreTight) {
         const double slack = 1e-6 + 1e-11 * scale * scale;
         ASSERT_GE(found.lo, exact.lo - slack) << text(argument);
         ASSERT_LE(found.hi, exact.hi + slack) << text(argument);
+      }
+    }
+  }
+}
+
+TEST(BoxIntervals, HoldWhatBatchesComputeAndAreTight) {
+  const auto& sets = interval_kernel_sets();
+  for (size_t set = 0; set < sets.size(); ++set) {
+    std::mt19937 random(15);
+    BoxIntervals evaluator(sets[set]);
+    for (const Op op : wider_ops) {
+      Builder builder;
+      const Program program =
+          builder.finish({{"value", builder.apply(op, builder.input(0), builder.input(1), builder.input(2))}});
+      for (int round = 0; round < 5000; ++round) {
+        const Box box = random_boxes(random, 1)[0];
+        evaluator.evaluate(program, {&box, 1}, no_sources);
+        const Interval found = evaluator.output(0, 0);
+        std::vector<Interval> alone;
+        evaluate_intervals(program, box, alone, nullptr, program::Precision::batch);
+        const Interval exact = alone[program.outputs[0]];
+        const double slack = 2e-6 * std::max({1.0, std::abs(exact.lo), std::abs(exact.hi)});
+        ASSERT_NEAR(found.lo, exact.lo, slack) << info(op).name;
+        ASSERT_NEAR(found.hi, exact.hi, slack) << info(op).name;
+        alignas(64) float x[batch_lanes], y[batch_lanes], out[batch_lanes];
+        const auto within = [&](Interval v) {
+          const double at = v.lo + (v.hi - v.lo) * std::uniform_real_distribution<double>(0, 1)(random);
+          return std::clamp(static_cast<float>(at), static_cast<float>(v.lo), static_cast<float>(v.hi));
+        };
+        for (size_t n = 0; n < batch_lanes; ++n) {
+          x[n] = within(box.axis(0));
+          y[n] = within(box.axis(1));
+        }
+        kernel_sets()[set].kernel(op, all_rows, Unknowns::never)(x, y, y, out, batch_lanes);
+        for (const float value : out)
+          ASSERT_TRUE(found.contains(static_cast<double>(value)))
+              << info(op).name << " is " << value << ", not in " << text(found);
       }
     }
   }

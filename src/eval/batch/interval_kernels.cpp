@@ -69,6 +69,28 @@ HWY_INLINE Ends wave(Ends v, V a, V b, float crest) {
   return everything_where(outside, met);
 }
 
+// By more than the errors of two values of an elementary function.
+HWY_INLINE Ends widened(Ends v) {
+  const V share = number(0x1p-21F), least_float = number(std::numeric_limits<float>::min());
+  const auto slack = [&](V end) { return batch::fma(hn::Abs(end), share, least_float); };
+  return {hn::Sub(v.lo, slack(v.lo)), hn::Add(v.hi, slack(v.hi))};
+}
+
+HWY_INLINE Ends arc(Ends y, Ends x) {
+  const M crosses_cut = hn::And(hn::Le(x.lo, zero()), hn::And(hn::Le(y.lo, zero()), hn::Ge(y.hi, zero())));
+  const Ends corners = widened(
+      around(batch::atan2(y.lo, x.lo), batch::atan2(y.lo, x.hi), batch::atan2(y.hi, x.lo), batch::atan2(y.hi, x.hi)));
+  const V most_angle = number(0x1.921fb8p+1F);  // above pi
+  return {hn::IfThenElse(crosses_cut, hn::Neg(most_angle), corners.lo),
+          hn::IfThenElse(crosses_cut, most_angle, corners.hi)};
+}
+
+// Never below 0; near the end of the floats it gives up early.
+HWY_INLINE Ends exponential(Ends v) {
+  const Ends wide = widened({batch::exp(v.lo), batch::exp(v.hi)});
+  return {most(wide.lo, zero()), hn::IfThenElse(hn::Gt(wide.hi, number(0x1p126F)), number(inf), wide.hi)};
+}
+
 HWY_INLINE Ends fused(Ends a, Ends b, Ends c) {
   const auto corners = [&](V z) {
     return around(batch::fma(a.lo, b.lo, z), batch::fma(a.lo, b.hi, z), batch::fma(a.hi, b.lo, z),
@@ -122,6 +144,8 @@ HWY_INLINE Ends on(Ends a, [[maybe_unused]] Ends b, [[maybe_unused]] Ends c) {
   if constexpr (op == Op::trunc) return {batch::trunc(a.lo), batch::trunc(a.hi)};
   if constexpr (op == Op::sin) return wave(a, batch::sin(a.lo), batch::sin(a.hi), std::numbers::pi_v<float> / 2);
   if constexpr (op == Op::cos) return wave(a, batch::cos(a.lo), batch::cos(a.hi), 0);
+  if constexpr (op == Op::atan2) return arc(a, b);
+  if constexpr (op == Op::exp) return exponential(a);
   if constexpr (op == Op::less) return truth_of(hn::Lt(a.hi, b.lo), hn::Ge(a.lo, b.hi));
   if constexpr (op == Op::less_equal) return truth_of(hn::Le(a.hi, b.lo), hn::Gt(a.lo, b.hi));
   if constexpr (op == Op::equal) {
@@ -148,11 +172,9 @@ constexpr bool is_one_by_one(Op op) {
     case Op::asin:
     case Op::acos:
     case Op::atan:
-    case Op::atan2:
     case Op::sinh:
     case Op::cosh:
     case Op::tanh:
-    case Op::exp:
     case Op::log:
     case Op::log10:
     case Op::log2:
