@@ -88,7 +88,7 @@ bool write_header(Writer& writer, const Header& header) {
   if (header.alpha_count > 0) png_set_tRNS(writer.png, writer.info, header.alphas.data(), header.alpha_count, nullptr);
 
   // Everything that decides the bytes is stated, whatever the library's defaults.
-  png_set_compression_level(writer.png, 9);
+  png_set_compression_level(writer.png, 6);
   png_set_compression_strategy(writer.png, Z_DEFAULT_STRATEGY);
   png_set_compression_mem_level(writer.png, 9);
   png_set_compression_window_bits(writer.png, 15);
