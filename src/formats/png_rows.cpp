@@ -25,6 +25,11 @@ void merge(uint8_t& byte, unsigned value, unsigned mask) {
   byte = static_cast<uint8_t>((byte & ~mask) | (value & mask));
 }
 
+// Pointers of its own, since bytes that are written might move members.
+void subtract(const uint8_t* from, const uint8_t* what, size_t count, uint8_t* out) {
+  for (size_t i = 0; i < count; ++i) out[i] = static_cast<uint8_t>(from[i] - what[i]);
+}
+
 size_t pair_of(MaterialId first, MaterialId second) { return first | size_t{second} << 8; }
 
 }  // namespace
@@ -86,7 +91,8 @@ void RowPacker::pack_voxels(uint8_t* out) const {
       break;
   }
   const std::array<uint8_t, 256> samples = samples_;
-  for (size_t i = 0, count = width_; i < count; ++i) out[i] = samples[voxels_[i]];
+  const MaterialId* const voxels = voxels_.data();
+  for (size_t i = 0, count = width_; i < count; ++i) out[i] = samples[voxels[i]];
 }
 
 template <int bits>
@@ -127,7 +133,7 @@ void PackedRows::put(const RowView& row) {
   if (repeats)
     std::fill(difference_.begin(), difference_.end(), uint8_t{0});
   else
-    for (size_t i = pixels_at; i < row_.size(); ++i) difference_[i] = static_cast<uint8_t>(row_[i] - row_above_[i]);
+    subtract(row_.data() + pixels_at, row_above_.data() + pixels_at, packer_.size(), difference_.data() + pixels_at);
   compare_neighbours(difference_, filter_up);
   write(difference_);
 }

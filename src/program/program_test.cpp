@@ -111,6 +111,27 @@ TEST(Shorten, KeepsOnlyWhatCanWin) {
   EXPECT_EQ(shorten(program, values).code.size(), 1u);
 }
 
+TEST(Shorten, MakesRepeatsOfWhatIsAbsentOne) {
+  Builder b;
+  const Field x = b.input(0), absent = max(x - 10, b.constant(0)), all = square(x) + 1;
+  const Program program = b.finish({{"one", share(x, all)}, {"two", share(x + absent, all)}});
+  std::vector<Interval> values;
+  evaluate_intervals(program, {{1, 0, 0}, {2, 0, 0}}, values);
+  const Program shorter = shorten(program, values);
+  EXPECT_EQ(shorter.outputs[0], shorter.outputs[1]);
+}
+
+TEST(Shorten, TakesSidesOfExtremesThatTouchTheOther) {
+  Builder b;
+  const Field x = b.input(0), zero = b.constant(0);
+  const Program program = b.finish({{"v", max(square(x), zero) + min(zero, square(x)) + 1}});
+  std::vector<Interval> values;
+  evaluate_intervals(program, {{-1, 0, 0}, {1, 0, 0}}, values);
+  const std::string text = to_text(shorten(program, values));
+  EXPECT_EQ(text.find("max"), std::string::npos) << text;
+  EXPECT_EQ(text.find("min"), std::string::npos) << text;
+}
+
 TEST(InlineBodies, KeepsTheMeaning) {
   auto body = std::make_shared<Program>();
   Builder inner;

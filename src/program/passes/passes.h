@@ -34,6 +34,7 @@ class Shortener {
  private:
   ValueId settled(ValueId i) const;
   ValueId logical_target(ValueId i) const;
+  bool is_at_most(ValueId less, ValueId greater, ValueId result) const;
   bool is_known(ValueId i) const;
   void find_needed();
   void copy_needed(Program& to, std::vector<Interval>& kept);

@@ -1,5 +1,6 @@
 // Drops what a region has settled.
 #include <algorithm>
+#include <bit>
 
 #include "program/passes/copy_tables.h"
 #include "program/passes/passes.h"
@@ -9,6 +10,11 @@ namespace ombre::program {
 namespace {
 
 bool lacks_zero(Interval v) { return v.lo > 0 || v.hi < 0; }
+
+bool is_same(const Instruction& a, const Instruction& b) {
+  return a.op == b.op && a.a == b.a && a.b == b.b && a.c == b.c && a.aux == b.aux &&
+         std::bit_cast<uint64_t>(a.value) == std::bit_cast<uint64_t>(b.value);
+}
 
 }  // namespace
 
@@ -31,19 +37,14 @@ void Shortener::shorten(const std::vector<Interval>& values, Program& result, st
 ValueId Shortener::settled(ValueId i) const {
   const Instruction& in = from_->code[i];
   const std::vector<Interval>& values = *values_;
-  const auto never_nan = [&](ValueId v) { return !values[v].is_everything(); };
   switch (in.op) {
     case Op::min:
-      if (never_nan(in.a) && never_nan(in.b)) {
-        if (values[in.a].hi < values[in.b].lo) return in.a;
-        if (values[in.b].hi < values[in.a].lo) return in.b;
-      }
+      if (is_at_most(in.a, in.b, i)) return in.a;
+      if (is_at_most(in.b, in.a, i)) return in.b;
       return i;
     case Op::max:
-      if (never_nan(in.a) && never_nan(in.b)) {
-        if (values[in.a].lo > values[in.b].hi) return in.a;
-        if (values[in.b].lo > values[in.a].hi) return in.b;
-      }
+      if (is_at_most(in.b, in.a, i)) return in.a;
+      if (is_at_most(in.a, in.b, i)) return in.b;
       return i;
     case Op::select:
       if (values[in.a].lo > 0 || values[in.a].hi < 0) return in.b;
@@ -66,6 +67,13 @@ ValueId Shortener::settled(ValueId i) const {
     default:
       return i;
   }
+}
+
+// Neither is NaN; they may be equal where the result's zeros may have either sign.
+bool Shortener::is_at_most(ValueId less, ValueId greater, ValueId result) const {
+  const Interval a = (*values_)[less], b = (*values_)[greater];
+  if (a.is_everything() || b.is_everything()) return false;
+  return a.hi < b.lo || (a.hi == b.lo && zero_sign_matters_[result] == 0);
 }
 
 // An `or` with a side that is surely false is its other side, and the like.
@@ -128,9 +136,13 @@ void Shortener::copy_needed(Program& to, std::vector<Interval>& kept) {
       each_operand(in, [&](ValueId& id) { id = renamed_[target_[id]]; });
       copy_tables(*from_, to, in);
     }
-    renamed_[i] = static_cast<ValueId>(to.code.size());
-    to.code.push_back(in);
-    kept.push_back((*values_)[i]);
+    // Shares of what is absent here become the same, one after the other.
+    const bool is_repeated = !to.code.empty() && is_same(in, to.code.back());
+    if (!is_repeated) {
+      to.code.push_back(in);
+      kept.push_back((*values_)[i]);
+    }
+    renamed_[i] = static_cast<ValueId>(to.code.size() - 1);
   }
 }
 
