@@ -3,7 +3,7 @@
 
     python3 tests/run_mesh_files.py build/dev/tests/mesh_samples
 
-What slicers make of them is tested where prusa-slicer is installed (apt-get install prusa-slicer, 375 MB).
+What slicers make of them is tested where prusa-slicer is installed; ./dev test installs it.
 """
 import argparse
 import functools

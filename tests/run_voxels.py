@@ -9,6 +9,8 @@ import gzip
 import json
 import math
 import pathlib
+import re
+import shutil
 import signal
 import struct
 import subprocess
@@ -181,9 +183,29 @@ def sparse_files_are_the_same_on_any_threads(grid):
     return ""
 
 
+def openvdb_prints_the_same(grid):
+    """By OpenVDB's own program: voxels whose centres are inside, and three voxels on both sides of the surface."""
+    if not shutil.which("vdb_print"):
+        return "skipped: no vdb_print"
+    made = program.run(grid.command("voxels", "ball.vcad", "-o", "ball.vdb", "--voxel", "0.5"), cwd=grid.folder)
+    if "without OpenVDB" in made.stderr:
+        return "skipped: no OpenVDB"
+    expect(made.returncode == 0, made.stderr)
+    told = program.run(["vdb_print", "-l", "ball.vdb"], cwd=grid.folder)
+    expect(told.returncode == 0, told.stderr)
+    found = {}
+    for text in told.stdout.split("Name: ")[1:]:
+        box = re.search(r"Bounding box of active voxels: *(.*)", text)[1]
+        found[text.splitlines()[0]] = (re.search(r"class: (.*)", text)[1], box, re.search(r"voxel size: (.*)", text)[1])
+    expect(found == {"distance": ("level set", "[-3, -3, -3] -> [22, 22, 22]", "0.5"),
+                     "red": ("fog volume", "[0, 0, 0] -> [19, 19, 19]", "0.5"),
+                     "blue": ("fog volume", "[0, 0, 0] -> [19, 19, 19]", "0.5")}, str(found))
+    return ""
+
+
 CHECKS = [materials_are_those_of_slices, distances_are_mathematics, numpy_reads_them, nrrd_is_in_millimetres,
           boxes_are_cut_out, slips_get_remedies, files_are_kept, interrupts_leave_nothing,
-          sparse_files_are_the_same_on_any_threads]
+          sparse_files_are_the_same_on_any_threads, openvdb_prints_the_same]
 
 
 def in_a_folder(ombre, check):
