@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <deque>
 #include <memory>
 #include <mutex>
-#include <span>
-#include <tuple>
 #include <utility>
 
 #include "base/error.h"
-#include "program/passes/passes.h"
+#include "render/end_colours.h"
 #include "render/ray_batch.h"
-#include "render/ray_places.h"
-#include "render/ray_tiles.h"
 #include "voxel/place_sources.h"
 
 namespace ombre::render {
@@ -24,11 +19,10 @@ using voxel::StripSources;
 
 // Rays are asked in blocks of samples; those of a leaf together.
 constexpr TileSize leaf{32, 16, 16}, block{steps_together, 4, 4};
-constexpr size_t most_samples = 512;           // in a row of a leaf
-constexpr int64_t tile_edge = 128;             // of the picture's tiles, in pixels
-constexpr size_t many_parts = 32;        // while so many reach a tile, it is cut before they are written out
-constexpr int64_t behind = fine_per_step / 2;  // a surface, its colour is taken
-constexpr float dark = 0.01F;                  // less light than that is none
+constexpr size_t most_samples = 512;  // in a row of a leaf
+constexpr int64_t tile_edge = 128;    // of the picture's tiles, in pixels
+constexpr size_t many_parts = 32;     // while so many reach a tile, it is cut before they are written out
+constexpr float dark = 0.01F;         // less light than that is none
 
 // For batches. While surfaces are looked for, colours matter in translucent material only.
 struct Programs {
@@ -51,40 +45,17 @@ class RayCaster {
         clarity_(clarity),
         is_stopped_(is_stopped),
         batch_(steps),
-        colours_(steps),
+        colours_(programs.whole, steps, hits),
         blocks_(steps),
         hits_(hits) {}
 
   void cast(const TileBox& tile, const StripSources& sources) {
     sources_ = &sources;
     descend(programs_.walk, tile, 0);
-    colour_ends();
+    colours_.take(sources, is_stopped_);
   }
 
  private:
-  // Where a ray ends in opaque material.
-  struct End {
-    Ray ray;
-    int64_t row = 0;
-  };
-  // A program that was asked about some tiles, and what is left of it in one of them or some.
-  struct Level {
-    explicit Level(const RaySteps& steps) : intervals(steps) {}
-    void begin(const program::Program& program, std::vector<TileBox> fine, const StripSources& sources) {
-      intervals.evaluate(program, std::move(fine), sources);
-      shortener.begin(program);
-    }
-    template <class Tiles>
-    void shorten(const Tiles& tiles) {
-      intervals.values(tiles, values);
-      shortener.shorten(values, left, kept);
-    }
-    TileIntervals intervals;
-    program::Shortener shortener;
-    std::vector<Interval> values, kept;
-    program::Program left;
-  };
-
   RayHit& hit(int64_t column, int64_t row) { return hits_.at(column, row); }
   bool is_open(int64_t column, int64_t row) { return hit(column, row).end == RayHit::none; }
   bool is_hidden(const TileBox& tile) {
@@ -94,7 +65,7 @@ class RayCaster {
     return true;
   }
 
-  Level& level(size_t depth) {
+  AskedTiles& level(size_t depth) {
     while (levels_.size() <= depth) levels_.emplace_back(steps_);
     return levels_[depth];
   }
@@ -103,8 +74,8 @@ class RayCaster {
   void descend(const program::Program& program, const TileBox& tile, size_t depth) {
     if (is_stopped_()) return;
     const std::vector<TileBox> pieces = cut(tile, leaf);
-    Level& here = level(depth);
-    here.begin(program, fine_boxes(pieces), *sources_);
+    AskedTiles& here = level(depth);
+    here.ask(program, fine_boxes(pieces), *sources_);
     for (size_t n = 0; n < pieces.size(); ++n) {
       const auto range = [&](Scene::Output output) { return here.intervals.output(output, n); };
       if (range(Scene::inside) == Interval(0) || is_hidden(pieces[n])) continue;
@@ -124,19 +95,15 @@ class RayCaster {
   }
 
   // Of the tiles that were asked together, number `n`.
-  void enter(const program::Program& program, Level& asked, size_t n, const TileBox& tile, bool is_murky,
+  void enter(const program::Program& program, AskedTiles& asked, size_t n, const TileBox& tile, bool is_murky,
              size_t depth) {
     if (!is_murky && is_small(tile, false)) return sample(program, tile);
     asked.shorten(n);
     const bool is_sampled = is_murky && is_small(tile, true);
     if (asked.left.has_parts() && (is_sampled || parts_in_reach(asked.left, asked.kept, many_parts) < many_parts))
-      write_out_parts(asked);
+      asked.write_out_parts();
     if (is_sampled) return sample_murk(asked.left, tile);
     descend(asked.left, tile, depth + 1);
-  }
-
-  static void write_out_parts(Level& of) {
-    of.left = program::expand_parts(of.left, of.kept, program::Precision::batch);
   }
 
   static bool is_small(const TileBox& tile, bool is_murky) {
@@ -165,7 +132,7 @@ class RayCaster {
 
   // A few samples for many steps.
   void sample_murk(const program::Program& program, const TileBox& tile) {
-    blocks_.begin(program, {fine_box(tile)}, *sources_);
+    blocks_.ask(program, {fine_box(tile)}, *sources_);
     blocks_.shorten(size_t{0});
     batch_.compile(blocks_.left, blocks_.kept, most_samples, *sources_);
     const int64_t count = (tile.size(0) + murky_steps - 1) / murky_steps;
@@ -193,7 +160,7 @@ class RayCaster {
     if (!pieces.empty()) keep_met(program, pieces);
     if (pieces.empty()) return;
     if (program.has_parts()) {
-      write_out_parts(blocks_);
+      blocks_.write_out_parts();
       std::swap(parts_, blocks_.left);
       keep_met(parts_, pieces);
       if (pieces.empty()) return;
@@ -214,7 +181,7 @@ class RayCaster {
 
   // Those in which something may be; blocks_ is asked, and its program shortened for them.
   void keep_met(const program::Program& program, std::vector<TileBox>& pieces) {
-    blocks_.begin(program, fine_boxes(pieces), *sources_);
+    blocks_.ask(program, fine_boxes(pieces), *sources_);
     met_.clear();
     for (size_t n = 0; n < pieces.size(); ++n) {
       if (blocks_.intervals.output(Scene::inside, n) == Interval(0)) continue;
@@ -299,74 +266,8 @@ class RayCaster {
       if (what == Scene::inside) found.surface = depth;
       if (!is_end) continue;
       found.end = depth;
-      ends_met_.push_back({ray, row});
+      colours_.note(ray.column, row, ray.first);
     }
-  }
-
-  // The ends of rays that were found in opaque material get its colour, those that lie together at a time.
-  void colour_ends() {
-    const auto place = [](const End& end) {
-      return std::tuple(end.row / leaf[2], end.ray.column / leaf[1], end.ray.first / (leaf[0] * fine_per_step));
-    };
-    std::sort(ends_met_.begin(), ends_met_.end(), [&](const End& a, const End& b) {
-      return std::tuple(place(a), a.row, a.ray.column) < std::tuple(place(b), b.row, b.ray.column);
-    });
-    std::vector<std::span<const End>> groups;
-    std::vector<TileBox> boxes;
-    for (auto begin = ends_met_.begin(); begin != ends_met_.end();) {
-      const auto end =
-          std::find_if(begin, ends_met_.end(), [&](const End& other) { return place(other) != place(*begin); });
-      groups.emplace_back(begin, end);
-      boxes.push_back(around(groups.back()));
-      begin = end;
-    }
-    if (!groups.empty()) colour(groups, boxes);
-    ends_met_.clear();
-  }
-
-  // In fine steps.
-  static TileBox around(std::span<const End> ends) {
-    TileBox fine{{ends[0].ray.first, ends[0].ray.column, ends[0].row}, {}};
-    for (const End& end : ends) {
-      const int64_t first[] = {end.ray.first, end.ray.column, end.row};
-      const int64_t last[] = {end.ray.first + behind, end.ray.column, end.row};
-      for (size_t axis = 0; axis < 3; ++axis) {
-        fine.lo[axis] = std::min(fine.lo[axis], first[axis]);
-        fine.hi[axis] = std::max(fine.hi[axis], last[axis] + 1);
-      }
-    }
-    return fine;
-  }
-
-  void colour(const std::vector<std::span<const End>>& groups, const std::vector<TileBox>& boxes) {
-    Level& all = level(0);
-    all.begin(programs_.whole, {around(ends_met_)}, *sources_);
-    all.shorten(size_t{0});
-    Level& each = level(1);
-    each.begin(all.left, boxes, *sources_);
-    for (size_t n = 0; n < groups.size() && !is_stopped_(); ++n) {
-      each.shorten(n);
-      take_colours(each.left.has_parts() ? without_parts(each, boxes[n]) : each, groups[n]);
-    }
-  }
-
-  const Level& without_parts(Level& of, const TileBox& fine) {
-    write_out_parts(of);
-    blocks_.begin(of.left, {fine}, *sources_);
-    blocks_.shorten(size_t{0});
-    return blocks_;
-  }
-
-  // A little behind the surface, if the solid is thick enough: where surfaces of two materials coincide, rounding
-  // decides which is met first.
-  void take_colours(const Level& asked, std::span<const End> ends) {
-    places_.clear();
-    for (const auto& [ray, row] : ends)
-      for (const int64_t fine : {ray.first, ray.first + behind}) places_.push_back({ray.column, row, fine});
-    colours_.evaluate(asked.left, asked.kept, places_, *sources_);
-    for (size_t n = 0; n < ends.size(); ++n)
-      hit(ends[n].ray.column, ends[n].row).at_end =
-          colours_.colour(colours_.value(Scene::opaque, 2 * n + 1) != 0 ? 2 * n + 1 : 2 * n);
   }
 
   const Scene& scene_;
@@ -376,16 +277,14 @@ class RayCaster {
   const std::function<bool()>& is_stopped_;
   const StripSources* sources_ = nullptr;
   RayBatch batch_;
-  RayPlaces colours_;
-  std::vector<RayPlace> places_;
-  std::deque<Level> levels_;
-  Level blocks_;
+  EndColours colours_;
+  std::deque<AskedTiles> levels_;
+  AskedTiles blocks_;
   RayBand& hits_;
   std::vector<size_t> met_;  // of the blocks that were asked
   program::Program parts_;   // of a leaf, written out
   std::array<std::vector<int64_t>, leaf[1]> runs_;
   std::vector<Ray> rays_, surfaces_, ends_;
-  std::vector<End> ends_met_;
 };
 
 // Casters that wait for work, one for each thread that asked for one at the same time.

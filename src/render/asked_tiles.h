@@ -1,0 +1,34 @@
+// A program that was asked about some tiles, and what is left of it in one of them or some.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "program/passes/passes.h"
+#include "render/ray_tiles.h"
+
+namespace ombre::render {
+
+struct AskedTiles {
+  explicit AskedTiles(const RaySteps& steps) : intervals(steps) {}
+
+  // Tiles in fine steps. The program outlives the questions.
+  void ask(const program::Program& program, std::vector<TileBox> fine, const voxel::StripSources& sources) {
+    intervals.evaluate(program, std::move(fine), sources);
+    shortener.begin(program);
+  }
+  // To what one of them needs, or some.
+  template <class Tiles>
+  void shorten(const Tiles& tiles) {
+    intervals.values(tiles, values);
+    shortener.shorten(values, left, kept);
+  }
+  void write_out_parts() { left = program::expand_parts(left, kept, program::Precision::batch); }
+
+  TileIntervals intervals;
+  program::Shortener shortener;
+  std::vector<Interval> values, kept;
+  program::Program left;
+};
+
+}  // namespace ombre::render

@@ -1,0 +1,78 @@
+#include "render/end_colours.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace ombre::render {
+namespace {
+
+constexpr TileSize together{32, 16, 16};       // steps, columns, rows
+constexpr int64_t behind = fine_per_step / 2;  // a surface, its colour is taken
+
+auto group_of(const RayPlace& end) {
+  return std::tuple(end.row / together[2], end.column / together[1], end.fine / (together[0] * fine_per_step));
+}
+
+// In fine steps.
+TileBox around(std::span<const RayPlace> ends) {
+  TileBox fine{{ends[0].fine, ends[0].column, ends[0].row}, {}};
+  for (const RayPlace& end : ends) {
+    const int64_t first[] = {end.fine, end.column, end.row};
+    const int64_t last[] = {end.fine + behind, end.column, end.row};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      fine.lo[axis] = std::min(fine.lo[axis], first[axis]);
+      fine.hi[axis] = std::max(fine.hi[axis], last[axis] + 1);
+    }
+  }
+  return fine;
+}
+
+}  // namespace
+
+void EndColours::take(const voxel::StripSources& sources, const std::function<bool()>& is_stopped) {
+  std::ranges::sort(ends_, {},
+                    [](const RayPlace& end) { return std::tuple_cat(group_of(end), std::tuple(end.row, end.column)); });
+  std::vector<Group> groups;
+  for (auto begin = ends_.begin(); begin != ends_.end();) {
+    const auto end =
+        std::find_if(begin, ends_.end(), [&](const RayPlace& other) { return group_of(other) != group_of(*begin); });
+    groups.emplace_back(begin, end);
+    begin = end;
+  }
+  if (!groups.empty()) take(groups, sources, is_stopped);
+  ends_.clear();
+}
+
+void EndColours::take(const std::vector<Group>& groups, const voxel::StripSources& sources,
+                      const std::function<bool()>& is_stopped) {
+  std::vector<TileBox> boxes;
+  for (const Group& group : groups) boxes.push_back(around(group));
+  all_.ask(whole_, {around(ends_)}, sources);
+  all_.shorten(size_t{0});
+  each_.ask(all_.left, boxes, sources);
+  for (size_t n = 0; n < groups.size() && !is_stopped(); ++n) {
+    each_.shorten(n);
+    take(each_.left.has_parts() ? without_parts(each_, boxes[n], sources) : each_, groups[n], sources);
+  }
+}
+
+const AskedTiles& EndColours::without_parts(AskedTiles& of, const TileBox& fine, const voxel::StripSources& sources) {
+  of.write_out_parts();
+  written_out_.ask(of.left, {fine}, sources);
+  written_out_.shorten(size_t{0});
+  return written_out_;
+}
+
+// A little behind the surface, if the solid is thick enough: where surfaces of two materials coincide, rounding
+// decides which is met first.
+void EndColours::take(const AskedTiles& asked, Group group, const voxel::StripSources& sources) {
+  asked_.clear();
+  for (const RayPlace& end : group)
+    for (const int64_t fine : {end.fine, end.fine + behind}) asked_.push_back({end.column, end.row, fine});
+  places_.evaluate(asked.left, asked.kept, asked_, sources);
+  for (size_t n = 0; n < group.size(); ++n)
+    hits_.at(group[n].column, group[n].row).at_end =
+        places_.colour(places_.value(Scene::opaque, 2 * n + 1) != 0 ? 2 * n + 1 : 2 * n);
+}
+
+}  // namespace ombre::render

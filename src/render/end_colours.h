@@ -1,0 +1,38 @@
+// The colours at the ends of rays in opaque material.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "render/asked_tiles.h"
+#include "render/ray_places.h"
+
+namespace ombre::render {
+
+class EndColours {
+ public:
+  // `whole` says colours; all outlive this.
+  EndColours(const program::Program& whole, const RaySteps& steps, RayBand& hits)
+      : whole_(whole), hits_(hits), places_(steps), all_(steps), each_(steps), written_out_(steps) {}
+
+  void note(int64_t column, int64_t row, int64_t fine) { ends_.push_back({column, row, fine}); }
+  // Those that were noted get their colours, those that lie together at a time.
+  void take(const voxel::StripSources& sources, const std::function<bool()>& is_stopped);
+
+ private:
+  using Group = std::span<const RayPlace>;
+
+  void take(const std::vector<Group>& groups, const voxel::StripSources& sources,
+            const std::function<bool()>& is_stopped);
+  const AskedTiles& without_parts(AskedTiles& of, const TileBox& fine, const voxel::StripSources& sources);
+  void take(const AskedTiles& asked, Group group, const voxel::StripSources& sources);
+
+  const program::Program& whole_;
+  RayBand& hits_;
+  RayPlaces places_;
+  AskedTiles all_, each_, written_out_;
+  std::vector<RayPlace> ends_, asked_;
+};
+
+}  // namespace ombre::render
