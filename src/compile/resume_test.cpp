@@ -7,6 +7,7 @@
 #include <atomic>
 #include <csignal>
 #include <random>
+#include <thread>
 
 namespace ombre::compile {
 namespace {

@@ -1,7 +1,5 @@
 #include "compile/test_slices.h"
 
-#include <random>
-
 #include "compile/job_sheet.h"
 #include "compile/layer_files.h"
 #include "compile/slice_work.h"
