@@ -7,7 +7,7 @@
 
 namespace ombre::surface {
 
-// A vertex, or what stands for several in a cell of 2^level cells.
+// A vertex, or what stands for several in a cell of 2^level units.
 struct Cluster {
   static constexpr uint32_t none = ~uint32_t{0};
   CellPlace place{};  // in units of its level
@@ -23,18 +23,21 @@ struct Cluster {
 class Clusters {
  public:
   // Clusters keep within about tolerance_mm of the planes at their crossings; 0: none are made.
-  Clusters(const MixedCells& cells, const std::vector<Crossing>& crossings, const DualMesh& mesh, double tolerance_mm);
+  Clusters(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh, double tolerance_mm);
 
   // What stands for a vertex now.
   uint32_t of(uint32_t vertex) const;
   const Cluster& operator[](uint32_t cluster) const { return clusters_[cluster]; }
   size_t size() const { return clusters_.size(); }
-  // Takes a cluster of level 1 or more apart.
+  // Whether it stands for several vertices, or may.
+  bool is_joined(uint32_t cluster) const { return cluster >= vertices_; }
+  // Takes a cluster that is joined apart.
   void split(uint32_t cluster) { clusters_[cluster].is_split = true; }
   void move(uint32_t cluster, Vec3 at) { clusters_[cluster].at = at; }
 
  private:
   std::vector<Cluster> clusters_;  // the vertices first
+  size_t vertices_ = 0;
 };
 
 }  // namespace ombre::surface

@@ -3,21 +3,22 @@
 
 #include <vector>
 
-#include "surface/cell_grid.h"
+#include "base/progress.h"
+#include "surface/crossed_edges.h"
+#include "surface/partition.h"
 
 namespace ombre::surface {
 
-// Of the edge that begins at corner 0 of a cell and runs along an axis.
 struct Crossing {
-  uint32_t cell = 0;
-  uint8_t axis = 0;
-  Label from = 0, to = 0;  // regions at the edge's ends
-  Vec3 at;                 // mm
-  Vec3 normal;             // unit; from region `from` into region `to`
+  CrossedEdge edge;
+  Vec3 at;      // mm
+  Vec3 normal;  // unit; from the edge's region `from` into region `to`
 };
 
-// All crossings, in order of their cells, then axes. Throws Cancelled.
-std::vector<Crossing> find_crossings(const Partition& partition, const MixedCells& cells, int threads,
-                                     Progress* progress = nullptr, const StopFlag* stop = nullptr);
+// All crossings, in order of their leaves, then axes; what is known of edges that were asked before is taken over.
+// Throws Cancelled.
+std::vector<Crossing> find_crossings(const Partition& partition, const CellTree& tree,
+                                     const std::vector<Crossing>& before, int threads, Progress* progress = nullptr,
+                                     const StopFlag* stop = nullptr);
 
 }  // namespace ombre::surface

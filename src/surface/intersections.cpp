@@ -2,71 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
-#include "base/box.h"
 #include "base/tasks.h"
+#include "surface/box_tree.h"
 
 namespace ombre::surface {
 namespace {
 
-bool meet(const Box& a, const Box& b) {
-  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
-         b.lo.z <= a.hi.z;
-}
-
 constexpr double nearly_one = 1 - 1e-6;  // of a cosine
-
-// Boxes in a binary tree: node n has children 2 n + 1 and 2 n + 2, leaves hold a few facets each.
-class BoxTree {
- public:
-  explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
-    std::iota(order_.begin(), order_.end(), 0U);
-    build(0, 0, order_.size());
-  }
-
-  // Calls visit(facet) for those whose boxes meet this one's and that have greater numbers.
-  template <class Visit>
-  void each_after(uint32_t facet, const Visit& visit) const {
-    ask(0, 0, order_.size(), facet, visit);
-  }
-
- private:
-  static constexpr size_t leaf = 4;
-
-  void build(size_t node, size_t begin, size_t end) {
-    if (nodes_.size() <= node) nodes_.resize(node + 1);
-    Box box;
-    for (size_t n = begin; n < end; ++n) box = hull(box, boxes_[order_[n]]);
-    nodes_[node] = box;
-    if (end - begin <= leaf) return;
-    const Vec3 size = box.size();
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto middle_of = [&](uint32_t f) { return boxes_[f].lo[axis] + boxes_[f].hi[axis]; };
-    const size_t middle = (begin + end) / 2;
-    const auto at = [&](size_t n) { return order_.begin() + static_cast<std::ptrdiff_t>(n); };
-    std::nth_element(at(begin), at(middle), at(end),
-                     [&](uint32_t a, uint32_t b) { return std::pair(middle_of(a), a) < std::pair(middle_of(b), b); });
-    build(2 * node + 1, begin, middle);
-    build(2 * node + 2, middle, end);
-  }
-
-  template <class Visit>
-  void ask(size_t node, size_t begin, size_t end, uint32_t facet, const Visit& visit) const {
-    if (!meet(nodes_[node], boxes_[facet])) return;
-    if (end - begin > leaf) {
-      const size_t middle = (begin + end) / 2;
-      ask(2 * node + 1, begin, middle, facet, visit);
-      ask(2 * node + 2, middle, end, facet, visit);
-      return;
-    }
-    for (size_t n = begin; n < end; ++n)
-      if (order_[n] > facet && meet(boxes_[order_[n]], boxes_[facet])) visit(order_[n]);
-  }
-
-  std::vector<Box> boxes_, nodes_;
-  std::vector<uint32_t> order_;
-};
 
 class Facets {
  public:
@@ -149,8 +92,8 @@ std::vector<std::pair<uint32_t, uint32_t>> find_intersections(const std::vector<
   run_parallel(pieces, threads, [&](size_t p) {
     const auto end = static_cast<uint32_t>(std::min((p + 1) * piece, facets.size()));
     for (auto facet = static_cast<uint32_t>(p * piece); facet < end; ++facet)
-      tree.each_after(facet, [&](uint32_t other) {
-        if (all.cross(facet, other)) found[p].emplace_back(facet, other);
+      tree.each_that_meets(tree.box(facet), [&](uint32_t other) {
+        if (other > facet && all.cross(facet, other)) found[p].emplace_back(facet, other);
       });
   });
   std::vector<std::pair<uint32_t, uint32_t>> pairs;

@@ -1,0 +1,78 @@
+#include "surface/refinement.h"
+
+#include <algorithm>
+
+#include "surface/label_asker.h"
+#include "surface/vertex_place.h"
+
+namespace ombre::surface {
+namespace {
+
+// Of the tolerance, for the root of the mean square of distances to the planes around a vertex.
+constexpr double rms_share = 0.6;
+// Between leaves around a crossed edge.
+constexpr int most_level_difference = 1;
+
+// What is cut and taken in so that leaves around crossed edges are mixed, and not far larger than the edges are long.
+struct Growth {
+  std::vector<uint32_t> cut;
+  std::vector<CellPlace> taken_in;
+
+  bool is_empty() const { return cut.empty() && taken_in.empty(); }
+  void sort() {
+    std::ranges::sort(cut);
+    cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
+    std::ranges::sort(taken_in);
+    taken_in.erase(std::unique(taken_in.begin(), taken_in.end()), taken_in.end());
+  }
+};
+
+Growth growth_around_cuts(const CellTree& tree, bool may_cut) {
+  Growth growth;
+  for (const CrossedEdge& edge : list_crossed_edges(tree, WhichEdges::near_cuts))
+    for (size_t corner = 0; corner < 4; ++corner) {
+      const uint32_t number = edge.leaves[corner];
+      if (number == CellTree::none) {
+        const CellPlace unit = unit_beside(edge, corner);
+        growth.taken_in.push_back({unit[0] >> grid_level, unit[1] >> grid_level, unit[2] >> grid_level});
+        continue;
+      }
+      const Leaf& leaf = tree.leaves()[number];
+      const bool is_too_large = leaf.level > edge.level + most_level_difference || !leaf.is_mixed();
+      if (may_cut && is_too_large) growth.cut.push_back(number);
+    }
+  growth.sort();
+  return growth;
+}
+
+}  // namespace
+
+std::vector<uint32_t> find_coarse_leaves(const CellTree& tree, const DualMesh& mesh, double tolerance_mm) {
+  std::vector<uint32_t> found;
+  for (const DualVertex& vertex : mesh.vertices) {
+    const Leaf& leaf = tree.leaves()[vertex.leaf];
+    if (leaf.level == 0 || (!found.empty() && found.back() == vertex.leaf)) continue;
+    const double most_mm = vertex.spread.most_rms(rms_share) * tolerance_mm;
+    if (vertex.planes.rms_mm(place_of(vertex, tree)) > most_mm) found.push_back(vertex.leaf);
+  }
+  return found;
+}
+
+void refine(CellTree& tree, const std::vector<uint32_t>& leaves, size_t most_leaves, const Partition& partition,
+            int threads, const StopFlag* stop) {
+  const auto ask = [&](const std::vector<CellPlace>& corners) {
+    std::vector<Vec3> points;
+    for (const CellPlace& corner : corners) points.push_back(tree.point(corner));
+    std::vector<Label> labels = labels_at(partition, points, threads, stop);
+    for (size_t n = 0; n < corners.size(); ++n)
+      if (tree.is_outermost(corners[n])) labels[n] = 0;
+    return labels;
+  };
+  tree.grow(leaves, {}, ask);
+  for (Growth more = growth_around_cuts(tree, true); !more.is_empty();) {
+    tree.grow(more.cut, more.taken_in, ask);
+    more = growth_around_cuts(tree, tree.leaves().size() < most_leaves);
+  }
+}
+
+}  // namespace ombre::surface
