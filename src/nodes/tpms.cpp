@@ -4,6 +4,7 @@
 
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
+#include "program/gradient.h"
 
 namespace ombre::nodes {
 namespace {
@@ -166,19 +167,27 @@ struct Tpms {
     const Gradient gx = gradient(&Tpms::phase_x, p, cell.x, 0), gy = gradient(&Tpms::phase_y, p, cell.y, 1),
                    gz = gradient(&Tpms::phase_z, p, cell.z, 2), gl = gradient(&Tpms::minus_level, p, level, -1);
     Field squared = p.constant(0);
-    for (size_t n = 0; n < 3; ++n) squared = squared + square(by_x * gx[n] + by_y * gy[n] + by_z * gz[n] + gl[n]);
+    for (size_t n = 0; n < 3; ++n) {
+      Field slope = gl[n];
+      for (const auto& [by, of] : {std::pair{by_z, gz[n]}, {by_y, gy[n]}, {by_x, gx[n]}})
+        if (!is_zero(of)) slope = is_zero(slope) ? by * of : by * of + slope;
+      squared = squared + square(slope);
+    }
     return {value, floored(squared)};
   }
 
   using Gradient = std::array<Field, 3>;  // 1/mm
 
-  // Of a phase along an axis, or of the level: by rule where its number is constant, else by differences.
+  static bool is_zero(Field field) { return field.builder->constant_value(field) == 0.0; }
+
+  // Of a phase along an axis, or of the level; by differences where there is no rule.
   Gradient gradient(Field (Tpms::*of)(const Point&) const, const Point& p, const Number& number, int axis) const {
     Gradient result{p.constant(0), p.constant(0), p.constant(0)};
     if (number.constant()) {
       if (axis >= 0) result[static_cast<size_t>(axis)] = p.constant(2 * std::numbers::pi / *number.constant());
       return result;
     }
+    if (const auto by_rule = program::gradient((this->*of)(p), p)) return *by_rule;
     constexpr double step = 1e-2;  // mm
     for (int n = 0; n < 3; ++n) {
       Vec3 by;

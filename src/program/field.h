@@ -43,7 +43,9 @@ class Builder {
   Field parts(const std::shared_ptr<const PartSet>& set, size_t slot, Field a, Field b, Field c);
 
   std::optional<double> constant_value(Field field) const;
-  bool is_truth(Field field) const;  // is its value always 0 or 1?
+  const Instruction& instruction(Field field) const { return code_[field.id]; }
+  const AffineRow& affine_row(Field field) const { return maps_[code_[field.id].aux]; }  // of an affine map
+  bool is_truth(Field field) const;                                                      // is its value always 0 or 1?
   size_t size() const { return code_.size(); }
   // Forgets everything but its memory, for another program.
   void clear();

@@ -42,13 +42,12 @@ class RayBatch : private eval::SourceRows {
  private:
   bool has(const program::Read& read) const override { return sources_->has(read.tag); }
   void fill(const program::Read& read, const eval::RowsToFill& to) const override;
+  void place_rays();
 
   const RaySteps& steps_;
   eval::BatchEvaluator batch_;
   const voxel::StripSources* sources_ = nullptr;
   const std::vector<Ray>* rays_ = nullptr;
-  void place_rays();
-
   int64_t row_ = 0, fine_stride_ = 1;
   std::vector<eval::Values> outputs_;
   size_t width_ = 0;            // samples of a ray

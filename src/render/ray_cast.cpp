@@ -25,8 +25,8 @@ using voxel::StripSources;
 // Rays are asked in blocks of samples; those of a leaf together.
 constexpr TileSize leaf{32, 16, 16}, block{steps_together, 4, 4};
 constexpr size_t most_samples = 512;           // in a row of a leaf
-constexpr int64_t tile_edge = 32;              // of the picture's tiles, in pixels
-constexpr size_t many_parts = 4;               // while so many reach a tile, it is cut before they are written out
+constexpr int64_t tile_edge = 128;             // of the picture's tiles, in pixels
+constexpr size_t many_parts = 8;               // while so many reach a tile, it is cut before they are written out
 constexpr int64_t behind = fine_per_step / 2;  // a surface, its colour is taken
 constexpr float dark = 0.01F;                  // less light than that is none
 

@@ -24,7 +24,7 @@ TileBox fine_box(const TileBox& tile);
 // What a program says of many tiles at once.
 class TileIntervals {
  public:
-  explicit TileIntervals(const RaySteps& steps) : steps_(steps), intervals_(eval::interval_kernel_sets().front()) {}
+  explicit TileIntervals(const RaySteps& steps) : steps_(steps), intervals_(eval::kernel_sets().front()) {}
 
   // `fine` are in fine steps. The program outlives the questions.
   void evaluate(const program::Program& program, std::vector<TileBox> fine, const voxel::StripSources& sources);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/assert.h"
-#include "eval/batch/kernels.h"
 #include "program/parts.h"
 
 namespace ombre::eval {
@@ -75,7 +74,7 @@ void BoxIntervals::evaluate_one(ValueId id, std::span<const Box> boxes, const So
       break;
   }
   const bool is_own_quotient = in.a == in.b && (in.op == Op::divide || in.op == Op::share);
-  const IntervalKernel kernel = is_own_quotient ? nullptr : kernels_.kernel(in.op);
+  const IntervalKernel kernel = is_own_quotient ? nullptr : kernels_.interval_kernel(in.op);
   if (!kernel) return fill(id, one);
   kernel(row(in.a), row(in.b), row(in.c), row(id), stride_);
 }
@@ -85,7 +84,8 @@ void BoxIntervals::ask_parts(ValueId id) {
   const Instruction& in = program_->code[id];
   const program::PartSet& set = *program_->part_sets[in.aux];
   const auto asks_the_same = [&](const Instruction& other) {
-    return other.op == Op::parts && other.aux == in.aux && other.a == in.a && other.b == in.b && other.c == in.c;
+    const bool is_there = other.a == in.a && other.b == in.b && other.c == in.c;
+    return other.op == Op::parts && is_there && program_->part_sets[other.aux].get() == &set;
   };
   if (id == 0 || !asks_the_same(program_->code[id - 1])) {
     reached_.resize(count_);

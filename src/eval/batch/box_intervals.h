@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "eval/batch/interval_kernels.h"
+#include "eval/batch/kernels.h"
 #include "program/program.h"
 
 namespace ombre::eval {
@@ -15,7 +15,7 @@ class BoxIntervals {
   // What a source can be over operands' ranges, in box number `box`.
   using SourceRanges = std::function<Interval(size_t box, const program::Read&, const Box&)>;
 
-  explicit BoxIntervals(const IntervalKernelSet& kernels) : kernels_(kernels) {}
+  explicit BoxIntervals(const KernelSet& kernels) : kernels_(kernels) {}
 
   // The values enclose what float batches compute (program/single.h). `program` without calls and affine maps; it
   // must outlive the questions. Equal to evaluate_intervals, but for sine, cosine, atan2 and exp, which are some 1e-6
@@ -41,7 +41,7 @@ class BoxIntervals {
   void evaluate_one(program::ValueId id, std::span<const Box> boxes, const SourceRanges& sources);
   void ask_parts(program::ValueId id);
 
-  const IntervalKernelSet& kernels_;
+  const KernelSet& kernels_;
   const program::Program* program_ = nullptr;
   size_t count_ = 0, stride_ = 0;  // boxes; floats from row to row
   std::vector<float> memory_;

@@ -67,7 +67,7 @@ std::string text(Interval v) { return "[" + std::to_string(v.lo) + ", " + std::t
 }  // namespace
 
 TEST(BoxIntervals, AreThoseOfOneBoxEach) {
-  for (const IntervalKernelSet& kernels : interval_kernel_sets()) {
+  for (const KernelSet& kernels : kernel_sets()) {
     std::mt19937 random(11);
     BoxIntervals evaluator(kernels);
     for (int round = 0; round < 3000; ++round) {
@@ -89,7 +89,7 @@ TEST(BoxIntervals, AreThoseOfOneBoxEach) {
 
 // Wider than those of double precision by what floats lose, and never narrower than the crests and ends say.
 TEST(BoxIntervals, WavesHoldTheirCrestsAndAreTight) {
-  for (const IntervalKernelSet& kernels : interval_kernel_sets()) {
+  for (const KernelSet& kernels : kernel_sets()) {
     std::mt19937 random(12);
     BoxIntervals evaluator(kernels);
     Builder builder;
@@ -118,7 +118,7 @@ TEST(BoxIntervals, WavesHoldTheirCrestsAndAreTight) {
 }
 
 TEST(BoxIntervals, HoldWhatBatchesComputeAndAreTight) {
-  const auto& sets = interval_kernel_sets();
+  const auto& sets = kernel_sets();
   for (size_t set = 0; set < sets.size(); ++set) {
     std::mt19937 random(15);
     BoxIntervals evaluator(sets[set]);
@@ -155,7 +155,7 @@ TEST(BoxIntervals, HoldWhatBatchesComputeAndAreTight) {
 }
 
 TEST(BoxIntervals, EveryInstructionSetGivesTheSame) {
-  const auto& sets = interval_kernel_sets();
+  const auto& sets = kernel_sets();
   if (sets.size() < 2) GTEST_SKIP() << "one instruction set";
   std::mt19937 random(13);
   for (int round = 0; round < 2000; ++round) {
@@ -174,7 +174,7 @@ TEST(BoxIntervals, EveryInstructionSetGivesTheSame) {
 }
 
 TEST(BoxIntervals, HullsHoldTheBoxesTheyAreOf) {
-  const auto& sets = interval_kernel_sets();
+  const auto& sets = kernel_sets();
   if (sets.empty()) GTEST_SKIP() << "no hardware multiply-add";
   std::mt19937 random(14);
   const Program program = random_program(random, 20, true);

@@ -8,6 +8,7 @@
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 //
+#include "eval/batch/intervals-inl.h"
 #include "eval/batch/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -132,7 +133,7 @@ void sine_cosine(const float* a, float* sines, float* cosines, size_t count) {
 
 KernelSet kernel_set() {
   constexpr const char* name = HWY_TARGET <= HWY_AVX3 ? "avx512" : HWY_TARGET == HWY_AVX2 ? "avx2" : "portable";
-  return {name, kernel, sine_cosine};
+  return {name, kernel, sine_cosine, intervals::kernel, intervals::hull};
 }
 
 }  // namespace

@@ -24,11 +24,23 @@ enum OperandShape : unsigned { all_rows = 0, a_is_number = 1, b_is_number = 2, c
 // Can operands be NaN? Kernels for `never` are faster and equal otherwise.
 enum class Unknowns { never, possible };
 
+// Lower and upper ends of intervals, as long as rows of floats.
+struct IntervalRow {
+  float* lo = nullptr;
+  float* hi = nullptr;
+};
+
+// What comes out encloses what a Kernel computes on any operands inside; the ends are floats.
+using IntervalKernel = void (*)(IntervalRow a, IntervalRow b, IntervalRow c, IntervalRow out, size_t count);
+
 struct KernelSet {
   std::string_view name;  // "avx512", "avx2", "portable"
   Kernel (*kernel)(program::Op op, unsigned shape, Unknowns unknowns);
   // sine to `a_out`, cosine to `b_out`, with the bits of the separate kernels
   void (*sine_cosine)(const float* a, float* a_out, float* b_out, size_t count);
+  IntervalKernel (*interval_kernel)(program::Op op);  // null for ops that are done one by one
+  // Of the intervals where `chosen` is not 0; [inf, -inf] if there are none.
+  Interval (*hull)(IntervalRow row, const float* chosen, size_t count);
 };
 
 // What this machine can run, best first; empty without hardware multiply-add.

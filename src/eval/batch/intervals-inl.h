@@ -1,25 +1,31 @@
-#include "eval/batch/interval_kernels.h"
+// The ops on vectors of intervals. Included once for each instruction set.
+//
+// What comes out encloses what float batches compute on any operands inside.
+
+#if defined(OMBRE_EVAL_BATCH_INTERVALS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef OMBRE_EVAL_BATCH_INTERVALS_INL_H_
+#undef OMBRE_EVAL_BATCH_INTERVALS_INL_H_
+#else
+#define OMBRE_EVAL_BATCH_INTERVALS_INL_H_
+#endif
 
 #include <numbers>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "eval/batch/interval_kernels.cpp"
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
-#include <hwy/foreach_target.h>
-//
+#include "eval/batch/kernels.h"
 #include "eval/batch/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ombre::eval {
 namespace HWY_NAMESPACE {
-namespace {
+namespace intervals {
+
+namespace hn = hwy::HWY_NAMESPACE;
 
 using batch::D;
 using batch::M;
 using batch::number;
 using batch::V;
 using program::Op;
-namespace hn = hwy::HWY_NAMESPACE;
 
 struct Ends {
   V lo, hi;
@@ -185,7 +191,9 @@ constexpr bool is_one_by_one(Op op) {
 }
 
 HWY_INLINE Ends load(IntervalRow row, size_t n) { return {hn::Load(D(), row.lo + n), hn::Load(D(), row.hi + n)}; }
-Interval at(IntervalRow row, size_t n) { return {static_cast<double>(row.lo[n]), static_cast<double>(row.hi[n])}; }
+inline Interval at(IntervalRow row, size_t n) {
+  return {static_cast<double>(row.lo[n]), static_cast<double>(row.hi[n])};
+}
 
 template <Op op, int arity>
 void run(IntervalRow a, IntervalRow b, IntervalRow c, IntervalRow out, size_t count) {
@@ -215,7 +223,7 @@ void run(IntervalRow a, IntervalRow b, IntervalRow c, IntervalRow out, size_t co
   }
 }
 
-IntervalKernel kernel(Op op) {
+inline IntervalKernel kernel(Op op) {
   switch (op) {
 #define OMBRE_ROW(name, arity)                                           \
   case Op::name:                                                         \
@@ -230,7 +238,7 @@ IntervalKernel kernel(Op op) {
   return nullptr;
 }
 
-Interval hull(IntervalRow row, const float* chosen, size_t count) {
+inline Interval hull(IntervalRow row, const float* chosen, size_t count) {
   V lo = number(inf), hi = number(-inf);
   for (size_t n = 0; n < count; n += hn::Lanes(D())) {
     const M is_chosen = batch::is_set(hn::Load(D(), chosen + n));
@@ -242,33 +250,9 @@ Interval hull(IntervalRow row, const float* chosen, size_t count) {
           static_cast<double>(hn::GetLane(hn::MaxOfLanes(D(), hi)))};
 }
 
-IntervalKernelSet interval_kernel_set() {
-  constexpr const char* name = HWY_TARGET <= HWY_AVX3 ? "avx512" : HWY_TARGET == HWY_AVX2 ? "avx2" : "portable";
-  return {name, kernel, hull};
-}
-
-}  // namespace
-IntervalKernelSet interval_kernels_here() { return interval_kernel_set(); }
+}  // namespace intervals
 }  // namespace HWY_NAMESPACE
 }  // namespace ombre::eval
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
-namespace ombre::eval {
-
-const std::vector<IntervalKernelSet>& interval_kernel_sets() {
-  static const std::vector<IntervalKernelSet> sets = [] {
-    std::vector<IntervalKernelSet> found;
-#if HWY_ARCH_X86
-    if (hwy::SupportedTargets() & HWY_AVX3) found.push_back(N_AVX3::interval_kernels_here());
-    if (hwy::SupportedTargets() & HWY_AVX2) found.push_back(N_AVX2::interval_kernels_here());
-    if (found.empty()) return found;
-#endif
-    found.push_back(HWY_STATIC_DISPATCH(interval_kernels_here)());
-    return found;
-  }();
-  return sets;
-}
-
-}  // namespace ombre::eval
 #endif
