@@ -1,30 +1,70 @@
 #include "surface/box_tree.h"
 
-#include <algorithm>
-#include <numeric>
+#include <utility>
 
 namespace ombre::surface {
+namespace {
 
-BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
-  std::iota(order_.begin(), order_.end(), 0U);
-  if (!boxes_.empty()) build(0, 0, order_.size());
+constexpr int bits = 21;  // of a place along each axis
+
+// Two zeros before each bit.
+uint64_t spread(uint64_t n) {
+  n = (n | n << 32) & 0x001F00000000FFFFU;
+  n = (n | n << 16) & 0x001F0000FF0000FFU;
+  n = (n | n << 8) & 0x100F00F00F00F00FU;
+  n = (n | n << 4) & 0x10C30C30C30C30C3U;
+  return (n | n << 2) & 0x1249249249249249U;
 }
 
-void BoxTree::build(size_t node, size_t begin, size_t end) {
-  if (nodes_.size() <= node) nodes_.resize(node + 1);
-  Box box;
-  for (size_t n = begin; n < end; ++n) box = hull(box, boxes_[order_[n]]);
-  nodes_[node] = box;
-  if (end - begin <= leaf) return;
-  const Vec3 size = box.size();
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const auto middle_of = [&](uint32_t f) { return boxes_[f].lo[axis] + boxes_[f].hi[axis]; };
-  const size_t middle = (begin + end) / 2;
-  const auto at = [&](size_t n) { return order_.begin() + static_cast<std::ptrdiff_t>(n); };
-  std::nth_element(at(begin), at(middle), at(end),
-                   [&](uint32_t a, uint32_t b) { return std::pair(middle_of(a), a) < std::pair(middle_of(b), b); });
-  build(2 * node + 1, begin, middle);
-  build(2 * node + 2, middle, end);
+// Of the boxes' middles, along Morton's curve.
+class Curve {
+ public:
+  explicit Curve(const Box& whole) : whole_(whole) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double size = whole.size()[axis];
+      scale_[axis] = size > 0 ? static_cast<double>((1 << bits) - 1) / size : 0;
+    }
+  }
+  uint64_t place(const Box& box) const {
+    uint64_t place = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double middle = 0.5 * (box.lo[axis] + box.hi[axis]) - whole_.lo[axis];
+      place |= spread(static_cast<uint64_t>(std::max(0.0, middle * scale_[axis]))) << axis;
+    }
+    return place;
+  }
+
+ private:
+  Box whole_;
+  Vec3 scale_;
+};
+
+}  // namespace
+
+BoxTree::BoxTree(const std::vector<Box>& boxes) {
+  if (boxes.empty()) return;
+  Box whole;
+  for (const Box& box : boxes) whole = hull(whole, box);
+  const Curve curve(whole);
+  std::vector<std::pair<uint64_t, uint32_t>> places;
+  places.reserve(boxes.size());
+  for (uint32_t n = 0; n < boxes.size(); ++n) places.emplace_back(curve.place(boxes[n]), n);
+  std::ranges::sort(places);
+
+  std::vector<Box> sorted;
+  sorted.reserve(boxes.size());
+  order_.reserve(boxes.size());
+  for (const auto& [place, number] : places) {
+    order_.push_back(number);
+    sorted.push_back(boxes[number]);
+  }
+  levels_.push_back(std::move(sorted));
+  do {
+    const std::vector<Box>& below = levels_.back();
+    std::vector<Box> level((below.size() + width - 1) / width);
+    for (size_t n = 0; n < below.size(); ++n) level[n / width] = hull(level[n / width], below[n]);
+    levels_.push_back(std::move(level));
+  } while (levels_.back().size() > 1);
 }
 
 }  // namespace ombre::surface

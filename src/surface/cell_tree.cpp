@@ -213,4 +213,15 @@ void CellTree::list_below(const CellPlace& at, int level, uint32_t children) {
   }
 }
 
+std::vector<uint32_t> numbers_after_growth(const std::vector<Leaf>& before, const std::vector<Leaf>& after) {
+  std::vector<uint32_t> numbers;
+  numbers.reserve(before.size());
+  uint32_t next = 0;
+  for (const Leaf& leaf : before) {
+    while (after[next].at != leaf.at) ++next;
+    numbers.push_back(after[next].level == leaf.level ? next : CellTree::none);
+  }
+  return numbers;
+}
+
 }  // namespace ombre::surface

@@ -77,4 +77,7 @@ class CellTree {
   std::unordered_map<CellPlace, Label, PlaceHash> labels_;  // at corners of cells that were cut
 };
 
+// The numbers that leaves have after a tree grew; none where they were cut.
+std::vector<uint32_t> numbers_after_growth(const std::vector<Leaf>& before, const std::vector<Leaf>& after);
+
 }  // namespace ombre::surface

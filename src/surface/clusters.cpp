@@ -51,8 +51,8 @@ bool borders_are_simple(uint16_t crossed) {
 class LevelBuilder {
  public:
   LevelBuilder(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh, double tolerance_mm,
-               std::vector<Cluster>& clusters)
-      : tree_(tree), crossings_(crossings), mesh_(mesh), tolerance_mm_(tolerance_mm), clusters_(clusters) {
+               ClusterList& list)
+      : tree_(tree), crossings_(crossings), mesh_(mesh), tolerance_mm_(tolerance_mm), list_(list), clusters_(list.all) {
     for (const DualVertex& vertex : mesh.vertices) {
       planes_.push_back(vertex.planes);
       spreads_.push_back(vertex.spread);
@@ -192,7 +192,11 @@ class LevelBuilder {
                              room_of(tree_, place, level_).contains(least.at);
       const auto number = static_cast<uint32_t>(clusters_.size());
       for (const uint32_t member : candidate.members) clusters_[member].parent = number;
-      clusters_.push_back({place, static_cast<uint8_t>(level_), !is_simple, Cluster::none, least.at});
+      clusters_.push_back({place, static_cast<uint8_t>(level_), !is_simple, Cluster::none,
+                           static_cast<uint32_t>(list_.members.size()),
+                           static_cast<uint32_t>(candidate.members.size())});
+      list_.places.push_back(least.at);
+      list_.members.insert(list_.members.end(), candidate.members.begin(), candidate.members.end());
       planes_.push_back(candidate.planes);
       spreads_.push_back(candidate.spread);
       euler_.push_back(euler);
@@ -206,6 +210,7 @@ class LevelBuilder {
   const std::vector<Crossing>& crossings_;
   const DualMesh& mesh_;
   double tolerance_mm_;
+  ClusterList& list_;
   std::vector<Cluster>& clusters_;
   int level_ = 0;
   std::vector<Quadric> planes_;
@@ -225,24 +230,43 @@ Clusters::Clusters(const CellTree& tree, const std::vector<Crossing>& crossings,
   for (const DualVertex& vertex : mesh.vertices) {
     const Leaf& leaf = tree.leaves()[vertex.leaf];
     const CellPlace place{leaf.at[0] >> leaf.level, leaf.at[1] >> leaf.level, leaf.at[2] >> leaf.level};
-    clusters_.push_back({place, leaf.level, false, Cluster::none, place_of(vertex, tree)});
+    list_.all.push_back({place, leaf.level});
+    list_.places.push_back(place_of(vertex, tree));
     lowest = std::min<int>(lowest, leaf.level);
   }
-  if (tolerance_mm <= 0) return;
-  LevelBuilder builder(tree, crossings, mesh, tolerance_mm, clusters_);
-  const auto& count = tree.lattice().count;
-  const auto longest = static_cast<uint64_t>(std::max({count[0], count[1], count[2]}));
-  // What hangs together in the whole grid ends there.
-  const int levels = grid_level + static_cast<int>(std::bit_width(longest));
-  for (int level = lowest + 1; level <= levels && builder.build(level); ++level) {
+  if (tolerance_mm > 0) {
+    LevelBuilder builder(tree, crossings, mesh, tolerance_mm, list_);
+    const auto& count = tree.lattice().count;
+    const auto longest = static_cast<uint64_t>(std::max({count[0], count[1], count[2]}));
+    // What hangs together in the whole grid ends there.
+    const int levels = grid_level + static_cast<int>(std::bit_width(longest));
+    for (int level = lowest + 1; level <= levels && builder.build(level); ++level) {
+    }
+  }
+  stands_for_.resize(vertices_);
+  for (uint32_t vertex = 0; vertex < vertices_; ++vertex) {
+    stands_for_[vertex] = vertex;
+    for (uint32_t c = list_.all[vertex].parent; c != Cluster::none; c = list_.all[c].parent)
+      if (!list_.all[c].is_split) stands_for_[vertex] = c;
   }
 }
 
-uint32_t Clusters::of(uint32_t vertex) const {
-  uint32_t found = vertex;
-  for (uint32_t c = clusters_[vertex].parent; c != Cluster::none; c = clusters_[c].parent)
-    if (!clusters_[c].is_split) found = c;
-  return found;
+void Clusters::split(uint32_t cluster, std::vector<uint32_t>& vertices) {
+  Cluster& split = list_.all[cluster];
+  if (split.is_split) return;
+  split.is_split = true;
+  let_stand(Cluster::none, cluster, vertices);
+}
+
+// For the vertices below, or what is not split there, if there is no cluster yet.
+void Clusters::let_stand(uint32_t cluster, uint32_t below, std::vector<uint32_t>& vertices) {
+  const Cluster& c = list_.all[below];
+  if (cluster == Cluster::none && !c.is_split) cluster = below;
+  if (!is_joined(below)) {
+    stands_for_[below] = cluster;
+    vertices.push_back(below);
+  }
+  for (uint32_t n = 0; n < c.member_count; ++n) let_stand(cluster, list_.members[c.first_member + n], vertices);
 }
 
 }  // namespace ombre::surface

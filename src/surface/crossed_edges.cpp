@@ -55,12 +55,8 @@ CellPlace unit_beside(const CrossedEdge& edge, size_t corner) {
   return unit;
 }
 
-std::vector<CrossedEdge> list_crossed_edges(const CellTree& tree, WhichEdges which) {
-  const Lister lister(tree);
-  std::vector<CrossedEdge> edges;
-  for (uint32_t n = 0; n < tree.leaves().size(); ++n)
-    if (which == WhichEdges::all || tree.leaves()[n].is_near_cut) lister.list(n, edges);
-  return edges;
+void list_crossed_edges(const CellTree& tree, uint32_t leaf, std::vector<CrossedEdge>& edges) {
+  Lister(tree).list(leaf, edges);
 }
 
 }  // namespace ombre::surface

@@ -21,8 +21,8 @@ constexpr std::array<std::array<int, 2>, 4> quad_offsets{{{0, 0}, {1, 0}, {1, 1}
 // The unit at an edge's start, in the leaf of this corner.
 CellPlace unit_beside(const CrossedEdge& edge, size_t corner);
 
-enum class WhichEdges : uint8_t { all, near_cuts };
-// In order of their leaves, then axes. Leaves are CellTree::none where the tree has no cell of the grid.
-std::vector<CrossedEdge> list_crossed_edges(const CellTree& tree, WhichEdges which = WhichEdges::all);
+// Adds those that a leaf lists: each edge is listed by one leaf. Leaves around it are CellTree::none where the tree has
+// no cell of the grid.
+void list_crossed_edges(const CellTree& tree, uint32_t leaf, std::vector<CrossedEdge>& edges);
 
 }  // namespace ombre::surface

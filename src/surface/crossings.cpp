@@ -29,21 +29,62 @@ struct EdgeKeyHash {
 // Crossings of all edges, those that were found before with what is known of them, and the numbers of the others.
 class CrossingList {
  public:
-  CrossingList(const CellTree& tree, const std::vector<Crossing>& before) {
-    std::unordered_map<EdgeKey, uint32_t, EdgeKeyHash> known(before.size());
-    for (uint32_t n = 0; n < before.size(); ++n) known.emplace(before[n].edge, n);
-    for (const CrossedEdge& edge : list_crossed_edges(tree)) {
-      const auto found = known.find(EdgeKey(edge));
-      if (found == known.end()) {
-        unknown.push_back(static_cast<uint32_t>(all.size()));
-        all.push_back({edge, {}, {}});
-      } else {
-        all.push_back({edge, before[found->second].at, before[found->second].normal});
-      }
+  CrossingList(const CellTree& tree, const std::vector<Crossing>& before, const std::vector<uint32_t>& leaves)
+      : tree_(tree), before_(before), leaves_(leaves) {
+    note_before();
+    for (uint32_t n = 0; n < tree.leaves().size(); ++n) {
+      take_over(n);
+      if (tree.leaves()[n].is_near_cut || before.empty()) list(n);
     }
   }
   std::vector<Crossing> all;
   std::vector<uint32_t> unknown;
+
+ private:
+  // The leaf that listed an edge before, and has now, far from cuts, just the same edges; or none.
+  uint32_t same_leaf(const Crossing& crossing) const {
+    const uint32_t first = crossing.edge.leaves[0], now = first == CellTree::none ? first : leaves_[first];
+    return now == CellTree::none || tree_.leaves()[now].is_near_cut ? CellTree::none : now;
+  }
+
+  void note_before() {
+    for (uint32_t n = 0; n < before_.size(); ++n)
+      if (same_leaf(before_[n]) == CellTree::none)
+        known_.emplace(EdgeKey(before_[n].edge), n);
+      else
+        same_.push_back(n);
+  }
+
+  void take_over(uint32_t leaf) {
+    for (; next_ < same_.size() && same_leaf(before_[same_[next_]]) == leaf; ++next_) {
+      Crossing crossing = before_[same_[next_]];
+      for (uint32_t& around : crossing.edge.leaves) around = leaves_[around];
+      crossing.before = same_[next_];
+      all.push_back(crossing);
+    }
+  }
+
+  void list(uint32_t leaf) {
+    edges_.clear();
+    list_crossed_edges(tree_, leaf, edges_);
+    for (const CrossedEdge& edge : edges_) {
+      const auto found = known_.find(EdgeKey(edge));
+      if (found == known_.end()) {
+        unknown.push_back(static_cast<uint32_t>(all.size()));
+        all.push_back({edge, {}, {}});
+      } else {
+        all.push_back({edge, before_[found->second].at, before_[found->second].normal, found->second});
+      }
+    }
+  }
+
+  const CellTree& tree_;
+  const std::vector<Crossing>& before_;
+  const std::vector<uint32_t>& leaves_;
+  std::unordered_map<EdgeKey, uint32_t, EdgeKeyHash> known_;
+  std::vector<uint32_t> same_;  // numbers before, of crossings with the same leaf
+  size_t next_ = 0;
+  std::vector<CrossedEdge> edges_;
 };
 
 // Numbers of crossings, block by block; edges of a block have the same length.
@@ -128,12 +169,8 @@ class BlockFinder {
   const StopFlag* stop_;
 };
 
-}  // namespace
-
-std::vector<Crossing> find_crossings(const Partition& partition, const CellTree& tree,
-                                     const std::vector<Crossing>& before, int threads, Progress* progress,
-                                     const StopFlag* stop) {
-  CrossingList crossings(tree, before);
+std::vector<Crossing> find(const Partition& partition, const CellTree& tree, CrossingList crossings, int threads,
+                           Progress* progress, const StopFlag* stop) {
   const auto blocks = cut_into_blocks(crossings.all, std::move(crossings.unknown));
   const Stopwatch watch;
   std::atomic<uint64_t> done = 0;
@@ -143,6 +180,20 @@ std::vector<Crossing> find_crossings(const Partition& partition, const CellTree&
     if (progress) progress->update(at_steady_pace(now, blocks.size(), watch.seconds()));
   });
   return std::move(crossings.all);
+}
+
+}  // namespace
+
+std::vector<Crossing> find_crossings(const Partition& partition, const CellTree& tree, int threads, Progress* progress,
+                                     const StopFlag* stop) {
+  return find(partition, tree, CrossingList(tree, {}, {}), threads, progress, stop);
+}
+
+std::vector<Crossing> find_crossings_after_growth(const Partition& partition, const CellTree& tree,
+                                                  const std::vector<Crossing>& before,
+                                                  const std::vector<uint32_t>& leaves, int threads,
+                                                  const StopFlag* stop) {
+  return find(partition, tree, CrossingList(tree, before, leaves), threads, nullptr, stop);
 }
 
 }  // namespace ombre::surface

@@ -1,11 +1,11 @@
 #include "surface/facet_check.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <iterator>
 
-#include "surface/box_tree.h"
 #include "surface/evenly.h"
+#include "surface/facet_distance.h"
 
 namespace ombre::surface {
 namespace {
@@ -14,52 +14,45 @@ constexpr double reach_of_tolerance = 0.95;  // samples see but a part of a face
 constexpr double most_tolerances = 16;
 constexpr size_t most_measured = 1000;
 
-std::array<Vec3, 3> corners_of(const RegionSurface& surface, const Facet& facet) {
-  return {surface.vertices[facet.corners[0]], surface.vertices[facet.corners[1]], surface.vertices[facet.corners[2]]};
-}
-
-uint64_t hash_of(const std::array<Vec3, 3>& corners) {
-  uint64_t hash = 0;
-  for (const Vec3& corner : corners)
-    for (int axis = 0; axis < 3; ++axis) {
-      hash = (hash ^ std::bit_cast<uint64_t>(corner[axis])) * 0x9E3779B97F4A7C15U;
-      hash ^= hash >> 32;
-    }
-  return hash;
-}
+Vec3 middle_of(const std::array<Vec3, 3>& corners) { return (1.0 / 3) * (corners[0] + corners[1] + corners[2]); }
 
 class Sampler {
  public:
-  Sampler(const RegionSurface& surface, double spacing_mm)
-      : surface_(surface), spacing_mm_(spacing_mm), has_vertex_(surface.vertices.size()) {}
+  Sampler(const QuadSurface& surface, double spacing_mm)
+      : surface_(surface), spacing_mm_(spacing_mm), has_vertex_(surface.clusters().size()) {}
 
-  // Vertices once, sides once where two facets go along them in opposite directions, and points inside.
-  void add(uint32_t quad, uint64_t hash, const Facet& facet) {
-    const std::array<Vec3, 3> corners = corners_of(surface_, facet);
-    const Vec3 across = cross(corners[1] - corners[0], corners[2] - corners[0]);
-    const double twice_area = length(across);
-    normal_ = twice_area > 0 ? (1 / twice_area) * across : Vec3{0, 0, 1};
-    owner_ = {quad, hash};
-    for (size_t n = 0; n < 3; ++n) {
-      if (!has_vertex_[facet.corners[n]]) add(corners[n]);
-      has_vertex_[facet.corners[n]] = true;
-      if (facet.corners[n] < facet.corners[(n + 1) % 3]) add_side(corners[n], corners[(n + 1) % 3]);
+  // Little can be wrong in calm quads: they get a sample, others many.
+  void add(uint32_t quad) {
+    quad_ = quad;
+    const bool is_calm = surface_.is_calm(quad);
+    for (const Triangle& triangle : surface_.triangles(quad)) {
+      const std::array<Vec3, 3> corners = surface_.corners(triangle);
+      const Vec3 across = surface_.normal(triangle);
+      const double twice_area = length(across);
+      normal_ = twice_area > 0 ? (1 / twice_area) * across : Vec3{0, 0, 1};
+      add(middle_of(corners));
+      if (is_calm) return;
+      add_corners(triangle, corners);
+      add_inside(corners, twice_area);
     }
-    add((1.0 / 3) * (corners[0] + corners[1] + corners[2]));
-    add_inside(corners, twice_area);
   }
 
-  struct Owner {
-    uint32_t quad = 0;
-    uint64_t hash = 0;  // of the facet
-  };
-  std::vector<Owner> owners;
+  std::vector<uint32_t> quads;  // of the samples
   std::vector<SurfaceSample> samples;
 
  private:
   void add(Vec3 at) {
-    owners.push_back(owner_);
+    quads.push_back(quad_);
     samples.push_back({at, normal_});
+  }
+
+  // Vertices once, sides once where two facets go along them in opposite directions.
+  void add_corners(const Triangle& triangle, const std::array<Vec3, 3>& corners) {
+    for (size_t n = 0; n < 3; ++n) {
+      if (!has_vertex_[triangle[n]]) add(corners[n]);
+      has_vertex_[triangle[n]] = true;
+      if (triangle[n] < triangle[(n + 1) % 3]) add_side(corners[n], corners[(n + 1) % 3]);
+    }
   }
 
   int pieces(double length_mm) const {
@@ -81,41 +74,19 @@ class Sampler {
         add(a + (static_cast<double>(i) / count) * (b - a) + (static_cast<double>(j) / count) * (c - a));
   }
 
-  const RegionSurface& surface_;
+  const QuadSurface& surface_;
   double spacing_mm_;
   std::vector<bool> has_vertex_;
   Vec3 normal_;
-  Owner owner_;
+  uint32_t quad_ = 0;
 };
 
-// The facets near a point.
-class NearFacets {
- public:
-  explicit NearFacets(const RegionSurface& surface) : surface_(surface), tree_(boxes_of(surface)) {}
-
-  // To the nearest facet within reach; infinite when there is none.
-  double distance(Vec3 point, double reach_mm) const {
-    double nearest = HUGE_VAL;
-    tree_.each_that_meets(Box{point, point}.expanded(reach_mm), [&](uint32_t facet) {
-      nearest = std::min(nearest, distance_to_triangle(point, corners_of(surface_, surface_.facets[facet])));
-    });
-    return nearest;
-  }
-
- private:
-  static std::vector<Box> boxes_of(const RegionSurface& surface) {
-    std::vector<Box> boxes;
-    boxes.reserve(surface.facets.size());
-    for (const Facet& facet : surface.facets) {
-      const std::array<Vec3, 3> corners = corners_of(surface, facet);
-      boxes.push_back(hull(hull({corners[0], corners[0]}, {corners[1], corners[1]}), {corners[2], corners[2]}));
-    }
-    return boxes;
-  }
-
-  const RegionSurface& surface_;
-  BoxTree tree_;
-};
+std::vector<Vec3> places_of(const std::vector<uint32_t>& crossings, const QuadSurface& surface) {
+  std::vector<Vec3> places;
+  places.reserve(crossings.size());
+  for (const uint32_t n : crossings) places.push_back(surface.crossing(n).at);
+  return places;
+}
 
 }  // namespace
 
@@ -127,54 +98,55 @@ FacetCheck::FacetCheck(const Partition& partition, const ContourOptions& options
       threads_(options.threads),
       stop_(stop) {}
 
-void FacetCheck::check(const RegionSurface& surface, const FacetBegins& begins,
-                       const std::vector<Crossing>& crossings) {
-  far_.clear();
-  check_facets(surface, begins);
-  check_crossings(surface, begins, crossings);
+void FacetCheck::check(const QuadSurface& surface) {
+  const std::vector<uint32_t> quads = seen_.see(surface.looks());
+  check_facets(surface, quads);
+  check_crossings(surface, quads);
 }
 
-void FacetCheck::check_facets(const RegionSurface& surface, const FacetBegins& begins) {
+void FacetCheck::check_facets(const QuadSurface& surface, const std::vector<uint32_t>& quads) {
+  std::erase_if(far_, [&](const Far& far) { return std::ranges::binary_search(quads, far.quad); });
   Sampler sampler(surface, spacing_mm_);
-  for (uint32_t quad = 0; quad + 1 < begins.size(); ++quad)
-    for (uint32_t facet = begins[quad]; facet < begins[quad + 1]; ++facet) {
-      const uint64_t hash = hash_of(corners_of(surface, surface.facets[facet]));
-      if (const auto known = known_far_.find(hash); known != known_far_.end()) {
-        far_.push_back({quad, known->second, 0});
-        continue;
-      }
-      if (!near_.insert(hash).second) continue;
-      sampler.add(quad, hash, surface.facets[facet]);
-    }
-  for (const uint32_t n : find_far_samples(partition_, sampler.samples, reach_mm_, threads_, stop_)) {
-    far_.push_back({sampler.owners[n].quad, sampler.samples[n], 0});
-    near_.erase(sampler.owners[n].hash);
-    known_far_.emplace(sampler.owners[n].hash, sampler.samples[n]);
-  }
+  for (const uint32_t quad : quads) sampler.add(quad);
+  for (const uint32_t n : find_far_samples(partition_, sampler.samples, reach_mm_, threads_, stop_))
+    far_.push_back({sampler.quads[n], sampler.samples[n]});
+  std::ranges::stable_sort(far_, {}, &Far::quad);
 }
 
-void FacetCheck::check_crossings(const RegionSurface& surface, const FacetBegins& begins,
-                                 const std::vector<Crossing>& crossings) {
-  near_crossings_.resize(crossings.size());
+void FacetCheck::check_crossings(const QuadSurface& surface, const std::vector<uint32_t>& quads) {
   std::vector<uint32_t> off;
-  for (uint32_t quad = 0; quad + 1 < begins.size(); ++quad) {
-    for (uint32_t facet = begins[quad]; facet < begins[quad + 1] && !near_crossings_[quad]; ++facet)
-      near_crossings_[quad] =
-          distance_to_triangle(crossings[quad].at, corners_of(surface, surface.facets[facet])) <= reach_mm_;
-    if (!near_crossings_[quad]) off.push_back(quad);
+  std::ranges::set_union(quads, far_crossings_, std::back_inserter(off));
+  std::erase_if(off, [&](uint32_t quad) {
+    return std::ranges::any_of(surface.triangles(quad), [&](const Triangle& triangle) {
+      return distance_to_triangle(surface.crossing(quad).at, surface.corners(triangle)) <= reach_mm_;
+    });
+  });
+  const std::vector<double> near = distances_to_facets(places_of(off, surface), surface, reach_mm_, threads_);
+  far_crossings_.clear();
+  for (size_t n = 0; n < off.size(); ++n)
+    if (near[n] > reach_mm_) far_crossings_.push_back(off[n]);
+  farthest_crossing_mm_ = 0;
+  for (const double mm :
+       distances_to_facets(places_of(far_crossings_, surface), surface, most_tolerances * tolerance_mm_, threads_))
+    farthest_crossing_mm_ = std::max(farthest_crossing_mm_, std::min(mm, most_tolerances * tolerance_mm_));
+}
+
+void FacetCheck::renumber(const std::vector<Crossing>& crossings) {
+  seen_.renumber(crossings);
+  std::vector<Far> far;
+  std::vector<uint32_t> far_crossings;
+  for (uint32_t n = 0; n < crossings.size(); ++n) {
+    if (crossings[n].before == Crossing::none) continue;
+    const auto of_quad = std::ranges::equal_range(far_, crossings[n].before, {}, &Far::quad);
+    for (const Far& f : of_quad) far.push_back({n, f.sample});
+    if (std::ranges::binary_search(far_crossings_, crossings[n].before)) far_crossings.push_back(n);
   }
-  if (off.empty()) return;
-  const NearFacets facets(surface);
-  for (const uint32_t quad : off) {
-    near_crossings_[quad] = facets.distance(crossings[quad].at, reach_mm_) <= reach_mm_;
-    if (near_crossings_[quad]) continue;
-    const double most = most_tolerances * tolerance_mm_;
-    far_.push_back({quad, {}, std::min(facets.distance(crossings[quad].at, most), most)});
-  }
+  far_ = std::move(far);
+  far_crossings_ = std::move(far_crossings);
 }
 
 std::vector<uint32_t> FacetCheck::far_quads() const {
-  std::vector<uint32_t> quads;
+  std::vector<uint32_t> quads = far_crossings_;
   for (const Far& far : far_) quads.push_back(far.quad);
   std::ranges::sort(quads);
   quads.erase(std::unique(quads.begin(), quads.end()), quads.end());
@@ -182,13 +154,10 @@ std::vector<uint32_t> FacetCheck::far_quads() const {
 }
 
 double FacetCheck::farthest_in_tolerances() const {
-  double farthest = tolerance_mm_;
   std::vector<SurfaceSample> samples;
-  for (const Far& far : far_) {
-    farthest = std::max(farthest, far.crossing_mm);
-    if (far.crossing_mm == 0) samples.push_back(far.sample);
-  }
+  for (const Far& far : far_) samples.push_back(far.sample);
   samples = evenly(samples, most_measured);
+  const double farthest = std::max(tolerance_mm_, farthest_crossing_mm_);
   return std::max(farthest, farthest_mm(partition_, samples, tolerance_mm_, threads_, stop_)) / tolerance_mm_;
 }
 

@@ -19,6 +19,8 @@ class NormalSpread {
     least_cosine_ = std::min(least_cosine_, other.least_cosine_);
   }
 
+  double least_cosine() const { return least_cosine_; }
+
   // The root of the mean square of distances to the planes may be so large, in tolerances, where `usual` is enough on
   // surfaces that are smooth or meet bluntly. In a wedge it says little of how far its edge is, in narrow ones nothing.
   double most_rms(double usual) const {
@@ -30,7 +32,7 @@ class NormalSpread {
 
  private:
   Vec3 first_;
-  double least_cosine_ = 1;  // to the first
+  double least_cosine_ = 1;  // between the first and another
 };
 
 }  // namespace ombre::surface

@@ -29,7 +29,10 @@ struct Growth {
 
 Growth growth_around_cuts(const CellTree& tree, bool may_cut) {
   Growth growth;
-  for (const CrossedEdge& edge : list_crossed_edges(tree, WhichEdges::near_cuts))
+  std::vector<CrossedEdge> edges;
+  for (uint32_t n = 0; n < tree.leaves().size(); ++n)
+    if (tree.leaves()[n].is_near_cut) list_crossed_edges(tree, n, edges);
+  for (const CrossedEdge& edge : edges)
     for (size_t corner = 0; corner < 4; ++corner) {
       const uint32_t number = edge.leaves[corner];
       if (number == CellTree::none) {
