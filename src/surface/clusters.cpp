@@ -231,7 +231,7 @@ Clusters::Clusters(const CellTree& tree, const std::vector<Crossing>& crossings,
     const Leaf& leaf = tree.leaves()[vertex.leaf];
     const CellPlace place{leaf.at[0] >> leaf.level, leaf.at[1] >> leaf.level, leaf.at[2] >> leaf.level};
     list_.all.push_back({place, leaf.level});
-    list_.places.push_back(place_of(vertex, tree));
+    list_.places.push_back(vertex.at);
     lowest = std::min<int>(lowest, leaf.level);
   }
   if (tolerance_mm > 0) {

@@ -21,7 +21,7 @@ class CellRefiner {
         tree_(find_mixed_cells(partition.label, options.corners, options.threads, progress, stop)),
         most_leaves_(tree_.leaves().size() + std::max(most_more_leaves, tree_.leaves().size())),
         crossings_(find_crossings(partition, tree_, options.threads, progress, stop)),
-        mesh_(make_dual_mesh(tree_, crossings_)),
+        mesh_(make_dual_mesh(tree_, crossings_, options.threads)),
         check_(partition, options, stop),
         intersections_(options.threads) {}
 
@@ -44,9 +44,9 @@ class CellRefiner {
       return false;
     const std::vector<Leaf> before = tree_.leaves();
     refine(tree_, leaves, most_leaves_, partition_, options_.threads, stop_);
-    crossings_ = find_crossings_after_growth(partition_, tree_, crossings_, numbers_after_growth(before, tree_.leaves()),
-                                             options_.threads, stop_);
-    mesh_ = make_dual_mesh(tree_, crossings_);
+    const std::vector<uint32_t> numbers = numbers_after_growth(before, tree_.leaves());
+    crossings_ = find_crossings_after_growth(partition_, tree_, crossings_, numbers, options_.threads, stop_);
+    mesh_ = make_dual_mesh_after_growth(tree_, crossings_, mesh_, numbers, options_.threads);
     check_.renumber(crossings_);
     intersections_.renumber(crossings_);
     return true;

@@ -1,11 +1,13 @@
 #include "surface/dual_mesh.h"
 
 #include <algorithm>
-#include <map>
+#include <unordered_map>
 
 #include "base/assert.h"
+#include "base/tasks.h"
 #include "surface/cell_parts.h"
 #include "surface/leaf_parts.h"
+#include "surface/vertex_place.h"
 
 namespace ombre::surface {
 namespace {
@@ -27,9 +29,9 @@ class PairsOfParts {
 };
 
 // The crossings around leaves that smaller ones touch.
-std::map<uint32_t, std::vector<uint32_t>> crossings_of_touched(const CellTree& tree,
+std::unordered_map<uint32_t, std::vector<uint32_t>> crossings_of_touched(const CellTree& tree,
                                                                const std::vector<Crossing>& crossings) {
-  std::map<uint32_t, std::vector<uint32_t>> around;
+  std::unordered_map<uint32_t, std::vector<uint32_t>> around;
   const auto& leaves = tree.leaves();
   for (const Crossing& crossing : crossings)
     for (const uint32_t leaf : crossing.edge.leaves)
@@ -49,12 +51,15 @@ class DualMeshMaker {
       : tree_(tree),
         crossings_(crossings),
         touched_(crossings_of_touched(tree, crossings)),
-        parts_(tree.leaves().size()) {}
+        parts_(tree.leaves().size()) {
+    mesh_.vertices.reserve(tree.leaves().size());
+    first_vertex_.reserve(tree.leaves().size());
+  }
 
   DualMesh make() {
     for (uint32_t n = 0; n < tree_.leaves().size(); ++n) {
       first_vertex_.push_back(static_cast<uint32_t>(mesh_.vertices.size()));
-      const auto found = touched_.find(n);
+      const auto found = tree_.leaves()[n].is_near_cut ? touched_.find(n) : touched_.end();
       if (found == touched_.end())
         add_vertices(n);
       else
@@ -74,7 +79,7 @@ class DualMeshMaker {
       if (leaf.crosses(e))
         pairs[parts.part_of_edge[static_cast<size_t>(e)]].note(leaf.corners[first_corner(e)],
                                                                leaf.corners[second_corner(e)]);
-    for (size_t part = 0; part < parts.count; ++part) mesh_.vertices.push_back({number, pairs[part].is_one(), {}, {}});
+    for (size_t part = 0; part < parts.count; ++part) mesh_.vertices.push_back({number, pairs[part].is_one(), {}, {}, {}});
     parts_[number] = parts;
   }
 
@@ -83,7 +88,7 @@ class DualMeshMaker {
     std::vector<PairsOfParts> pairs(std::ranges::max(parts) + 1);
     for (size_t n = 0; n < around.size(); ++n)
       pairs[parts[n]].note(crossings_[around[n]].edge.from, crossings_[around[n]].edge.to);
-    for (const PairsOfParts& pair : pairs) mesh_.vertices.push_back({number, pair.is_one(), {}, {}});
+    for (const PairsOfParts& pair : pairs) mesh_.vertices.push_back({number, pair.is_one(), {}, {}, {}});
     parts_of_touched_.emplace(number, parts);
   }
 
@@ -116,17 +121,48 @@ class DualMeshMaker {
 
   const CellTree& tree_;
   const std::vector<Crossing>& crossings_;
-  const std::map<uint32_t, std::vector<uint32_t>> touched_;
-  std::map<uint32_t, std::vector<uint32_t>> parts_of_touched_;
+  const std::unordered_map<uint32_t, std::vector<uint32_t>> touched_;
+  std::unordered_map<uint32_t, std::vector<uint32_t>> parts_of_touched_;
   std::vector<CellParts> parts_;  // of the others
   std::vector<uint32_t> first_vertex_;
   DualMesh mesh_;
 };
 
+// A leaf far from cuts has the vertices that it had.
+void take_over_places(const CellTree& tree, const DualMesh& before, const std::vector<uint32_t>& leaves,
+                      DualMesh& mesh) {
+  size_t next = 0;
+  for (const DualVertex& vertex : before.vertices) {
+    const uint32_t leaf = leaves[vertex.leaf];
+    if (leaf == CellTree::none || tree.leaves()[leaf].is_near_cut) continue;
+    while (mesh.vertices[next].leaf != leaf) ++next;
+    mesh.vertices[next++].at = vertex.at;
+  }
+}
+
+template <class Which>
+void find_places(const CellTree& tree, DualMesh& mesh, int threads, const Which& is_unknown) {
+  constexpr size_t piece = 8192;
+  run_parallel((mesh.vertices.size() + piece - 1) / piece, threads, [&](size_t p) {
+    for (size_t n = p * piece; n < std::min((p + 1) * piece, mesh.vertices.size()); ++n)
+      if (is_unknown(mesh.vertices[n])) mesh.vertices[n].at = place_of(mesh.vertices[n], tree);
+  });
+}
+
 }  // namespace
 
-DualMesh make_dual_mesh(const CellTree& tree, const std::vector<Crossing>& crossings) {
-  return DualMeshMaker(tree, crossings).make();
+DualMesh make_dual_mesh(const CellTree& tree, const std::vector<Crossing>& crossings, int threads) {
+  DualMesh mesh = DualMeshMaker(tree, crossings).make();
+  find_places(tree, mesh, threads, [](const DualVertex&) { return true; });
+  return mesh;
+}
+
+DualMesh make_dual_mesh_after_growth(const CellTree& tree, const std::vector<Crossing>& crossings,
+                                     const DualMesh& before, const std::vector<uint32_t>& leaves, int threads) {
+  DualMesh mesh = DualMeshMaker(tree, crossings).make();
+  take_over_places(tree, before, leaves, mesh);
+  find_places(tree, mesh, threads, [&](const DualVertex& vertex) { return tree.leaves()[vertex.leaf].is_near_cut; });
+  return mesh;
 }
 
 }  // namespace ombre::surface

@@ -15,6 +15,7 @@ struct DualVertex {
   bool parts_two = false;  // exactly two regions meet there
   Quadric planes;
   NormalSpread spread;  // of normals from lesser into greater labels
+  Vec3 at;              // mm; where it is nearest to the planes, as far as there is room
 };
 
 // Around the edge of a crossing, counter-clockwise as seen from region `front`. Corner n lies in the leaf where the
@@ -25,10 +26,14 @@ struct DualQuad {
 };
 
 struct DualMesh {
-  std::vector<DualVertex> vertices;
+  std::vector<DualVertex> vertices;  // in order of their leaves
   std::vector<DualQuad> quads;
 };
 
-DualMesh make_dual_mesh(const CellTree& tree, const std::vector<Crossing>& crossings);
+DualMesh make_dual_mesh(const CellTree& tree, const std::vector<Crossing>& crossings, int threads);
+
+// The same after the tree grew from `before`. `leaves` are the numbers that leaves have now.
+DualMesh make_dual_mesh_after_growth(const CellTree& tree, const std::vector<Crossing>& crossings,
+                                     const DualMesh& before, const std::vector<uint32_t>& leaves, int threads);
 
 }  // namespace ombre::surface

@@ -125,10 +125,6 @@ void FacetCheck::check_crossings(const QuadSurface& surface, const std::vector<u
   far_crossings_.clear();
   for (size_t n = 0; n < off.size(); ++n)
     if (near[n] > reach_mm_) far_crossings_.push_back(off[n]);
-  farthest_crossing_mm_ = 0;
-  for (const double mm :
-       distances_to_facets(places_of(far_crossings_, surface), surface, most_tolerances * tolerance_mm_, threads_))
-    farthest_crossing_mm_ = std::max(farthest_crossing_mm_, std::min(mm, most_tolerances * tolerance_mm_));
 }
 
 void FacetCheck::renumber(const std::vector<Crossing>& crossings) {
@@ -153,11 +149,14 @@ std::vector<uint32_t> FacetCheck::far_quads() const {
   return quads;
 }
 
-double FacetCheck::farthest_in_tolerances() const {
+double FacetCheck::farthest_in_tolerances(const QuadSurface& surface) const {
   std::vector<SurfaceSample> samples;
   for (const Far& far : far_) samples.push_back(far.sample);
   samples = evenly(samples, most_measured);
-  const double farthest = std::max(tolerance_mm_, farthest_crossing_mm_);
+  const double most = most_tolerances * tolerance_mm_;
+  double farthest = tolerance_mm_;
+  for (const double mm : distances_to_facets(places_of(far_crossings_, surface), surface, most, threads_))
+    farthest = std::max(farthest, std::min(mm, most));
   return std::max(farthest, farthest_mm(partition_, samples, tolerance_mm_, threads_, stop_)) / tolerance_mm_;
 }
 

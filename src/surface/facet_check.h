@@ -19,8 +19,8 @@ class FacetCheck {
   void renumber(const std::vector<Crossing>& crossings);
   // As the last look said; in order.
   std::vector<uint32_t> far_quads() const;
-  // At the samples, or a thousand of the far ones; 1 when all are near. Throws Cancelled.
-  double farthest_in_tolerances() const;
+  // At the samples, or a thousand of the far ones, and at crossings; 1 when all are near. Throws Cancelled.
+  double farthest_in_tolerances(const QuadSurface& surface) const;
 
  private:
   struct Far {
@@ -38,7 +38,6 @@ class FacetCheck {
   SeenQuads seen_;
   std::vector<Far> far_;  // in order of quads
   std::vector<uint32_t> far_crossings_;
-  double farthest_crossing_mm_ = 0;
 };
 
 }  // namespace ombre::surface

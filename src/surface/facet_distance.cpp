@@ -12,6 +12,7 @@ namespace ombre::surface {
 
 std::vector<double> distances_to_facets(const std::vector<Vec3>& points, const QuadSurface& surface, double reach_mm,
                                         int threads) {
+  if (points.empty()) return {};
   std::vector<Box> boxes;
   boxes.reserve(points.size());
   for (const Vec3& point : points) boxes.push_back(Box{point, point}.expanded(reach_mm));

@@ -62,7 +62,7 @@ RegionSurface SurfaceMaker::build() const {
   RegionSurface made = surface_.build();
   made.report.at_mean_points = at_mean_points_;
   made.report.intersections = pairs_left_;
-  made.report.farthest_in_tolerances = check_.farthest_in_tolerances();
+  made.report.farthest_in_tolerances = check_.farthest_in_tolerances(surface_);
   cut_doubled_edges(made);
   return made;
 }
