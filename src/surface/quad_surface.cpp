@@ -124,9 +124,10 @@ std::vector<uint32_t> QuadSurface::refresh() {
     quads.resize(mesh_.quads.size());
     std::iota(quads.begin(), quads.end(), 0U);
   } else {
-    for (const uint32_t vertex : changed_)
-      quads.insert(quads.end(), quads_of_vertices_.begin() + quad_begins_[vertex],
-                   quads_of_vertices_.begin() + quad_begins_[vertex + 1]);
+    for (const uint32_t vertex : changed_) {
+      const std::span<const uint32_t> around = quads_around(vertex);
+      quads.insert(quads.end(), around.begin(), around.end());
+    }
     std::ranges::sort(quads);
     quads.erase(std::unique(quads.begin(), quads.end()), quads.end());
   }

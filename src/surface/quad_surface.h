@@ -31,6 +31,9 @@ class QuadSurface {
   std::span<const Triangle> triangles(uint32_t quad) const { return triangles_[quad].list(); }
   const Crossing& crossing(uint32_t quad) const { return crossings_[quad]; }
   std::array<Vec3, 3> corners(const Triangle& triangle) const;
+  std::span<const uint32_t> quads_around(uint32_t vertex) const {
+    return std::span(quads_of_vertices_).subspan(quad_begins_[vertex], quad_begins_[vertex + 1] - quad_begins_[vertex]);
+  }
   // Of quads: equal where they look the same, also after their clusters got other numbers.
   const std::vector<uint64_t>& looks() const { return looks_; }
   // Whether the quad is small and the border around it nearly flat.

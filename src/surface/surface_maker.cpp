@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "surface/doubled_edges.h"
+#include "surface/unfold.h"
 
 namespace ombre::surface {
 namespace {
@@ -48,14 +49,14 @@ std::vector<uint32_t> SurfaceMaker::coarse_leaves() {
 }
 
 void SurfaceMaker::mend_intersections() {
+  unfold(surface_);
   QuadPairs pairs = intersections_.find(surface_);
-  const bool were_there = !pairs.empty();
   for (int round = 0; round < most_crossing_rounds && !pairs.empty() && mend(pairs); ++round) {
     mend_folds();
     pairs = intersections_.find(surface_);
   }
   pairs_left_ = pairs.size();
-  if (were_there) check_.check(surface_);
+  check_.check(surface_);
 }
 
 RegionSurface SurfaceMaker::build() const {
