@@ -6,7 +6,7 @@
 namespace ombre::surface {
 namespace {
 
-constexpr int most_cutting_rounds = 3;
+constexpr int most_cutting_rounds = 8;
 // That may come from cutting, or as many as the grid has, if that is more.
 constexpr double most_cut_share = 0.1;  // at a time
 constexpr size_t most_more_leaves = size_t{1} << 18;

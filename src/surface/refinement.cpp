@@ -3,13 +3,10 @@
 #include <algorithm>
 
 #include "surface/label_asker.h"
-#include "surface/vertex_place.h"
 
 namespace ombre::surface {
 namespace {
 
-// Of the tolerance, for the root of the mean square of distances to the planes around a vertex.
-constexpr double rms_share = 0.6;
 // Between leaves around a crossed edge.
 constexpr int most_level_difference = 1;
 
@@ -49,17 +46,6 @@ Growth growth_around_cuts(const CellTree& tree, bool may_cut) {
 }
 
 }  // namespace
-
-std::vector<uint32_t> find_coarse_leaves(const CellTree& tree, const DualMesh& mesh, double tolerance_mm) {
-  std::vector<uint32_t> found;
-  for (const DualVertex& vertex : mesh.vertices) {
-    const Leaf& leaf = tree.leaves()[vertex.leaf];
-    if (leaf.level == 0 || (!found.empty() && found.back() == vertex.leaf)) continue;
-    const double most_mm = vertex.spread.most_rms(rms_share) * tolerance_mm;
-    if (vertex.planes.rms_mm(place_of(vertex, tree)) > most_mm) found.push_back(vertex.leaf);
-  }
-  return found;
-}
 
 void refine(CellTree& tree, const std::vector<uint32_t>& leaves, size_t most_leaves, const Partition& partition,
             int threads, const StopFlag* stop) {

@@ -8,9 +8,6 @@
 
 namespace ombre::surface {
 
-// Leaves above level 0 with a vertex that lies off the planes around it, or in a narrow wedge.
-std::vector<uint32_t> find_coarse_leaves(const CellTree& tree, const DualMesh& mesh, double tolerance_mm);
-
 // Cuts leaves, and those around them that are not mixed, though the surface goes into them, or far larger; these
 // as long as the tree has fewer than `most_leaves`. Throws Cancelled.
 void refine(CellTree& tree, const std::vector<uint32_t>& leaves, size_t most_leaves, const Partition& partition,
