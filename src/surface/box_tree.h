@@ -29,8 +29,7 @@ class BoxTree {
   // Calls visit(number) for the boxes that meet this one.
   template <class Visit>
   void each_that_meets(const Box& box, const Visit& visit) const {
-    if (!order_.empty())
-      ask(levels_.size() - 1, 0, box, 0, [&](size_t n) { visit(order_[n]); });
+    if (!order_.empty()) ask(levels_.size() - 1, 0, box, 0, [&](size_t n) { visit(order_[n]); });
   }
 
   size_t groups() const { return levels_.size() > 1 ? levels_[1].size() : 0; }

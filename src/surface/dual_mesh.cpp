@@ -30,7 +30,7 @@ class PairsOfParts {
 
 // The crossings around leaves that smaller ones touch.
 std::unordered_map<uint32_t, std::vector<uint32_t>> crossings_of_touched(const CellTree& tree,
-                                                               const std::vector<Crossing>& crossings) {
+                                                                         const std::vector<Crossing>& crossings) {
   std::unordered_map<uint32_t, std::vector<uint32_t>> around;
   const auto& leaves = tree.leaves();
   for (const Crossing& crossing : crossings)
@@ -79,7 +79,8 @@ class DualMeshMaker {
       if (leaf.crosses(e))
         pairs[parts.part_of_edge[static_cast<size_t>(e)]].note(leaf.corners[first_corner(e)],
                                                                leaf.corners[second_corner(e)]);
-    for (size_t part = 0; part < parts.count; ++part) mesh_.vertices.push_back({number, pairs[part].is_one(), {}, {}, {}});
+    for (size_t part = 0; part < parts.count; ++part)
+      mesh_.vertices.push_back({number, pairs[part].is_one(), {}, {}, {}});
     parts_[number] = parts;
   }
 

@@ -75,7 +75,8 @@ QuadSurface::QuadSurface(const CellTree& tree, const std::vector<Crossing>& cros
       crossings_(crossings),
       mesh_(mesh),
       threads_(options.threads),
-      least_calm_cosine_(std::cos(std::min(1.0, calm_radians_of_cells * options.tolerance_mm / tree.size_mm(grid_level).x))),
+      least_calm_cosine_(
+          std::cos(std::min(1.0, calm_radians_of_cells * options.tolerance_mm / tree.size_mm(grid_level).x))),
       clusters_(tree, crossings, mesh, options.join_flat ? options.tolerance_mm : 0),
       triangles_(mesh.quads.size()),
       looks_(mesh.quads.size()) {
