@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 
 #include "surface/vertex_place.h"
 
@@ -59,8 +58,7 @@ class LevelBuilder {
       euler_.push_back(1);
       may_join_.push_back(vertex.parts_two);
     }
-    quads_.resize(mesh.quads.size());
-    std::iota(quads_.begin(), quads_.end(), 0U);
+    for (uint32_t n = 0; n < mesh.quads.size(); ++n) later_quads_[edge_of(n).level].push_back(n);
   }
 
   // False when there is nothing left to join.
@@ -68,6 +66,10 @@ class LevelBuilder {
     level_ = level;
     for (uint32_t n = 0; n < mesh_.vertices.size(); ++n)
       if (clusters_[n].level == level - 1) fresh_.push_back(n);
+    if (level <= grid_level + 1) {
+      const std::vector<uint32_t>& quads = later_quads_[static_cast<size_t>(level - 1)];
+      quads_.insert(quads_.end(), quads.begin(), quads.end());
+    }
     std::erase_if(quads_, [&](uint32_t q) {
       const EdgeLevels e = levels(q);
       return std::max(e.u, e.v) < level - 1;
@@ -217,6 +219,7 @@ class LevelBuilder {
   std::vector<NormalSpread> spreads_;
   std::vector<int> euler_;
   std::vector<bool> may_join_;
+  std::array<std::vector<uint32_t>, grid_level + 1> later_quads_;  // by levels of their edges
   std::vector<uint32_t> fresh_, quads_, group_, number_, blocked_, arc_ends_;
   std::vector<Candidate> candidates_;
 };

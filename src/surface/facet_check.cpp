@@ -132,10 +132,11 @@ void FacetCheck::renumber(const std::vector<Crossing>& crossings) {
   std::vector<Far> far;
   std::vector<uint32_t> far_crossings;
   for (uint32_t n = 0; n < crossings.size(); ++n) {
-    if (crossings[n].before == Crossing::none) continue;
-    const auto of_quad = std::ranges::equal_range(far_, crossings[n].before, {}, &Far::quad);
-    for (const Far& f : of_quad) far.push_back({n, f.sample});
-    if (std::ranges::binary_search(far_crossings_, crossings[n].before)) far_crossings.push_back(n);
+    const uint32_t before = crossings[n].before;
+    if (before == Crossing::none) continue;
+    for (auto f = std::ranges::lower_bound(far_, before, {}, &Far::quad); f != far_.end() && f->quad == before; ++f)
+      far.push_back({n, f->sample});
+    if (std::ranges::binary_search(far_crossings_, before)) far_crossings.push_back(n);
   }
   far_ = std::move(far);
   far_crossings_ = std::move(far_crossings);

@@ -1,6 +1,7 @@
 #include "surface/label_asker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 
@@ -35,10 +36,53 @@ std::pair<Numbers, Numbers> halves(const std::vector<Vec3>& points, const Box& b
 }
 
 void cut_into_tasks(const std::vector<Vec3>& points, Numbers numbers, std::vector<Numbers>& tasks) {
+  if (numbers.empty()) return;
   if (numbers.size() <= most_points) return tasks.push_back(numbers);
   const auto [one, two] = halves(points, box_of(points, numbers), numbers);
   cut_into_tasks(points, one, tasks);
   cut_into_tasks(points, two, tasks);
+}
+
+// Equal boxes over all points, with some thousand points each where they are spread evenly over a surface.
+class Boxes {
+ public:
+  explicit Boxes(const std::vector<Vec3>& points) {
+    Box whole;
+    for (const Vec3& point : points) whole = hull(whole, {point, point});
+    origin_ = whole.lo;
+    const double along = std::sqrt(static_cast<double>(points.size()) / most_points);
+    count_ = static_cast<size_t>(std::clamp(std::ceil(along), 1.0, 128.0));
+    for (int axis = 0; axis < 3; ++axis)
+      scale_[axis] = whole.size()[axis] > 0 ? static_cast<double>(count_) / whole.size()[axis] : 0;
+  }
+  size_t count() const { return count_ * count_ * count_; }
+  size_t of(Vec3 point) const {
+    size_t number = 0;
+    for (int axis = 2; axis >= 0; --axis) {
+      const auto along = static_cast<size_t>((point[axis] - origin_[axis]) * scale_[axis]);
+      number = number * count_ + std::min(along, count_ - 1);
+    }
+    return number;
+  }
+
+ private:
+  Vec3 origin_, scale_;
+  size_t count_ = 1;
+};
+
+// The numbers of points, box by box, and where each box begins.
+struct Sorted {
+  std::vector<uint32_t> numbers;
+  std::vector<size_t> begins;
+};
+
+Sorted sort_into_boxes(const std::vector<Vec3>& points) {
+  const Boxes boxes(points);
+  Sorted sorted{std::vector<uint32_t>(points.size()), std::vector<size_t>(boxes.count() + 2)};
+  for (const Vec3& point : points) ++sorted.begins[boxes.of(point) + 2];
+  std::partial_sum(sorted.begins.begin(), sorted.begins.end(), sorted.begins.begin());
+  for (uint32_t n = 0; n < points.size(); ++n) sorted.numbers[sorted.begins[boxes.of(points[n]) + 1]++] = n;
+  return sorted;
 }
 
 class TaskAsker {
@@ -78,10 +122,11 @@ std::vector<Label> labels_at(const Partition& partition, const std::vector<Vec3>
                              const StopFlag* stop) {
   std::vector<Label> labels(points.size());
   if (points.empty()) return labels;
-  std::vector<uint32_t> numbers(points.size());
-  std::iota(numbers.begin(), numbers.end(), 0U);
+  Sorted sorted = sort_into_boxes(points);
   std::vector<Numbers> tasks;
-  cut_into_tasks(points, numbers, tasks);
+  for (size_t n = 0; n + 1 < sorted.begins.size(); ++n)
+    cut_into_tasks(points, Numbers(sorted.numbers).subspan(sorted.begins[n], sorted.begins[n + 1] - sorted.begins[n]),
+                   tasks);
   run_parallel(tasks.size(), threads,
                [&](size_t n) { TaskAsker(partition, points, labels, stop).ask(partition.label, tasks[n]); });
   return labels;

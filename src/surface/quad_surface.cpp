@@ -71,8 +71,7 @@ void mix(uint64_t& look, Vec3 at) {
 
 QuadSurface::QuadSurface(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh,
                          const ContourOptions& options)
-    : tree_(tree),
-      crossings_(crossings),
+    : crossings_(crossings),
       mesh_(mesh),
       threads_(options.threads),
       least_calm_cosine_(

@@ -53,7 +53,6 @@ class QuadSurface {
   void list_quads_of_vertices();
   void cut(uint32_t quad);
 
-  const CellTree& tree_;
   const std::vector<Crossing>& crossings_;
   const DualMesh& mesh_;
   int threads_;

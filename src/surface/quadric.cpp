@@ -1,6 +1,7 @@
 #include "surface/quadric.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 namespace ombre::surface {
 namespace {
@@ -56,7 +57,7 @@ Quadric::Least Quadric::least() const {
   for (int n = 0; n < 3; ++n)
     if (values[n] > least_share * values[2]) step += rest[n] / values[n] * solver.eigenvectors().col(n);
   const Vec3 best = m + Vec3{step[0], step[1], step[2]};
-  return {best, rms_mm(best)};
+  return {best, std::sqrt(std::max(0.0, at(best)) / count_)};
 }
 
 }  // namespace ombre::surface

@@ -1,9 +1,6 @@
 // Sums of squared distances to planes, and the point where they are least.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/vec.h"
 
 namespace ombre::surface {
@@ -21,7 +18,6 @@ class Quadric {
   };
   // Of all points where the sum is least, or hardly more, the one nearest to the mean.
   Least least() const;
-  double rms_mm(Vec3 x) const { return std::sqrt(std::max(0.0, at(x)) / count_); }
 
  private:
   double at(Vec3 x) const;
