@@ -41,8 +41,9 @@ TEST(BoxTree, FindsEachPairOnce) {
     const BoxTree tree(boxes);
     std::set<std::pair<uint32_t, uint32_t>> found, expected;
     for (size_t group = 0; group < tree.groups(); ++group)
-      tree.each_pair_that_meets(
-          group, [&](uint32_t a, uint32_t b) { EXPECT_TRUE(found.insert({std::min(a, b), std::max(a, b)}).second); });
+      tree.each_pair_that_meets(group, [&](uint32_t a, uint32_t b) {
+        EXPECT_TRUE(found.insert({std::min(a, b), std::max(a, b)}).second);
+      });
     for (uint32_t a = 0; a < boxes.size(); ++a)
       for (uint32_t b = a + 1; b < boxes.size(); ++b)
         if (meet(boxes[a], boxes[b])) expected.insert({a, b});

@@ -53,8 +53,6 @@ class LevelBuilder {
                ClusterList& list)
       : tree_(tree), crossings_(crossings), mesh_(mesh), tolerance_mm_(tolerance_mm), list_(list), clusters_(list.all) {
     for (const DualVertex& vertex : mesh.vertices) {
-      planes_.push_back(vertex.planes);
-      spreads_.push_back(vertex.spread);
       euler_.push_back(1);
       may_join_.push_back(vertex.parts_two);
     }
@@ -129,8 +127,16 @@ class LevelBuilder {
     return c;
   }
 
+  const Quadric& planes(uint32_t c) const {
+    return c < mesh_.vertices.size() ? mesh_.vertices[c].planes : planes_[c - mesh_.vertices.size()];
+  }
+  const NormalSpread& spread(uint32_t c) const {
+    return c < mesh_.vertices.size() ? mesh_.vertices[c].spread : spreads_[c - mesh_.vertices.size()];
+  }
+
   void collect() {
     candidates_.clear();
+    candidates_.reserve(static_cast<size_t>(std::ranges::count_if(fresh_, [&](uint32_t c) { return group_[c] == c; })));
     number_.assign(clusters_.size(), Cluster::none);
     for (const uint32_t c : fresh_) {
       const uint32_t g = find(c);
@@ -141,8 +147,8 @@ class LevelBuilder {
       number_[c] = number_[g];
       Candidate& candidate = candidates_[number_[g]];
       candidate.members.push_back(c);
-      candidate.planes.add(planes_[c]);
-      candidate.spread.add(spreads_[c]);
+      candidate.planes.add(planes(c));
+      candidate.spread.add(spread(c));
       candidate.euler += euler_[c];
       candidate.is_blocked |= !may_join_[c];
     }
@@ -215,8 +221,8 @@ class LevelBuilder {
   ClusterList& list_;
   std::vector<Cluster>& clusters_;
   int level_ = 0;
-  std::vector<Quadric> planes_;
-  std::vector<NormalSpread> spreads_;
+  std::vector<Quadric> planes_;        // of what is joined
+  std::vector<NormalSpread> spreads_;  // the same
   std::vector<int> euler_;
   std::vector<bool> may_join_;
   std::array<std::vector<uint32_t>, grid_level + 1> later_quads_;  // by levels of their edges
