@@ -33,8 +33,8 @@ constexpr const char* footer =
     "FILE ends in .3mf (default), .stl, .obj, .ply, .off, .amf or .glb. Bodies share their borders exactly: no gaps, "
     "no "
     "overlaps.\n\n"
-    "What is thinner than a cell may be lost. Triangles are drawn together where the surface is flat within the\n"
-    "tolerance.\n\n"
+    "What is thinner than a cell may be lost. Cells are cut finer where the surface would lie farther off than the\n"
+    "tolerance, and triangles are drawn together where it is flat within it. A warning says what remains.\n\n"
     "Examples:\n"
     "  ombre mesh part.vcad -o part.stl                   one body\n"
     "  ombre mesh part.vcad --tolerance 0.01\n"
@@ -125,7 +125,8 @@ void tell_bodies(const Console& console, const compile::MeshedDesign& made) {
                            {"tolerance_mm", made.tolerance_mm},
                            {"cell_mm", made.cell_mm},
                            {"intersections", static_cast<double>(made.report.intersections)},
-                           {"folded", static_cast<double>(made.report.folded)}});
+                           {"folded", static_cast<double>(made.report.folded)},
+                           {"farthest_in_tolerances", made.report.farthest_in_tolerances}});
 }
 
 void warn_of_folds(const Console& console, const compile::MeshedDesign& made) {
@@ -134,6 +135,14 @@ void warn_of_folds(const Console& console, const compile::MeshedDesign& made) {
   console.warn(format_count(crossing) + " pairs of triangles go through each other and " + format_count(folded) +
                " look inwards, where the design is finer than the cells of " + format_rounded(made.cell_mm, 3) +
                " mm; choose a smaller --cell");
+}
+
+void warn_of_distance(const Console& console, const compile::MeshedDesign& made) {
+  const double farthest = made.report.farthest_in_tolerances;
+  if (farthest <= 1) return;
+  console.warn("the triangles lie up to " + format_rounded(farthest, 2) + " tolerances, " +
+               format_rounded(farthest * made.tolerance_mm, 2) +
+               " mm, from the design in places; choose a smaller --cell");
 }
 
 int mesh(const MeshArguments& a, Session& session) {
@@ -165,6 +174,7 @@ int mesh(const MeshArguments& a, Session& session) {
   }
   tell_bodies(session.console, *made);
   warn_of_folds(session.console, *made);
+  warn_of_distance(session.console, *made);
   exporting::write_mesh_file(output, document_of(*made, stem, settings), *format, flavour_of(a.flavour));
   session.console.say(output + " written in " + format_rounded(watch.seconds(), 3) + " s");
   session.console.event("done", {{"file", output}, {"seconds", watch.seconds()}});

@@ -31,9 +31,9 @@ std::vector<double> borders_of(const std::string& text) {
 
 void add_region_arguments(CLI::App& app, RegionArguments& a, const std::string& piece) {
   app.add_option("--tolerance", a.tolerance,
-                 "Largest distance to the design's surface; mm (default: a two-thousandth of its longest side)")
+                 "Largest distance to the design's surface; mm (default: a thousandth of its longest side)")
       ->type_name("MM");
-  app.add_option("--cell", a.cell, "Edge of the smallest cells; mm (default: 8 times the tolerance)")->type_name("MM");
+  app.add_option("--cell", a.cell, "Edge of the smallest cells; mm (default: 4 times the tolerance)")->type_name("MM");
   app.add_option("--by", a.by,
                  piece + " for each of the materials, or for bands of a material's fraction or an attribute")
       ->type_name("materials|NAME");

@@ -37,7 +37,8 @@ std::optional<MeshedDesign> mesh_design(const Loaded& loaded, const MeshRequest&
   made.cell_mm = fineness->cell.mm();
   surface::ContourOptions options;
   options.corners = corners_over(*box, fineness->cell);
-  options.tolerance_mm = request.join_flat ? made.tolerance_mm : 0;
+  options.tolerance_mm = made.tolerance_mm;
+  options.join_flat = request.join_flat;
   options.threads = request.threads;
   const surface::RegionSurface surface = surface::contour(program->partition, options, progress, stop);
   made.report = surface.report;

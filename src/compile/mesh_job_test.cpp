@@ -1,6 +1,7 @@
 // Meshes of designs against mathematics.
 #include "compile/mesh_job.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -63,6 +64,35 @@ void each_point(const surface::Body& body, F f) {
     const Vec3 a = body.vertices[t[0]], b = body.vertices[t[1]], c = body.vertices[t[2]];
     for (const Vec3 p : {a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (1.0 / 3) * (a + b + c)}) f(p);
   }
+}
+
+double distance(Vec3 p, Vec3 from, Vec3 to) {
+  const Vec3 along = to - from;
+  const double t = std::clamp(dot(p - from, along) / dot(along, along), 0.0, 1.0);
+  return length(p - from - t * along);
+}
+
+double distance(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 normal = cross(b - a, c - a);
+  const bool is_over = dot(cross(b - a, p - a), normal) >= 0 && dot(cross(c - b, p - b), normal) >= 0 &&
+                       dot(cross(a - c, p - c), normal) >= 0;
+  if (is_over && length(normal) > 0) return std::abs(dot(p - a, normal)) / length(normal);
+  return std::min({distance(p, a, b), distance(p, b, c), distance(p, c, a)});
+}
+
+double distance(Vec3 p, const surface::Body& body) {
+  double nearest = 1e300;
+  for (const Triangle& t : body.triangles)
+    nearest = std::min(nearest, distance(p, body.vertices[t[0]], body.vertices[t[1]], body.vertices[t[2]]));
+  return nearest;
+}
+
+// To a cylinder around the origin; negative inside.
+double distance_to_cylinder(Vec3 p, Vec3 axis, double radius, double half_length) {
+  const double along = dot(p, axis), beyond = std::abs(along) - half_length;
+  const double beside = length(p - along * axis) - radius;
+  if (beyond > 0 && beside > 0) return std::hypot(beyond, beside);
+  return std::max(beyond, beside);
 }
 
 using Place = std::array<double, 3>;
@@ -135,6 +165,35 @@ TEST(Mesh, OfACutCylinderHasASharpRim) {
   const double height = 6 / std::cos(pi / 6);
   EXPECT_NEAR(made.bodies[0].volume_mm3, pi * 16 * height, 1e-3 * pi * 16 * height);
   EXPECT_NEAR(made.bodies[0].area_mm2, 2 * pi * 4 * height + 2 * pi * 16 / std::cos(pi / 6), 0.3);
+}
+
+// Two cylinders that cross at 16 degrees: cells of the grid cannot follow the valley between them down to its ground.
+TEST(Mesh, OfANarrowValleyStaysWithinTheTolerance) {
+  const double tolerance = 0.04, radius = 2, half_length = 20, angle = pi * 8 / 180;
+  const std::string text = "union() { rotate(0, 8, 0) cylinder(2, 40); rotate(0, -8, 0) cylinder(2, 40); }";
+  MeshRequest request = cells_of(0.32, tolerance);
+  request.threads = 1;
+  const MeshedDesign made = mesh_text(text, request);
+  const surface::Body& body = made.bodies.at(0).body;
+  expect_manifold(body);
+  EXPECT_EQ(made.report.farthest_in_tolerances, 1);
+  EXPECT_EQ(made.report.intersections, 0u);
+  const Vec3 one{std::sin(angle), 0, std::cos(angle)}, two{-one.x, 0, one.z};
+  each_point(body, [&](Vec3 p) {
+    EXPECT_LE(std::abs(std::min(distance_to_cylinder(p, one, radius, half_length),
+                                distance_to_cylinder(p, two, radius, half_length))),
+              tolerance);
+  });
+  // The ground of the valley is an ellipse.
+  for (int n = 0; n < 100; ++n) {
+    const double turn = 2 * pi * n / 100;
+    const Vec3 ground{0, radius * std::cos(turn), radius * std::sin(turn) / std::sin(angle)};
+    EXPECT_LE(distance(ground, body), tolerance) << n;
+  }
+  request.threads = 2;
+  const MeshedDesign again = mesh_text(text, request);
+  EXPECT_TRUE(again.bodies.at(0).body.vertices == body.vertices);
+  EXPECT_TRUE(again.bodies.at(0).body.triangles == body.triangles);
 }
 
 TEST(Mesh, OfAGyroidHalvesItsCells) {

@@ -10,7 +10,7 @@
 namespace ombre::compile {
 namespace {
 
-constexpr double sides_of_tolerance = 2000;
+constexpr double sides_of_tolerance = 1000;
 constexpr MaterialId void_material = 0;
 // Corners begin so many cells before the box; an odd part, so that faces of round coordinates do not run through them.
 constexpr double margin_cells = 1.37;

@@ -21,10 +21,10 @@ struct BandRequest {
 struct RegionRequest {
   bool by_material = false;            // a region for each material
   std::optional<BandRequest> bands;    // or for each band; else one for all
-  std::optional<double> tolerance_mm;  // else a two-thousandth of the longest side, rounded
+  std::optional<double> tolerance_mm;  // else a thousandth of the longest side, rounded
   std::optional<double> cell_mm;       // else cells_of_tolerance times the tolerance
 };
-constexpr double cells_of_tolerance = 8;
+constexpr double cells_of_tolerance = 4;
 
 struct Fineness {
   double tolerance_mm = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace ombre::surface {
 namespace {
@@ -68,9 +69,7 @@ void join_across(const Face& face, const std::array<Label, 8>& corners, Joiner& 
   }
 }
 
-}  // namespace
-
-CellParts find_cell_parts(const std::array<Label, 8>& corners) {
+CellParts find_parts(const std::array<Label, 8>& corners) {
   Joiner joiner;
   for (int axis = 0; axis < 3; ++axis)
     for (int side = 0; side < 2; ++side) join_across(face_of(axis, side), corners, joiner);
@@ -83,6 +82,37 @@ CellParts find_cell_parts(const std::array<Label, 8>& corners) {
     part = root == e ? parts.count++ : parts.part_of_edge[static_cast<size_t>(root)];
   }
   return parts;
+}
+
+// Of two regions only: the corners in the greater one, as bits.
+std::optional<size_t> bits_of_two(const std::array<Label, 8>& corners) {
+  const auto [least, greatest] = std::ranges::minmax(corners);
+  size_t bits = 0;
+  for (size_t n = 0; n < 8; ++n) {
+    if (corners[n] == greatest)
+      bits |= size_t{1} << n;
+    else if (corners[n] != least)
+      return std::nullopt;
+  }
+  return bits;
+}
+
+std::array<CellParts, 256> parts_of_two() {
+  std::array<CellParts, 256> parts;
+  for (size_t bits = 0; bits < parts.size(); ++bits) {
+    std::array<Label, 8> corners{};
+    for (size_t n = 0; n < 8; ++n) corners[n] = static_cast<Label>(bits >> n & 1);
+    parts[bits] = find_parts(corners);
+  }
+  return parts;
+}
+
+}  // namespace
+
+CellParts find_cell_parts(const std::array<Label, 8>& corners) {
+  static const std::array<CellParts, 256> known = parts_of_two();
+  const std::optional<size_t> bits = bits_of_two(corners);
+  return bits ? known[*bits] : find_parts(corners);
 }
 
 }  // namespace ombre::surface

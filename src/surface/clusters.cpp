@@ -2,42 +2,21 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
+
+#include "surface/vertex_place.h"
 
 namespace ombre::surface {
 namespace {
 
 // Of the tolerance, for the root of the mean square of distances to planes; the greatest is some three times that.
 constexpr double rms_share = 0.3;
-constexpr double room_cells = 0.5;  // smallest cells around a cell
 
 int level_of(int32_t index) { return index == 0 ? 31 : std::countr_zero(static_cast<uint32_t>(index)); }
 
-// The levels of the two lattice planes that a quad's edge lies in: below 2^level cells they are borders of cells.
+// The levels of the two lattice planes that a quad's edge lies in: below 2^level units they are borders of cells.
 struct EdgeLevels {
   int u = 0, v = 0;
 };
-
-// Where a cell's vertex may lie: sharp edges between its crossings may be a little outside of it.
-Box room_of(const voxel::Lattice& lattice, const CellPlace& place, int level) {
-  const auto corner = [&](int32_t more) {
-    return lattice.center(static_cast<int64_t>(place[0] + more) << level,
-                          static_cast<int64_t>(place[1] + more) << level,
-                          static_cast<int64_t>(place[2] + more) << level);
-  };
-  return Box{corner(0), corner(1)}.expanded(room_cells * lattice.pitch[0].mm());
-}
-
-// From the mean, which lies in the cell, as far towards the best point as the cell reaches.
-Vec3 within(const Box& cell, Vec3 mean, Vec3 best) {
-  double share = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double way = best[axis] - mean[axis];
-    const double room = (way > 0 ? cell.hi : cell.lo)[axis] - mean[axis];
-    if (std::abs(way) > std::abs(room)) share = std::min(share, way != 0 ? room / way : 1);
-  }
-  return mean + std::max(share, 0.0) * (best - mean);
-}
 
 // What is known of the clusters that may become one.
 struct Candidate {
@@ -47,6 +26,7 @@ struct Candidate {
   uint16_t crossed_edges = 0;
   bool crosses_twice = false, is_blocked = false;
   Quadric planes;
+  NormalSpread spread;
 };
 
 // The edges around each face of a cell.
@@ -69,23 +49,25 @@ bool borders_are_simple(uint16_t crossed) {
 
 class LevelBuilder {
  public:
-  LevelBuilder(const MixedCells& cells, const std::vector<Crossing>& crossings, const DualMesh& mesh,
-               double tolerance_mm, std::vector<Cluster>& clusters)
-      : cells_(cells), crossings_(crossings), mesh_(mesh), tolerance_mm_(tolerance_mm), clusters_(clusters) {
+  LevelBuilder(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh, double tolerance_mm,
+               ClusterList& list)
+      : tree_(tree), crossings_(crossings), mesh_(mesh), tolerance_mm_(tolerance_mm), list_(list), clusters_(list.all) {
     for (const DualVertex& vertex : mesh.vertices) {
-      planes_.push_back(vertex.planes);
       euler_.push_back(1);
       may_join_.push_back(vertex.parts_two);
     }
-    fresh_.resize(mesh.vertices.size());
-    std::iota(fresh_.begin(), fresh_.end(), 0U);
-    quads_.resize(mesh.quads.size());
-    std::iota(quads_.begin(), quads_.end(), 0U);
+    for (uint32_t n = 0; n < mesh.quads.size(); ++n) later_quads_[edge_of(n).level].push_back(n);
   }
 
-  // False when nothing was joined.
+  // False when there is nothing left to join.
   bool build(int level) {
     level_ = level;
+    for (uint32_t n = 0; n < mesh_.vertices.size(); ++n)
+      if (clusters_[n].level == level - 1) fresh_.push_back(n);
+    if (level <= grid_level + 1) {
+      const std::vector<uint32_t>& quads = later_quads_[static_cast<size_t>(level - 1)];
+      quads_.insert(quads_.end(), quads.begin(), quads.end());
+    }
     std::erase_if(quads_, [&](uint32_t q) {
       const EdgeLevels e = levels(q);
       return std::max(e.u, e.v) < level - 1;
@@ -93,18 +75,15 @@ class LevelBuilder {
     gather();
     note_points();
     note_crossed_edges();
-    return make_clusters();
+    make_clusters();
+    return !fresh_.empty() || level <= grid_level;
   }
 
  private:
-  const CellPlace& place_of(uint32_t quad) const {
-    return cells_.cells()[crossings_[mesh_.quads[quad].crossing].cell].at;
-  }
-  int axis_of(uint32_t quad) const { return crossings_[mesh_.quads[quad].crossing].axis; }
+  const CrossedEdge& edge_of(uint32_t quad) const { return crossings_[mesh_.quads[quad].crossing].edge; }
   EdgeLevels levels(uint32_t quad) const {
-    const CellPlace& at = place_of(quad);
-    const int axis = axis_of(quad);
-    return {level_of(at[static_cast<size_t>((axis + 1) % 3)]), level_of(at[static_cast<size_t>((axis + 2) % 3)])};
+    const CrossedEdge& edge = edge_of(quad);
+    return {level_of(edge.start[(edge.axis + 1U) % 3]), level_of(edge.start[(edge.axis + 2U) % 3])};
   }
   uint32_t top(uint32_t vertex) const {
     while (clusters_[vertex].parent != Cluster::none) vertex = clusters_[vertex].parent;
@@ -148,8 +127,16 @@ class LevelBuilder {
     return c;
   }
 
+  const Quadric& planes(uint32_t c) const {
+    return c < mesh_.vertices.size() ? mesh_.vertices[c].planes : planes_[c - mesh_.vertices.size()];
+  }
+  const NormalSpread& spread(uint32_t c) const {
+    return c < mesh_.vertices.size() ? mesh_.vertices[c].spread : spreads_[c - mesh_.vertices.size()];
+  }
+
   void collect() {
     candidates_.clear();
+    candidates_.reserve(static_cast<size_t>(std::ranges::count_if(fresh_, [&](uint32_t c) { return group_[c] == c; })));
     number_.assign(clusters_.size(), Cluster::none);
     for (const uint32_t c : fresh_) {
       const uint32_t g = find(c);
@@ -160,7 +147,8 @@ class LevelBuilder {
       number_[c] = number_[g];
       Candidate& candidate = candidates_[number_[g]];
       candidate.members.push_back(c);
-      candidate.planes.add(planes_[c]);
+      candidate.planes.add(planes(c));
+      candidate.spread.add(spread(c));
       candidate.euler += euler_[c];
       candidate.is_blocked |= !may_join_[c];
     }
@@ -189,7 +177,8 @@ class LevelBuilder {
       for (size_t n = 0; n < 4; ++n) {
         Candidate* candidate = candidate_of(t[n]);
         if (!candidate) continue;
-        const auto bit = static_cast<uint16_t>(1 << edge_number(axis_of(q), quad_offsets[n][0], quad_offsets[n][1]));
+        const auto bit =
+            static_cast<uint16_t>(1 << edge_number(edge_of(q).axis, quad_offsets[n][0], quad_offsets[n][1]));
         candidate->crosses_twice |= (candidate->crossed_edges & bit) != 0;
         candidate->crossed_edges |= bit;
       }
@@ -197,66 +186,96 @@ class LevelBuilder {
   }
 
   // What cannot stand for its members may still hang together with others, and be a disc with them, a level up.
-  bool make_clusters() {
+  void make_clusters() {
     std::vector<uint32_t> made;
     for (const Candidate& candidate : candidates_) {
       if (candidate.is_blocked) continue;
       const Quadric::Least least = candidate.planes.least();
-      if (least.rms_mm > rms_share * tolerance_mm_) continue;
+      if (least.rms_mm > candidate.spread.most_rms(rms_share) * tolerance_mm_) continue;
       CellPlace place = clusters_[candidate.members[0]].place;
       for (int32_t& index : place) index >>= 1;
       // Two quads tell of each arc.
       const int euler = candidate.euler - candidate.inner_arc_ends / 2;
       const bool is_simple = euler == 1 && !candidate.crosses_twice && borders_are_simple(candidate.crossed_edges) &&
-                             room_of(cells_.lattice(), place, level_).contains(least.at);
+                             room_of(tree_, place, level_).contains(least.at);
       const auto number = static_cast<uint32_t>(clusters_.size());
       for (const uint32_t member : candidate.members) clusters_[member].parent = number;
-      clusters_.push_back({place, static_cast<uint8_t>(level_), !is_simple, Cluster::none, least.at});
+      clusters_.push_back({place, static_cast<uint8_t>(level_), !is_simple, Cluster::none,
+                           static_cast<uint32_t>(list_.members.size()),
+                           static_cast<uint32_t>(candidate.members.size())});
+      list_.places.push_back(least.at);
+      list_.members.insert(list_.members.end(), candidate.members.begin(), candidate.members.end());
       planes_.push_back(candidate.planes);
+      spreads_.push_back(candidate.spread);
       euler_.push_back(euler);
       may_join_.push_back(true);
       made.push_back(number);
     }
     fresh_ = std::move(made);
-    return !fresh_.empty();
   }
 
-  const MixedCells& cells_;
+  const CellTree& tree_;
   const std::vector<Crossing>& crossings_;
   const DualMesh& mesh_;
   double tolerance_mm_;
+  ClusterList& list_;
   std::vector<Cluster>& clusters_;
   int level_ = 0;
-  std::vector<Quadric> planes_;
+  std::vector<Quadric> planes_;        // of what is joined
+  std::vector<NormalSpread> spreads_;  // the same
   std::vector<int> euler_;
   std::vector<bool> may_join_;
+  std::array<std::vector<uint32_t>, grid_level + 1> later_quads_;  // by levels of their edges
   std::vector<uint32_t> fresh_, quads_, group_, number_, blocked_, arc_ends_;
   std::vector<Candidate> candidates_;
 };
 
 }  // namespace
 
-Clusters::Clusters(const MixedCells& cells, const std::vector<Crossing>& crossings, const DualMesh& mesh,
-                   double tolerance_mm) {
+Clusters::Clusters(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh,
+                   double tolerance_mm)
+    : vertices_(mesh.vertices.size()) {
+  int lowest = grid_level;
   for (const DualVertex& vertex : mesh.vertices) {
-    const CellPlace& place = cells.cells()[vertex.cell].at;
-    const Box box = room_of(cells.lattice(), place, 0);
-    clusters_.push_back({place, 0, false, Cluster::none, within(box, vertex.planes.mean(), vertex.planes.least().at)});
+    const Leaf& leaf = tree.leaves()[vertex.leaf];
+    const CellPlace place{leaf.at[0] >> leaf.level, leaf.at[1] >> leaf.level, leaf.at[2] >> leaf.level};
+    list_.all.push_back({place, leaf.level});
+    list_.places.push_back(vertex.at);
+    lowest = std::min<int>(lowest, leaf.level);
   }
-  if (tolerance_mm <= 0) return;
-  LevelBuilder builder(cells, crossings, mesh, tolerance_mm, clusters_);
-  const auto& count = cells.lattice().count;
-  const auto longest = static_cast<uint64_t>(std::max({count[0], count[1], count[2]}));
-  const auto levels = static_cast<int>(std::bit_width(longest));  // what hangs together in the whole grid ends there
-  for (int level = 1; level <= levels && builder.build(level); ++level) {
+  if (tolerance_mm > 0) {
+    LevelBuilder builder(tree, crossings, mesh, tolerance_mm, list_);
+    const auto& count = tree.lattice().count;
+    const auto longest = static_cast<uint64_t>(std::max({count[0], count[1], count[2]}));
+    // What hangs together in the whole grid ends there.
+    const int levels = grid_level + static_cast<int>(std::bit_width(longest));
+    for (int level = lowest + 1; level <= levels && builder.build(level); ++level) {
+    }
+  }
+  stands_for_.resize(vertices_);
+  for (uint32_t vertex = 0; vertex < vertices_; ++vertex) {
+    stands_for_[vertex] = vertex;
+    for (uint32_t c = list_.all[vertex].parent; c != Cluster::none; c = list_.all[c].parent)
+      if (!list_.all[c].is_split) stands_for_[vertex] = c;
   }
 }
 
-uint32_t Clusters::of(uint32_t vertex) const {
-  uint32_t found = vertex;
-  for (uint32_t c = clusters_[vertex].parent; c != Cluster::none; c = clusters_[c].parent)
-    if (!clusters_[c].is_split) found = c;
-  return found;
+void Clusters::split(uint32_t cluster, std::vector<uint32_t>& vertices) {
+  Cluster& split = list_.all[cluster];
+  if (split.is_split) return;
+  split.is_split = true;
+  let_stand(Cluster::none, cluster, vertices);
+}
+
+// For the vertices below, or what is not split there, if there is no cluster yet.
+void Clusters::let_stand(uint32_t cluster, uint32_t below, std::vector<uint32_t>& vertices) {
+  const Cluster& c = list_.all[below];
+  if (cluster == Cluster::none && !c.is_split) cluster = below;
+  if (!is_joined(below)) {
+    stands_for_[below] = cluster;
+    vertices.push_back(below);
+  }
+  for (uint32_t n = 0; n < c.member_count; ++n) let_stand(cluster, list_.members[c.first_member + n], vertices);
 }
 
 }  // namespace ombre::surface

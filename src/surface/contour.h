@@ -18,9 +18,10 @@ struct Facet {
 };
 
 struct ContourReport {
-  uint64_t at_mean_points = 0;  // vertices that would have folded the surface
-  uint64_t folded = 0;          // triangles that still look against the surface there
-  uint64_t intersections = 0;   // pairs of triangles that still go through each other
+  uint64_t at_mean_points = 0;        // vertices that would have folded the surface
+  uint64_t folded = 0;                // triangles that still look against the surface there
+  uint64_t intersections = 0;         // pairs of triangles that still go through each other
+  double farthest_in_tolerances = 1;  // from the borders, or these from the triangles, at samples; at least 1
 };
 
 // Facets between any two regions; those around one region enclose it without a gap.
@@ -32,12 +33,14 @@ struct RegionSurface {
 
 struct ContourOptions {
   voxel::Lattice corners;   // the cells' corners; its outermost points count as void
-  double tolerance_mm = 0;  // flat cells are joined within it; 0: none are
+  double tolerance_mm = 0;  // cells are cut where the surface would lie farther off; at least 0
+  bool join_flat = true;    // flat cells are joined within the tolerance
   int threads = 0;
 };
 
 // Dual contouring (Ju et al., 2002) with a vertex for each part of a cell (Nielson, 2004), and cells joined in an
-// octree as Schaefer et al. (2007) do. Regions of more than two meet in shared vertices. What is thinner than a
+// octree as Schaefer et al. (2007) do. Cells are cut up to grid_level times where the surface is too far off at
+// samples, as long as there are not too many. Regions of more than two meet in shared vertices. What is thinner than a
 // cell may be lost. Throws Cancelled.
 RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress = nullptr,
                       const StopFlag* stop = nullptr);

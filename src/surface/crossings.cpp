@@ -14,30 +14,88 @@
 namespace ombre::surface {
 namespace {
 
-constexpr int32_t block_cells = 16;  // along each axis of a block that shares a shortened program
+constexpr int32_t block_units = 16 * units_per_cell;  // along each axis of a block that shares a shortened program
 
-std::vector<Crossing> list_crossings(const MixedCells& cells) {
-  std::vector<Crossing> crossings;
-  for (uint32_t n = 0; n < cells.cells().size(); ++n)
-    for (int axis = 0; axis < 3; ++axis) {
-      const MixedCell& cell = cells.cells()[n];
-      const int edge = edge_number(axis, 0, 0);
-      if (cell.crosses(edge))
-        crossings.push_back(
-            {n, static_cast<uint8_t>(axis), cell.corners[0], cell.corners[second_corner(edge)], {}, {}});
+struct EdgeKey {
+  CellPlace start{};
+  uint8_t axis = 0, level = 0;
+  explicit EdgeKey(const CrossedEdge& edge) : start(edge.start), axis(edge.axis), level(edge.level) {}
+  bool operator==(const EdgeKey&) const = default;
+};
+struct EdgeKeyHash {
+  size_t operator()(const EdgeKey& key) const { return PlaceHash()(key.start) + size_t{3} * key.level + key.axis; }
+};
+
+// Crossings of all edges, those that were found before with what is known of them, and the numbers of the others.
+class CrossingList {
+ public:
+  CrossingList(const CellTree& tree, const std::vector<Crossing>& before, const std::vector<uint32_t>& leaves)
+      : tree_(tree), before_(before), leaves_(leaves) {
+    note_before();
+    for (uint32_t n = 0; n < tree.leaves().size(); ++n) {
+      take_over(n);
+      if (tree.leaves()[n].is_near_cut || before.empty()) list(n);
     }
-  return crossings;
-}
+  }
+  std::vector<Crossing> all;
+  std::vector<uint32_t> unknown;
 
-// Numbers of crossings, block by block.
-std::vector<std::vector<uint32_t>> cut_into_blocks(const MixedCells& cells, const std::vector<Crossing>& crossings) {
+ private:
+  // The leaf that listed an edge before, and has now, far from cuts, just the same edges; or none.
+  uint32_t same_leaf(const Crossing& crossing) const {
+    const uint32_t first = crossing.edge.leaves[0], now = first == CellTree::none ? first : leaves_[first];
+    return now == CellTree::none || tree_.leaves()[now].is_near_cut ? CellTree::none : now;
+  }
+
+  void note_before() {
+    for (uint32_t n = 0; n < before_.size(); ++n)
+      if (same_leaf(before_[n]) == CellTree::none)
+        known_.emplace(EdgeKey(before_[n].edge), n);
+      else
+        same_.push_back(n);
+  }
+
+  void take_over(uint32_t leaf) {
+    for (; next_ < same_.size() && same_leaf(before_[same_[next_]]) == leaf; ++next_) {
+      Crossing crossing = before_[same_[next_]];
+      for (uint32_t& around : crossing.edge.leaves) around = leaves_[around];
+      crossing.before = same_[next_];
+      all.push_back(crossing);
+    }
+  }
+
+  void list(uint32_t leaf) {
+    edges_.clear();
+    list_crossed_edges(tree_, leaf, edges_);
+    for (const CrossedEdge& edge : edges_) {
+      const auto found = known_.find(EdgeKey(edge));
+      if (found == known_.end()) {
+        unknown.push_back(static_cast<uint32_t>(all.size()));
+        all.push_back({edge, {}, {}});
+      } else {
+        all.push_back({edge, before_[found->second].at, before_[found->second].normal, found->second});
+      }
+    }
+  }
+
+  const CellTree& tree_;
+  const std::vector<Crossing>& before_;
+  const std::vector<uint32_t>& leaves_;
+  std::unordered_map<EdgeKey, uint32_t, EdgeKeyHash> known_;
+  std::vector<uint32_t> same_;  // numbers before, of crossings with the same leaf
+  size_t next_ = 0;
+  std::vector<CrossedEdge> edges_;
+};
+
+// Numbers of crossings, block by block; edges of a block have the same length.
+std::vector<std::vector<uint32_t>> cut_into_blocks(const std::vector<Crossing>& crossings,
+                                                   std::vector<uint32_t> order) {
   const auto block_of = [&](uint32_t n) {
-    const CellPlace& at = cells.cells()[crossings[n].cell].at;
-    return std::array<int32_t, 3>{at[2] / block_cells, at[1] / block_cells, at[0] / block_cells};
+    const CrossedEdge& edge = crossings[n].edge;
+    return std::array<int32_t, 4>{edge.level, edge.start[2] / block_units, edge.start[1] / block_units,
+                                  edge.start[0] / block_units};
   };
-  std::vector<uint32_t> order(crossings.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return block_of(a) < block_of(b); });
+  std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) { return block_of(a) < block_of(b); });
   std::vector<std::vector<uint32_t>> blocks;
   for (size_t n = 0; n < order.size(); ++n) {
     if (n == 0 || block_of(order[n]) != block_of(order[n - 1])) blocks.emplace_back();
@@ -46,42 +104,34 @@ std::vector<std::vector<uint32_t>> cut_into_blocks(const MixedCells& cells, cons
   return blocks;
 }
 
-Vec3 cell_size(const voxel::Lattice& lattice) {
-  return {lattice.pitch[0].mm(), lattice.pitch[1].mm(), lattice.pitch[2].mm()};
-}
-
-EdgeSearch edge_of(const Crossing& crossing, const MixedCells& cells) {
-  const voxel::Lattice& lattice = cells.lattice();
-  const CellPlace& at = cells.cells()[crossing.cell].at;
+EdgeSearch search_of(const CrossedEdge& edge, const CellTree& tree) {
   EdgeSearch search;
-  search.start = lattice.center(at[0], at[1], at[2]);
-  search.along[crossing.axis] = lattice.pitch[crossing.axis].mm();
-  search.from = crossing.from;
-  search.to = crossing.to;
+  search.start = tree.point(edge.start);
+  search.along[edge.axis] = tree.size_mm(edge.level)[edge.axis];
+  search.from = edge.from;
+  search.to = edge.to;
   return search;
 }
 
 // Finds the crossings of a block, in parts where its program is long: in a smaller box less of it matters.
 class BlockFinder {
  public:
-  BlockFinder(const Partition& partition, const MixedCells& cells, std::vector<Crossing>& crossings,
-              const StopFlag* stop)
-      : partition_(partition), cells_(cells), crossings_(crossings), stop_(stop) {
-    const Vec3 cell_mm = cell_size(cells.lattice());
-    margin_ = normals_reach * std::max({cell_mm.x, cell_mm.y, cell_mm.z});
-  }
+  BlockFinder(const Partition& partition, const CellTree& tree, std::vector<Crossing>& crossings, const StopFlag* stop)
+      : partition_(partition), tree_(tree), crossings_(crossings), stop_(stop) {}
 
-  void find(const program::Program& details, std::vector<uint32_t> block, int32_t cells_a_side) {
+  void find(const program::Program& details, std::vector<uint32_t> block, int32_t units_a_side) {
     if (stop_ && stop_->requested()) throw Cancelled();
-    const program::Program program = shortened_for(details, box_of(block).expanded(margin_));
-    if (cells_a_side > 1 && block.size() * program.code.size() > most_work)
-      return cut(program, block, cells_a_side / 2);
+    const Vec3 cell_mm = tree_.size_mm(crossings_[block[0]].edge.level);
+    const double margin = normals_reach * std::max({cell_mm.x, cell_mm.y, cell_mm.z});
+    const program::Program program = shortened_for(details, box_of(block).expanded(margin));
+    if (units_a_side > 1 && block.size() * program.code.size() > most_work)
+      return cut(program, block, units_a_side / 2);
     std::vector<EdgeSearch> searches;
-    for (const uint32_t n : block) searches.push_back(edge_of(crossings_[n], cells_));
+    for (const uint32_t n : block) searches.push_back(search_of(crossings_[n].edge, tree_));
     PointAsker asker;
     asker.begin(partition_, program);
     search_edges(searches, asker);
-    const std::vector<Vec3> normals = border_normals(searches, cell_size(cells_.lattice()), asker);
+    const std::vector<Vec3> normals = border_normals(searches, cell_mm, asker);
     for (size_t m = 0; m < block.size(); ++m) {
       crossings_[block[m]].at = searches[m].point(searches[m].t);
       crossings_[block[m]].normal = normals[m];
@@ -95,45 +145,55 @@ class BlockFinder {
   Box box_of(const std::vector<uint32_t>& block) const {
     Box box;
     for (const uint32_t n : block) {
-      const EdgeSearch edge = edge_of(crossings_[n], cells_);
+      const EdgeSearch edge = search_of(crossings_[n].edge, tree_);
       box = hull(box, {edge.point(0), edge.point(1)});
     }
     return box;
   }
 
-  void cut(const program::Program& program, const std::vector<uint32_t>& block, int32_t cells_a_side) {
+  void cut(const program::Program& program, const std::vector<uint32_t>& block, int32_t units_a_side) {
     std::array<std::vector<uint32_t>, 8> parts;
     for (const uint32_t n : block) {
-      const CellPlace& at = cells_.cells()[crossings_[n].cell].at;
+      const CellPlace& at = crossings_[n].edge.start;
       size_t part = 0;
-      for (size_t axis = 0; axis < 3; ++axis) part |= static_cast<size_t>(at[axis] / cells_a_side % 2) << axis;
+      for (size_t axis = 0; axis < 3; ++axis) part |= static_cast<size_t>(at[axis] / units_a_side % 2) << axis;
       parts[part].push_back(n);
     }
     for (std::vector<uint32_t>& part : parts)
-      if (!part.empty()) find(program, std::move(part), cells_a_side);
+      if (!part.empty()) find(program, std::move(part), units_a_side);
   }
 
   const Partition& partition_;
-  const MixedCells& cells_;
+  const CellTree& tree_;
   std::vector<Crossing>& crossings_;
   const StopFlag* stop_;
-  double margin_ = 0;
 };
 
-}  // namespace
-
-std::vector<Crossing> find_crossings(const Partition& partition, const MixedCells& cells, int threads,
-                                     Progress* progress, const StopFlag* stop) {
-  std::vector<Crossing> crossings = list_crossings(cells);
-  const auto blocks = cut_into_blocks(cells, crossings);
+std::vector<Crossing> find(const Partition& partition, const CellTree& tree, CrossingList crossings, int threads,
+                           Progress* progress, const StopFlag* stop) {
+  const auto blocks = cut_into_blocks(crossings.all, std::move(crossings.unknown));
   const Stopwatch watch;
   std::atomic<uint64_t> done = 0;
   run_parallel(blocks.size(), threads, [&](size_t n) {
-    BlockFinder(partition, cells, crossings, stop).find(partition.details, blocks[n], block_cells);
+    BlockFinder(partition, tree, crossings.all, stop).find(partition.details, blocks[n], block_units);
     const uint64_t now = ++done;
     if (progress) progress->update(at_steady_pace(now, blocks.size(), watch.seconds()));
   });
-  return crossings;
+  return std::move(crossings.all);
+}
+
+}  // namespace
+
+std::vector<Crossing> find_crossings(const Partition& partition, const CellTree& tree, int threads, Progress* progress,
+                                     const StopFlag* stop) {
+  return find(partition, tree, CrossingList(tree, {}, {}), threads, progress, stop);
+}
+
+std::vector<Crossing> find_crossings_after_growth(const Partition& partition, const CellTree& tree,
+                                                  const std::vector<Crossing>& before,
+                                                  const std::vector<uint32_t>& leaves, int threads,
+                                                  const StopFlag* stop) {
+  return find(partition, tree, CrossingList(tree, before, leaves), threads, nullptr, stop);
 }
 
 }  // namespace ombre::surface

@@ -3,21 +3,28 @@
 
 #include <vector>
 
-#include "surface/cell_grid.h"
+#include "base/progress.h"
+#include "surface/crossed_edges.h"
+#include "surface/partition.h"
 
 namespace ombre::surface {
 
-// Of the edge that begins at corner 0 of a cell and runs along an axis.
 struct Crossing {
-  uint32_t cell = 0;
-  uint8_t axis = 0;
-  Label from = 0, to = 0;  // regions at the edge's ends
+  static constexpr uint32_t none = ~uint32_t{0};
+  CrossedEdge edge;
   Vec3 at;                 // mm
-  Vec3 normal;             // unit; from region `from` into region `to`
+  Vec3 normal;             // unit; from the edge's region `from` into region `to`
+  uint32_t before = none;  // its number before the last cut, if its edge was crossed already
 };
 
-// All crossings, in order of their cells, then axes. Throws Cancelled.
-std::vector<Crossing> find_crossings(const Partition& partition, const MixedCells& cells, int threads,
+// All crossings, in order of their leaves, then axes. Throws Cancelled.
+std::vector<Crossing> find_crossings(const Partition& partition, const CellTree& tree, int threads,
                                      Progress* progress = nullptr, const StopFlag* stop = nullptr);
+
+// The same after the tree grew; what was found before is taken over. `leaves` are the numbers that leaves have now.
+std::vector<Crossing> find_crossings_after_growth(const Partition& partition, const CellTree& tree,
+                                                  const std::vector<Crossing>& before,
+                                                  const std::vector<uint32_t>& leaves, int threads,
+                                                  const StopFlag* stop = nullptr);
 
 }  // namespace ombre::surface

@@ -2,113 +2,63 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <utility>
 
-#include "base/box.h"
 #include "base/tasks.h"
+#include "surface/box_tree.h"
 
 namespace ombre::surface {
 namespace {
 
-bool meet(const Box& a, const Box& b) {
-  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
-         b.lo.z <= a.hi.z;
-}
-
 constexpr double nearly_one = 1 - 1e-6;  // of a cosine
 
-// Boxes in a binary tree: node n has children 2 n + 1 and 2 n + 2, leaves hold a few facets each.
-class BoxTree {
+// All triangles of a surface.
+class Triangles {
  public:
-  explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
-    std::iota(order_.begin(), order_.end(), 0U);
-    build(0, 0, order_.size());
+  explicit Triangles(const QuadSurface& surface) : places_(surface.clusters().places()) {
+    for (uint32_t quad = 0; quad < surface.quads(); ++quad)
+      for (const Triangle& triangle : surface.triangles(quad)) {
+        all_.push_back(triangle);
+        quads_.push_back(quad);
+      }
   }
 
-  // Calls visit(facet) for those whose boxes meet this one's and that have greater numbers.
-  template <class Visit>
-  void each_after(uint32_t facet, const Visit& visit) const {
-    ask(0, 0, order_.size(), facet, visit);
-  }
-
- private:
-  static constexpr size_t leaf = 4;
-
-  void build(size_t node, size_t begin, size_t end) {
-    if (nodes_.size() <= node) nodes_.resize(node + 1);
-    Box box;
-    for (size_t n = begin; n < end; ++n) box = hull(box, boxes_[order_[n]]);
-    nodes_[node] = box;
-    if (end - begin <= leaf) return;
-    const Vec3 size = box.size();
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto middle_of = [&](uint32_t f) { return boxes_[f].lo[axis] + boxes_[f].hi[axis]; };
-    const size_t middle = (begin + end) / 2;
-    const auto at = [&](size_t n) { return order_.begin() + static_cast<std::ptrdiff_t>(n); };
-    std::nth_element(at(begin), at(middle), at(end),
-                     [&](uint32_t a, uint32_t b) { return std::pair(middle_of(a), a) < std::pair(middle_of(b), b); });
-    build(2 * node + 1, begin, middle);
-    build(2 * node + 2, middle, end);
-  }
-
-  template <class Visit>
-  void ask(size_t node, size_t begin, size_t end, uint32_t facet, const Visit& visit) const {
-    if (!meet(nodes_[node], boxes_[facet])) return;
-    if (end - begin > leaf) {
-      const size_t middle = (begin + end) / 2;
-      ask(2 * node + 1, begin, middle, facet, visit);
-      ask(2 * node + 2, middle, end, facet, visit);
-      return;
-    }
-    for (size_t n = begin; n < end; ++n)
-      if (order_[n] > facet && meet(boxes_[order_[n]], boxes_[facet])) visit(order_[n]);
-  }
-
-  std::vector<Box> boxes_, nodes_;
-  std::vector<uint32_t> order_;
-};
-
-class Facets {
- public:
-  Facets(const std::vector<Vec3>& vertices, const std::vector<Facet>& facets) : vertices_(vertices), facets_(facets) {}
-
-  Box box(const Facet& facet) const {
-    Box box;
-    for (const uint32_t corner : facet.corners) box = hull(box, {vertices_[corner], vertices_[corner]});
-    return box;
-  }
+  uint32_t size() const { return static_cast<uint32_t>(all_.size()); }
+  uint32_t quad(uint32_t n) const { return quads_[n]; }
+  Box box(uint32_t n) const { return box_of({places_[all_[n][0]], places_[all_[n][1]], places_[all_[n][2]]}); }
 
   bool cross(uint32_t a, uint32_t b) const {
-    return pierces(facets_[a], facets_[b]) || pierces(facets_[b], facets_[a]) || lie_upon(facets_[a], facets_[b]);
+    if (a > b) std::swap(a, b);
+    return pierces(all_[a], all_[b]) || pierces(all_[b], all_[a]) || lie_upon(all_[a], all_[b]);
   }
 
  private:
   // Six times the volume of a tetrahedron.
   double volume(uint32_t a, uint32_t b, uint32_t c, uint32_t d) const {
-    const Vec3 from = vertices_[a];
-    return dot(vertices_[b] - from, ombre::cross(vertices_[c] - from, vertices_[d] - from));
+    const Vec3 from = places_[a];
+    return dot(places_[b] - from, ombre::cross(places_[c] - from, places_[d] - from));
   }
 
-  static bool has(const Facet& facet, uint32_t corner) {
-    return std::ranges::find(facet.corners, corner) != facet.corners.end();
+  static bool has(const Triangle& triangle, uint32_t corner) {
+    return std::ranges::find(triangle, corner) != triangle.end();
   }
 
   // Whether a side of `a` that has no end in common with `b` goes through it.
-  bool pierces(const Facet& a, const Facet& b) const {
+  bool pierces(const Triangle& a, const Triangle& b) const {
     for (size_t n = 0; n < 3; ++n) {
-      const uint32_t from = a.corners[n], to = a.corners[(n + 1) % 3];
-      if (!has(b, from) && !has(b, to) && goes_through(from, to, b.corners)) return true;
+      const uint32_t from = a[n], to = a[(n + 1) % 3];
+      if (!has(b, from) && !has(b, to) && goes_through(from, to, b)) return true;
     }
     return false;
   }
 
   // Whether facets with a common side are folded flat upon each other.
-  bool lie_upon(const Facet& a, const Facet& b) const {
+  bool lie_upon(const Triangle& a, const Triangle& b) const {
     for (size_t n = 0; n < 3; ++n) {
-      const uint32_t from = a.corners[n], to = a.corners[(n + 1) % 3], third = a.corners[(n + 2) % 3];
+      const uint32_t from = a[n], to = a[(n + 1) % 3], third = a[(n + 2) % 3];
       if (!has(b, from) || !has(b, to)) continue;
-      const auto other = std::ranges::find_if(b.corners, [&](uint32_t c) { return c != from && c != to; });
-      if (other == b.corners.end() || *other == third) return true;
+      const auto other = std::ranges::find_if(b, [&](uint32_t c) { return c != from && c != to; });
+      if (other == b.end() || *other == third) return true;
       const Vec3 one = beside(from, to, third), two = beside(from, to, *other);
       return dot(one, two) > nearly_one * length(one) * length(two);
     }
@@ -117,7 +67,7 @@ class Facets {
 
   // From the line through two corners to a third, at right angles.
   Vec3 beside(uint32_t from, uint32_t to, uint32_t third) const {
-    const Vec3 along = vertices_[to] - vertices_[from], way = vertices_[third] - vertices_[from];
+    const Vec3 along = places_[to] - places_[from], way = places_[third] - places_[from];
     const double share = dot(way, along) / dot(along, along);
     return way - share * along;
   }
@@ -129,33 +79,73 @@ class Facets {
     return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
   }
 
-  const std::vector<Vec3>& vertices_;
-  const std::vector<Facet>& facets_;
+  const std::vector<Vec3>& places_;
+  std::vector<Triangle> all_;
+  std::vector<uint32_t> quads_;
+};
+
+// Pairs of triangles of which one is fresh.
+class PairFinder {
+ public:
+  PairFinder(const Triangles& triangles, const std::vector<uint32_t>& fresh_quads) : triangles_(triangles) {
+    std::vector<Box> boxes;
+    auto quad = fresh_quads.begin();
+    for (uint32_t n = 0; n < triangles.size(); ++n) {
+      while (quad != fresh_quads.end() && *quad < triangles.quad(n)) ++quad;
+      const bool is_fresh = quad != fresh_quads.end() && *quad == triangles.quad(n);
+      (is_fresh ? fresh_ : others_).push_back(n);
+      if (is_fresh) boxes.push_back(triangles.box(n));
+    }
+    tree_ = BoxTree(boxes);
+  }
+
+  QuadPairs find(int threads) const {
+    constexpr size_t piece = 4096;
+    const size_t first = (tree_.groups() + piece - 1) / piece, second = (others_.size() + piece - 1) / piece;
+    std::vector<QuadPairs> found(first + second);
+    run_parallel(found.size(), threads, [&](size_t p) {
+      if (p < first)
+        look_among_fresh(p * piece, std::min((p + 1) * piece, tree_.groups()), found[p]);
+      else
+        look_at_others((p - first) * piece, std::min((p - first + 1) * piece, others_.size()), found[p]);
+    });
+    QuadPairs pairs;
+    for (const QuadPairs& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
+    std::ranges::sort(pairs);
+    return pairs;
+  }
+
+ private:
+  void look_among_fresh(size_t begin, size_t end, QuadPairs& pairs) const {
+    for (size_t group = begin; group < end; ++group)
+      tree_.each_pair_that_meets(group, [&](uint32_t a, uint32_t b) { look_at(fresh_[a], fresh_[b], pairs); });
+  }
+
+  void look_at_others(size_t begin, size_t end, QuadPairs& pairs) const {
+    for (size_t n = begin; n < end; ++n)
+      tree_.each_that_meets(triangles_.box(others_[n]), [&](uint32_t f) { look_at(others_[n], fresh_[f], pairs); });
+  }
+
+  void look_at(uint32_t a, uint32_t b, QuadPairs& pairs) const {
+    if (triangles_.cross(a, b)) pairs.push_back(std::minmax({triangles_.quad(a), triangles_.quad(b)}));
+  }
+
+  const Triangles& triangles_;
+  std::vector<uint32_t> fresh_, others_;
+  BoxTree tree_;
 };
 
 }  // namespace
 
-std::vector<std::pair<uint32_t, uint32_t>> find_intersections(const std::vector<Vec3>& vertices,
-                                                              const std::vector<Facet>& facets, int threads) {
-  if (facets.empty()) return {};
-  const Facets all(vertices, facets);
-  std::vector<Box> boxes;
-  for (const Facet& facet : facets) boxes.push_back(all.box(facet));
-  const BoxTree tree(std::move(boxes));
-
-  constexpr size_t piece = 4096;
-  const size_t pieces = (facets.size() + piece - 1) / piece;
-  std::vector<std::vector<std::pair<uint32_t, uint32_t>>> found(pieces);
-  run_parallel(pieces, threads, [&](size_t p) {
-    const auto end = static_cast<uint32_t>(std::min((p + 1) * piece, facets.size()));
-    for (auto facet = static_cast<uint32_t>(p * piece); facet < end; ++facet)
-      tree.each_after(facet, [&](uint32_t other) {
-        if (all.cross(facet, other)) found[p].emplace_back(facet, other);
-      });
-  });
-  std::vector<std::pair<uint32_t, uint32_t>> pairs;
-  for (auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
-  std::ranges::sort(pairs);
+QuadPairs IntersectionFinder::find(const QuadSurface& surface) {
+  const std::vector<uint32_t> fresh = clean_.see(surface.looks());
+  if (fresh.empty()) return {};
+  const Triangles triangles(surface);
+  QuadPairs pairs = PairFinder(triangles, fresh).find(threads_);
+  for (const auto& [a, b] : pairs) {
+    clean_.forget(a);
+    clean_.forget(b);
+  }
   return pairs;
 }
 

@@ -5,13 +5,27 @@
 #include <utility>
 #include <vector>
 
-#include "surface/contour.h"
+#include "surface/quad_surface.h"
+#include "surface/seen_quads.h"
 
 namespace ombre::surface {
 
-// Pairs of facets of which a side of one pierces the other, or that have a common side and lie upon each other, lower
-// number first, in order. Facets that only touch do not count.
-std::vector<std::pair<uint32_t, uint32_t>> find_intersections(const std::vector<Vec3>& vertices,
-                                                              const std::vector<Facet>& facets, int threads);
+// Numbers of quads, lower first, one twice if its triangles lie upon each other.
+using QuadPairs = std::vector<std::pair<uint32_t, uint32_t>>;
+
+class IntersectionFinder {
+ public:
+  explicit IntersectionFinder(int threads) : threads_(threads) {}
+
+  // Pairs of triangles of which a side of one pierces the other, or that have a common side and lie upon each other; in
+  // order. Triangles that only touch do not count. Looks only at pairs of which one changed since the last time.
+  QuadPairs find(const QuadSurface& surface);
+  // After a cut the quads around crossings have other numbers.
+  void renumber(const std::vector<Crossing>& crossings) { clean_.renumber(crossings); }
+
+ private:
+  int threads_;
+  SeenQuads clean_;
+};
 
 }  // namespace ombre::surface

@@ -1,0 +1,83 @@
+// The mixed cells of a grid, some of them cut into finer ones: an octree below each cell of the grid.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "surface/cell_grid.h"
+
+namespace ombre::surface {
+
+// Places in a tree count in units, sides of its finest cells. A cell of level n has sides of 2^n units.
+constexpr int grid_level = 3;
+constexpr int32_t units_per_cell = 1 << grid_level;
+
+struct PlaceHash {
+  size_t operator()(const CellPlace& at) const;
+};
+
+// A cell that is not cut.
+struct Leaf : MixedCell {
+  uint8_t level = grid_level;
+  bool is_near_cut = false;  // a cell of the grid around it is cut, or its own
+
+  bool is_mixed() const;
+};
+
+class CellTree {
+ public:
+  static constexpr uint32_t none = ~uint32_t{0};
+  // The labels at corners, given by their places in units.
+  using AskLabels = std::function<std::vector<Label>(const std::vector<CellPlace>&)>;
+
+  explicit CellTree(MixedCells grid);
+
+  const voxel::Lattice& lattice() const { return grid_.lattice(); }
+  Vec3 point(const CellPlace& units) const;
+  Vec3 size_mm(int level) const;
+  // Whether a corner lies on the border of the grid, where all is void.
+  bool is_outermost(const CellPlace& units) const;
+
+  // In order of the grid's cells: z, then y, then x.
+  const std::vector<Leaf>& leaves() const { return leaves_; }
+  // The number of the leaf that holds a unit; none in cells of the grid that the tree does not have.
+  uint32_t find(const CellPlace& unit) const;
+
+  // Cuts leaves above level 0 into eight, and takes in cells of the grid that are not mixed, given by their places in
+  // the grid. Leaves get new numbers.
+  void grow(const std::vector<uint32_t>& cut, const std::vector<CellPlace>& taken_in, const AskLabels& ask);
+
+ private:
+  struct Child {
+    std::array<Label, 8> corners{};
+    uint32_t children = none;
+    uint32_t leaf = none;
+  };
+  // Of a cell of the grid: the first of its eight children, or its number as a leaf.
+  struct Root {
+    uint32_t children = none;
+    uint32_t leaf = none;
+  };
+
+  void learn_corners(const Leaf& leaf);
+  std::optional<Label> known_label(const CellPlace& corner) const;
+  void ask_unknown(std::vector<CellPlace> corners, const AskLabels& ask);
+  void take_in(const std::vector<CellPlace>& places);
+  void cut(const Leaf& leaf);
+  void mark_around_cuts(std::vector<bool>& is_near) const;
+  void list_leaves();
+  void list_below(const CellPlace& at, int level, uint32_t children);
+
+  MixedCells grid_;
+  std::vector<Root> roots_;  // of the grid's mixed cells
+  std::vector<Child> children_;
+  std::vector<Leaf> leaves_;
+  std::unordered_map<CellPlace, Label, PlaceHash> labels_;  // at corners of cells that were cut
+};
+
+// The numbers that leaves have after a tree grew; none where they were cut.
+std::vector<uint32_t> numbers_after_growth(const std::vector<Leaf>& before, const std::vector<Leaf>& after);
+
+}  // namespace ombre::surface

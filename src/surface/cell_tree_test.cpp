@@ -1,0 +1,98 @@
+// Cells cut into finer ones.
+#include "surface/cell_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "surface/dual_mesh.h"
+
+namespace ombre::surface {
+namespace {
+
+// Eight cells around the middle corner, of which only that one is inside.
+CellTree cells_around_a_corner() {
+  voxel::Lattice corners;
+  corners.pitch = {Pitch{1, 1}, Pitch{1, 1}, Pitch{1, 1}};
+  corners.count = {5, 5, 5};
+  std::vector<MixedCell> cells;
+  for (int32_t k = 1; k <= 2; ++k)
+    for (int32_t j = 1; j <= 2; ++j)
+      for (int32_t i = 1; i <= 2; ++i) {
+        MixedCell cell{{i, j, k}, {}};
+        cell.corners[corner_number({2 - i, 2 - j, 2 - k})] = 1;
+        cells.push_back(cell);
+      }
+  return CellTree(MixedCells(corners, std::move(cells)));
+}
+
+// The middle corner lies at 16 units; inside is what is nearer to it than five units.
+std::vector<Label> ball(const std::vector<CellPlace>& corners) {
+  std::vector<Label> labels;
+  for (const CellPlace& at : corners) {
+    int32_t square = 0;
+    for (const int32_t index : at) square += (index - 16) * (index - 16);
+    labels.push_back(square < 25 ? 1 : 0);
+  }
+  return labels;
+}
+
+std::vector<CrossedEdge> all_crossed_edges(const CellTree& tree) {
+  std::vector<CrossedEdge> edges;
+  for (uint32_t n = 0; n < tree.leaves().size(); ++n) list_crossed_edges(tree, n, edges);
+  return edges;
+}
+
+// Corners of neighbouring quads, so edges of the dual mesh, come in pairs of opposite directions.
+void expect_closed(const CellTree& tree) {
+  std::vector<Crossing> crossings;
+  for (const CrossedEdge& edge : all_crossed_edges(tree)) crossings.push_back({edge, {}, {1, 0, 0}});
+  const DualMesh mesh = make_dual_mesh(tree, crossings, 1);
+  std::map<std::pair<uint32_t, uint32_t>, int> sides;
+  for (const DualQuad& quad : mesh.quads) {
+    const CrossedEdge& edge = crossings[quad.crossing].edge;
+    for (size_t n = 0; n < 4; ++n) {
+      const uint32_t a = quad.corners[n], b = quad.corners[(n + 1) % 4];
+      if (a == b) continue;
+      ++sides[edge.from < edge.to ? std::pair(a, b) : std::pair(b, a)];
+    }
+  }
+  for (const auto& [side, count] : sides) EXPECT_EQ(count, (sides[{side.second, side.first}]));
+}
+
+}  // namespace
+
+TEST(CellTree, FindsItsLeaves) {
+  CellTree tree = cells_around_a_corner();
+  ASSERT_EQ(tree.leaves().size(), 8u);
+  EXPECT_EQ(tree.find({8, 8, 8}), 0u);
+  EXPECT_EQ(tree.find({23, 15, 15}), 1u);
+  EXPECT_EQ(tree.find({7, 8, 8}), CellTree::none);
+  tree.grow({0}, {}, ball);
+  EXPECT_EQ(tree.leaves().size(), 15u);
+  for (uint32_t n = 0; n < tree.leaves().size(); ++n) EXPECT_EQ(tree.find(tree.leaves()[n].at), n);
+}
+
+TEST(CellTree, OfOneSizeHasAQuadForEachCrossedEdge) {
+  const CellTree tree = cells_around_a_corner();
+  EXPECT_EQ(all_crossed_edges(tree).size(), 6u);
+  expect_closed(tree);
+}
+
+// Next to leaves of every size, whichever are cut.
+TEST(CellTree, OfManySizesIsClosed) {
+  for (uint32_t which = 0; which < 256; ++which) {
+    CellTree tree = cells_around_a_corner();
+    std::vector<uint32_t> cut;
+    for (uint32_t n = 0; n < 8; ++n)
+      if (which >> n & 1) cut.push_back(n);
+    tree.grow(cut, {}, ball);
+    expect_closed(tree);
+    tree.grow({tree.find({15, 15, 15})}, {}, ball);
+    expect_closed(tree);
+    if (tree.leaves()[tree.find({15, 15, 15})].level > 0) tree.grow({tree.find({15, 15, 15})}, {}, ball);
+    expect_closed(tree);
+  }
+}
+
+}  // namespace ombre::surface

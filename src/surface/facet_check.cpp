@@ -1,0 +1,164 @@
+#include "surface/facet_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "surface/evenly.h"
+#include "surface/facet_distance.h"
+
+namespace ombre::surface {
+namespace {
+
+constexpr double reach_of_tolerance = 0.95;  // samples see but a part of a facet
+constexpr double most_tolerances = 16;
+constexpr size_t most_measured = 1000;
+
+Vec3 middle_of(const std::array<Vec3, 3>& corners) { return (1.0 / 3) * (corners[0] + corners[1] + corners[2]); }
+
+class Sampler {
+ public:
+  Sampler(const QuadSurface& surface, double spacing_mm)
+      : surface_(surface), spacing_mm_(spacing_mm), has_vertex_(surface.clusters().size()) {}
+
+  // Little can be wrong in calm quads: they get a sample, others many.
+  void add(uint32_t quad) {
+    quad_ = quad;
+    const bool is_calm = surface_.is_calm(quad);
+    for (const Triangle& triangle : surface_.triangles(quad)) {
+      const std::array<Vec3, 3> corners = surface_.corners(triangle);
+      const Vec3 across = surface_.normal(triangle);
+      const double twice_area = length(across);
+      normal_ = twice_area > 0 ? (1 / twice_area) * across : Vec3{0, 0, 1};
+      add(middle_of(corners));
+      if (is_calm) return;
+      add_corners(triangle, corners);
+      add_inside(corners, twice_area);
+    }
+  }
+
+  std::vector<uint32_t> quads;  // of the samples
+  std::vector<SurfaceSample> samples;
+
+ private:
+  void add(Vec3 at) {
+    quads.push_back(quad_);
+    samples.push_back({at, normal_});
+  }
+
+  // Vertices once, sides once where two facets go along them in opposite directions.
+  void add_corners(const Triangle& triangle, const std::array<Vec3, 3>& corners) {
+    for (size_t n = 0; n < 3; ++n) {
+      if (!has_vertex_[triangle[n]]) add(corners[n]);
+      has_vertex_[triangle[n]] = true;
+      if (triangle[n] < triangle[(n + 1) % 3]) add_side(corners[n], corners[(n + 1) % 3]);
+    }
+  }
+
+  int pieces(double length_mm) const {
+    constexpr double most_pieces = 1000;
+    return static_cast<int>(std::min(std::ceil(length_mm / spacing_mm_), most_pieces));
+  }
+
+  void add_side(Vec3 from, Vec3 to) {
+    const int count = std::max(2, pieces(length(to - from)));
+    for (int n = 1; n < count; ++n) add(from + (static_cast<double>(n) / count) * (to - from));
+  }
+
+  void add_inside(const std::array<Vec3, 3>& corners, double twice_area) {
+    const auto& [a, b, c] = corners;
+    const double longest = std::max({length(b - a), length(c - b), length(a - c)});
+    const int count = pieces(std::min(longest, std::sqrt(twice_area)));
+    for (int i = 1; i < count; ++i)
+      for (int j = 1; i + j < count; ++j)
+        add(a + (static_cast<double>(i) / count) * (b - a) + (static_cast<double>(j) / count) * (c - a));
+  }
+
+  const QuadSurface& surface_;
+  double spacing_mm_;
+  std::vector<bool> has_vertex_;
+  Vec3 normal_;
+  uint32_t quad_ = 0;
+};
+
+std::vector<Vec3> places_of(const std::vector<uint32_t>& crossings, const QuadSurface& surface) {
+  std::vector<Vec3> places;
+  places.reserve(crossings.size());
+  for (const uint32_t n : crossings) places.push_back(surface.crossing(n).at);
+  return places;
+}
+
+}  // namespace
+
+FacetCheck::FacetCheck(const Partition& partition, const ContourOptions& options, const StopFlag* stop)
+    : partition_(partition),
+      tolerance_mm_(options.tolerance_mm),
+      reach_mm_(reach_of_tolerance * options.tolerance_mm),
+      spacing_mm_(options.corners.pitch[0].mm()),
+      threads_(options.threads),
+      stop_(stop) {}
+
+void FacetCheck::check(const QuadSurface& surface) {
+  const std::vector<uint32_t> quads = seen_.see(surface.looks());
+  check_facets(surface, quads);
+  check_crossings(surface, quads);
+}
+
+void FacetCheck::check_facets(const QuadSurface& surface, const std::vector<uint32_t>& quads) {
+  std::erase_if(far_, [&](const Far& far) { return std::ranges::binary_search(quads, far.quad); });
+  Sampler sampler(surface, spacing_mm_);
+  for (const uint32_t quad : quads) sampler.add(quad);
+  for (const uint32_t n : find_far_samples(partition_, sampler.samples, reach_mm_, threads_, stop_))
+    far_.push_back({sampler.quads[n], sampler.samples[n]});
+  std::ranges::stable_sort(far_, {}, &Far::quad);
+}
+
+void FacetCheck::check_crossings(const QuadSurface& surface, const std::vector<uint32_t>& quads) {
+  std::vector<uint32_t> off;
+  std::ranges::set_union(quads, far_crossings_, std::back_inserter(off));
+  std::erase_if(off, [&](uint32_t quad) {
+    return std::ranges::any_of(surface.triangles(quad), [&](const Triangle& triangle) {
+      return distance_to_triangle(surface.crossing(quad).at, surface.corners(triangle)) <= reach_mm_;
+    });
+  });
+  const std::vector<double> near = distances_to_facets(places_of(off, surface), surface, reach_mm_, threads_);
+  far_crossings_.clear();
+  for (size_t n = 0; n < off.size(); ++n)
+    if (near[n] > reach_mm_) far_crossings_.push_back(off[n]);
+}
+
+void FacetCheck::renumber(const std::vector<Crossing>& crossings) {
+  seen_.renumber(crossings);
+  std::vector<Far> far;
+  std::vector<uint32_t> far_crossings;
+  for (uint32_t n = 0; n < crossings.size(); ++n) {
+    const uint32_t before = crossings[n].before;
+    if (before == Crossing::none) continue;
+    for (auto f = std::ranges::lower_bound(far_, before, {}, &Far::quad); f != far_.end() && f->quad == before; ++f)
+      far.push_back({n, f->sample});
+    if (std::ranges::binary_search(far_crossings_, before)) far_crossings.push_back(n);
+  }
+  far_ = std::move(far);
+  far_crossings_ = std::move(far_crossings);
+}
+
+std::vector<uint32_t> FacetCheck::far_quads() const {
+  std::vector<uint32_t> quads = far_crossings_;
+  for (const Far& far : far_) quads.push_back(far.quad);
+  std::ranges::sort(quads);
+  quads.erase(std::unique(quads.begin(), quads.end()), quads.end());
+  return quads;
+}
+
+double FacetCheck::farthest_in_tolerances(const QuadSurface& surface) const {
+  std::vector<SurfaceSample> samples;
+  for (const Far& far : far_) samples.push_back(far.sample);
+  samples = evenly(samples, most_measured);
+  const double most = most_tolerances * tolerance_mm_;
+  double farthest = tolerance_mm_;
+  for (const double mm : distances_to_facets(places_of(far_crossings_, surface), surface, most, threads_))
+    farthest = std::max(farthest, std::min(mm, most));
+  return std::max(farthest, farthest_mm(partition_, samples, tolerance_mm_, threads_, stop_)) / tolerance_mm_;
+}
+
+}  // namespace ombre::surface

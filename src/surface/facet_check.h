@@ -1,0 +1,43 @@
+// Whether facets and the borders of regions keep together within a tolerance.
+#pragma once
+
+#include <vector>
+
+#include "surface/quad_surface.h"
+#include "surface/seen_quads.h"
+#include "surface/surface_distance.h"
+
+namespace ombre::surface {
+
+class FacetCheck {
+ public:
+  FacetCheck(const Partition& partition, const ContourOptions& options, const StopFlag* stop);
+
+  // Looks at samples of facets and at crossings, but for those that were near already. Throws Cancelled.
+  void check(const QuadSurface& surface);
+  // Crossings, and the quads around them, have other numbers.
+  void renumber(const std::vector<Crossing>& crossings);
+  // As the last look said; in order.
+  std::vector<uint32_t> far_quads() const;
+  // At the samples, or a thousand of the far ones, and at crossings; 1 when all are near. Throws Cancelled.
+  double farthest_in_tolerances(const QuadSurface& surface) const;
+
+ private:
+  struct Far {
+    uint32_t quad = 0;
+    SurfaceSample sample;
+  };
+
+  void check_facets(const QuadSurface& surface, const std::vector<uint32_t>& quads);
+  void check_crossings(const QuadSurface& surface, const std::vector<uint32_t>& quads);
+
+  const Partition& partition_;
+  double tolerance_mm_, reach_mm_, spacing_mm_;
+  int threads_;
+  const StopFlag* stop_;
+  SeenQuads seen_;
+  std::vector<Far> far_;  // in order of quads
+  std::vector<uint32_t> far_crossings_;
+};
+
+}  // namespace ombre::surface

@@ -1,0 +1,16 @@
+// Regions at scattered points, in parallel.
+#pragma once
+
+#include <vector>
+
+#include "base/progress.h"
+#include "base/vec.h"
+#include "surface/partition.h"
+
+namespace ombre::surface {
+
+// By the reference evaluator. Throws Cancelled.
+std::vector<Label> labels_at(const Partition& partition, const std::vector<Vec3>& points, int threads,
+                             const StopFlag* stop = nullptr);
+
+}  // namespace ombre::surface

@@ -1,0 +1,67 @@
+#include "surface/refinement.h"
+
+#include <algorithm>
+
+#include "surface/label_asker.h"
+
+namespace ombre::surface {
+namespace {
+
+// Between leaves around a crossed edge.
+constexpr int most_level_difference = 1;
+
+// What is cut and taken in so that leaves around crossed edges are mixed, and not far larger than the edges are long.
+struct Growth {
+  std::vector<uint32_t> cut;
+  std::vector<CellPlace> taken_in;
+
+  bool is_empty() const { return cut.empty() && taken_in.empty(); }
+  void sort() {
+    std::ranges::sort(cut);
+    cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
+    std::ranges::sort(taken_in);
+    taken_in.erase(std::unique(taken_in.begin(), taken_in.end()), taken_in.end());
+  }
+};
+
+Growth growth_around_cuts(const CellTree& tree, bool may_cut) {
+  Growth growth;
+  std::vector<CrossedEdge> edges;
+  for (uint32_t n = 0; n < tree.leaves().size(); ++n)
+    if (tree.leaves()[n].is_near_cut) list_crossed_edges(tree, n, edges);
+  for (const CrossedEdge& edge : edges)
+    for (size_t corner = 0; corner < 4; ++corner) {
+      const uint32_t number = edge.leaves[corner];
+      if (number == CellTree::none) {
+        const CellPlace unit = unit_beside(edge, corner);
+        growth.taken_in.push_back({unit[0] >> grid_level, unit[1] >> grid_level, unit[2] >> grid_level});
+        continue;
+      }
+      const Leaf& leaf = tree.leaves()[number];
+      const bool is_too_large = leaf.level > edge.level + most_level_difference || !leaf.is_mixed();
+      if (may_cut && is_too_large) growth.cut.push_back(number);
+    }
+  growth.sort();
+  return growth;
+}
+
+}  // namespace
+
+void refine(CellTree& tree, const std::vector<uint32_t>& leaves, size_t most_leaves, const Partition& partition,
+            int threads, const StopFlag* stop) {
+  const auto ask = [&](const std::vector<CellPlace>& corners) {
+    std::vector<Vec3> points;
+    for (const CellPlace& corner : corners) points.push_back(tree.point(corner));
+    std::vector<Label> labels = labels_at(partition, points, threads, stop);
+    for (size_t n = 0; n < corners.size(); ++n)
+      if (tree.is_outermost(corners[n])) labels[n] = 0;
+    return labels;
+  };
+  tree.grow(leaves, {}, ask);
+  for (Growth more = growth_around_cuts(tree, true); !more.is_empty();) {
+    tree.grow(more.cut, more.taken_in, ask);
+    more = growth_around_cuts(tree, tree.leaves().size() < most_leaves);
+  }
+}
+
+}  // namespace ombre::surface

@@ -1,0 +1,16 @@
+// Cells that are cut because one vertex cannot say what the surface does in them.
+#pragma once
+
+#include <vector>
+
+#include "surface/dual_mesh.h"
+#include "surface/partition.h"
+
+namespace ombre::surface {
+
+// Cuts leaves, and those around them that are not mixed, though the surface goes into them, or far larger; these
+// as long as the tree has fewer than `most_leaves`. Throws Cancelled.
+void refine(CellTree& tree, const std::vector<uint32_t>& leaves, size_t most_leaves, const Partition& partition,
+            int threads, const StopFlag* stop);
+
+}  // namespace ombre::surface

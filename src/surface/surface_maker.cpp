@@ -1,0 +1,161 @@
+#include "surface/surface_maker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surface/doubled_edges.h"
+#include "surface/unfold.h"
+
+namespace ombre::surface {
+namespace {
+
+constexpr int most_rounds = 40, most_crossing_rounds = 6, most_far_rounds = 12;
+// Clusters of the highest level are taken apart first, vertices never.
+constexpr int vertex_rank = -1;
+
+}  // namespace
+
+SurfaceMaker::SurfaceMaker(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh,
+                           const ContourOptions& options, FacetCheck& check, IntersectionFinder& intersections)
+    : tree_(tree),
+      options_(options),
+      check_(check),
+      intersections_(intersections),
+      surface_(tree, crossings, mesh, options) {}
+
+void SurfaceMaker::bring_near() {
+  int round = 0;
+  do {
+    mend_folds();
+    check_.check(surface_);
+  } while (++round < most_far_rounds && split_far());
+}
+
+std::vector<uint32_t> SurfaceMaker::coarse_leaves() {
+  std::vector<uint32_t> leaves;
+  const auto note = [&](uint32_t vertex) {
+    const uint32_t leaf = surface_.mesh().vertices[vertex].leaf;
+    if (tree_.leaves()[leaf].level > 0) leaves.push_back(leaf);
+  };
+  for (const uint32_t quad : check_.far_quads())
+    for (const uint32_t vertex : surface_.mesh().quads[quad].corners) note(vertex);
+  for (const auto& [a, b] : intersections_.find(surface_))
+    for (const uint32_t quad : {a, b})
+      for (const uint32_t vertex : surface_.mesh().quads[quad].corners)
+        if (surface_.clusters().of(vertex) == vertex) note(vertex);
+  std::ranges::sort(leaves);
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  return leaves;
+}
+
+void SurfaceMaker::mend_intersections() {
+  unfold(surface_);
+  QuadPairs pairs = intersections_.find(surface_);
+  for (int round = 0; round < most_crossing_rounds && !pairs.empty() && mend(pairs); ++round) {
+    mend_folds();
+    pairs = intersections_.find(surface_);
+  }
+  pairs_left_ = pairs.size();
+  check_.check(surface_);
+}
+
+RegionSurface SurfaceMaker::build() const {
+  RegionSurface made = surface_.build();
+  made.report.at_mean_points = at_mean_points_;
+  made.report.intersections = pairs_left_;
+  made.report.farthest_in_tolerances = check_.farthest_in_tolerances(surface_);
+  cut_doubled_edges(made);
+  return made;
+}
+
+void SurfaceMaker::mend_folds() {
+  for (int round = 0; round < most_rounds && mend(surface_.refresh()); ++round) {
+  }
+  surface_.refresh();
+}
+
+// Takes clusters apart where the surface folds or lies too far off; single vertices that fold it go to the mean of
+// their crossings. False when there was nothing to mend.
+bool SurfaceMaker::mend(const std::vector<uint32_t>& quads) {
+  std::vector<uint32_t> apart, back;
+  for (const uint32_t quad : quads) {
+    const std::span<const Triangle> triangles = surface_.triangles(quad);
+    if (triangles.empty()) continue;
+    const bool folds = std::ranges::any_of(triangles, [&](const Triangle& t) { return surface_.is_folded(t, quad); });
+    if (!folds && !is_far(quad)) continue;
+    uint32_t highest = triangles[0][0];
+    for (const Triangle& triangle : triangles)
+      for (const uint32_t corner : triangle)
+        if (rank(corner) > rank(highest)) highest = corner;
+    if (surface_.clusters().is_joined(highest))
+      apart.push_back(highest);
+    else if (folds)
+      for (const Triangle& triangle : triangles) back.insert(back.end(), triangle.begin(), triangle.end());
+  }
+  for (const uint32_t cluster : apart) surface_.split(cluster);
+  return move_back(back) || !apart.empty();
+}
+
+// The same for triangles that go through each other.
+bool SurfaceMaker::mend(const QuadPairs& pairs) {
+  std::vector<uint32_t> back;
+  bool is_apart = false;
+  for (const auto& [a, b] : pairs)
+    for (const uint32_t quad : {a, b})
+      for (const Triangle& triangle : surface_.triangles(quad))
+        for (const uint32_t cluster : triangle) {
+          if (surface_.clusters().is_joined(cluster)) {
+            surface_.split(cluster);
+            is_apart = true;
+          } else {
+            back.push_back(cluster);
+          }
+        }
+  return move_back(back) || is_apart;
+}
+
+// Takes clusters apart where the surface lies too far off; false when there are none.
+bool SurfaceMaker::split_far() {
+  bool is_apart = false;
+  std::vector<uint32_t> apart;
+  for (const uint32_t quad : check_.far_quads()) {
+    int highest = vertex_rank;
+    const auto& corners = surface_.mesh().quads[quad].corners;
+    for (const uint32_t vertex : corners) highest = std::max(highest, rank(surface_.clusters().of(vertex)));
+    if (highest == vertex_rank) continue;
+    for (const uint32_t vertex : corners) {
+      const uint32_t cluster = surface_.clusters().of(vertex);
+      if (rank(cluster) == highest) apart.push_back(cluster);
+    }
+    is_apart = true;
+  }
+  for (const uint32_t cluster : apart) surface_.split(cluster);
+  return is_apart;
+}
+
+bool SurfaceMaker::move_back(const std::vector<uint32_t>& vertices) {
+  bool moved = false;
+  for (const uint32_t vertex : vertices) {
+    const Vec3 mean = surface_.mesh().vertices[vertex].planes.mean();
+    if (surface_.clusters().places()[vertex] == mean) continue;
+    surface_.move(vertex, mean);
+    ++at_mean_points_;
+    moved = true;
+  }
+  return moved;
+}
+
+// Whether the crossing is farther from the triangles' planes than the tolerance.
+bool SurfaceMaker::is_far(uint32_t quad) const {
+  const double reach = options_.join_flat ? options_.tolerance_mm : 0;
+  return std::ranges::all_of(surface_.triangles(quad), [&](const Triangle& t) {
+    const Vec3 n = surface_.normal(t);
+    return std::abs(dot(n, surface_.crossing(quad).at - surface_.clusters().places()[t[0]])) > reach * length(n);
+  });
+}
+
+int SurfaceMaker::rank(uint32_t cluster) const {
+  return surface_.clusters().is_joined(cluster) ? surface_.clusters()[cluster].level : vertex_rank;
+}
+
+}  // namespace ombre::surface

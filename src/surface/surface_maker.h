@@ -1,0 +1,44 @@
+// Draws vertices together where the surface is flat, and takes apart what folds, lies too far off, or goes through
+// other facets.
+#pragma once
+
+#include <vector>
+
+#include "surface/facet_check.h"
+#include "surface/intersections.h"
+#include "surface/quad_surface.h"
+
+namespace ombre::surface {
+
+class SurfaceMaker {
+ public:
+  SurfaceMaker(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh,
+               const ContourOptions& options, FacetCheck& check, IntersectionFinder& intersections);
+
+  // As near as clusters that are taken apart bring it.
+  void bring_near();
+  // Leaves above level 0, where vertices that stand for themselves lie too far off, or their facets go through others.
+  std::vector<uint32_t> coarse_leaves();
+  void mend_intersections();
+
+  RegionSurface build() const;
+
+ private:
+  void mend_folds();
+  bool mend(const std::vector<uint32_t>& quads);
+  bool mend(const QuadPairs& pairs);
+  bool split_far();
+  bool move_back(const std::vector<uint32_t>& vertices);
+  bool is_far(uint32_t quad) const;
+  int rank(uint32_t cluster) const;
+
+  const CellTree& tree_;
+  const ContourOptions& options_;
+  FacetCheck& check_;
+  IntersectionFinder& intersections_;
+  QuadSurface surface_;
+  uint64_t at_mean_points_ = 0;
+  size_t pairs_left_ = 0;
+};
+
+}  // namespace ombre::surface
