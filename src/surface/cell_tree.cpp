@@ -156,21 +156,32 @@ void CellTree::cut(const Leaf& leaf) {
 
 void CellTree::take_in(const std::vector<CellPlace>& places) {
   if (places.empty()) return;
-  std::vector<std::pair<MixedCell, Root>> all;
-  for (size_t n = 0; n < roots_.size(); ++n) all.emplace_back(grid_.cells()[n], roots_[n]);
+  std::vector<MixedCell> more;
   for (const CellPlace& place : places) {
-    MixedCell cell{place, {}};
+    MixedCell& cell = more.emplace_back(MixedCell{place, {}});
     for (size_t corner = 0; corner < 8; ++corner)
       cell.corners[corner] = labels_.at(moved(first_unit_of(place), corner, units_per_cell));
-    all.emplace_back(cell, Root{});
   }
-  std::ranges::sort(all, [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
+  std::ranges::sort(more, comes_before);
   std::vector<MixedCell> cells;
-  roots_.clear();
-  for (const auto& [cell, root] : all) {
+  std::vector<Root> roots;
+  cells.reserve(roots_.size() + more.size());
+  roots.reserve(roots_.size() + more.size());
+  auto next = more.begin();
+  const auto take_before = [&](const auto& is_before) {
+    for (; next != more.end() && is_before(*next); ++next) {
+      cells.push_back(*next);
+      roots.emplace_back();
+    }
+  };
+  for (size_t n = 0; n < roots_.size(); ++n) {
+    const MixedCell& cell = grid_.cells()[n];
+    take_before([&](const MixedCell& other) { return comes_before(other, cell); });
     cells.push_back(cell);
-    roots_.push_back(root);
+    roots.push_back(roots_[n]);
   }
+  take_before([](const MixedCell&) { return true; });
+  roots_ = std::move(roots);
   grid_ = MixedCells(lattice(), std::move(cells));
 }
 
