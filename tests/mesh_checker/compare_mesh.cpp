@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <set>
 
 #include "base/tasks.h"
 #include "compile/build.h"
@@ -195,19 +196,46 @@ std::vector<Vec3> surface_points(Insides& insides, Vec3 corner, double step) {
   return to;
 }
 
-// Corners and middles of a triangle's sides, its centre, and more by its area.
-void add_samples(const Kernel::Triangle_3& triangle, double spacing_mm, std::vector<Sample>& samples) {
-  const auto corner = [&](int n) { return Vec3{triangle[n].x(), triangle[n].y(), triangle[n].z()}; };
-  const Vec3 a = corner(0), b = corner(1), c = corner(2), across = cross(b - a, c - a);
-  const double twice_area = length(across);
-  const Vec3 normal = twice_area > 0 ? (1 / twice_area) * across : Vec3{0, 0, 1};
-  const auto add = [&](double u, double v) { samples.push_back({a + u * (b - a) + v * (c - a), normal}); };
-  const double longest = std::max({length(b - a), length(c - b), length(a - c)});
-  const int cuts = std::max(2, static_cast<int>(std::ceil(std::min(longest, std::sqrt(twice_area)) / spacing_mm)));
-  for (int i = 0; i <= cuts; ++i)
-    for (int j = 0; i + j <= cuts; ++j) add(static_cast<double>(i) / cuts, static_cast<double>(j) / cuts);
-  add(1.0 / 3, 1.0 / 3);
-}
+using Place = std::array<double, 3>;
+Place place_of(Vec3 p) { return {p.x, p.y, p.z}; }
+
+// Corners and middles of triangles' sides, their centres, and more by their area. Corners once, and sides once where
+// two triangles go along them in opposite directions.
+class Sampler {
+ public:
+  explicit Sampler(double spacing_mm) : spacing_mm_(spacing_mm) {}
+
+  void add(const Kernel::Triangle_3& triangle) {
+    const auto corner = [&](int n) { return Vec3{triangle[n].x(), triangle[n].y(), triangle[n].z()}; };
+    const std::array<Vec3, 3> corners{corner(0), corner(1), corner(2)};
+    const auto [a, b, c] = corners;
+    const Vec3 across = cross(b - a, c - a);
+    const double twice_area = length(across);
+    normal_ = twice_area > 0 ? (1 / twice_area) * across : Vec3{0, 0, 1};
+    const double longest = std::max({length(b - a), length(c - b), length(a - c)});
+    const int cuts = std::max(2, static_cast<int>(std::ceil(std::min(longest, std::sqrt(twice_area)) / spacing_mm_)));
+    for (size_t n = 0; n < 3; ++n) add_side(corners[n], corners[(n + 1) % 3], cuts);
+    for (int i = 1; i < cuts; ++i)
+      for (int j = 1; i + j < cuts; ++j)
+        add(a + (static_cast<double>(i) / cuts) * (b - a) + (static_cast<double>(j) / cuts) * (c - a));
+    add((1.0 / 3) * (a + b + c));
+  }
+
+  std::vector<Sample> samples;
+
+ private:
+  void add(Vec3 at) { samples.push_back({at, normal_}); }
+
+  void add_side(Vec3 from, Vec3 to, int cuts) {
+    if (corners_.insert(place_of(from)).second) add(from);
+    if (place_of(to) < place_of(from)) return;
+    for (int n = 1; n < cuts; ++n) add(from + (static_cast<double>(n) / cuts) * (to - from));
+  }
+
+  double spacing_mm_;
+  Vec3 normal_;
+  std::set<Place> corners_;
+};
 
 double area(const Triangles& triangles) {
   double sum = 0;
@@ -238,10 +266,10 @@ class Comparison {
   Side of_mesh() const {
     // Of about 300,000 samples.
     const double spacing = std::sqrt(area(triangles_) / 150'000);
-    std::vector<Sample> samples;
-    for (const auto& triangle : triangles_) add_samples(triangle, spacing, samples);
+    Sampler sampler(spacing);
+    for (const auto& triangle : triangles_) sampler.add(triangle);
     std::map<TileKey, std::vector<Sample>> by_tile;
-    for (const Sample& sample : samples) by_tile[tiling_.tile_of(sample.point)].push_back(sample);
+    for (const Sample& sample : sampler.samples) by_tile[tiling_.tile_of(sample.point)].push_back(sample);
     std::vector<const std::pair<const TileKey, std::vector<Sample>>*> tiles;
     for (const auto& tile : by_tile) tiles.push_back(&tile);
     return over(tiles.size(), [&](size_t n, Side& side) {
