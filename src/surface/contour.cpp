@@ -17,6 +17,7 @@ class CellRefiner {
   CellRefiner(const Partition& partition, const ContourOptions& options, Progress* progress, const StopFlag* stop)
       : partition_(partition),
         options_(options),
+        progress_(progress),
         stop_(stop),
         tree_(find_mixed_cells(partition.label, options.corners, options.threads, progress, stop)),
         most_leaves_(tree_.leaves().size() + std::max(most_more_leaves, tree_.leaves().size())),
@@ -27,6 +28,7 @@ class CellRefiner {
 
   RegionSurface make() {
     for (int round = 0;; ++round) {
+      if (progress_) progress_->update({static_cast<uint64_t>(round), most_cutting_rounds + 1});
       SurfaceMaker maker(tree_, crossings_, mesh_, options_, check_, intersections_);
       maker.bring_near();
       if (round < most_cutting_rounds && cut(maker.coarse_leaves())) continue;
@@ -54,6 +56,7 @@ class CellRefiner {
 
   const Partition& partition_;
   const ContourOptions& options_;
+  Progress* progress_;
   const StopFlag* stop_;
   CellTree tree_;
   size_t most_leaves_;
