@@ -32,7 +32,7 @@ class CellRefiner {
       SurfaceMaker maker(tree_, crossings_, mesh_, options_, check_, intersections_);
       maker.bring_near();
       if (round < most_cutting_rounds && cut(maker.coarse_leaves())) continue;
-      maker.mend_intersections();
+      maker.finish(partition_, stop_);
       return maker.build();
     }
   }

@@ -113,6 +113,17 @@ bool QuadSurface::is_folded(const Triangle& triangle, uint32_t quad) const {
   return dot(n, crossings_[quad].normal) < -1e-9 * length(n);
 }
 
+bool QuadSurface::is_folded(uint32_t quad) const {
+  return std::ranges::any_of(triangles(quad), [&](const Triangle& triangle) { return is_folded(triangle, quad); });
+}
+
+std::vector<uint32_t> QuadSurface::folded_quads() const {
+  std::vector<uint32_t> folded;
+  for (uint32_t quad = 0; quad < quads(); ++quad)
+    if (is_folded(quad)) folded.push_back(quad);
+  return folded;
+}
+
 void QuadSurface::move(uint32_t vertex, Vec3 at) {
   clusters_.move(vertex, at);
   changed_.push_back(vertex);

@@ -41,9 +41,16 @@ class QuadSurface {
 
   Vec3 normal(const Triangle& triangle) const;  // as long as twice its area
   bool is_folded(const Triangle& triangle, uint32_t quad) const;
+  bool is_folded(uint32_t quad) const;
+  std::vector<uint32_t> folded_quads() const;
 
   void split(uint32_t cluster) { clusters_.split(cluster, changed_); }
   void move(uint32_t vertex, Vec3 at);
+  // What stands for several too; all quads count as changed.
+  void place(uint32_t cluster, Vec3 at) {
+    clusters_.move(cluster, at);
+    is_new_ = true;
+  }
   // Quads that changed since the last time, or all, in order.
   std::vector<uint32_t> refresh();
 

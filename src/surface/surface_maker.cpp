@@ -5,11 +5,12 @@
 
 #include "surface/doubled_edges.h"
 #include "surface/unfold.h"
+#include "surface/volume_fit.h"
 
 namespace ombre::surface {
 namespace {
 
-constexpr int most_rounds = 40, most_crossing_rounds = 6, most_far_rounds = 12;
+constexpr int most_rounds = 40, most_crossing_rounds = 6, most_far_rounds = 12, most_fitting_rounds = 6;
 // Clusters of the highest level are taken apart first, vertices never.
 constexpr int vertex_rank = -1;
 
@@ -48,7 +49,26 @@ std::vector<uint32_t> SurfaceMaker::coarse_leaves() {
   return leaves;
 }
 
+void SurfaceMaker::finish(const Partition& partition, const StopFlag* stop) {
+  fit_volumes(partition, stop);
+  mend_intersections();
+}
+
+// As far as facets keep near, and do not fold.
+void SurfaceMaker::fit_volumes(const Partition& partition, const StopFlag* stop) {
+  VolumeFit fit(surface_, partition, options_.threads, stop);
+  for (int round = 0; round < most_fitting_rounds; ++round) {
+    surface_.refresh();
+    check_.check(surface_);
+    std::vector<uint32_t> wrong = surface_.folded_quads();
+    const std::vector<uint32_t> far = check_.far_quads();
+    wrong.insert(wrong.end(), far.begin(), far.end());
+    if (!fit.undo(surface_, wrong)) return;
+  }
+}
+
 void SurfaceMaker::mend_intersections() {
+  mend_folds();
   unfold(surface_);
   QuadPairs pairs = intersections_.find(surface_);
   for (int round = 0; round < most_crossing_rounds && !pairs.empty() && mend(pairs); ++round) {
@@ -81,7 +101,7 @@ bool SurfaceMaker::mend(const std::vector<uint32_t>& quads) {
   for (const uint32_t quad : quads) {
     const std::span<const Triangle> triangles = surface_.triangles(quad);
     if (triangles.empty()) continue;
-    const bool folds = std::ranges::any_of(triangles, [&](const Triangle& t) { return surface_.is_folded(t, quad); });
+    const bool folds = surface_.is_folded(quad);
     if (!folds && !is_far(quad)) continue;
     uint32_t highest = triangles[0][0];
     for (const Triangle& triangle : triangles)

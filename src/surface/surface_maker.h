@@ -19,11 +19,14 @@ class SurfaceMaker {
   void bring_near();
   // Leaves above level 0, where vertices that stand for themselves lie too far off, or their facets go through others.
   std::vector<uint32_t> coarse_leaves();
-  void mend_intersections();
+  // Fits volumes and mends intersections. Throws Cancelled.
+  void finish(const Partition& partition, const StopFlag* stop);
 
   RegionSurface build() const;
 
  private:
+  void fit_volumes(const Partition& partition, const StopFlag* stop);
+  void mend_intersections();
   void mend_folds();
   bool mend(const std::vector<uint32_t>& quads);
   bool mend(const QuadPairs& pairs);

@@ -11,21 +11,12 @@ class Unfolder {
 
   void unfold() {
     surface_.refresh();
-    for (const uint32_t quad : folded_quads())
+    for (const uint32_t quad : surface_.folded_quads())
       for (const uint32_t vertex : surface_.mesh().quads[quad].corners)
-        if (is_folded(quad) && surface_.clusters().of(vertex) == vertex) try_places(vertex);
+        if (surface_.is_folded(quad) && surface_.clusters().of(vertex) == vertex) try_places(vertex);
   }
 
  private:
-  std::vector<uint32_t> folded_quads() const {
-    std::vector<uint32_t> quads;
-    for (uint32_t quad = 0; quad < surface_.quads(); ++quad)
-      if (is_folded(quad)) quads.push_back(quad);
-    return quads;
-  }
-
-  bool is_folded(uint32_t quad) const { return folds(quad) > 0; }
-
   std::ptrdiff_t folds(uint32_t quad) const {
     return std::ranges::count_if(surface_.triangles(quad),
                                  [&](const Triangle& triangle) { return surface_.is_folded(triangle, quad); });
