@@ -45,7 +45,7 @@ def error(found, surface):
 
 def ours(ombre, surface, design, cell, scratch, more=()):
     done = programs.run([ombre.path, "mesh", design, "-o", scratch / "out.stl", "--force", "--json", "--threads", 2,
-                         "--cell", cell, "--tolerance", f"{cell / 8:.6f}", *more])
+                         "--cell", cell, "--tolerance", f"{cell / 4:.6f}", *more])
     told = [json.loads(line) for line in done.output.splitlines()]
     (bodies,) = [event["bodies"] for event in told if event["event"] == "bodies"]
     return done, sum(b["triangles"] for b in bodies), sum(b["volume_mm3"] for b in bodies)
