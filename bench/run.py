@@ -5,6 +5,7 @@
     ./dev bench --size paper            the papers' voxels; "~" marks what a part was measured of
     ./dev bench --only 'sphere|grade'   some rows
     ./dev bench --against main          this build and another commit's, in turns
+    ./dev bench --scaling               what threads gain, beside copies of the program that share nothing
 
 docs/performance.md explains rows and columns. Nothing is asserted: figures are for this machine, now.
 """
@@ -22,6 +23,7 @@ import jobs
 import measure
 import meshes
 import programs
+import scaling
 import surfaces
 from table import Table, rate, seconds
 
@@ -45,10 +47,10 @@ def probe(program):
     if program is None:
         return None
     told = json.loads(programs.run([program]).output)
-    scaling = [two / one for one, two in told.values()]
-    verdict = "fit" if scaling[0] >= 1.8 else "NOT fit"
-    print(f"probe: hash and compare {told['picks'][0]:.2f} G/s on one thread, x {scaling[0]:.2f} on two; "
-          f"memory fill {told['fills'][0]:.0f} GB/s, x {scaling[1]:.2f}: {verdict} to judge scaling", flush=True)
+    gains = [two / one for one, two in told.values()]
+    verdict = "fit" if gains[0] >= 1.8 else "NOT fit"
+    print(f"probe: hash and compare {told['picks'][0]:.2f} G/s on one thread, x {gains[0]:.2f} on two; "
+          f"memory fill {told['fills'][0]:.0f} GB/s, x {gains[1]:.2f}: {verdict} to judge scaling", flush=True)
     return told
 
 
@@ -102,7 +104,7 @@ def arguments():
     parser.add_argument("--size", choices=jobs.SIZES, default="quick", help="voxels of each row (default quick)")
     parser.add_argument("--only", metavar="PATTERN",
                         help="rows whose names hold this regular expression, without growth laws")
-    parser.add_argument("--runs", type=int, help="runs of each row at most (default 3; 5 with --against)")
+    parser.add_argument("--runs", type=int, help="runs of each row at most (default 3; 5 with --against and --scaling)")
     parser.add_argument("--threads", default="1,2", help="counts of threads, the first for the ratio (default 1,2)")
     parser.add_argument("--full", action="store_true", help="also 100,000 and 1,000,000 struts")
     parser.add_argument("--seconds", type=float, metavar="S",
@@ -110,6 +112,8 @@ def arguments():
     parser.add_argument("--no-baseline", action="store_true", help="leave out the published method")
     parser.add_argument("--no-growth", action="store_true", help="leave out the growth laws")
     parser.add_argument("--against", metavar="COMMIT", help="compare with another commit instead")
+    parser.add_argument("--scaling", action="store_true",
+                        help="time one thread, the most of --threads, and as many copies of the program instead")
     parser.add_argument("--scratch", metavar="DIR", default=programs.memory_disk(),
                         help="where jobs are written and removed (default: /dev/shm if there is room, so that no disk is timed)")
     parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="also write all figures there")
@@ -141,6 +145,13 @@ def measure_all(a, programs_of, chosen, scratch):
     return results
 
 
+def measure_scaling(a, programs_of, chosen, scratch):
+    results = {"size": a.size, "probe_before": probe(programs_of.probe)}
+    results["scaling"] = scaling.compare(programs_of.ombre, chosen, a.size, max(a.threads), a.runs or 5, scratch)
+    results["probe_after"] = probe(programs_of.probe)
+    return results
+
+
 def main():
     a = arguments()
     programs.stop_on_signals()
@@ -156,6 +167,8 @@ def main():
         if a.against:
             rows = against.compare(a.against, programs_of.ombre, chosen, a.size, a.threads[0], a.runs or 5, scratch)
             results = {"against": rows}
+        elif a.scaling:
+            results = measure_scaling(a, programs_of, chosen, scratch)
         else:
             results = measure_all(a, programs_of, chosen, scratch)
     if a.json:

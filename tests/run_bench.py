@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Runs the benchmark suite at a tiny size: all rows are there, the published method counts the same voxels
-where nothing is left to chance, and no folder stays. Times are not judged.
+where nothing is left to chance, scaling is told, and no folder stays. Times are not judged.
 
     python3 tests/run_bench.py build/bench
 """
@@ -78,6 +78,20 @@ def suite_is_whole(build):
         expect(counts_agree(figures) == 6, "not all of sphere, cube, F-rep, grade, actuator and mug were compared")
 
 
+def scaling_takes_turns(build):
+    with tempfile.TemporaryDirectory() as folder:
+        scratch, figures = pathlib.Path(folder, "scratch"), pathlib.Path(folder, "figures.json")
+        scratch.mkdir()
+        result = program.run(command(build, scratch, "--scaling", "--only", "^cube", "--runs", "2", "--json", figures))
+        expect(result.returncode == 0, f"status {result.returncode}: {result.stderr}")
+        expect(not list(scratch.iterdir()), f"it left {list(scratch.iterdir())}")
+        (row,) = json.loads(figures.read_text())["scaling"]
+    expect(row["job"] == "cube" and len(row["turns"]) == 2, f"{row}")
+    for turn in row["turns"]:
+        expect(turn["copies"] > 0, f"{turn}")
+        expect(abs(turn["gain"] * turn["threads"] - turn["one"]) < 1e-9, f"{turn}")
+
+
 def interrupts_leave_nothing(build):
     with tempfile.TemporaryDirectory() as scratch:
         process = subprocess.Popen([str(c) for c in command(build, scratch, "--runs", "1000")], text=True,
@@ -95,7 +109,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path, help="the build folder")
     build = parser.parse_args().build.resolve()
-    checks = [suite_is_whole, interrupts_leave_nothing]
+    checks = [suite_is_whole, scaling_takes_turns, interrupts_leave_nothing]
     return program.check_all([(check.__name__, lambda check=check: check(build)) for check in checks], threads=1)
 
 
