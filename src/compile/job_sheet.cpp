@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/evenly_spaced.h"
 #include "base/json.h"
 #include "compile/job_folder.h"
 #include "export/contact_sheet.h"
@@ -91,15 +92,6 @@ exporting::SheetLayer sheet_layer(const JournalEntry& entry, const JobSummary& s
       layer.images.back().ink = summary.colours[i];
   }
   return layer;
-}
-
-// Up to `most` elements, evenly spaced, each in the middle of its share.
-template <class T>
-std::vector<T> evenly_spaced(const std::vector<T>& all, size_t most) {
-  const size_t count = std::min(all.size(), most);
-  std::vector<T> chosen;
-  for (size_t i = 0; i < count; ++i) chosen.push_back(all[(2 * i + 1) * all.size() / (2 * count)]);
-  return chosen;
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "surface/evenly.h"
+#include "base/evenly_spaced.h"
 #include "surface/facet_distance.h"
 
 namespace ombre::surface {
@@ -153,7 +153,7 @@ std::vector<uint32_t> FacetCheck::far_quads() const {
 double FacetCheck::farthest_in_tolerances(const QuadSurface& surface) const {
   std::vector<SurfaceSample> samples;
   for (const Far& far : far_) samples.push_back(far.sample);
-  samples = evenly(samples, most_measured);
+  samples = evenly_spaced(samples, most_measured);
   const double most = most_tolerances * tolerance_mm_;
   double farthest = tolerance_mm_;
   for (const double mm : distances_to_facets(places_of(far_crossings_, surface), surface, most, threads_))
