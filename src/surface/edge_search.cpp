@@ -19,6 +19,7 @@ void bracket(std::span<EdgeSearch> searches, PointAsker& asker) {
     EdgeSearch& s = searches[n];
     s.f_lo = asker.between(s.from, s.to, 2 * n);
     s.f_hi = asker.between(s.from, s.to, 2 * n + 1);
+    s.is_between = asker.label(2 * n) == s.from && asker.label(2 * n + 1) == s.to;
     s.rise = s.f_hi - s.f_lo;
     s.by_value = s.f_lo <= 0 && s.f_hi >= 0 && s.rise > 0 && std::isfinite(s.rise);
   }

@@ -13,7 +13,8 @@ namespace ombre::surface {
 struct EdgeSearch {
   Vec3 start, along;
   Label from = 0, to = 0;
-  double t = -1;  // none yet
+  double t = -1;            // none yet
+  bool is_between = false;  // `start` lies in region `from`, the other end in region `to`
   // Whether the value that parts the regions goes through zero on the edge, and by how much it rises along it.
   bool by_value = false;
   double rise = 0;

@@ -1,134 +1,22 @@
 #include "surface/label_asker.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <span>
-
-#include "base/error.h"
-#include "base/tasks.h"
 #include "surface/point_asker.h"
+#include "surface/scattered_points.h"
 
 namespace ombre::surface {
-namespace {
-
-constexpr size_t most_points = 8192;  // of a task
-constexpr size_t fewest_points = 32;  // for which a program is shortened once more
-constexpr size_t most_work = 40000;   // points times operations of a program that is not shortened further
-
-using Numbers = std::span<uint32_t>;
-
-Box box_of(const std::vector<Vec3>& points, Numbers numbers) {
-  Box box;
-  for (const uint32_t n : numbers) box = hull(box, {points[n], points[n]});
-  return box;
-}
-
-// Halves of about the same number, on both sides of a plane across the longest side of their box.
-std::pair<Numbers, Numbers> halves(const std::vector<Vec3>& points, const Box& box, Numbers numbers) {
-  const Vec3 size = box.size();
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const size_t middle = numbers.size() / 2;
-  std::nth_element(
-      numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(middle), numbers.end(),
-      [&](uint32_t a, uint32_t b) { return std::pair(points[a][axis], a) < std::pair(points[b][axis], b); });
-  return {numbers.first(middle), numbers.subspan(middle)};
-}
-
-void cut_into_tasks(const std::vector<Vec3>& points, Numbers numbers, std::vector<Numbers>& tasks) {
-  if (numbers.empty()) return;
-  if (numbers.size() <= most_points) return tasks.push_back(numbers);
-  const auto [one, two] = halves(points, box_of(points, numbers), numbers);
-  cut_into_tasks(points, one, tasks);
-  cut_into_tasks(points, two, tasks);
-}
-
-// Equal boxes over all points, with some thousand points each where they are spread evenly over a surface.
-class Boxes {
- public:
-  explicit Boxes(const std::vector<Vec3>& points) {
-    Box whole;
-    for (const Vec3& point : points) whole = hull(whole, {point, point});
-    origin_ = whole.lo;
-    const double along = std::sqrt(static_cast<double>(points.size()) / most_points);
-    count_ = static_cast<size_t>(std::clamp(std::ceil(along), 1.0, 128.0));
-    for (int axis = 0; axis < 3; ++axis)
-      scale_[axis] = whole.size()[axis] > 0 ? static_cast<double>(count_) / whole.size()[axis] : 0;
-  }
-  size_t count() const { return count_ * count_ * count_; }
-  size_t of(Vec3 point) const {
-    size_t number = 0;
-    for (int axis = 2; axis >= 0; --axis) {
-      const auto along = static_cast<size_t>((point[axis] - origin_[axis]) * scale_[axis]);
-      number = number * count_ + std::min(along, count_ - 1);
-    }
-    return number;
-  }
-
- private:
-  Vec3 origin_, scale_;
-  size_t count_ = 1;
-};
-
-// The numbers of points, box by box, and where each box begins.
-struct Sorted {
-  std::vector<uint32_t> numbers;
-  std::vector<size_t> begins;
-};
-
-Sorted sort_into_boxes(const std::vector<Vec3>& points) {
-  const Boxes boxes(points);
-  Sorted sorted{std::vector<uint32_t>(points.size()), std::vector<size_t>(boxes.count() + 2)};
-  for (const Vec3& point : points) ++sorted.begins[boxes.of(point) + 2];
-  std::partial_sum(sorted.begins.begin(), sorted.begins.end(), sorted.begins.begin());
-  for (uint32_t n = 0; n < points.size(); ++n) sorted.numbers[sorted.begins[boxes.of(points[n]) + 1]++] = n;
-  return sorted;
-}
-
-class TaskAsker {
- public:
-  TaskAsker(const Partition& partition, const std::vector<Vec3>& points, std::vector<Label>& labels,
-            const StopFlag* stop)
-      : partition_(partition), points_(points), labels_(labels), stop_(stop) {}
-
-  void ask(const program::Program& above, Numbers numbers) {
-    if (stop_ && stop_->requested()) throw Cancelled();
-    const Box box = box_of(points_, numbers);
-    const program::Program program = shortened_for(above, box);
-    if (numbers.size() > fewest_points && numbers.size() * program.code.size() > most_work) {
-      const auto [one, two] = halves(points_, box, numbers);
-      ask(program, one);
-      ask(program, two);
-      return;
-    }
-    asker_.begin(partition_, program);
-    std::vector<Vec3> asked;
-    for (const uint32_t n : numbers) asked.push_back(points_[n]);
-    asker_.ask(asked);
-    for (size_t m = 0; m < numbers.size(); ++m) labels_[numbers[m]] = asker_.label(m);
-  }
-
- private:
-  const Partition& partition_;
-  const std::vector<Vec3>& points_;
-  std::vector<Label>& labels_;
-  const StopFlag* stop_;
-  PointAsker asker_;
-};
-
-}  // namespace
 
 std::vector<Label> labels_at(const Partition& partition, const std::vector<Vec3>& points, int threads,
                              const StopFlag* stop) {
   std::vector<Label> labels(points.size());
-  if (points.empty()) return labels;
-  Sorted sorted = sort_into_boxes(points);
-  std::vector<Numbers> tasks;
-  for (size_t n = 0; n + 1 < sorted.begins.size(); ++n)
-    cut_into_tasks(points, Numbers(sorted.numbers).subspan(sorted.begins[n], sorted.begins[n + 1] - sorted.begins[n]),
-                   tasks);
-  run_parallel(tasks.size(), threads,
-               [&](size_t n) { TaskAsker(partition, points, labels, stop).ask(partition.label, tasks[n]); });
+  work_at(partition.label, points, 0, threads, stop,
+          [&](const program::Program& program, std::span<const uint32_t> numbers) {
+            PointAsker asker;
+            asker.begin(partition, program);
+            std::vector<Vec3> asked;
+            for (const uint32_t n : numbers) asked.push_back(points[n]);
+            asker.ask(asked);
+            for (size_t m = 0; m < numbers.size(); ++m) labels[numbers[m]] = asker.label(m);
+          });
   return labels;
 }
 

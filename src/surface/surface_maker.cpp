@@ -56,7 +56,7 @@ void SurfaceMaker::finish(const Partition& partition, const StopFlag* stop) {
 
 // As far as facets keep near, and do not fold.
 void SurfaceMaker::fit_volumes(const Partition& partition, const StopFlag* stop) {
-  VolumeFit fit(surface_, partition, options_.threads, stop);
+  VolumeFit fit(surface_, partition, options_.tolerance_mm, options_.threads, stop);
   for (int round = 0; round < most_fitting_rounds; ++round) {
     surface_.refresh();
     check_.check(surface_);

@@ -1,71 +1,174 @@
 #include "surface/volume_fit.h"
 
-#include "surface/label_asker.h"
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "surface/border_offsets.h"
 
 namespace ombre::surface {
 namespace {
 
 constexpr double least_cosine = 0.5;  // between normals around a vertex of a smooth border
-// How far vertices move outwards: by so much of how far they lie from the middle of the crossings, as far as that comes
-// from a cluster's extent, and inwards by so much of it as comes from that of cells. On regular grids theory says 1/2
-// and 1/6; these make the volumes of spheres, cylinders and tori right in any position.
-constexpr double of_extent = 1.0 / 3, of_cells = 0.2;
+// A smooth border passes half-way between the middle of the crossings around a vertex and the vertex, which is nearest
+// to the planes there; where borders meet in a line it passes through the vertex.
+constexpr double usual_share = 0.5, most_beside = 0.25;
+constexpr double flat_enough = 1.0 / 16;  // of the reach; such vertices are not told apart
+constexpr double least_offset = 1e-6;     // of the reach; less is rounding
 
-// What a vertex or cluster stands for.
-struct Patch {
-  Vec3 middles, rises;  // sums over its cells: middles of crossings, ways from these to the cells' vertices
+// What a vertex or cluster stands for, and the facets around it.
+struct Star {
+  Vec3 middle;  // of crossings; a sum over its cells first
   double cells = 0;
   NormalSpread spread;
-  bool parts_two = true;
+  bool parts_two = true, is_smooth = false;
+  Label less = 0, greater = 0;
+  Vec3 areas;              // sum of the facets' normals, as long as twice their areas, out of region `less`
+  double offset = 0;       // of the border, mm
+  double missing = 0;      // its share of what lies between the facets and the border, mm3
+  double volume_a_mm = 0;  // what the facets enclose more when it moves along its normal
+  uint32_t sample = 0;
+
+  Vec3 normal() const { return (1 / length(areas)) * areas; }
 };
 
-std::vector<Patch> patches_of(const QuadSurface& surface) {
-  std::vector<Patch> patches(surface.clusters().size());
-  const std::vector<DualVertex>& vertices = surface.mesh().vertices;
-  for (uint32_t n = 0; n < vertices.size(); ++n) {
-    Patch& patch = patches[surface.clusters().of(n)];
-    const Vec3 middle = vertices[n].planes.mean();
-    patch.middles = patch.middles + middle;
-    patch.rises = patch.rises + vertices[n].at - middle;
-    ++patch.cells;
-    patch.spread.add(vertices[n].spread);
-    patch.parts_two &= vertices[n].parts_two;
-  }
-  return patches;
-}
-
-struct Move {
-  uint32_t cluster = 0;
-  Vec3 from, to, middle;
+// A facet with smooth corners.
+struct Patch {
+  Triangle corners{};
+  Vec3 areas;  // as above
+  uint32_t sample = 0;
 };
 
-std::vector<Move> moves_of(const QuadSurface& surface) {
-  const std::vector<Patch> patches = patches_of(surface);
-  std::vector<Move> moves;
-  for (uint32_t n = 0; n < patches.size(); ++n) {
-    const Patch& patch = patches[n];
-    if (patch.cells == 0 || !patch.parts_two || patch.spread.least_cosine() < least_cosine) continue;
-    const Vec3 at = surface.clusters().places()[n], middle = (1 / patch.cells) * patch.middles;
-    const Vec3 by_cells = (1 / patch.cells) * patch.rises, by_extent = at - middle - by_cells;
-    moves.push_back({n, at, at + of_extent * by_extent - of_cells * by_cells, middle});
+class Fitter {
+ public:
+  Fitter(const QuadSurface& surface, double reach_mm)
+      : surface_(surface), reach_mm_(reach_mm), stars_(surface.clusters().size()) {
+    gather_cells();
+    gather_facets();
+    list_samples();
   }
-  return moves;
-}
+
+  const std::vector<BorderSample>& samples() const { return samples_; }
+
+  void measure(const std::vector<std::optional<double>>& offsets) {
+    for (uint32_t n = 0; n < stars_.size(); ++n)
+      if (stars_[n].is_smooth) measure(stars_[n], surface_.clusters().places()[n], offsets[stars_[n].sample]);
+    for (const Patch& patch : patches_)
+      if (offsets[patch.sample]) share(patch, *offsets[patch.sample]);
+  }
+
+  // Nothing where it stays.
+  std::optional<Vec3> place(uint32_t cluster) const {
+    const Star& star = stars_[cluster];
+    if (!star.is_smooth || star.volume_a_mm <= 0) return {};
+    const double rise = std::clamp(star.missing / star.volume_a_mm, -reach_mm_, reach_mm_);
+    if (std::abs(rise) < least_offset * reach_mm_) return {};
+    return surface_.clusters().places()[cluster] + rise * star.normal();
+  }
+
+ private:
+  void gather_cells() {
+    const std::vector<DualVertex>& vertices = surface_.mesh().vertices;
+    for (uint32_t n = 0; n < vertices.size(); ++n) {
+      Star& star = stars_[surface_.clusters().of(n)];
+      star.middle = star.middle + vertices[n].planes.mean();
+      ++star.cells;
+      star.spread.add(vertices[n].spread);
+      star.parts_two &= vertices[n].parts_two;
+    }
+  }
+
+  void gather_facets() {
+    for (uint32_t quad = 0; quad < surface_.quads(); ++quad) {
+      const CrossedEdge& edge = surface_.crossing(quad).edge;
+      const double sign = edge.from < edge.to ? 1 : -1;
+      for (const Triangle& corners : surface_.triangles(quad)) {
+        patches_.push_back({corners, sign * surface_.normal(corners)});
+        for (const uint32_t corner : corners) {
+          Star& star = stars_[corner];
+          star.areas = star.areas + patches_.back().areas;
+          std::tie(star.less, star.greater) = std::minmax(edge.from, edge.to);
+        }
+      }
+    }
+    for (Star& star : stars_) {
+      if (star.cells == 0) continue;
+      star.middle = (1 / star.cells) * star.middle;
+      star.is_smooth = star.parts_two && star.spread.least_cosine() >= least_cosine && length(star.areas) > 0;
+    }
+    std::erase_if(patches_, [&](const Patch& patch) { return length(patch.areas) == 0 || smooth_corners(patch) == 0; });
+  }
+
+  ptrdiff_t smooth_corners(const Patch& patch) const {
+    return std::ranges::count_if(patch.corners, [&](uint32_t corner) { return stars_[corner].is_smooth; });
+  }
+
+  void list_samples() {
+    for (uint32_t n = 0; n < stars_.size(); ++n) {
+      Star& star = stars_[n];
+      if (!star.is_smooth) continue;
+      star.sample = add({surface_.clusters().places()[n], star.normal(), star.less, star.greater});
+    }
+    for (Patch& patch : patches_) {
+      const auto [a, b, c] = surface_.corners(patch.corners);
+      const Star& smooth = *first_smooth(patch);
+      patch.sample =
+          add({(1.0 / 3) * (a + b + c), (1 / length(patch.areas)) * patch.areas, smooth.less, smooth.greater});
+    }
+  }
+
+  const Star* first_smooth(const Patch& patch) const {
+    for (const uint32_t corner : patch.corners)
+      if (stars_[corner].is_smooth) return &stars_[corner];
+    return nullptr;
+  }
+
+  uint32_t add(const BorderSample& sample) {
+    samples_.push_back(sample);
+    return static_cast<uint32_t>(samples_.size() - 1);
+  }
+
+  void measure(Star& star, Vec3 at, std::optional<double> offset) const {
+    star.offset = offset.value_or(0);
+    const double to_middle = dot(star.middle - at, star.normal());
+    star.is_smooth = offset && std::abs(star.offset - usual_share * to_middle) <=
+                                   most_beside * std::abs(to_middle) + flat_enough * reach_mm_;
+  }
+
+  // The mean of a quadratic over a triangle is 3/4 of what it is in the middle and 1/12 of what it is in each corner.
+  void share(const Patch& patch, double in_the_middle) {
+    const double smooth = static_cast<double>(smooth_corners(patch));
+    if (smooth == 0) return;
+    double offset = 0.75 * in_the_middle;
+    for (const uint32_t corner : patch.corners) offset += stars_[corner].offset / 12;
+    const double area = 0.5 * length(patch.areas);
+    for (const uint32_t corner : patch.corners) {
+      Star& star = stars_[corner];
+      if (!star.is_smooth) continue;
+      star.missing += offset * area / smooth;
+      star.volume_a_mm += dot(patch.areas, star.normal()) / 6;
+    }
+  }
+
+  const QuadSurface& surface_;
+  double reach_mm_;
+  std::vector<Star> stars_;  // by cluster
+  std::vector<Patch> patches_;
+  std::vector<BorderSample> samples_;
+};
 
 }  // namespace
 
-VolumeFit::VolumeFit(QuadSurface& surface, const Partition& partition, int threads, const StopFlag* stop)
+VolumeFit::VolumeFit(QuadSurface& surface, const Partition& partition, double reach_mm, int threads,
+                     const StopFlag* stop)
     : from_(surface.clusters().size()) {
-  const std::vector<Move> moves = moves_of(surface);
-  // A smooth border passes half-way.
-  std::vector<Vec3> points;
-  for (const Move& move : moves)
-    for (const double share : {0.25, 0.75}) points.push_back(move.from + share * (move.middle - move.from));
-  const std::vector<Label> labels = labels_at(partition, points, threads, stop);
-  for (size_t n = 0; n < moves.size(); ++n) {
-    if (labels[2 * n] == labels[2 * n + 1]) continue;
-    from_[moves[n].cluster] = moves[n].from;
-    surface.place(moves[n].cluster, moves[n].to);
+  Fitter fitter(surface, reach_mm);
+  fitter.measure(border_offsets(partition, fitter.samples(), reach_mm, threads, stop));
+  for (uint32_t cluster = 0; cluster < from_.size(); ++cluster) {
+    const std::optional<Vec3> to = fitter.place(cluster);
+    if (!to) continue;
+    from_[cluster] = surface.clusters().places()[cluster];
+    surface.place(cluster, *to);
   }
 }
 

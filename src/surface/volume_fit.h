@@ -1,4 +1,4 @@
-// Vertices of smooth borders moved so that the regions keep their volumes.
+// Vertices moved so that the regions keep their volumes.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@ namespace ombre::surface {
 // What moved from where.
 class VolumeFit {
  public:
-  // On a curved border the point nearest to the planes around it lies off the border, on its outer side: half as far as
-  // from the middle of the crossings. Facets between such points enclose too much where each stands for a cell, and too
-  // little where they stand for many. Vertices and clusters between two regions move to where the volume is right;
-  // those that lie on the border itself, as on edges and corners, stay. Throws Cancelled.
-  VolumeFit(QuadSurface& surface, const Partition& partition, int threads, const StopFlag* stop);
+  // Along curved borders facets enclose too much or too little: vertices lie where they are nearest to planes. What
+  // lies between each facet and the border is measured, and the vertices and clusters around it move along the border's
+  // normal until they have made up for it. Those on lines where borders meet stay, as do those where more than two
+  // regions do. The border is looked for within `reach_mm`. Throws Cancelled.
+  VolumeFit(QuadSurface& surface, const Partition& partition, double reach_mm, int threads, const StopFlag* stop);
 
   // Moves what stands at the corners of these quads back; false when nothing there had moved.
   bool undo(QuadSurface& surface, const std::vector<uint32_t>& quads);
