@@ -6,7 +6,7 @@
 namespace ombre::surface {
 namespace {
 
-constexpr int most_cutting_rounds = 8;
+constexpr int most_cutting_rounds = 8, most_finishing_rounds = 3;
 // That may come from cutting, or as many as the grid has, if that is more.
 constexpr double most_cut_share = 0.1;  // at a time
 constexpr size_t most_more_leaves = size_t{1} << 18;
@@ -27,12 +27,14 @@ class CellRefiner {
         intersections_(options.threads) {}
 
   RegionSurface make() {
-    for (int round = 0;; ++round) {
-      if (progress_) progress_->update({static_cast<uint64_t>(round), most_cutting_rounds + 1});
+    for (int round = 0, finished = 0;; ++round) {
+      if (progress_) progress_->update({static_cast<uint64_t>(round), most_cutting_rounds + most_finishing_rounds});
       SurfaceMaker maker(tree_, crossings_, mesh_, options_, check_, intersections_);
       maker.bring_near();
       if (round < most_cutting_rounds && cut(maker.coarse_leaves())) continue;
       maker.finish(partition_, stop_);
+      // What was mended may lie too far off.
+      if (++finished < most_finishing_rounds && cut(maker.far_leaves())) continue;
       return maker.build();
     }
   }

@@ -14,6 +14,11 @@ constexpr int most_rounds = 40, most_crossing_rounds = 6, most_far_rounds = 12, 
 // Clusters of the highest level are taken apart first, vertices never.
 constexpr int vertex_rank = -1;
 
+void sort_once(std::vector<uint32_t>& numbers) {
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
 }  // namespace
 
 SurfaceMaker::SurfaceMaker(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh,
@@ -32,21 +37,27 @@ void SurfaceMaker::bring_near() {
   } while (++round < most_far_rounds && split_far());
 }
 
-std::vector<uint32_t> SurfaceMaker::coarse_leaves() {
+std::vector<uint32_t> SurfaceMaker::far_leaves() const {
   std::vector<uint32_t> leaves;
-  const auto note = [&](uint32_t vertex) {
-    const uint32_t leaf = surface_.mesh().vertices[vertex].leaf;
-    if (tree_.leaves()[leaf].level > 0) leaves.push_back(leaf);
-  };
   for (const uint32_t quad : check_.far_quads())
-    for (const uint32_t vertex : surface_.mesh().quads[quad].corners) note(vertex);
+    for (const uint32_t vertex : surface_.mesh().quads[quad].corners) note_leaf(vertex, leaves);
+  sort_once(leaves);
+  return leaves;
+}
+
+std::vector<uint32_t> SurfaceMaker::coarse_leaves() {
+  std::vector<uint32_t> leaves = far_leaves();
   for (const auto& [a, b] : intersections_.find(surface_))
     for (const uint32_t quad : {a, b})
       for (const uint32_t vertex : surface_.mesh().quads[quad].corners)
-        if (surface_.clusters().of(vertex) == vertex) note(vertex);
-  std::ranges::sort(leaves);
-  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+        if (surface_.clusters().of(vertex) == vertex) note_leaf(vertex, leaves);
+  sort_once(leaves);
   return leaves;
+}
+
+void SurfaceMaker::note_leaf(uint32_t vertex, std::vector<uint32_t>& leaves) const {
+  const uint32_t leaf = surface_.mesh().vertices[vertex].leaf;
+  if (tree_.leaves()[leaf].level > 0) leaves.push_back(leaf);
 }
 
 void SurfaceMaker::finish(const Partition& partition, const StopFlag* stop) {

@@ -17,7 +17,9 @@ class SurfaceMaker {
 
   // As near as clusters that are taken apart bring it.
   void bring_near();
-  // Leaves above level 0, where vertices that stand for themselves lie too far off, or their facets go through others.
+  // Leaves above level 0 around what lies too far off, and the same with those around facets that go through others;
+  // in order.
+  std::vector<uint32_t> far_leaves() const;
   std::vector<uint32_t> coarse_leaves();
   // Fits volumes and mends intersections. Throws Cancelled.
   void finish(const Partition& partition, const StopFlag* stop);
@@ -25,6 +27,7 @@ class SurfaceMaker {
   RegionSurface build() const;
 
  private:
+  void note_leaf(uint32_t vertex, std::vector<uint32_t>& leaves) const;
   void fit_volumes(const Partition& partition, const StopFlag* stop);
   void mend_intersections();
   void mend_folds();
