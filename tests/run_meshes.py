@@ -17,18 +17,19 @@ import zipfile
 import program
 
 EXAMPLES = sorted((program.SOURCE / "examples").glob("*.vcad"))
-# Its cells shrink to 0.1 mm, finer than what a mesh of the whole wing resolves; ombre mesh says so.
+# Its waves along x shrink to 0.006 mm, far finer than any mesh of the whole wing; ombre mesh says so.
 TOO_FINE = {"graded_wing"}
 # Pairs of facets that lie in a line, and cross once files round their corners to floats.
 MOST_CROSSING = 20
 # How far mesh and surface may lie apart, in tolerances, and the share of samples beyond one; a tolerance otherwise.
 FARTHEST = {
-    "conformal_ring": (2, 2e-5),  # in a few narrow corners where struts meet
-    "unit_cells": (2, 5e-5),      # the same
-    "organic_lattice": (2.5, 1e-4),
-    "voronoi_foam": (3, 3e-4),    # folds where struts are as thin as cells
-    "graded_wing": (8, 0.15),     # too fine, as above
+    "unit_cells": (1.25, 5e-5),  # in a few narrow corners where struts meet
+    "organic_lattice": (1.25, 1e-5),
+    "voronoi_foam": (3, 3e-4),  # pockets between struts, half a tolerance wide, that no edge of a cell meets
+    "graded_wing": (8, 0.15),   # too fine, as above
 }
+# Without large faces along the layers: their voxels are right within 0.05 %, and meshes are to be within 0.1 %.
+CURVED = {"bcc_ball", "conformal_ring", "tetrahedron", "unit_cells", "voronoi_foam"}
 # Too many facets for CGAL at the tolerance that is usual for their sizes; mm.
 COARSE = {"bcc_ball": 0.02, "conformal_ring": 0.05, "grading_strategies": 0.05, "gyroid_block": 0.03, "unit_cells": 0.05,
           "organic_lattice": 0.1, "voronoi_foam": 0.05}
@@ -94,7 +95,7 @@ def is_as_near_as_asked(design, meshes, tolerance):
 
 
 def is_closed_and_as_large_as_its_voxels(design, meshes):
-    """A mesh beside the same design's voxels, of which each face may gain or lose half a layer."""
+    """A mesh beside the same design's voxels, of which faces along the layers may gain or lose half a layer."""
     coarse = COARSE.get(design.stem)
     bodies = meshes.bodies("-o", "part.off", *(["--tolerance", coarse] if coarse else []), design=design)
     expect(len(bodies["bodies"]) == 1, str(bodies))
@@ -112,7 +113,7 @@ def is_closed_and_as_large_as_its_voxels(design, meshes):
                        cwd=meshes.folder)
     told = [json.loads(line) for line in done.stdout.splitlines()]
     voxels = sum(m["volume_mm3"] for event in told if event["event"] == "done" for m in event["materials"])
-    error = body["area_mm2"] * pitch / 4 + 1e-3 * voxels
+    error = 1.5e-3 * voxels if design.stem in CURVED else body["area_mm2"] * pitch / 4 + 1e-3 * voxels
     if design.stem not in TOO_FINE:
         expect(abs(voxels - body["volume_mm3"]) < error, f"{body}, {voxels} mm3 of voxels of {pitch} mm")
 

@@ -24,6 +24,7 @@ class Sampler {
   // Little can be wrong in calm quads: they get a sample, others many.
   void add(uint32_t quad) {
     quad_ = quad;
+    is_seen_from_less_ = surface_.crossing(quad).edge.from < surface_.crossing(quad).edge.to;
     const bool is_calm = surface_.is_calm(quad);
     for (const Triangle& triangle : surface_.triangles(quad)) {
       const std::array<Vec3, 3> corners = surface_.corners(triangle);
@@ -46,12 +47,12 @@ class Sampler {
     samples.push_back({at, normal_});
   }
 
-  // Vertices once, sides once where two facets go along them in opposite directions.
+  // Vertices once, sides once where two facets, as seen from the same region, go along them in opposite directions.
   void add_corners(const Triangle& triangle, const std::array<Vec3, 3>& corners) {
     for (size_t n = 0; n < 3; ++n) {
       if (!has_vertex_[triangle[n]]) add(corners[n]);
       has_vertex_[triangle[n]] = true;
-      if (triangle[n] < triangle[(n + 1) % 3]) add_side(corners[n], corners[(n + 1) % 3]);
+      if ((triangle[n] < triangle[(n + 1) % 3]) == is_seen_from_less_) add_side(corners[n], corners[(n + 1) % 3]);
     }
   }
 
@@ -79,6 +80,7 @@ class Sampler {
   std::vector<bool> has_vertex_;
   Vec3 normal_;
   uint32_t quad_ = 0;
+  bool is_seen_from_less_ = true;
 };
 
 std::vector<Vec3> places_of(const std::vector<uint32_t>& crossings, const QuadSurface& surface) {
@@ -94,7 +96,7 @@ FacetCheck::FacetCheck(const Partition& partition, const ContourOptions& options
     : partition_(partition),
       tolerance_mm_(options.tolerance_mm),
       reach_mm_(reach_of_tolerance * options.tolerance_mm),
-      spacing_mm_(options.corners.pitch[0].mm()),
+      spacing_mm_(0.5 * options.corners.pitch[0].mm()),
       threads_(options.threads),
       stop_(stop) {}
 

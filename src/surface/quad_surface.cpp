@@ -98,9 +98,13 @@ std::array<Vec3, 3> QuadSurface::corners(const Triangle& t) const {
 }
 
 bool QuadSurface::is_calm(uint32_t quad) const {
-  return std::ranges::all_of(mesh_.quads[quad].corners, [&](uint32_t vertex) {
+  const bool is_border_calm = std::ranges::all_of(mesh_.quads[quad].corners, [&](uint32_t vertex) {
     return clusters_.of(vertex) == vertex && mesh_.vertices[vertex].spread.least_cosine() > least_calm_cosine_;
   });
+  return is_border_calm && std::ranges::all_of(triangles(quad), [&](const Triangle& triangle) {
+           const Vec3 n = normal(triangle);
+           return dot(n, crossings_[quad].normal) >= least_calm_cosine_ * length(n);
+         });
 }
 
 Vec3 QuadSurface::normal(const Triangle& triangle) const {

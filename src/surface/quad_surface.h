@@ -36,7 +36,7 @@ class QuadSurface {
   }
   // Of quads: equal where they look the same, also after their clusters got other numbers.
   const std::vector<uint64_t>& looks() const { return looks_; }
-  // Whether the quad is small and the border around it nearly flat.
+  // Whether the quad is small, the border around it nearly flat, and the quad along it.
   bool is_calm(uint32_t quad) const;
 
   Vec3 normal(const Triangle& triangle) const;  // as long as twice its area

@@ -31,6 +31,7 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 // Surfaces are looked for on a lattice of so many steps along the longest side, and so far around the mesh.
 constexpr double steps_of_lattice = 190, farthest_in_tolerances = 16;
+constexpr double growth = 1.05;  // of the reach; distances are told as much too large at most
 constexpr double rounding = 1e-6;  // of coordinates in files, relative to distances
 constexpr int64_t steps_of_tile = 16;
 
@@ -117,7 +118,7 @@ class Search {
   Side run() {
     // Most lie on the surface nearly, and the shortest ways tell how nearly.
     for (const double share : {0.01, 0.1, 0.3, 0.5, 1.0}) go(share * tolerance_mm_, 2);
-    for (double reach = tolerance_mm_; reach <= farthest_in_tolerances * tolerance_mm_; reach *= 2)
+    for (double reach = tolerance_mm_; reach <= farthest_in_tolerances * tolerance_mm_; reach *= growth)
       go(reach, most_ways);
     const std::vector<Vec3> beginnings = from_;
     insides_.narrow(from_, to_, 8);
