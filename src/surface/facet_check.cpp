@@ -13,6 +13,7 @@ namespace {
 constexpr double reach_of_tolerance = 0.95;  // samples see but a part of a facet
 constexpr double most_tolerances = 16;
 constexpr size_t most_measured = 1000;
+constexpr size_t quads_at_once = size_t{1} << 18;  // keeps memory low
 
 Vec3 middle_of(const std::array<Vec3, 3>& corners) { return (1.0 / 3) * (corners[0] + corners[1] + corners[2]); }
 
@@ -36,6 +37,11 @@ class Sampler {
       add_corners(triangle, corners);
       add_inside(corners, twice_area);
     }
+  }
+
+  void clear() {
+    quads.clear();
+    samples.clear();
   }
 
   std::vector<uint32_t> quads;  // of the samples
@@ -109,9 +115,12 @@ void FacetCheck::check(const QuadSurface& surface) {
 void FacetCheck::check_facets(const QuadSurface& surface, const std::vector<uint32_t>& quads) {
   std::erase_if(far_, [&](const Far& far) { return std::ranges::binary_search(quads, far.quad); });
   Sampler sampler(surface, spacing_mm_);
-  for (const uint32_t quad : quads) sampler.add(quad);
-  for (const uint32_t n : find_far_samples(partition_, sampler.samples, reach_mm_, threads_, stop_))
-    far_.push_back({sampler.quads[n], sampler.samples[n]});
+  for (size_t begin = 0; begin < quads.size(); begin += quads_at_once) {
+    sampler.clear();
+    for (size_t n = begin; n < std::min(begin + quads_at_once, quads.size()); ++n) sampler.add(quads[n]);
+    for (const uint32_t n : find_far_samples(partition_, sampler.samples, reach_mm_, threads_, stop_))
+      far_.push_back({sampler.quads[n], sampler.samples[n]});
+  }
   std::ranges::stable_sort(far_, {}, &Far::quad);
 }
 

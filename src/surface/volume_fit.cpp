@@ -18,6 +18,7 @@ constexpr double least_offset = 1e-6;     // of the reach; less is rounding
 
 // What a vertex or cluster stands for, and the facets around it.
 struct Star {
+  uint32_t cluster = 0;
   Vec3 middle;  // of crossings; a sum over its cells first
   double cells = 0;
   NormalSpread spread;
@@ -34,48 +35,51 @@ struct Star {
 
 // A facet with smooth corners.
 struct Patch {
-  Triangle corners{};
-  Vec3 areas;  // as above
+  std::array<uint32_t, 3> corners{};  // numbers of stars
+  Vec3 areas;                         // as above
   uint32_t sample = 0;
 };
 
 class Fitter {
  public:
   Fitter(const QuadSurface& surface, double reach_mm)
-      : surface_(surface), reach_mm_(reach_mm), stars_(surface.clusters().size()) {
-    gather_cells();
+      : surface_(surface), reach_mm_(reach_mm), numbers_(surface.clusters().size(), none) {
     gather_facets();
+    gather_cells();
+    leave_out_lines();
     list_samples();
   }
 
   const std::vector<BorderSample>& samples() const { return samples_; }
 
   void measure(const std::vector<std::optional<double>>& offsets) {
-    for (uint32_t n = 0; n < stars_.size(); ++n)
-      if (stars_[n].is_smooth) measure(stars_[n], surface_.clusters().places()[n], offsets[stars_[n].sample]);
+    for (Star& star : stars_)
+      if (star.is_smooth) measure(star, offsets[star.sample]);
     for (const Patch& patch : patches_)
       if (offsets[patch.sample]) share(patch, *offsets[patch.sample]);
   }
 
-  // Nothing where it stays.
-  std::optional<Vec3> place(uint32_t cluster) const {
-    const Star& star = stars_[cluster];
-    if (!star.is_smooth || star.volume_a_mm <= 0) return {};
-    const double rise = std::clamp(star.missing / star.volume_a_mm, -reach_mm_, reach_mm_);
-    if (std::abs(rise) < least_offset * reach_mm_) return {};
-    return surface_.clusters().places()[cluster] + rise * star.normal();
+  // Calls f with each cluster that moves, and where to.
+  template <class F>
+  void each_move(F f) const {
+    for (const Star& star : stars_) {
+      if (!star.is_smooth || star.volume_a_mm <= 0) continue;
+      const double rise = std::clamp(star.missing / star.volume_a_mm, -reach_mm_, reach_mm_);
+      if (std::abs(rise) >= least_offset * reach_mm_) f(star.cluster, place(star) + rise * star.normal());
+    }
   }
 
  private:
-  void gather_cells() {
-    const std::vector<DualVertex>& vertices = surface_.mesh().vertices;
-    for (uint32_t n = 0; n < vertices.size(); ++n) {
-      Star& star = stars_[surface_.clusters().of(n)];
-      star.middle = star.middle + vertices[n].planes.mean();
-      ++star.cells;
-      star.spread.add(vertices[n].spread);
-      star.parts_two &= vertices[n].parts_two;
+  static constexpr uint32_t none = ~uint32_t{0};
+
+  Vec3 place(const Star& star) const { return surface_.clusters().places()[star.cluster]; }
+
+  uint32_t star_of(uint32_t cluster) {
+    if (numbers_[cluster] == none) {
+      numbers_[cluster] = static_cast<uint32_t>(stars_.size());
+      stars_.emplace_back().cluster = cluster;
     }
+    return numbers_[cluster];
   }
 
   void gather_facets() {
@@ -83,16 +87,33 @@ class Fitter {
       const CrossedEdge& edge = surface_.crossing(quad).edge;
       const double sign = edge.from < edge.to ? 1 : -1;
       for (const Triangle& corners : surface_.triangles(quad)) {
-        patches_.push_back({corners, sign * surface_.normal(corners)});
-        for (const uint32_t corner : corners) {
-          Star& star = stars_[corner];
-          star.areas = star.areas + patches_.back().areas;
+        Patch patch{{}, sign * surface_.normal(corners)};
+        for (size_t n = 0; n < 3; ++n) {
+          patch.corners[n] = star_of(corners[n]);
+          Star& star = stars_[patch.corners[n]];
+          star.areas = star.areas + patch.areas;
           std::tie(star.less, star.greater) = std::minmax(edge.from, edge.to);
         }
+        patches_.push_back(patch);
       }
     }
+  }
+
+  void gather_cells() {
+    const std::vector<DualVertex>& vertices = surface_.mesh().vertices;
+    for (uint32_t n = 0; n < vertices.size(); ++n) {
+      const uint32_t number = numbers_[surface_.clusters().of(n)];
+      if (number == none) continue;
+      Star& star = stars_[number];
+      star.middle = star.middle + vertices[n].planes.mean();
+      ++star.cells;
+      star.spread.add(vertices[n].spread);
+      star.parts_two &= vertices[n].parts_two;
+    }
+  }
+
+  void leave_out_lines() {
     for (Star& star : stars_) {
-      if (star.cells == 0) continue;
       star.middle = (1 / star.cells) * star.middle;
       star.is_smooth = star.parts_two && star.spread.least_cosine() >= least_cosine && length(star.areas) > 0;
     }
@@ -104,13 +125,11 @@ class Fitter {
   }
 
   void list_samples() {
-    for (uint32_t n = 0; n < stars_.size(); ++n) {
-      Star& star = stars_[n];
-      if (!star.is_smooth) continue;
-      star.sample = add({surface_.clusters().places()[n], star.normal(), star.less, star.greater});
-    }
+    for (Star& star : stars_)
+      if (star.is_smooth) star.sample = add({place(star), star.normal(), star.less, star.greater});
     for (Patch& patch : patches_) {
-      const auto [a, b, c] = surface_.corners(patch.corners);
+      const Vec3 a = place(stars_[patch.corners[0]]), b = place(stars_[patch.corners[1]]),
+                 c = place(stars_[patch.corners[2]]);
       const Star& smooth = *first_smooth(patch);
       patch.sample =
           add({(1.0 / 3) * (a + b + c), (1 / length(patch.areas)) * patch.areas, smooth.less, smooth.greater});
@@ -128,9 +147,9 @@ class Fitter {
     return static_cast<uint32_t>(samples_.size() - 1);
   }
 
-  void measure(Star& star, Vec3 at, std::optional<double> offset) const {
+  void measure(Star& star, std::optional<double> offset) const {
     star.offset = offset.value_or(0);
-    const double to_middle = dot(star.middle - at, star.normal());
+    const double to_middle = dot(star.middle - place(star), star.normal());
     star.is_smooth = offset && std::abs(star.offset - usual_share * to_middle) <=
                                    most_beside * std::abs(to_middle) + flat_enough * reach_mm_;
   }
@@ -152,7 +171,8 @@ class Fitter {
 
   const QuadSurface& surface_;
   double reach_mm_;
-  std::vector<Star> stars_;  // by cluster
+  std::vector<uint32_t> numbers_;  // of stars, by cluster
+  std::vector<Star> stars_;        // of clusters with facets
   std::vector<Patch> patches_;
   std::vector<BorderSample> samples_;
 };
@@ -164,12 +184,10 @@ VolumeFit::VolumeFit(QuadSurface& surface, const Partition& partition, double re
     : from_(surface.clusters().size()) {
   Fitter fitter(surface, reach_mm);
   fitter.measure(border_offsets(partition, fitter.samples(), reach_mm, threads, stop));
-  for (uint32_t cluster = 0; cluster < from_.size(); ++cluster) {
-    const std::optional<Vec3> to = fitter.place(cluster);
-    if (!to) continue;
+  fitter.each_move([&](uint32_t cluster, Vec3 to) {
     from_[cluster] = surface.clusters().places()[cluster];
-    surface.place(cluster, *to);
-  }
+    surface.place(cluster, to);
+  });
 }
 
 bool VolumeFit::undo(QuadSurface& surface, const std::vector<uint32_t>& quads) {
