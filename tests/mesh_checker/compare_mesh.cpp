@@ -31,7 +31,7 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 // Surfaces are looked for on a lattice of so many steps along the longest side, and so far around the mesh.
 constexpr double steps_of_lattice = 190, farthest_in_tolerances = 16;
-constexpr double growth = 1.05;  // of the reach; distances are told as much too large at most
+constexpr double growth = 1.05;    // of the reach; distances are told as much too large at most
 constexpr double rounding = 1e-6;  // of coordinates in files, relative to distances
 constexpr int64_t steps_of_tile = 16;
 
