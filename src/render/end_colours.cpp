@@ -6,7 +6,7 @@
 namespace ombre::render {
 namespace {
 
-constexpr TileSize together{32, 16, 16};       // steps, columns, rows
+constexpr TileSize together{64, 32, 32};       // steps, columns, rows
 constexpr int64_t behind = fine_per_step / 2;  // a surface, its colour is taken
 
 auto group_of(const RayPlace& end) {
