@@ -8,7 +8,7 @@ import pytest
 
 import ombre
 import pyvcad as pv
-from pyvcad_parts import ball, blue, graded_bar, gray, green, origin, red
+from pyvcad_parts import ball, blue, graded_bar, green, origin, red
 
 
 # Known values.

@@ -68,7 +68,7 @@ def test_errors_name_the_line():
 
 def test_solids_name_the_line_of_their_node():
     line = inspect.currentframe().f_lineno + 1
-    parts = [pv.Translate(1, 0, 0, pv.Sphere(origin, 1)), pv.Sphere(1, 0, 0, 2), pv.GraphLattice([(origin, (1, 0, 0))], 1)]
+    parts = [pv.Translate(1, 0, 0, pv.Sphere(origin, 1)), pv.Sphere(origin, 2), pv.GraphLattice([(origin, (1, 0, 0))], 1)]
     for solid in (part._ombre_solid_() for part in parts):
         assert solid.place == (__file__, line)
         assert all(below.place[0] == __file__ for below in solid.inputs)
