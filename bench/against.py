@@ -8,15 +8,13 @@ from table import Table, seconds
 
 
 def _git(*arguments):
-    done = subprocess.run(["git", "-C", programs.ROOT, *arguments], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise programs.Failed(f"git {arguments[0]}: {done.stderr.strip()}")
-    return done.stdout.strip()
+    return programs.run_quietly(["git", "-C", programs.ROOT, *arguments])
 
 
 def _remove(tree):
+    """Also after a signal, when no program is begun any more but this one."""
     if tree.exists():
-        _git("worktree", "remove", "--force", tree)
+        subprocess.run(["git", "-C", programs.ROOT, "worktree", "remove", "--force", tree], check=True)
 
 
 @contextlib.contextmanager
@@ -28,9 +26,7 @@ def built(commit):
     try:
         _git("worktree", "add", "--detach", tree, name)
         for command in (["cmake", "--preset", "release"], ["cmake", "--build", "build/release", "--target", "ombre"]):
-            done = subprocess.run(command, cwd=tree, capture_output=True, text=True)
-            if done.returncode != 0:
-                raise programs.Failed(f"{name} does not build:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+            programs.run_quietly(command, cwd=tree)
         yield name, programs.Ombre(tree / "build/release/apps/ombre/ombre", tree)
     finally:
         _remove(tree)

@@ -20,12 +20,51 @@ class Failed(Exception):
     """A program ended with an error, or there is no room."""
 
 
+_running = set()
+_signals = []  # those that came
+
+
+def _kill(process):
+    """Without asking how it is, which would take its end from the one that waits for it."""
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(process.pid, signal.SIGKILL)
+
+
 def stop_on_signals():
-    """Ends as Ctrl-C does, so that folders are removed."""
-    def stop(*_):
-        raise KeyboardInterrupt
-    for number in (signal.SIGTERM, signal.SIGHUP):
+    """Lets Ctrl-C and its like end the programs that run, and `run` raise. To raise wherever Python happens to be would
+    leave what it was about to close or to cancel."""
+    def stop(number, _):
+        _signals.append(number)
+        for process in list(_running):
+            _kill(process)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, stop)
+
+
+@contextlib.contextmanager
+def child(command, **options):
+    """A program in the background, which signals end; KeyboardInterrupt after one."""
+    if _signals:
+        raise KeyboardInterrupt
+    process = subprocess.Popen([str(c) for c in command], stdin=subprocess.DEVNULL, **options)
+    _running.add(process)
+    if _signals:
+        _kill(process)
+    try:
+        yield process
+    finally:
+        _running.discard(process)
+    if _signals:
+        raise KeyboardInterrupt
+
+
+def run_quietly(command, **options):
+    """Runs a program that is not timed; returns what it printed."""
+    with child(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options) as process:
+        output, _ = process.communicate()
+    if process.returncode != 0:
+        raise Failed(f"{' '.join(map(str, command))}\nended with {process.returncode}\n{output[-4000:]}")
+    return output.strip()
 
 
 def memory_disk():
@@ -61,18 +100,13 @@ def run(command, data=ROOT):
     with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
         environment = dict(os.environ, OMBRE_DATA=str(data), NO_COLOR="1")
         began = time.monotonic()
-        process = subprocess.Popen([str(c) for c in command], stdin=subprocess.DEVNULL, stdout=output, stderr=errors,
-                                   env=environment)
-        patience = threading.Timer(GIVE_UP_SECONDS, process.kill)
-        patience.start()
-        try:
-            _, status, usage = os.wait4(process.pid, 0)
-        except BaseException:
-            process.kill()
-            process.wait()
-            raise
-        finally:
-            patience.cancel()
+        with child(command, stdout=output, stderr=errors, env=environment) as process:
+            patience = threading.Timer(GIVE_UP_SECONDS, _kill, [process])
+            patience.start()
+            try:
+                _, status, usage = os.wait4(process.pid, 0)
+            finally:
+                patience.cancel()
         seconds = time.monotonic() - began
         process.returncode = os.waitstatus_to_exitcode(status)
         output.seek(0)
