@@ -109,7 +109,7 @@ bool read(const Data& data, const Domain& domain, Number& value, const Reader& r
     if (!expression) return false;
     std::vector<std::string> known = expr::coordinate_names();
     known.insert(known.end(), domain.variables.begin(), domain.variables.end());
-    if (!expression->check_variables(known, reader.diagnostics)) return false;
+    if (!expression->check_variables(known, *text, data.where, reader.diagnostics)) return false;
     const auto constant = expression->constant_value();
     if (!constant) {
       value = std::move(*expression);
@@ -124,7 +124,7 @@ bool read(const Data& data, const Domain& domain, Number& value, const Reader& r
     return true;
   }
   if (const auto source = std::dynamic_pointer_cast<const program::FieldSource>(data.host_object())) {
-    value = expr::Expression::of_source(source, data.where.source ? data.where : reader.where);
+    value = expr::Expression::of_source(source);
     return true;
   }
   if (!data.number()) return reader.fail(data, "a number" + with_unit(domain) + " or an expression in quotes");
@@ -234,34 +234,27 @@ bool read(const Data& data, const Domain&, FilePath& value, const Reader& reader
   return true;
 }
 
-bool read(const Data& data, const Domain& domain, std::vector<Number>& value, const Reader& reader) {
-  value.clear();
-  if (!data.list()) {  // one for a list of one
-    value.emplace_back();
-    return read(data, domain, value.back(), reader);
-  }
-  value.reserve(data.list()->size());
+namespace {
+
+// One element stands for a list of one.
+template <class T>
+bool read_list(const Data& data, const Domain& domain, SharedList<T>& value, const Reader& reader) {
+  const std::span<const Data> elements = data.list() ? std::span<const Data>(*data.list()) : std::span(&data, 1);
+  std::vector<T> list(elements.size());
   bool good = true;
-  for (const Data& element : *data.list()) {
-    value.emplace_back();
-    good = read(element, domain, value.back(), reader) && good;
-  }
+  for (size_t i = 0; i < list.size(); ++i) good = read(elements[i], domain, list[i], reader) && good;
+  value = SharedList<T>(std::move(list));
   return good;
 }
 
-bool read(const Data& data, const Domain& domain, std::vector<MaterialName>& value, const Reader& reader) {
-  value.clear();
-  if (!data.list()) {
-    value.emplace_back();
-    return read(data, domain, value.back(), reader);
-  }
-  value.reserve(data.list()->size());
-  bool good = true;
-  for (const Data& element : *data.list()) {
-    value.emplace_back();
-    good = read(element, domain, value.back(), reader) && good;
-  }
-  return good;
+}  // namespace
+
+bool read(const Data& data, const Domain& domain, SharedList<Number>& value, const Reader& reader) {
+  return read_list(data, domain, value, reader);
+}
+
+bool read(const Data& data, const Domain& domain, SharedList<MaterialName>& value, const Reader& reader) {
+  return read_list(data, domain, value, reader);
 }
 
 namespace {
@@ -339,12 +332,12 @@ Data write(const Affine& value, bool) {
 }
 Data write(const MaterialName& value, bool) { return Data(value.material ? value.material->name : std::string()); }
 Data write(const FilePath& value, bool for_hash) { return Data(for_hash ? value.content.hex() : value.path); }
-Data write(const std::vector<Number>& value, bool h) {
+Data write(const SharedList<Number>& value, bool h) {
   DataList list;
   for (const Number& element : value) list.push_back(write(element, h));
   return Data(std::move(list));
 }
-Data write(const std::vector<MaterialName>& value, bool h) {
+Data write(const SharedList<MaterialName>& value, bool h) {
   DataList list;
   for (const MaterialName& element : value) list.push_back(write(element, h));
   return Data(std::move(list));

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -24,13 +25,8 @@ inline Box design_space() { return Box::centered({design_limit_mm, design_limit_
 // A constant, or a field over space given by an expression.
 class Number {
  public:
-  Number(double value = 0) : value_(value) {}  // NOLINT: a double is a Number
-  Number(expr::Expression e) : value_(std::make_unique<const expr::Expression>(std::move(e))) {}  // NOLINT
-  Number(const Number& other) : value_(copy(other.value_)) {}
-  Number(Number&&) = default;
-  Number& operator=(const Number& other) { return *this = Number(other); }
-  Number& operator=(Number&&) = default;
-  ~Number() = default;
+  Number(double value = 0) : value_(value) {}           // NOLINT: a double is a Number
+  Number(expr::Expression e) : value_(std::move(e)) {}  // NOLINT
   program::Field operator()(const program::Point& p) const { return at(p, nullptr); }
   // With variables besides the coordinates.
   program::Field at(const program::Point& p, const expr::Variables& extra) const;
@@ -38,26 +34,11 @@ class Number {
   Interval range(const Box& where, const std::map<std::string_view, Interval>& extra = {}) const;
   bool uses_cell() const;  // one of ci, cj, ck
   const double* constant() const { return std::get_if<double>(&value_); }
-  const expr::Expression* expression() const {
-    const auto* pointer = std::get_if<ExpressionPtr>(&value_);
-    return pointer ? pointer->get() : nullptr;
-  }
-  bool operator==(const Number& other) const {
-    if (!expression() || !other.expression()) return value_ == other.value_;
-    return *expression() == *other.expression();
-  }
+  const expr::Expression* expression() const { return std::get_if<expr::Expression>(&value_); }
+  bool operator==(const Number&) const = default;
 
  private:
-  // Apart, which keeps numbers small: a design may hold millions.
-  using ExpressionPtr = std::unique_ptr<const expr::Expression>;
-  using Value = std::variant<double, ExpressionPtr>;
-  static Value copy(const Value& value) {
-    if (const auto* pointer = std::get_if<ExpressionPtr>(&value))
-      return std::make_unique<const expr::Expression>(**pointer);
-    return std::get<double>(value);
-  }
-
-  Value value_;
+  std::variant<double, expr::Expression> value_;
 };
 
 struct Numbers3 {
@@ -77,6 +58,30 @@ struct MaterialForName {
   std::string name;
   MaterialName material;
   bool operator==(const MaterialForName&) const = default;
+};
+
+// A list that does not change. Equal ones made in a row share their memory: loops make millions.
+template <class T>
+class SharedList {
+ public:
+  SharedList() = default;
+  explicit SharedList(std::vector<T> list) {
+    if (list.empty()) return;
+    thread_local std::weak_ptr<const std::vector<T>> last;
+    list_ = last.lock();
+    if (list_ && *list_ == list) return;
+    list_ = std::make_shared<const std::vector<T>>(std::move(list));
+    last = list_;
+  }
+
+  std::span<const T> items() const { return list_ ? std::span<const T>(*list_) : std::span<const T>(); }
+  auto begin() const { return items().begin(); }
+  auto end() const { return items().end(); }
+  size_t size() const { return items().size(); }
+  bool empty() const { return items().empty(); }
+
+ private:
+  std::shared_ptr<const std::vector<T>> list_;  // null: it is empty
 };
 
 // A strut of a lattice, in mm.
@@ -199,8 +204,8 @@ bool read(const Data& data, const Domain& domain, std::optional<Vec3>& value, co
 bool read(const Data& data, const Domain& domain, Affine& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, MaterialName& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, FilePath& value, const Reader& reader);
-bool read(const Data& data, const Domain& domain, std::vector<Number>& value, const Reader& reader);
-bool read(const Data& data, const Domain& domain, std::vector<MaterialName>& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, SharedList<Number>& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, SharedList<MaterialName>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<MaterialForName>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<Edge>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Points& value, const Reader& reader);
@@ -221,8 +226,8 @@ Data write(const std::optional<Vec3>& value, bool for_hash);
 Data write(const Affine& value, bool for_hash);
 Data write(const MaterialName& value, bool for_hash);
 Data write(const FilePath& value, bool for_hash);
-Data write(const std::vector<Number>& value, bool for_hash);
-Data write(const std::vector<MaterialName>& value, bool for_hash);
+Data write(const SharedList<Number>& value, bool for_hash);
+Data write(const SharedList<MaterialName>& value, bool for_hash);
 Data write(const std::vector<MaterialForName>& value, bool for_hash);
 Data write(const std::vector<Edge>& value, bool for_hash);
 Data write(const Points& value, bool for_hash);
@@ -243,8 +248,8 @@ constexpr std::string_view kind_name() {
   if constexpr (std::is_same_v<M, Affine>) return "matrix";
   if constexpr (std::is_same_v<M, MaterialName>) return "material";
   if constexpr (std::is_same_v<M, FilePath>) return "file";
-  if constexpr (std::is_same_v<M, std::vector<Number>>) return "list of numbers or fields";
-  if constexpr (std::is_same_v<M, std::vector<MaterialName>>) return "list of materials";
+  if constexpr (std::is_same_v<M, SharedList<Number>>) return "list of numbers or fields";
+  if constexpr (std::is_same_v<M, SharedList<MaterialName>>) return "list of materials";
   if constexpr (std::is_same_v<M, std::vector<MaterialForName>>) return "list of names with materials";
   if constexpr (std::is_same_v<M, std::vector<Edge>>) return "list of edges";
   if constexpr (std::is_same_v<M, Points>) return "list of points";

@@ -14,6 +14,8 @@ using program::Field;
 using program::Op;
 using program::Point;
 
+constexpr size_t longest_remembered = 1024;  // characters of a formula
+
 // Angles about the z axis and from it, and distances from it and from the origin.
 std::optional<Field> coordinate(std::string_view name, const Point& p) {
   Builder& builder = p.builder();
@@ -182,44 +184,46 @@ std::vector<FunctionInfo> function_table() {
 
 std::optional<Expression> Expression::parse(const std::string& text, const SourceRange& where,
                                             Diagnostics& diagnostics) {
-  Expression expression;
-  expression.where_ = text_range(text, where);
-  expression.root_ = parse_tree(text, expression.where_, diagnostics);
-  if (!expression.root_) return std::nullopt;
-  expression.canonical_ = print_tree(*expression.root_);
+  // Loops make the same few again and again.
+  struct Known {
+    std::string text;
+    std::optional<Expression> expression;
+  };
+  thread_local std::array<Known, 64> recent;
+  Known& known = recent[std::hash<std::string>()(text) % recent.size()];
+  if (known.expression && known.text == text) return known.expression;
+  auto root = parse_tree(text, text_range(text, where), diagnostics);
+  if (!root) return std::nullopt;
+  std::string canonical = print_tree(*root);
+  Expression expression(std::move(root), std::move(canonical));
+  if (text.size() <= longest_remembered) known = {text, expression};
   return expression;
 }
 
 Expression Expression::constant(double value) {
-  Expression expression;
   auto node = std::make_shared<Node>();
   node->number = value;
-  expression.root_ = node;
-  expression.canonical_ = format_number(value);
-  return expression;
+  return {std::move(node), format_number(value)};
 }
 
-Expression Expression::of_source(const program::SourceField& source, const SourceRange& where) {
-  Expression expression;
+Expression Expression::of_source(const program::SourceField& source) {
   auto node = std::make_shared<Node>();
   node->kind = Kind::source;
   node->source = source;
-  expression.root_ = node;
-  expression.canonical_ = source->name() + " #" + source->content().hex();
-  expression.where_ = where;
-  return expression;
+  return {std::move(node), source->name() + " #" + source->content().hex()};
 }
 
-bool Expression::check_variables(const std::vector<std::string>& known, Diagnostics& diagnostics) const {
+bool Expression::check_variables(const std::vector<std::string>& known, const std::string& text,
+                                 const SourceRange& where, Diagnostics& diagnostics) const {
   bool all_known = true;
-  each_variable(*root_, [&](const Node& node) {
+  each_variable(root(), [&](const Node& node) {
     for (const std::string& name : known)
       if (name == node.name) return;
     all_known = false;
     std::string hint = did_you_mean(node.name, known);
     if (node.name == "d") hint = "d, the distance of the child, is known in fgrade, material and attribute";
     if (hint.empty()) hint = "known here are " + join(known, ", ");
-    diagnostics.error(where_.part(node.begin, node.end),
+    diagnostics.error(text_range(text, where).part(node.begin, node.end),
                       "there is no variable \"" + node.name + "\" in this expression", hint);
   });
   return all_known;
@@ -227,18 +231,18 @@ bool Expression::check_variables(const std::vector<std::string>& known, Diagnost
 
 bool Expression::uses(std::string_view variable) const {
   bool found = false;
-  each_variable(*root_, [&](const Node& node) { found = found || node.name == variable; });
+  each_variable(root(), [&](const Node& node) { found = found || node.name == variable; });
   return found;
 }
 
 std::optional<double> Expression::constant_value() const {
   bool has_variables = false;
-  each_variable(*root_, [&](const Node&) { has_variables = true; });
+  each_variable(root(), [&](const Node&) { has_variables = true; });
   if (has_variables || source()) return std::nullopt;
   Builder builder;
   return builder.constant_value(lower(Point::origin_frame(builder), nullptr));
 }
 
-Field Expression::lower(const Point& p, const Variables& extra) const { return Lowerer(p, extra).lower(*root_); }
+Field Expression::lower(const Point& p, const Variables& extra) const { return Lowerer(p, extra).lower(root()); }
 
 }  // namespace ombre::expr

@@ -54,6 +54,7 @@ struct Node {
 // Gives the field of a variable, or nothing if it has no such variable.
 using Variables = std::function<std::optional<program::Field>(std::string_view name)>;
 
+// A handle: copies share what was parsed, and so do formulas of one text that a thread parses in a row.
 class Expression {
  public:
   // Nothing, and diagnostics that point into the string, when it is wrong. `where` is the range of
@@ -63,27 +64,33 @@ class Expression {
   static Expression constant(double value);
   // The first channel of a source at the point, as a function of the host program gives it. Its text tells
   // functions apart, but cannot be parsed.
-  static Expression of_source(const program::SourceField& source, const SourceRange& where);
+  static Expression of_source(const program::SourceField& source);
 
-  // Every variable must be among `known`.
-  bool check_variables(const std::vector<std::string>& known, Diagnostics& diagnostics) const;
+  // Every variable must be among `known`; `text` and `where` as it was parsed.
+  bool check_variables(const std::vector<std::string>& known, const std::string& text, const SourceRange& where,
+                       Diagnostics& diagnostics) const;
   bool uses(std::string_view variable) const;
-  const program::SourceField& source() const { return root_->source; }  // null: it is a formula
+  const program::SourceField& source() const { return root().source; }  // null: it is a formula
   // The number, if the expression has no variables.
   std::optional<double> constant_value() const;
 
   // Spelt in one way: what is the same but for spaces, case and brackets prints the same.
-  const std::string& text() const { return canonical_; }
-  const SourceRange& where() const { return where_; }
+  const std::string& text() const { return parsed_->canonical; }
 
   program::Field lower(const program::Point& p, const Variables& extra) const;
 
-  bool operator==(const Expression& other) const { return canonical_ == other.canonical_; }
+  bool operator==(const Expression& other) const { return parsed_ == other.parsed_ || text() == other.text(); }
 
  private:
-  std::shared_ptr<const Node> root_;
-  std::string canonical_;
-  SourceRange where_;  // in the file, or in a source of its own that holds just the expression
+  struct Parsed {
+    std::shared_ptr<const Node> root;
+    std::string canonical;
+  };
+  Expression(std::shared_ptr<const Node> root, std::string canonical)
+      : parsed_(std::make_shared<const Parsed>(Parsed{std::move(root), std::move(canonical)})) {}
+  const Node& root() const { return *parsed_->root; }
+
+  std::shared_ptr<const Parsed> parsed_;
 };
 
 // x y z rho phic r theta phis ci cj ck: what every expression knows.

@@ -10,9 +10,12 @@ namespace {
 using std::numbers::e;
 using std::numbers::pi;
 
+SourceRange place_of(const std::string& text) {
+  return {make_source("part.vcad", "f(\"" + text + "\")"), 3, static_cast<uint32_t>(3 + text.size())};
+}
+
 std::optional<Expression> parse(const std::string& text, Diagnostics& diagnostics) {
-  const SourcePtr source = make_source("part.vcad", "f(\"" + text + "\")");
-  return Expression::parse(text, {source, 3, static_cast<uint32_t>(3 + text.size())}, diagnostics);
+  return Expression::parse(text, place_of(text), diagnostics);
 }
 
 double value(const std::string& text, Vec3 p = {0, 0, 0}) {
@@ -31,7 +34,7 @@ double value(const std::string& text, Vec3 p = {0, 0, 0}) {
 std::string message(const std::string& text) {
   Diagnostics diagnostics;
   const auto expression = parse(text, diagnostics);
-  if (expression) expression->check_variables(coordinate_names(), diagnostics);
+  if (expression) expression->check_variables(coordinate_names(), text, place_of(text), diagnostics);
   return to_text(diagnostics);
 }
 
@@ -51,6 +54,19 @@ TEST(Expression, Precedence) {
   EXPECT_EQ(value("1 ? 2 : 0 ? 3 : 4"), 2);
   EXPECT_EQ(value("0 ? 2 : 0 ? 3 : 4"), 4);
   EXPECT_EQ(value("not 1 + 1"), 1);
+}
+
+TEST(Expression, AFormulaIsParsedOnceButItsErrorsAreToldWhereverItStands) {
+  Diagnostics diagnostics;
+  const auto first = parse("x + 1", diagnostics), again = parse("x + 1", diagnostics),
+             other = parse("x+ 1", diagnostics);
+  EXPECT_EQ(&first->text(), &again->text());
+  EXPECT_NE(&first->text(), &other->text());
+  EXPECT_TRUE(*first == *other);
+  EXPECT_FALSE(*first == *parse("x + 2", diagnostics));
+  EXPECT_EQ(message("x + q"), message("x + q"));
+  EXPECT_NE(message("x + q").find("part.vcad:1:8"), std::string::npos) << message("x + q");
+  EXPECT_EQ(message("x +"), message("x +"));
 }
 
 TEST(Expression, ImplicitMultiplication) {

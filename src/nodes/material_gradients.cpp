@@ -87,8 +87,8 @@ struct Mixture {
   }
 };
 
-Mixture mixture(const Inputs& in, const Point& p, const std::vector<Number>& functions,
-                const std::vector<MaterialName>& materials) {
+Mixture mixture(const Inputs& in, const Point& p, std::span<const Number> functions,
+                std::span<const MaterialName> materials) {
   Mixture result;
   const expr::Variables variables = child_variables(in, p);
   for (const Number& function : functions) result.raw.push_back(function.at(p, variables));
@@ -96,7 +96,7 @@ Mixture mixture(const Inputs& in, const Point& p, const std::vector<Number>& fun
   return result;
 }
 
-std::string list_text(const std::vector<Number>& functions) {
+std::string list_text(std::span<const Number> functions) {
   std::string text;
   for (const Number& f : functions)
     text += (text.empty() ? "\"" : ", \"") +
@@ -105,8 +105,8 @@ std::string list_text(const std::vector<Number>& functions) {
 }
 
 struct FGrade {
-  std::vector<Number> functions;
-  std::vector<MaterialName> materials;
+  SharedList<Number> functions;
+  SharedList<MaterialName> materials;
   Choice mode = "prob";
 
   static Spec<FGrade> spec() {
@@ -143,8 +143,8 @@ struct FGrade {
 };
 
 struct Material {
-  std::vector<MaterialName> materials;
-  std::vector<Number> fractions;
+  SharedList<MaterialName> materials;
+  SharedList<Number> fractions;
 
   static Spec<Material> spec() {
     return {"material",
@@ -158,7 +158,7 @@ struct Material {
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
-    if (fractions.empty()) fractions.assign(materials.size(), Number(1));
+    if (fractions.empty()) fractions = SharedList(std::vector<Number>(materials.size(), Number(1)));
     if (!same_length(reader, fractions.size(), materials.size(), "fractions")) return false;
     double total = 0;
     for (const Number& fraction : fractions) {

@@ -191,7 +191,7 @@ struct Strut {
     const Vec3 u = direction(), middle = 0.5 * (start + end);
     const double half = length(end - start) / 2;
     const Field x = p.x - middle.x, y = p.y - middle.y, z = p.z - middle.z;
-    const Field along = x * u.x + y * u.y + z * u.z;
+    const Field along = from_middle(p);
     if (caps == "round") {
       const Field t = min(max(along, -half), p.constant(half));
       return length(x - t * u.x, y - t * u.y, z - t * u.z) - radius_at(p);
@@ -200,15 +200,26 @@ struct Strut {
     return corner(across - radius_at(p), abs(along) - half);
   }
 
-  Field along(const Inputs&, const Point& p) const { return Segment{start, end}.along(p); }
+  Field along(const Inputs&, const Point& p) const { return share(p); }
 
  private:
   Vec3 direction() const { return (1 / length(end - start)) * (end - start); }
 
+  // In mm along the axis.
+  Field from_middle(const Point& p) const {
+    const Vec3 u = direction(), middle = 0.5 * (start + end);
+    return (p.x - middle.x) * u.x + (p.y - middle.y) * u.y + (p.z - middle.z) * u.z;
+  }
+
+  // From 0 at the start to 1 at the end. By what the distance asks too, which costs less than the way from the start.
+  Field share(const Point& p) const {
+    return min(max(from_middle(p) * (1 / length(end - start)) + 0.5, 0.0), p.constant(1));
+  }
+
   Field radius_at(const Point& p) const {
     return radius.at(p, [&](std::string_view name) -> std::optional<Field> {
       if (name != "t") return std::nullopt;
-      return Segment{start, end}.along(p);
+      return share(p);
     });
   }
 

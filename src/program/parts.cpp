@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/assert.h"
 
@@ -43,13 +44,13 @@ size_t parameters_of(const Program& program, const Instruction& in) {
 void PartTable::add(const Program& program, const std::vector<int>& slots, bool may_be_unknown) {
   ASSERT(program.calls.empty() && program.reads.empty());
   const uint32_t body = body_number(program, slots, may_be_unknown);
-  Parameters& parameters = parameters_[body];
-  rows_.push_back({body, parameters.rows++});
+  row_.clear();
   for (const Instruction& in : program.code) {
-    if (in.op == Op::constant) add_parameter(parameters, in.value);
-    if (in.op == Op::affine)
-      for (const double value : program.maps[in.aux]) add_parameter(parameters, value);
+    if (in.op == Op::constant) row_.push_back(in.value);
+    if (in.op == Op::affine) row_.insert(row_.end(), program.maps[in.aux].begin(), program.maps[in.aux].end());
   }
+  const uint32_t row = std::visit([&](auto& parameters) { return parameters.add(row_); }, parameters_[body]);
+  rows_.push_back({body, row});
 }
 
 uint32_t PartTable::body_number(const Program& program, const std::vector<int>& slots, bool may_be_unknown) {
@@ -63,22 +64,43 @@ uint32_t PartTable::body_number(const Program& program, const std::vector<int>& 
   size_t parameters = 0;
   for (const Instruction& in : code) parameters += parameters_of(program, in);
   bodies_.push_back({program, slots, may_be_unknown, inputs, parameters});
-  parameters_.emplace_back();
+  if (precision_ == Precision::batch)
+    parameters_.emplace_back(ParametersOfBatch());
+  else
+    parameters_.emplace_back(ParametersOfReference());
   return it->second;
 }
 
-void PartTable::add_parameter(Parameters& to, double value) const {
-  if (precision_ == Precision::batch)
-    to.floats.push_back(static_cast<float>(value));
-  else
-    to.doubles.push_back(value);
+template <class T>
+uint32_t PartTable::Parameters<T>::add(const std::vector<double>& row) {
+  if (rows_ == 0) {
+    for (const double value : row) common_.push_back(static_cast<T>(value));
+    places_.assign(row.size(), common);
+  }
+  for (size_t number = 0; number < row.size(); ++number) {
+    const T value = static_cast<T>(row[number]);
+    if (places_[number] == common && std::memcmp(&value, &common_[number], sizeof value) != 0) let_vary(number);
+  }
+  for (const size_t number : varying_) values_.push_back(static_cast<T>(row[number]));
+  return rows_++;
+}
+
+template <class T>
+void PartTable::Parameters<T>::let_vary(size_t number) {
+  std::deque<T> wider;
+  auto value = values_.begin();
+  for (uint32_t row = 0; row < rows_; ++row) {
+    for (size_t n = 0; n < varying_.size(); ++n) wider.push_back(*value++);
+    wider.push_back(common_[number]);
+  }
+  values_ = std::move(wider);
+  places_[number] = static_cast<uint32_t>(varying_.size());
+  varying_.push_back(number);
 }
 
 double PartTable::parameter(uint32_t part, size_t number) const {
   const Row& row = rows_[part];
-  const Parameters& parameters = parameters_[row.body];
-  const size_t n = row.number * bodies_[row.body].parameter_count + number;
-  return precision_ == Precision::batch ? static_cast<double>(parameters.floats[n]) : parameters.doubles[n];
+  return std::visit([&](const auto& parameters) { return parameters.at(row.number, number); }, parameters_[row.body]);
 }
 
 PartTable::Excerpt PartTable::excerpt(uint32_t number, const std::vector<bool>& wanted) const {

@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <variant>
 #include <vector>
 
 #include "base/box.h"
@@ -69,22 +70,40 @@ class PartTable {
   struct Row {
     uint32_t body = 0, number = 0;  // among the rows of its body
   };
-  // The parameters of a body's rows; one of the two is used. Deques grow without a copy of what they hold.
-  struct Parameters {
-    std::deque<double> doubles;
-    std::deque<float> floats;  // as batches round them
-    uint32_t rows = 0;
+  // The parameters of a body's rows, as far as they differ: many are equal in all of them. A deque grows without a
+  // copy of what it holds.
+  template <class T>
+  class Parameters {
+   public:
+    uint32_t add(const std::vector<double>& row);  // its number
+    double at(uint32_t row, size_t number) const {
+      const uint32_t place = places_[number];
+      return static_cast<double>(place == common ? common_[number] : values_[size_t{row} * varying_.size() + place]);
+    }
+
+   private:
+    static constexpr uint32_t common = ~uint32_t{0};
+    void let_vary(size_t number);
+
+    std::vector<T> common_;         // by number, of the first row
+    std::vector<uint32_t> places_;  // by number: among those that vary, or `common`
+    std::vector<size_t> varying_;   // numbers
+    std::deque<T> values_;          // row by row, of those that vary
+    uint32_t rows_ = 0;
   };
+  using ParametersOfBatch = Parameters<float>;  // as batches round them
+  using ParametersOfReference = Parameters<double>;
 
   uint32_t body_number(const Program& program, const std::vector<int>& slots, bool may_be_unknown);
-  void add_parameter(Parameters& to, double value) const;
 
   Precision precision_;
   std::vector<Body> bodies_;
-  std::deque<Parameters> parameters_;  // by body
+  // By body.
+  std::deque<std::variant<ParametersOfReference, ParametersOfBatch>> parameters_;
   std::unordered_map<std::string, uint32_t> known_;
   std::vector<Row> rows_;
-  std::string key_;  // of the row being added
+  std::string key_;          // of the row being added
+  std::vector<double> row_;  // its parameters
 };
 
 // A box in 256ths of another one, ends included.

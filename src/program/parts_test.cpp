@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace ombre::program {
@@ -56,6 +57,34 @@ TEST(Cells, OfOneBoxShareTheirFaces) {
     high.first[0] = static_cast<uint8_t>(low.last[0] + 1);
     EXPECT_EQ(low.in(whole).hi.x, high.in(whole).lo.x);
     EXPECT_EQ(hull(low.in(whole), high.in(whole)), whole);
+  }
+}
+
+// x*a + b: a begins to differ late, b at last, and only by its sign.
+TEST(PartTable, GivesBackTheParametersOfEachRow) {
+  for (const Precision precision : {Precision::reference, Precision::batch}) {
+    PartTable table(precision);
+    std::vector<std::vector<double>> rows;
+    for (uint32_t n = 0; n < 200; ++n) {
+      const double a = n < 100 ? 0.1 : 0.1 * n, b = n == 199 ? -0.0 : 0.0;
+      Program program;
+      program.code = {{Op::input}, {Op::constant}, {Op::multiply}, {Op::constant}, {Op::add}};
+      program.code[1].value = a;
+      program.code[2].a = 0, program.code[2].b = 1;
+      program.code[3].value = b;
+      program.code[4].a = 2, program.code[4].b = 3;
+      program.outputs = {4};
+      table.add(program, {0}, false);
+      rows.push_back({a, b});
+    }
+    EXPECT_EQ(table.body_count(), 1);
+    for (uint32_t row = 0; row < rows.size(); ++row) {
+      for (size_t number = 0; number < rows[row].size(); ++number) {
+        const double value = rows[row][number], found = table.parameter(row, number);
+        EXPECT_EQ(found, precision == Precision::batch ? static_cast<double>(static_cast<float>(value)) : value);
+        EXPECT_EQ(std::signbit(found), std::signbit(value));
+      }
+    }
   }
 }
 

@@ -27,13 +27,15 @@ void check_places(const Diagnostics& diagnostics) {
   (void)to_text(diagnostics);
 }
 
+SourceRange place_of(const std::string& text) {
+  const std::string before = "sphere(\"";
+  const auto begin = static_cast<uint32_t>(before.size());
+  return {make_source("fuzz.vcad", before + text + "\");"), begin, begin + static_cast<uint32_t>(text.size())};
+}
+
 std::optional<expr::Expression> parse(const std::string& text) {
   Diagnostics diagnostics;
-  const std::string before = "sphere(\"";
-  const SourcePtr source = make_source("fuzz.vcad", before + text + "\");");
-  const auto begin = static_cast<uint32_t>(before.size());
-  auto expression =
-      expr::Expression::parse(text, {source, begin, begin + static_cast<uint32_t>(text.size())}, diagnostics);
+  auto expression = expr::Expression::parse(text, place_of(text), diagnostics);
   require(expression.has_value() == !diagnostics.has_errors());
   check_places(diagnostics);
   return expression;
@@ -59,7 +61,8 @@ bool same_bits(double a, double b) { return (a != a && b != b) || std::memcmp(&a
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size > longest) return 0;
-  const auto expression = parse(std::string(reinterpret_cast<const char*>(data), size));
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  const auto expression = parse(text);
   if (!expression) return 0;
   const auto reread = parse(expression->text());
   require(reread && reread->text() == expression->text());
@@ -68,7 +71,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   std::vector<std::string> known = expr::coordinate_names();
   known.emplace_back("d");
   Diagnostics diagnostics;
-  const bool all_known = expression->check_variables(known, diagnostics);
+  const bool all_known = expression->check_variables(known, text, place_of(text), diagnostics);
   check_places(diagnostics);
   require(all_known == !diagnostics.has_errors());
   if (!all_known) return 0;

@@ -1,5 +1,7 @@
 #include "lang/vocabulary/equal_nodes.h"
 
+#include <utility>
+
 #include "base/assert.h"
 #include "design/registry.h"
 
@@ -9,6 +11,8 @@ using design::NodePtr;
 using design::NodeType;
 
 namespace {
+
+constexpr size_t most_in_table = 3 << 14;  // fills three quarters of its slots
 
 template <class T>
 void append_bytes(std::string& key, const T& value) {
@@ -42,30 +46,35 @@ NodePtr EqualNodes::first(NodePtr node) {
   for (size_t i = 0; i < type->parameters.size(); ++i) append_value(key_, type->get(*node, i, false));
   for (const NodePtr& input : node->inputs()) append_bytes(key_, reinterpret_cast<uintptr_t>(input.get()));
 
-  if (4 * count_ >= 3 * slots_.size()) widen();
   const Hash hash = hash_bytes(key_);
-  Slot& slot = slot_of(slots_, hash);
-  if (!slot.node) {
-    slot = {hash, std::move(node)};
-    ++count_;
-  }
-  return slot.node;
+  if (NodePtr known = latest_.find(hash)) return known;
+  if (NodePtr known = older_.find(hash)) node = std::move(known);
+  if (latest_.count == most_in_table) older_ = std::exchange(latest_, {});
+  latest_.add(hash, node);
+  return node;
 }
 
-// The slot with that hash, or the free one that it would get.
-EqualNodes::Slot& EqualNodes::slot_of(std::vector<Slot>& slots, const Hash& hash) {
+NodePtr EqualNodes::Table::find(const Hash& hash) const { return slots.empty() ? nullptr : slots[place(hash)].node; }
+
+void EqualNodes::Table::add(const Hash& hash, NodePtr node) {
+  if (4 * count >= 3 * slots.size()) widen();
+  slots[place(hash)] = {hash, std::move(node)};
+  ++count;
+}
+
+size_t EqualNodes::Table::place(const Hash& hash) const {
   const size_t mask = slots.size() - 1;
   size_t at = hash.low & mask;
   while (slots[at].node && slots[at].hash != hash) at = (at + 1) & mask;
-  return slots[at];
+  return at;
 }
 
-void EqualNodes::widen() {
+void EqualNodes::Table::widen() {
   constexpr size_t least = 64;
-  std::vector<Slot> wide(std::max(least, 2 * slots_.size()));
-  for (Slot& slot : slots_)
-    if (slot.node) slot_of(wide, slot.hash) = std::move(slot);
-  slots_ = std::move(wide);
+  std::vector<Slot> narrow(std::max(least, 2 * slots.size()));
+  narrow.swap(slots);
+  for (Slot& slot : narrow)
+    if (slot.node) slots[place(slot.hash)] = std::move(slot);
 }
 
 }  // namespace ombre::lang
