@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "base/assert.h"
 
@@ -78,8 +77,9 @@ uint32_t PartTable::Parameters<T>::add(const std::vector<double>& row) {
     places_.assign(row.size(), common);
   }
   for (size_t number = 0; number < row.size(); ++number) {
-    const T value = static_cast<T>(row[number]);
-    if (places_[number] == common && std::memcmp(&value, &common_[number], sizeof value) != 0) let_vary(number);
+    const T value = static_cast<T>(row[number]), other = common_[number];
+    const bool is_equal = value == other && std::signbit(value) == std::signbit(other);
+    if (places_[number] == common && !is_equal) let_vary(number);
   }
   for (const size_t number : varying_) values_.push_back(static_cast<T>(row[number]));
   return rows_++;
