@@ -67,7 +67,11 @@ void run_ordered(size_t count, int threads, size_t window, const std::function<s
 
 void run_parallel(size_t count, int threads, const std::function<void(size_t)>& body) {
   tbb::task_arena arena(worker_count(threads));
-  arena.execute([&] { tbb::parallel_for(size_t{0}, count, [&](size_t i) { body(i); }); });
+  // One by one: the partitioner of choice hands out eighths, which may take very unequal times.
+  arena.execute([&] {
+    tbb::parallel_for(
+        size_t{0}, count, [&](size_t i) { body(i); }, tbb::simple_partitioner());
+  });
 }
 
 }  // namespace ombre

@@ -133,20 +133,30 @@ TEST(Tile, AsksNeighboursThatReachIn) {
                        {Solid::node("rotate", R"({"angles": [10, 20, 30]})",
                                     {Solid::node("rectprism", R"({"size": [3.1, 1, 1], "material": "red"})")})});
   };
-  std::vector<design::NodePtr> copies;
-  for (int i = -2; i <= 3; ++i)
-    for (int j = -4; j <= 4; ++j)
-      copies.push_back(Solid::node(
-          "translate", "{\"by\": [" + std::to_string(2 * i) + ", " + std::to_string(1.5 * j) + ", 0]}", {child()}));
-  const Solid explicit_copies(Solid::node("union", "{}", copies));
-  const Solid tile(Solid::node("tile", R"({"size": [2, 1.5, 0], "first": [-2, -4, 0], "last": [3, 4, 0]})", {child()}));
+  struct Limits {
+    int first_x, last_x, first_y, last_y;
+  };
   std::mt19937 random(5);
   std::uniform_real_distribution<double> at(-9, 12);
-  for (int n = 0; n < 400; ++n) {
-    const Vec3 p{at(random), at(random), 0.2 * at(random)};
-    EXPECT_EQ(tile.inside(p), explicit_copies.inside(p)) << p.x << " " << p.y << " " << p.z;
-    if (!tile.inside(p)) {
-      EXPECT_NEAR(tile.distance(p), explicit_copies.distance(p), 1e-12);
+  // Some have no more copies than a point has neighbours.
+  for (const Limits& l : {Limits{-2, 3, -4, 4}, {0, 1, 0, 1}, {1, 2, -1, -1}, {0, 0, 2, 4}, {-3, -1, 0, 3}}) {
+    std::vector<design::NodePtr> copies;
+    for (int i = l.first_x; i <= l.last_x; ++i)
+      for (int j = l.first_y; j <= l.last_y; ++j)
+        copies.push_back(Solid::node(
+            "translate", "{\"by\": [" + std::to_string(2 * i) + ", " + std::to_string(1.5 * j) + ", 0]}", {child()}));
+    const Solid explicit_copies(Solid::node("union", "{}", copies));
+    const auto pair = [](int x, int y) { return "[" + std::to_string(x) + ", " + std::to_string(y) + ", 0]"; };
+    const Solid tile(Solid::node("tile",
+                                 R"({"size": [2, 1.5, 0], "first": )" + pair(l.first_x, l.first_y) + R"(, "last": )" +
+                                     pair(l.last_x, l.last_y) + "}",
+                                 {child()}));
+    for (int n = 0; n < 400; ++n) {
+      const Vec3 p{at(random), at(random), 0.2 * at(random)};
+      EXPECT_EQ(tile.inside(p), explicit_copies.inside(p)) << p.x << " " << p.y << " " << p.z;
+      if (!tile.inside(p)) {
+        EXPECT_NEAR(tile.distance(p), explicit_copies.distance(p), 1e-12);
+      }
     }
   }
 }

@@ -98,23 +98,23 @@ struct Tile {
 
   Field distance(const Inputs& in, const Point& p) const {
     std::vector<Field> fields;
-    for (const Point& q : copies(p, true)) fields.push_back(in.distance(0, q));
+    for (const Point& q : copies(p, true, Order::any)) fields.push_back(in.distance(0, q));
     return program::fold(fields, program::min);
   }
 
   Field inside(const Inputs& in, const Point& p) const {
-    return program::fold(marks(in, copies(p, false)), program::logical_or);
+    return program::fold(marks(in, copies(p, false, Order::any)), program::logical_or);
   }
 
   Field interior(const Inputs& in, const Point& p) const {
     std::vector<Field> fields;
-    for (const Point& q : copies(p, false)) fields.push_back(in.interior(0, q));
+    for (const Point& q : copies(p, false, Order::any)) fields.push_back(in.interior(0, q));
     return program::fold(fields, program::logical_or);
   }
 
   // Of copies that overlap the nearest cell's counts; where none holds the point, that of the nearest surface.
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    const std::vector<Point> points = copies(p, demand == Demand::everywhere);
+    const std::vector<Point> points = copies(p, demand == Demand::everywhere, Order::own_first);
     if (points.size() == 1) return in.composition(0, points[0], demand);
     std::vector<Composition> parts;
     for (const Point& q : points) parts.push_back(in.composition(0, q, demand));
@@ -122,7 +122,7 @@ struct Tile {
   }
 
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
-    const std::vector<Point> points = copies(p, demand == Demand::everywhere);
+    const std::vector<Point> points = copies(p, demand == Demand::everywhere, Order::own_first);
     const std::vector<Field> weights = chosen(in, points, demand);
     Field value = in.attribute(0, name, points[0], demand);
     for (size_t n = 1; n < points.size(); ++n)
@@ -131,7 +131,7 @@ struct Tile {
   }
 
   Field along(const Inputs& in, const Point& p) const {
-    const std::vector<Point> points = copies(p, false);
+    const std::vector<Point> points = copies(p, false, Order::own_first);
     const std::vector<Field> weights = chosen(in, points, Demand::inside);
     Field value = in.along(0, points[0]);
     for (size_t n = 1; n < points.size(); ++n) value = select(weights[n], in.along(0, points[n]), value);
@@ -139,6 +139,8 @@ struct Tile {
   }
 
  private:
+  enum class Order : uint8_t { own_first, any };
+
   static bool is_limit(double index) { return std::isinf(index) || index == std::floor(index); }
 
   struct Axis {
@@ -160,17 +162,31 @@ struct Tile {
 
     struct Copy {
       Field index, at;  // which copy, and where in it
+      Interval extent;  // where that can be
     };
+    std::vector<Copy> copies(Field x, bool nearest, Order order) const {
+      const int most = neighbours(nearest);
+      std::vector<Copy> result;
+      if (order == Order::any && step > 0 && last - first <= 2 * most) {  // so few are there at all
+        for (double index = first; index <= last; ++index)
+          result.push_back({x.builder->constant(index), x - index * step, Interval::everything()});
+        return result;
+      }
+      result.push_back(copy(x, 0));
+      for (int away = 1; away <= most; ++away)
+        for (const int offset : {-away, away}) result.push_back(copy(x, offset));
+      return result;
+    }
     Copy copy(Field x, int offset) const {
       program::Builder& builder = *x.builder;
-      if (step == 0) return {builder.constant(0), x};
+      if (step == 0) return {builder.constant(0), x, Interval::everything()};
       Field own = builder.apply(program::Op::round, (x - middle) / step);
       if (is_limited()) own = clamped(own + offset);
       const Field index = is_limited() ? own : own + offset;
       const Field at = x - index * step;
-      if (is_limited() || offset != 0) return {index, at};
+      if (is_limited() || offset != 0) return {index, at, extent(offset)};
       // What intervals cannot see.
-      return {index, min(max(at, middle - 0.5 * step), builder.constant(middle + 0.5 * step))};
+      return {index, min(max(at, middle - 0.5 * step), builder.constant(middle + 0.5 * step)), extent(0)};
     }
     Field clamped(Field index) const {
       if (std::isfinite(first)) index = max(index, first);
@@ -184,27 +200,19 @@ struct Tile {
     }
   };
 
-  // The point as each copy sees it, the own copy first.
-  std::vector<Point> copies(const Point& p, bool nearest) const {
-    std::vector<std::array<int, 3>> offsets{{0, 0, 0}};
-    for (size_t n = 0; n < 3; ++n) {
-      const size_t count = offsets.size();
-      for (int away = 1; away <= axes_[n].neighbours(nearest); ++away)
-        for (const int offset : {-away, away})
-          for (size_t i = 0; i < count; ++i) {
-            offsets.push_back(offsets[i]);
-            offsets.back()[n] = offset;
-          }
-    }
+  // The point as the copies that matter see it.
+  std::vector<Point> copies(const Point& p, bool nearest, Order order) const {
     std::vector<Point> points;
-    for (const auto& [i, j, k] : offsets) {
-      const Axis::Copy x = axes_[0].copy(p.x, i), y = axes_[1].copy(p.y, j), z = axes_[2].copy(p.z, k);
-      Point q = p.moved_to(x.at, y.at, z.at);
-      q.cell = {x.index, y.index, z.index};
-      const Interval along_x = axes_[0].extent(i), along_y = axes_[1].extent(j), along_z = axes_[2].extent(k);
-      q.set_within({{along_x.lo, along_y.lo, along_z.lo}, {along_x.hi, along_y.hi, along_z.hi}});
-      points.push_back(q);
-    }
+    const auto along_x = axes_[0].copies(p.x, nearest, order), along_y = axes_[1].copies(p.y, nearest, order),
+               along_z = axes_[2].copies(p.z, nearest, order);
+    for (const Axis::Copy& z : along_z)
+      for (const Axis::Copy& y : along_y)
+        for (const Axis::Copy& x : along_x) {
+          Point q = p.moved_to(x.at, y.at, z.at);
+          q.cell = {x.index, y.index, z.index};
+          q.set_within({{x.extent.lo, y.extent.lo, z.extent.lo}, {x.extent.hi, y.extent.hi, z.extent.hi}});
+          points.push_back(q);
+        }
     return points;
   }
 
