@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <functional>
 
 #include "base/assert.h"
+#include "base/byte_rows.h"
 
 namespace ombre {
 namespace {
@@ -17,25 +19,12 @@ uint64_t word_at(const MaterialId* voxels) {
 
 // Voxels at the lower end of a word come first.
 static_assert(std::endian::native == std::endian::little);
-int equal_from_below(uint64_t differences) { return std::countr_zero(differences) / 8; }
 int equal_from_above(uint64_t differences) { return std::countl_zero(differences) / 8; }
 
 uint64_t repeated(MaterialId material) { return 0x0101010101010101 * uint64_t{material}; }
 
 // The end of the stretch of equal voxels that begins at `from`.
-const MaterialId* stretch_end(const MaterialId* from, const MaterialId* end) {
-  const uint64_t pattern = repeated(*from);
-  const MaterialId* at = from;
-  for (; end - at >= 64; at += 64) {
-    uint64_t differences = 0;
-    for (size_t i = 0; i < 64; i += 8) differences |= word_at(at + i) ^ pattern;
-    if (differences) break;
-  }
-  for (; end - at >= 8; at += 8)
-    if (const uint64_t differences = word_at(at) ^ pattern) return at + equal_from_below(differences);
-  while (at != end && *at == *from) ++at;
-  return at;
-}
+const MaterialId* stretch_end(const MaterialId* from, const MaterialId* end) { return from + stretch({from, end}); }
 
 // The begin of the stretch of equal voxels that ends before `end`.
 const MaterialId* stretch_begin(const MaterialId* from, const MaterialId* end) {
@@ -49,36 +38,14 @@ const MaterialId* stretch_begin(const MaterialId* from, const MaterialId* end) {
 
 // The first stretch that is long enough for a run; empty, at `end`, if there is none.
 std::span<const MaterialId> find_run(const MaterialId* from, const MaterialId* end) {
-  // Wherever it begins, it holds 16 voxels that begin at a multiple of 16.
-  static_assert(RunLayer::shortest_run >= 31);
-  const MaterialId* at = from;
-  while (end - at >= 16) {
-    const uint64_t word = word_at(at);
-    if (word != word_at(at + 8) || word != std::rotl(word, 8)) {
-      at += 16;
-      continue;
-    }
+  static_assert(RunLayer::shortest_run >= 32);
+  for (const MaterialId* at = from;; at += 16) {
+    at += find_equal({at, end});
+    if (end - at < 16) return {end, end};
     const MaterialId* const begin = stretch_begin(from, at + 16);
     const MaterialId* const stop = stretch_end(at, end);
     if (stop - begin >= RunLayer::shortest_run) return {begin, stop};
-    at += 16;
   }
-  return {end, end};
-}
-
-size_t count_equal(std::span<const MaterialId> voxels, MaterialId material) {
-  constexpr size_t lanes = 64, most_blocks = 255;  // before a lane overflows
-  size_t total = 0, i = 0;
-  while (voxels.size() - i >= lanes) {
-    std::array<uint8_t, lanes> sums{};
-    const size_t blocks = std::min(most_blocks, (voxels.size() - i) / lanes);
-    for (size_t block = 0; block < blocks; ++block, i += lanes)
-      for (size_t lane = 0; lane < lanes; ++lane)
-        sums[lane] = static_cast<uint8_t>(sums[lane] + (voxels[i + lane] == material));
-    for (const uint8_t sum : sums) total += sum;
-  }
-  for (; i < voxels.size(); ++i) total += voxels[i] == material;
-  return total;
 }
 
 // How often each material occurs among loose voxels.
@@ -102,7 +69,7 @@ class VoxelCounter {
   bool count_usual(std::span<const MaterialId> voxels) {
     std::array<size_t, most_usual> counts{};
     size_t left = voxels.size();
-    for (size_t n = 0; n < usual_.size(); ++n) left -= counts[n] = count_equal(voxels, usual_[n]);
+    for (size_t n = 0; n < usual_.size() && left > 0; ++n) left -= counts[n] = count_equal(voxels, usual_[n]);
     if (left > 0) return false;
     for (size_t n = 0; n < usual_.size(); ++n) counts_[0][usual_[n]] += counts[n];
     return true;
@@ -120,10 +87,11 @@ class VoxelCounter {
     usual_.clear();
     for (unsigned id = 0; id < 256; ++id)
       if (of(static_cast<MaterialId>(id)) > 0) usual_.push_back(static_cast<MaterialId>(id));
+    std::ranges::sort(usual_, std::greater(), [&](MaterialId material) { return of(material); });
     has_many_ = usual_.size() > most_usual;
   }
 
-  std::vector<MaterialId> usual_;
+  std::vector<MaterialId> usual_;  // the most frequent first
   bool has_many_ = false;
   std::array<std::array<uint64_t, 256>, 8> counts_{};
 };

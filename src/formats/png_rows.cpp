@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "base/assert.h"
+#include "base/byte_rows.h"
 #include "formats/smooth_row.h"
 
 namespace ombre::formats {
@@ -41,6 +42,11 @@ RowPacker::RowPacker(uint32_t width, const Samples& samples, bool flip_x)
       samples_(samples.of),
       voxels_(size_t{width} + 8, samples.ids.front()) {
   if (bit_depth_ == 8) return;
+  for (const MaterialId id : samples.ids) {
+    if (samples_[id] == 0) continue;
+    if (marked_ < few_.from.size()) few_.from[marked_] = id, few_.to[marked_] = samples_[id];
+    ++marked_;
+  }
   pairs_.resize(size_t{1} << 16);
   for (const MaterialId a : samples.ids)
     for (const MaterialId b : samples.ids)
@@ -80,6 +86,7 @@ void RowPacker::put_run(uint64_t begin, const Run& run, uint8_t* out) const {
 }
 
 void RowPacker::pack_voxels(uint8_t* out) const {
+  if (bit_depth_ == 2 && marked_ <= few_.from.size()) return pack_double_bits(voxels_.data(), few_, {out, size()});
   switch (bit_depth_) {
     case 1:
       return pack_pairs<1>(out);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/byte_rows.h"
 #include "base/run.h"
 #include "formats/byte_history.h"
 #include "formats/difference_guess.h"
@@ -40,6 +41,8 @@ class RowPacker {
   unsigned bit_depth_;
   bool flip_x_;
   std::array<uint8_t, 256> samples_;
+  DoubleBits few_;                  // the materials whose sample is not 0, if they are few
+  size_t marked_ = 0;               // how many they are
   std::vector<uint8_t> pairs_;      // the samples of two neighbours, by their ids
   std::vector<MaterialId> voxels_;  // of one row, and some more
 };

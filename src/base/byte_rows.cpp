@@ -1,0 +1,164 @@
+#include "base/byte_rows.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "base/byte_rows.cpp"
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#include <hwy/foreach_target.h>
+//
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace ombre::HWY_NAMESPACE {
+namespace {
+
+// Vectors take what they can, in front; each function does the rest one by one, or all of it where there are none.
+#if HWY_TARGET != HWY_SCALAR
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::ScalableTag<uint8_t>;
+using V = hn::Vec<D>;
+
+size_t count_in_front(const uint8_t* bytes, size_t count, uint8_t value, size_t& i) {
+  constexpr size_t most_blocks = 255;  // before a lane overflows
+  const D d;
+  const hn::Repartition<uint64_t, D> d64;
+  const V wanted = hn::Set(d, value);
+  const size_t lanes = hn::Lanes(d);
+  size_t total = 0;
+  while (count - i >= lanes) {
+    V sums = hn::Zero(d);
+    const size_t end = i + lanes * std::min(most_blocks, (count - i) / lanes);
+    for (; i < end; i += lanes) sums = hn::Sub(sums, hn::VecFromMask(d, hn::Eq(hn::LoadU(d, bytes + i), wanted)));
+    total += hn::GetLane(hn::SumOfLanes(d64, hn::SumsOf8(sums)));
+  }
+  return total;
+}
+
+// False if all in front are `value`.
+bool stretch_in_front(const uint8_t* bytes, size_t count, uint8_t value, size_t& i) {
+  const D d;
+  const V wanted = hn::Set(d, value);
+  const size_t lanes = hn::Lanes(d);
+  for (; i + lanes <= count; i += lanes) {
+    const intptr_t other = hn::FindFirstTrue(d, hn::Ne(hn::LoadU(d, bytes + i), wanted));
+    if (other < 0) continue;
+    i += static_cast<size_t>(other);
+    return true;
+  }
+  return false;
+}
+
+// 16 bytes that equal the next ones each, from `i` on; false if there are none in front.
+bool find_in_front(const uint8_t* bytes, size_t count, size_t& i) {
+  const D d;
+  const size_t lanes = hn::Lanes(d);
+  for (; i + lanes + 1 <= count; i += lanes) {
+    uint64_t bits = 0;
+    hn::StoreMaskBits(d, hn::Eq(hn::LoadU(d, bytes + i), hn::LoadU(d, bytes + i + 1)),
+                      reinterpret_cast<uint8_t*>(&bits));
+    for (unsigned shift = 1; shift <= 8; shift *= 2) bits &= bits >> shift;
+    bits &= 0x0001000100010001;
+    if (bits == 0) continue;
+    i += static_cast<size_t>(std::countr_zero(bits));
+    return true;
+  }
+  return false;
+}
+
+void pack_front(const uint8_t* bytes, const DoubleBits& bits, uint8_t* packed, size_t count, size_t& i) {
+  const D d;
+  const hn::Repartition<uint32_t, D> d32;
+  const hn::Rebind<uint8_t, decltype(d32)> d_packed;
+  const size_t lanes = hn::Lanes(d32);
+  // Gathers the low bits of four bytes in the highest one: no two products share a bit.
+  constexpr uint32_t factor = 0x40100401;
+  const V from0 = hn::Set(d, bits.from[0]), from1 = hn::Set(d, bits.from[1]), from2 = hn::Set(d, bits.from[2]);
+  const V to0 = hn::Set(d, bits.to[0]), to1 = hn::Set(d, bits.to[1]), to2 = hn::Set(d, bits.to[2]);
+  for (; i + lanes <= count; i += lanes) {
+    const V from = hn::LoadU(d, bytes + 4 * i);
+    const V to =
+        hn::Or(hn::Or(hn::IfThenElseZero(hn::Eq(from, from0), to0), hn::IfThenElseZero(hn::Eq(from, from1), to1)),
+               hn::IfThenElseZero(hn::Eq(from, from2), to2));
+    const auto gathered = hn::ShiftRight<24>(hn::Mul(hn::BitCast(d32, to), hn::Set(d32, factor)));
+    hn::StoreU(hn::TruncateTo(d_packed, gathered), d_packed, packed + i);
+  }
+}
+#endif
+
+size_t count_equal(const uint8_t* bytes, size_t count, uint8_t value) {
+  size_t total = 0, i = 0;
+#if HWY_TARGET != HWY_SCALAR
+  total = count_in_front(bytes, count, value, i);
+#endif
+  for (; i < count; ++i) total += bytes[i] == value;
+  return total;
+}
+
+size_t stretch(const uint8_t* bytes, size_t count) {
+  size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+  if (stretch_in_front(bytes, count, bytes[0], i)) return i;
+#endif
+  while (i < count && bytes[i] == bytes[0]) ++i;
+  return i;
+}
+
+size_t find_equal(const uint8_t* bytes, size_t count) {
+  size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+  if (find_in_front(bytes, count, i)) return i;
+#endif
+  for (; i + 16 <= count; i += 16)
+    if (std::memcmp(bytes + i, bytes + i + 1, 15) == 0) return i;
+  return i;
+}
+
+void pack_double_bits(const uint8_t* bytes, const DoubleBits& bits, uint8_t* packed, size_t count) {
+  size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+  pack_front(bytes, bits, packed, count, i);
+#endif
+  for (; i < count; ++i) {
+    unsigned byte = 0;
+    for (size_t k = 0; k < 4; ++k) {
+      unsigned two = 0;
+      for (size_t n = 0; n < bits.from.size(); ++n)
+        if (bytes[4 * i + k] == bits.from[n]) two |= bits.to[n];
+      byte = byte << 2 | two;
+    }
+    packed[i] = static_cast<uint8_t>(byte);
+  }
+}
+
+}  // namespace
+}  // namespace ombre::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ombre {
+namespace {
+HWY_EXPORT(count_equal);
+HWY_EXPORT(stretch);
+HWY_EXPORT(find_equal);
+HWY_EXPORT(pack_double_bits);
+}  // namespace
+
+size_t count_equal(std::span<const uint8_t> bytes, uint8_t value) {
+  return HWY_DYNAMIC_DISPATCH(count_equal)(bytes.data(), bytes.size(), value);
+}
+
+size_t stretch(std::span<const uint8_t> bytes) { return HWY_DYNAMIC_DISPATCH(stretch)(bytes.data(), bytes.size()); }
+
+size_t find_equal(std::span<const uint8_t> bytes) {
+  return HWY_DYNAMIC_DISPATCH(find_equal)(bytes.data(), bytes.size());
+}
+
+void pack_double_bits(const uint8_t* bytes, const DoubleBits& bits, std::span<uint8_t> packed) {
+  HWY_DYNAMIC_DISPATCH(pack_double_bits)(bytes, bits, packed.data(), packed.size());
+}
+
+}  // namespace ombre
+#endif

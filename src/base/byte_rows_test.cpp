@@ -1,0 +1,87 @@
+// Rows of bytes against the plain loops, with every instruction set that this processor has.
+#include "base/byte_rows.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+namespace ombre {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+// Stretches of a few values, most of them short.
+Bytes random_bytes(size_t count, std::mt19937& random) {
+  Bytes bytes;
+  while (bytes.size() < count) {
+    const size_t length = random() % 8 == 0 ? random() % 70 : 1 + random() % 3;
+    bytes.insert(bytes.end(), length, static_cast<uint8_t>(random() % 5));
+  }
+  bytes.resize(count);
+  return bytes;
+}
+
+template <class Check>
+void with_each_set_and_row(const Check& check) {
+  const int64_t supported = hwy::SupportedTargets();
+  for (int64_t left = supported; left != 0; left &= left - 1) {
+    hwy::SetSupportedTargetsForTest(left & -left);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    std::mt19937 random(1);
+    for (size_t count = 0; count < 300; ++count) check(random_bytes(count, random));
+    for (int n = 0; n < 20; ++n) check(random_bytes(20000, random));
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(supported);
+}
+
+bool is_equal(const Bytes& bytes, size_t begin, size_t count) {
+  return begin + count <= bytes.size() && std::all_of(bytes.begin() + static_cast<ptrdiff_t>(begin),
+                                                      bytes.begin() + static_cast<ptrdiff_t>(begin + count),
+                                                      [&](uint8_t byte) { return byte == bytes[begin]; });
+}
+
+}  // namespace
+
+TEST(ByteRows, CountsAndStretches) {
+  with_each_set_and_row([](const Bytes& bytes) {
+    for (uint8_t value = 0; value < 6; ++value)
+      ASSERT_EQ(count_equal(bytes, value), static_cast<size_t>(std::ranges::count(bytes, value)));
+    if (bytes.empty()) return;
+    size_t length = 0;
+    while (is_equal(bytes, 0, length + 1)) ++length;
+    ASSERT_EQ(stretch(bytes), length);
+  });
+}
+
+TEST(ByteRows, FindsWhereSixteenAreEqual) {
+  with_each_set_and_row([](const Bytes& bytes) {
+    const size_t found = find_equal(bytes);
+    ASSERT_EQ(found % 16, 0);
+    if (found + 16 <= bytes.size()) {
+      ASSERT_TRUE(is_equal(bytes, found, 16));
+    }
+    // What is before may be sixteen, but not 32.
+    for (size_t begin = 0; begin + 32 <= std::min(bytes.size(), found + 16); ++begin)
+      ASSERT_FALSE(is_equal(bytes, begin, 32) && begin + 32 <= found) << begin << " " << found;
+  });
+}
+
+TEST(ByteRows, PacksTwoBits) {
+  const DoubleBits bits{{3, 0, 4}, {1, 2, 3}};
+  constexpr uint8_t of[] = {2, 0, 0, 1, 3};
+  with_each_set_and_row([&](Bytes bytes) {
+    bytes.resize(bytes.size() / 4 * 4);
+    Bytes packed(bytes.size() / 4), expected;
+    for (size_t i = 0; i < bytes.size(); i += 4)
+      expected.push_back(
+          static_cast<uint8_t>(of[bytes[i]] << 6 | of[bytes[i + 1]] << 4 | of[bytes[i + 2]] << 2 | of[bytes[i + 3]]));
+    pack_double_bits(bytes.data(), bits, packed);
+    ASSERT_EQ(packed, expected);
+  });
+}
+
+}  // namespace ombre
