@@ -14,18 +14,18 @@ std::string big_endian(uint32_t value) {
 
 PngChunks::PngChunks() : file_("\x89PNG\r\n\x1A\n") {}
 
-void PngChunks::add(std::string_view type, const uint8_t* data, size_t size) {
+void PngChunks::add(std::string_view type, std::initializer_list<std::string_view> data) {
+  size_t size = 0;
+  uint32_t sum = libdeflate_crc32(0, type.data(), type.size());
+  for (const std::string_view part : data) {
+    size += part.size();
+    if (!part.empty()) sum = libdeflate_crc32(sum, part.data(), part.size());
+  }
   ASSERT(type.size() == 4 && size < size_t{1} << 31);
-  const uint32_t type_sum = libdeflate_crc32(0, type.data(), type.size());
-  const uint32_t sum = size > 0 ? libdeflate_crc32(type_sum, data, size) : type_sum;
   file_ += big_endian(static_cast<uint32_t>(size));
   file_ += type;
-  file_.append(reinterpret_cast<const char*>(data), size);
+  for (const std::string_view part : data) file_ += part;
   file_ += big_endian(sum);
-}
-
-void PngChunks::add(std::string_view type, std::string_view data) {
-  add(type, reinterpret_cast<const uint8_t*>(data.data()), data.size());
 }
 
 }  // namespace ombre::formats

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -12,8 +13,9 @@ class PngChunks {
   PngChunks();
 
   // `type` has four letters.
-  void add(std::string_view type, const uint8_t* data, size_t size);
-  void add(std::string_view type, std::string_view data);
+  void add(std::string_view type, std::string_view data) { add(type, {data}); }
+  // The data in parts.
+  void add(std::string_view type, std::initializer_list<std::string_view> data);
   std::string take() { return std::move(file_); }
 
  private:

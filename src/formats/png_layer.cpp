@@ -96,27 +96,23 @@ class DataChunks {
  public:
   explicit DataChunks(PngChunks& file) : file_(file) {}
 
-  void take(DeflateWriter& deflate, size_t least = data_chunk_bytes) {
-    if (deflate.size() < least) return;
-    data_.append(reinterpret_cast<const char*>(deflate.data()), deflate.size());
-    deflate.clear();
-    write();
+  void take(DeflateWriter& deflate) {
+    if (deflate.size() >= data_chunk_bytes) write(deflate, "");
   }
   void finish(ZlibStream& stream) {
     stream.deflate.finish();
-    data_.append(reinterpret_cast<const char*>(stream.deflate.data()), stream.deflate.size());
-    data_ += big_endian(stream.sum.value());
-    write();
+    write(stream.deflate, big_endian(stream.sum.value()));
   }
 
  private:
-  void write() {
-    file_.add("IDAT", data_);
-    data_.clear();
+  void write(DeflateWriter& deflate, std::string_view end) {
+    file_.add("IDAT", {begin_, {reinterpret_cast<const char*>(deflate.data()), deflate.size()}, end});
+    deflate.clear();
+    begin_ = "";
   }
 
   PngChunks& file_;
-  std::string data_ = "\x78\x01";  // zlib's header: a window of 32 KiB
+  std::string_view begin_ = "\x78\x01";  // zlib's header: a window of 32 KiB
 };
 
 template <class Rows>
