@@ -9,6 +9,8 @@ import json
 import os
 import pathlib
 import random
+import re
+import shlex
 import signal
 import subprocess
 import tempfile
@@ -501,6 +503,16 @@ def example_slices(job, example):
     expect((EXAMPLES / "pictures" / (example.stem + ".png")).exists(), "it has no picture in examples/pictures")
 
 
+def suggestions_of_examples_work(job):
+    """What stands behind "Try:" at their heads, as far as it is options."""
+    option = r"-D (?:'[^']+'|\w+=\w+(?:\.\d+)?)"
+    for example in program.examples(job.ombre):
+        head = " ".join(line[2:].strip() for line in example.read_text().splitlines() if line.startswith("//"))
+        for group in re.findall(f"{option}(?: {option})*", head.partition("Try:")[2]):
+            result = program.run(job.command("tried", "--dry-run", "--voxel", "0.5", *shlex.split(group), design=example))
+            expect(result.returncode == 0, f"{example.name} {group}: {result.stderr}")
+
+
 def reference_is_up_to_date(job):
     printed = program.run([job.ombre, "nodes", "--markdown"]).stdout
     reference = program.SOURCE / "docs" / "nodes.md"
@@ -527,7 +539,8 @@ QUICK = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make_
          masks_resume_and_are_replaced, layers_of_masks_have_several_files, layers_are_those_of_the_job, boxes_cut_layers, layers_have_names_and_are_not_overwritten,
          wrong_layers_are_explained, resume_refuses_another_job, damaged_layers_are_made_again, foreign_files_are_left_alone,
          finished_jobs_are_not_overwritten, force_removes_the_old_layers, output_that_is_a_file,
-         folder_that_may_not_be_written, full_disk, reference_is_up_to_date, examples_of_nodes_slice]
+         folder_that_may_not_be_written, full_disk, reference_is_up_to_date, examples_of_nodes_slice,
+         suggestions_of_examples_work]
 SLOW = [killed_jobs_resume, killed_twice_resumes, interrupted_jobs_resume, large_layers_stop_and_resume]
 
 

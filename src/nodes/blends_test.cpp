@@ -1,5 +1,6 @@
 // Fillets and chamfers against their geometry.
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "nodes/test_solids.h"
@@ -115,6 +116,26 @@ TEST(Blend, MixesMaterialsInTheFillet) {
   EXPECT_EQ(joint.red({-1, -0.5, 0}), 0.5);
   const Solid first(Solid::node("union", R"({"blend": 2, "materials": "first"})", {wall(0), wall(1)}));
   EXPECT_EQ(first.red({-1, -0.5, 0}), 1);
+}
+
+// What two balls' distances of together 6 bound is an ellipsoid: focal points at x = 3 and -3, half axes 4 and the root
+// of 7.
+TEST(Sum, WithoutBlendIsALevelSetThatHasBounds) {
+  const auto ball = [](const char* by) {
+    return Solid::node("translate", std::string("{\"by\": ") + by + "}", {Solid::node("sphere", R"({"radius": 1})")});
+  };
+  const design::NodePtr node = Solid::node("sum", R"({"iso": 6})", {ball("[3, 0, 0]"), ball("[-3, 0, 0]")});
+  const Box ellipsoid = Box::centered({4, std::sqrt(7.0), std::sqrt(7.0)}),
+            bounds = node->bounds(design::design_space());
+  EXPECT_EQ(hull(bounds, ellipsoid), bounds);
+  EXPECT_LE(bounds.hi.x, 7 + 1e-9);
+  const Solid sum(node);
+  EXPECT_NEAR(sum.share(ellipsoid, 40), std::numbers::pi / 6, 0.003);
+  EXPECT_FALSE(sum.inside({4.001, 0, 0}));
+  EXPECT_TRUE(sum.inside({0, 2.645, 0}));
+  // Nowhere are they so low.
+  const Solid none(Solid::node("sum", R"({"iso": -3})", {ball("[3, 0, 0]"), ball("[-3, 0, 0]")}));
+  EXPECT_FALSE(none.inside({3, 0, 0}));
 }
 
 TEST(Blend, SumsOfManyChildrenAreThoseOfTheFormula) {

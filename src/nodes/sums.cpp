@@ -33,12 +33,11 @@ struct Sum {
   // Where no child's g is below blend, the falloffs are zero and g is blend.
   Box reach(const Inputs& in, const Box& where, double margin) const {
     const Interval blends = blend.range(where);
-    if (is_level_set())
-      return in.count() == 1 ? in.reach(0, where, std::max(0.0, margin + iso.range(where).hi)) : where;
+    // Of distances that add up to no more than a total, the least is no more than its share.
+    const double total = margin + iso.range(where).hi;
+    if (is_level_set()) return hull_of(in, where, std::max(0.0, total / static_cast<double>(in.count())));
     if (margin >= blends.lo && margin > 0) return where;
-    Box box;
-    for (size_t i = 0; i < in.count(); ++i) box = hull(box, in.reach(i, where, in.count() == 1 ? margin : blends.hi));
-    return box;
+    return hull_of(in, where, in.count() == 1 ? margin : blends.hi);
   }
 
   Falloff falloff() const {
@@ -82,6 +81,12 @@ struct Sum {
   }
 
  private:
+  static Box hull_of(const Inputs& in, const Box& where, double margin) {
+    Box box;
+    for (size_t i = 0; i < in.count(); ++i) box = hull(box, in.reach(i, where, margin));
+    return box;
+  }
+
   static std::vector<Field> holders_or_nearest(const Inputs& in, const Point& p) {
     std::vector<Field> marks = in.insides(p);
     const Field any = program::fold(marks, program::logical_or);
