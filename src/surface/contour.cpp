@@ -8,7 +8,7 @@ namespace {
 
 constexpr int most_cutting_rounds = 8, most_finishing_rounds = 3;
 // That may come from cutting, or as many as the grid has, if that is more.
-constexpr double most_cut_share = 0.1;  // at a time
+constexpr double most_cut_share = 0.3;  // at a time
 constexpr size_t most_more_leaves = size_t{1} << 18;
 
 // The cells of a partition, with what is known of them, cut where one vertex for each is too few.

@@ -10,7 +10,7 @@
 namespace ombre::surface {
 namespace {
 
-constexpr double reach_of_tolerance = 0.95;  // samples see but a part of a facet
+constexpr double reach_of_tolerance = 0.88;  // samples see but a part of a facet
 constexpr double most_tolerances = 16;
 constexpr size_t most_measured = 1000;
 constexpr size_t quads_at_once = size_t{1} << 18;  // keeps memory low
