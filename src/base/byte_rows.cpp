@@ -38,7 +38,7 @@ size_t count_in_front(const uint8_t* bytes, size_t count, uint8_t value, size_t&
 }
 
 // False if all in front are `value`.
-bool stretch_in_front(const uint8_t* bytes, size_t count, uint8_t value, size_t& i) {
+bool equal_in_front(const uint8_t* bytes, size_t count, uint8_t value, size_t& i) {
   const D d;
   const V wanted = hn::Set(d, value);
   const size_t lanes = hn::Lanes(d);
@@ -52,7 +52,7 @@ bool stretch_in_front(const uint8_t* bytes, size_t count, uint8_t value, size_t&
 }
 
 // 16 bytes that equal the next ones each, from `i` on; false if there are none in front.
-bool find_in_front(const uint8_t* bytes, size_t count, size_t& i) {
+bool find_sixteen_in_front(const uint8_t* bytes, size_t count, size_t& i) {
   const D d;
   const size_t lanes = hn::Lanes(d);
   for (; i + lanes + 1 <= count; i += lanes) {
@@ -97,19 +97,19 @@ size_t count_equal(const uint8_t* bytes, size_t count, uint8_t value) {
   return total;
 }
 
-size_t stretch(const uint8_t* bytes, size_t count) {
+size_t equal_at_begin(const uint8_t* bytes, size_t count) {
   size_t i = 0;
 #if HWY_TARGET != HWY_SCALAR
-  if (stretch_in_front(bytes, count, bytes[0], i)) return i;
+  if (equal_in_front(bytes, count, bytes[0], i)) return i;
 #endif
   while (i < count && bytes[i] == bytes[0]) ++i;
   return i;
 }
 
-size_t find_equal(const uint8_t* bytes, size_t count) {
+size_t find_sixteen_equal(const uint8_t* bytes, size_t count) {
   size_t i = 0;
 #if HWY_TARGET != HWY_SCALAR
-  if (find_in_front(bytes, count, i)) return i;
+  if (find_sixteen_in_front(bytes, count, i)) return i;
 #endif
   for (; i + 16 <= count; i += 16)
     if (std::memcmp(bytes + i, bytes + i + 1, 15) == 0) return i;
@@ -141,8 +141,8 @@ HWY_AFTER_NAMESPACE();
 namespace ombre {
 namespace {
 HWY_EXPORT(count_equal);
-HWY_EXPORT(stretch);
-HWY_EXPORT(find_equal);
+HWY_EXPORT(equal_at_begin);
+HWY_EXPORT(find_sixteen_equal);
 HWY_EXPORT(pack_double_bits);
 }  // namespace
 
@@ -150,10 +150,12 @@ size_t count_equal(std::span<const uint8_t> bytes, uint8_t value) {
   return HWY_DYNAMIC_DISPATCH(count_equal)(bytes.data(), bytes.size(), value);
 }
 
-size_t stretch(std::span<const uint8_t> bytes) { return HWY_DYNAMIC_DISPATCH(stretch)(bytes.data(), bytes.size()); }
+size_t equal_at_begin(std::span<const uint8_t> bytes) {
+  return HWY_DYNAMIC_DISPATCH(equal_at_begin)(bytes.data(), bytes.size());
+}
 
-size_t find_equal(std::span<const uint8_t> bytes) {
-  return HWY_DYNAMIC_DISPATCH(find_equal)(bytes.data(), bytes.size());
+size_t find_sixteen_equal(std::span<const uint8_t> bytes) {
+  return HWY_DYNAMIC_DISPATCH(find_sixteen_equal)(bytes.data(), bytes.size());
 }
 
 void pack_double_bits(const uint8_t* bytes, const DoubleBits& bits, std::span<uint8_t> packed) {

@@ -11,11 +11,11 @@ namespace ombre {
 size_t count_equal(std::span<const uint8_t> bytes, uint8_t value);
 
 // How many at the begin are equal, of one at least.
-size_t stretch(std::span<const uint8_t> bytes);
+size_t equal_at_begin(std::span<const uint8_t> bytes);
 
 // From some multiple of 16 on 16 bytes are equal: the first, or one behind it if the byte that follows there differs.
 // It is before the end of the first 32 bytes that are equal. Without one, less than 16 bytes before the end.
-size_t find_equal(std::span<const uint8_t> bytes);
+size_t find_sixteen_equal(std::span<const uint8_t> bytes);
 
 // Two bits for each byte that is `from[n]`, those of `to[n]`, and 0 for the others. Four make a byte of `packed`, the
 // first one above.

@@ -53,13 +53,13 @@ TEST(ByteRows, CountsAndStretches) {
     if (bytes.empty()) return;
     size_t length = 0;
     while (is_equal(bytes, 0, length + 1)) ++length;
-    ASSERT_EQ(stretch(bytes), length);
+    ASSERT_EQ(equal_at_begin(bytes), length);
   });
 }
 
 TEST(ByteRows, FindsWhereSixteenAreEqual) {
   with_each_set_and_row([](const Bytes& bytes) {
-    const size_t found = find_equal(bytes);
+    const size_t found = find_sixteen_equal(bytes);
     ASSERT_EQ(found % 16, 0);
     if (found + 16 <= bytes.size()) {
       ASSERT_TRUE(is_equal(bytes, found, 16));

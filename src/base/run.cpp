@@ -24,7 +24,9 @@ int equal_from_above(uint64_t differences) { return std::countl_zero(differences
 uint64_t repeated(MaterialId material) { return 0x0101010101010101 * uint64_t{material}; }
 
 // The end of the stretch of equal voxels that begins at `from`.
-const MaterialId* stretch_end(const MaterialId* from, const MaterialId* end) { return from + stretch({from, end}); }
+const MaterialId* stretch_end(const MaterialId* from, const MaterialId* end) {
+  return from + equal_at_begin({from, end});
+}
 
 // The begin of the stretch of equal voxels that ends before `end`.
 const MaterialId* stretch_begin(const MaterialId* from, const MaterialId* end) {
@@ -40,7 +42,7 @@ const MaterialId* stretch_begin(const MaterialId* from, const MaterialId* end) {
 std::span<const MaterialId> find_run(const MaterialId* from, const MaterialId* end) {
   static_assert(RunLayer::shortest_run >= 32);
   for (const MaterialId* at = from;; at += 16) {
-    at += find_equal({at, end});
+    at += find_sixteen_equal({at, end});
     if (end - at < 16) return {end, end};
     const MaterialId* const begin = stretch_begin(from, at + 16);
     const MaterialId* const stop = stretch_end(at, end);

@@ -60,9 +60,7 @@ uint32_t PartTable::body_number(const Program& program, const std::vector<int>& 
   const auto is_input = [](const Instruction& in) { return in.op == Op::input; };
   const auto inputs = static_cast<size_t>(std::find_if_not(code.begin(), code.end(), is_input) - code.begin());
   ASSERT(std::none_of(code.begin() + static_cast<ptrdiff_t>(inputs), code.end(), is_input));
-  size_t parameters = 0;
-  for (const Instruction& in : code) parameters += parameters_of(program, in);
-  bodies_.push_back({program, slots, may_be_unknown, inputs, parameters});
+  bodies_.push_back({program, slots, may_be_unknown, inputs});
   if (precision_ == Precision::batch)
     parameters_.emplace_back(ParametersOfBatch());
   else

@@ -35,8 +35,7 @@ class PartTable {
     Program code;            // its constants and maps are of no meaning
     std::vector<int> slots;  // as in `add`
     bool may_be_unknown = false;
-    size_t input_count = 0;      // the first instructions
-    size_t parameter_count = 0;  // constants and rows of maps
+    size_t input_count = 0;  // the first instructions
   };
 
   explicit PartTable(Precision precision) : precision_(precision) {}
