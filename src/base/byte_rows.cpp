@@ -21,20 +21,46 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<uint8_t>;
 using V = hn::Vec<D>;
 
-size_t count_in_front(const uint8_t* bytes, size_t count, uint8_t value, size_t& i) {
+// For how many places `is_counted` is true; it takes the lanes from a place on.
+template <class IsCounted>
+size_t count_in_front(size_t count, size_t& i, const IsCounted& is_counted) {
   constexpr size_t most_blocks = 255;  // before a lane overflows
   const D d;
   const hn::Repartition<uint64_t, D> d64;
-  const V wanted = hn::Set(d, value);
   const size_t lanes = hn::Lanes(d);
   size_t total = 0;
   while (count - i >= lanes) {
     V sums = hn::Zero(d);
     const size_t end = i + lanes * std::min(most_blocks, (count - i) / lanes);
-    for (; i < end; i += lanes) sums = hn::Sub(sums, hn::VecFromMask(d, hn::Eq(hn::LoadU(d, bytes + i), wanted)));
+    for (; i < end; i += lanes) sums = hn::Sub(sums, hn::VecFromMask(d, is_counted(i)));
     total += hn::GetLane(hn::SumOfLanes(d64, hn::SumsOf8(sums)));
   }
   return total;
+}
+
+size_t count_equal_in_front(const uint8_t* bytes, size_t count, uint8_t value, size_t& i) {
+  const D d;
+  const V wanted = hn::Set(d, value);
+  return count_in_front(count, i, [&](size_t at) { return hn::Eq(hn::LoadU(d, bytes + at), wanted); });
+}
+
+size_t count_repeats_in_front(const uint8_t* bytes, size_t count, size_t& i) {
+  const D d;
+  return count_in_front(count, i,
+                        [&](size_t at) { return hn::Eq(hn::LoadU(d, bytes + at), hn::LoadU(d, bytes + at + 1)); });
+}
+
+// False if all in front are among them.
+bool others_in_front(const uint8_t* bytes, size_t count, const uint8_t* values, size_t value_count, size_t& i) {
+  const D d;
+  const size_t lanes = hn::Lanes(d);
+  for (; i + lanes <= count; i += lanes) {
+    const V at = hn::LoadU(d, bytes + i);
+    auto known = hn::Ne(at, at);  // none
+    for (size_t n = 0; n < value_count; ++n) known = hn::Or(known, hn::Eq(at, hn::Set(d, values[n])));
+    if (!hn::AllTrue(d, known)) return true;
+  }
+  return false;
 }
 
 // False if all in front are `value`.
@@ -86,15 +112,61 @@ void pack_front(const uint8_t* bytes, const DoubleBits& bits, uint8_t* packed, s
     hn::StoreU(hn::TruncateTo(d_packed, gathered), d_packed, packed + i);
   }
 }
+
+void number_front(const uint8_t* bytes, size_t count, const uint8_t* values, size_t value_count, uint8_t* numbers,
+                  size_t& i) {
+  const D d;
+  const size_t lanes = hn::Lanes(d);
+  for (; i + lanes <= count; i += lanes) {
+    const V from = hn::LoadU(d, bytes + i);
+    V to = hn::Zero(d);
+    for (size_t n = 1; n < value_count; ++n)
+      to = hn::IfThenElse(hn::Eq(from, hn::Set(d, values[n])), hn::Set(d, static_cast<uint8_t>(n)), to);
+    hn::StoreU(to, d, numbers + i);
+  }
+}
+
+void look_up_front(const uint8_t* numbers, size_t count, const FourBytes* table, uint8_t* bytes, size_t& i) {
+  const D d;
+  HWY_ALIGN uint8_t planes[4][16];
+  for (size_t n = 0; n < 16; ++n)
+    for (size_t k = 0; k < 4; ++k) planes[k][n] = table[n][k];
+  const V table0 = hn::LoadDup128(d, planes[0]), table1 = hn::LoadDup128(d, planes[1]);
+  const V table2 = hn::LoadDup128(d, planes[2]), table3 = hn::LoadDup128(d, planes[3]);
+  const size_t lanes = hn::Lanes(d);
+  for (; i + lanes <= count; i += lanes) {
+    const V at = hn::LoadU(d, numbers + i);
+    hn::StoreInterleaved4(hn::TableLookupBytes(table0, at), hn::TableLookupBytes(table1, at),
+                          hn::TableLookupBytes(table2, at), hn::TableLookupBytes(table3, at), d, bytes + 4 * i);
+  }
+}
 #endif
 
 size_t count_equal(const uint8_t* bytes, size_t count, uint8_t value) {
   size_t total = 0, i = 0;
 #if HWY_TARGET != HWY_SCALAR
-  total = count_in_front(bytes, count, value, i);
+  total = count_equal_in_front(bytes, count, value, i);
 #endif
   for (; i < count; ++i) total += bytes[i] == value;
   return total;
+}
+
+size_t count_repeats(const uint8_t* bytes, size_t count) {
+  size_t total = 0, i = 0;
+#if HWY_TARGET != HWY_SCALAR
+  total = count_repeats_in_front(bytes, count, i);
+#endif
+  for (; i < count; ++i) total += bytes[i] == bytes[i + 1];
+  return total;
+}
+
+bool are_among(const uint8_t* bytes, size_t count, const uint8_t* values, size_t value_count) {
+  size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+  if (others_in_front(bytes, count, values, value_count, i)) return false;
+#endif
+  const uint8_t* const end = values + value_count;
+  return std::all_of(bytes + i, bytes + count, [&](uint8_t byte) { return std::find(values, end, byte) != end; });
 }
 
 size_t equal_at_begin(const uint8_t* bytes, size_t count) {
@@ -133,6 +205,22 @@ void pack_double_bits(const uint8_t* bytes, const DoubleBits& bits, uint8_t* pac
   }
 }
 
+void number_bytes(const uint8_t* bytes, size_t count, const uint8_t* values, size_t value_count, uint8_t* numbers) {
+  size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+  number_front(bytes, count, values, value_count, numbers, i);
+#endif
+  for (; i < count; ++i) numbers[i] = static_cast<uint8_t>(std::find(values, values + value_count, bytes[i]) - values);
+}
+
+void look_up_four_bytes(const uint8_t* numbers, size_t count, const FourBytes* table, uint8_t* bytes) {
+  size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+  look_up_front(numbers, count, table, bytes, i);
+#endif
+  for (; i < count; ++i) std::memcpy(bytes + 4 * i, &table[numbers[i]], sizeof(FourBytes));
+}
+
 }  // namespace
 }  // namespace ombre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -141,13 +229,25 @@ HWY_AFTER_NAMESPACE();
 namespace ombre {
 namespace {
 HWY_EXPORT(count_equal);
+HWY_EXPORT(count_repeats);
+HWY_EXPORT(are_among);
 HWY_EXPORT(equal_at_begin);
 HWY_EXPORT(find_sixteen_equal);
 HWY_EXPORT(pack_double_bits);
+HWY_EXPORT(number_bytes);
+HWY_EXPORT(look_up_four_bytes);
 }  // namespace
 
 size_t count_equal(std::span<const uint8_t> bytes, uint8_t value) {
   return HWY_DYNAMIC_DISPATCH(count_equal)(bytes.data(), bytes.size(), value);
+}
+
+size_t count_repeats(std::span<const uint8_t> bytes) {
+  return bytes.empty() ? 0 : HWY_DYNAMIC_DISPATCH(count_repeats)(bytes.data(), bytes.size() - 1);
+}
+
+bool are_among(std::span<const uint8_t> bytes, std::span<const uint8_t> values) {
+  return HWY_DYNAMIC_DISPATCH(are_among)(bytes.data(), bytes.size(), values.data(), values.size());
 }
 
 size_t equal_at_begin(std::span<const uint8_t> bytes) {
@@ -160,6 +260,14 @@ size_t find_sixteen_equal(std::span<const uint8_t> bytes) {
 
 void pack_double_bits(const uint8_t* bytes, const DoubleBits& bits, std::span<uint8_t> packed) {
   HWY_DYNAMIC_DISPATCH(pack_double_bits)(bytes, bits, packed.data(), packed.size());
+}
+
+void number_bytes(std::span<const uint8_t> bytes, std::span<const uint8_t> values, uint8_t* numbers) {
+  HWY_DYNAMIC_DISPATCH(number_bytes)(bytes.data(), bytes.size(), values.data(), values.size(), numbers);
+}
+
+void look_up_four_bytes(std::span<const uint8_t> numbers, const std::array<FourBytes, 16>& table, uint8_t* bytes) {
+  HWY_DYNAMIC_DISPATCH(look_up_four_bytes)(numbers.data(), numbers.size(), table.data(), bytes);
 }
 
 }  // namespace ombre

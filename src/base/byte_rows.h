@@ -10,6 +10,11 @@ namespace ombre {
 
 size_t count_equal(std::span<const uint8_t> bytes, uint8_t value);
 
+// How many equal the one before.
+size_t count_repeats(std::span<const uint8_t> bytes);
+
+bool are_among(std::span<const uint8_t> bytes, std::span<const uint8_t> values);
+
 // How many at the begin are equal, of one at least.
 size_t equal_at_begin(std::span<const uint8_t> bytes);
 
@@ -23,5 +28,12 @@ struct DoubleBits {
   std::array<uint8_t, 3> from{}, to{};
 };
 void pack_double_bits(const uint8_t* bytes, const DoubleBits& bits, std::span<uint8_t> packed);
+
+// Which of `values` each byte is, counted from 0; every byte is one of them. As many numbers as bytes.
+void number_bytes(std::span<const uint8_t> bytes, std::span<const uint8_t> values, uint8_t* numbers);
+
+// Four bytes for each number, which are below 16.
+using FourBytes = std::array<uint8_t, 4>;
+void look_up_four_bytes(std::span<const uint8_t> numbers, const std::array<FourBytes, 16>& table, uint8_t* bytes);
 
 }  // namespace ombre

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace ombre {
@@ -50,6 +51,9 @@ TEST(ByteRows, CountsAndStretches) {
   with_each_set_and_row([](const Bytes& bytes) {
     for (uint8_t value = 0; value < 6; ++value)
       ASSERT_EQ(count_equal(bytes, value), static_cast<size_t>(std::ranges::count(bytes, value)));
+    size_t repeats = 0;
+    for (size_t i = 1; i < bytes.size(); ++i) repeats += bytes[i] == bytes[i - 1];
+    ASSERT_EQ(count_repeats(bytes), repeats);
     if (bytes.empty()) return;
     size_t length = 0;
     while (is_equal(bytes, 0, length + 1)) ++length;
@@ -67,6 +71,39 @@ TEST(ByteRows, FindsWhereSixteenAreEqual) {
     // What is before may be sixteen, but not 32.
     for (size_t begin = 0; begin + 32 <= std::min(bytes.size(), found + 16); ++begin)
       ASSERT_FALSE(is_equal(bytes, begin, 32) && begin + 32 <= found) << begin << " " << found;
+  });
+}
+
+TEST(ByteRows, TellOthers) {
+  with_each_set_and_row([](Bytes bytes) {
+    constexpr uint8_t all[] = {4, 0, 3, 1, 2};
+    ASSERT_TRUE(are_among(bytes, all));
+    ASSERT_EQ(are_among(bytes, std::span(all).first(4)), std::ranges::count(bytes, uint8_t{2}) == 0);
+    ASSERT_EQ(are_among(bytes, {}), bytes.empty());
+    for (uint8_t& byte : bytes) {
+      const uint8_t old = std::exchange(byte, uint8_t{9});
+      ASSERT_FALSE(are_among(bytes, all));
+      byte = old;
+      if (bytes.size() > 300) break;
+    }
+  });
+}
+
+TEST(ByteRows, NumbersAndWhatBelongsToThem) {
+  constexpr uint8_t values[] = {3, 0, 4, 2, 1}, number_of[] = {1, 4, 3, 0, 2};
+  std::array<FourBytes, 16> table{};
+  for (uint8_t n = 0; n < 16; ++n)
+    for (uint8_t k = 0; k < 4; ++k) table[n][k] = static_cast<uint8_t>(n * 16 + 3 * k);
+  with_each_set_and_row([&](const Bytes& bytes) {
+    Bytes numbers(bytes.size()), expected;
+    for (const uint8_t byte : bytes) expected.push_back(number_of[byte]);
+    number_bytes(bytes, values, numbers.data());
+    ASSERT_EQ(numbers, expected);
+
+    for (size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<uint8_t>((numbers[i] + i) % 16);
+    Bytes looked_up(4 * numbers.size());
+    look_up_four_bytes(numbers, table, looked_up.data());
+    for (size_t i = 0; i < looked_up.size(); ++i) ASSERT_EQ(looked_up[i], table[numbers[i / 4]][i % 4]);
   });
 }
 

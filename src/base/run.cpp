@@ -4,12 +4,15 @@
 #include <bit>
 #include <cstring>
 #include <functional>
+#include <utility>
 
 #include "base/assert.h"
 #include "base/byte_rows.h"
 
 namespace ombre {
 namespace {
+
+constexpr size_t most_compared = 6;  // comparing with more takes as long as looking each voxel up
 
 uint64_t word_at(const MaterialId* voxels) {
   uint64_t word;
@@ -65,11 +68,9 @@ class VoxelCounter {
   }
 
  private:
-  static constexpr size_t most_usual = 6;  // comparing with more takes as long as looking each voxel up
-
   // Counts nothing if there are others than the usual ones.
   bool count_usual(std::span<const MaterialId> voxels) {
-    std::array<size_t, most_usual> counts{};
+    std::array<size_t, most_compared> counts{};
     size_t left = voxels.size();
     for (size_t n = 0; n < usual_.size() && left > 0; ++n) left -= counts[n] = count_equal(voxels, usual_[n]);
     if (left > 0) return false;
@@ -90,7 +91,7 @@ class VoxelCounter {
     for (unsigned id = 0; id < 256; ++id)
       if (of(static_cast<MaterialId>(id)) > 0) usual_.push_back(static_cast<MaterialId>(id));
     std::ranges::sort(usual_, std::greater(), [&](MaterialId material) { return of(material); });
-    has_many_ = usual_.size() > most_usual;
+    has_many_ = usual_.size() > most_compared;
   }
 
   std::vector<MaterialId> usual_;  // the most frequent first
@@ -214,6 +215,21 @@ std::array<uint64_t, 256> count_materials(const RunLayer& layer) {
   }
   for (size_t id = 0; id < counts.size(); ++id) counts[id] += loose.of(static_cast<MaterialId>(id));
   return counts;
+}
+
+std::array<bool, 256> materials_in(const RunLayer& layer) {
+  std::array<bool, 256> found{};
+  std::vector<MaterialId> known;
+  const auto add = [&](MaterialId material) {
+    if (!std::exchange(found[material], true)) known.push_back(material);
+  };
+  for (uint32_t j = 0; j < layer.height(); ++j) {
+    const RowView row = layer.row(j);
+    for (const Run& run : row.runs)
+      if (!run.is_dense) add(run.material);
+    if (known.size() > most_compared || !are_among(row.dense, known)) std::ranges::for_each(row.dense, add);
+  }
+  return found;
 }
 
 }  // namespace ombre

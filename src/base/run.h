@@ -81,4 +81,7 @@ class RunLayer {
 // Voxels of each material in the layer, void included.
 std::array<uint64_t, 256> count_materials(const RunLayer& layer);
 
+// Those of which there are voxels, void included.
+std::array<bool, 256> materials_in(const RunLayer& layer);
+
 }  // namespace ombre

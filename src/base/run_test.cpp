@@ -96,6 +96,8 @@ TEST_P(RunLayers, CountTheirMaterials) {
     const Voxels row = random_row(width(), materials, longest(), random);
     for (const MaterialId id : row) ++expected[id];
     layer.append_row(row.data());
+    const auto found = materials_in(layer);
+    for (size_t id = 0; id < found.size(); ++id) ASSERT_EQ(found[id], expected[id] > 0) << id;
   }
   EXPECT_EQ(count_materials(layer), expected);
 }

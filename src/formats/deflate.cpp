@@ -40,8 +40,8 @@ struct MatchCounts {
   std::array<uint32_t, longest_match + 1> lengths{};
   std::array<uint32_t, distance_symbol_count> distances{};
 
-  void add(uint32_t length, uint32_t distance) {
-    uint32_t& count = distances[distance_symbol(distance).index];
+  void add(uint32_t length, Symbol distance) {
+    uint32_t& count = distances[distance.index];
     if (length <= longest_match) {
       ++lengths[length];
       ++count;
@@ -177,10 +177,7 @@ struct DeflateWriter::Codes {
     }
   }
 
-  Bits distance(uint32_t value) const {
-    const Symbol symbol = distance_symbol(value);
-    return joined(distances[symbol.index], {symbol.extra, symbol.extra_count});
-  }
+  Bits distance(Symbol symbol) const { return joined(distances[symbol.index], {symbol.extra, symbol.extra_count}); }
 
   // Inlined, the cursor stays in registers: that halves the time of streams of short matches.
   [[gnu::always_inline]] void put_literals(BitCursor& out, const uint8_t* at, const uint8_t* end) const {
@@ -198,7 +195,7 @@ struct DeflateWriter::Codes {
   }
 
   [[gnu::always_inline]] void put_match(BitCursor& out, const Step& step) const {
-    const Bits far = distance(step.distance);
+    const Bits far = distance(step.far);
     const auto put = [&](uint32_t length) {
       const Bits bits = lengths[length];
       out.put(bits.bits | uint64_t{far.bits} << bits.count, bits.count + far.count);
@@ -234,7 +231,7 @@ void DeflateWriter::end_block(bool is_last) {
   counts.add_literals(literals_);
   std::array<MatchCounts, 2> turns;
   size_t turn = 0;
-  for (const Step& step : steps()) turns[turn++ % 2].add(step.length, step.distance);
+  for (const Step& step : steps()) turns[turn++ % 2].add(step.length, step.far);
   for (const MatchCounts& matches : turns) counts.add_matches(matches);
   counts.literals[end_of_block] = 1;
 

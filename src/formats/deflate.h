@@ -8,6 +8,7 @@
 
 #include "base/assert.h"
 #include "formats/bit_writer.h"
+#include "formats/deflate_symbols.h"
 
 namespace ombre::formats {
 
@@ -31,7 +32,7 @@ class DeflateWriter {
       last->length += length;
       return;
     }
-    last[1] = {literal_count, length, distance};
+    last[1] = {literal_count, length, distance, distance_symbol(distance)};
     ++step_count_;
     literals_in_steps_ = literals_.size();
   }
@@ -45,6 +46,7 @@ class DeflateWriter {
  private:
   struct Step {
     uint32_t literals, length, distance;
+    Symbol far;  // of the distance
   };
   struct Codes;
 

@@ -12,6 +12,7 @@ constexpr uint32_t window = DeflateWriter::window;
 constexpr uint32_t first_position = 2 * window;        // out of reach from there: position 0
 constexpr uint32_t last_position = uint32_t{1} << 31;  // far enough from overflow
 constexpr size_t word_bytes = sizeof(uint64_t);
+constexpr size_t stored_rows = 8;  // more than the window, so that its pixels seldom move
 
 // The window holds 8192 pixels, and in it stand most of half as many keys.
 constexpr uint32_t most_keys = 4096;
@@ -52,7 +53,7 @@ PixelHistory::PixelHistory(uint32_t width, uint32_t colours)
       prefix_pixels_(key_pixels_ - (colours_ == 2 ? 2 : 1)),
       prefix_keys_(power(colours_, key_pixels_ - prefix_pixels_)),
       goes_on_mask_(colours_ == 2 ? ~uint64_t{0} : 0xFFFFFFFF),
-      numbers_(window / 4 + 2 * size_t{width} + 2 * word_bytes),
+      numbers_(window / 4 + stored_rows * (size_t{width} + 1) + 2 * word_bytes),
       keys_(size_t{width} + key_pixels_),
       half_keys_(keys_.size()),
       latest_(power(colours_, key_pixels_)),
@@ -68,11 +69,20 @@ void PixelHistory::clear() {
   std::fill(latest_half_.begin(), latest_half_.end(), 0);
 }
 
-void PixelHistory::put_row(const uint8_t* numbers, const uint8_t* image, DeflateWriter& out) {
+uint8_t* PixelHistory::begin_row() {
   if (next_row_ > last_position) clear();
   row_ = next_row_;
   next_row_ += 4 * width_ + 1;
-  store(numbers);
+  if (index(row_) + width_ + 2 * word_bytes > numbers_.size()) {
+    const size_t begin = index(row_ - window);
+    std::memmove(numbers_.data(), &numbers_[begin], index(row_) - begin);
+    first_ += begin;
+  }
+  return &numbers_[index(row_)];
+}
+
+void PixelHistory::end_row(const uint8_t* image, DeflateWriter& out) {
+  std::memset(&numbers_[index(row_) + width_], 0, 2 * word_bytes);
   make_keys(key_pixels_, keys_, half_keys_);
   // Loops of a known length are faster: for the usual numbers of materials, with void.
   static_assert(most_keys == 4096);
@@ -154,15 +164,6 @@ void PixelHistory::enter(uint32_t column, uint32_t end) {
   const uint16_t* const keys = keys_.data();
   uint32_t* const latest = latest_.data();
   for (; column < std::min(end, begins); ++column) latest[keys[column]] = row + 4 * column;
-}
-
-void PixelHistory::store(const uint8_t* numbers) {
-  if (index(row_) + width_ + 2 * word_bytes > numbers_.size()) {
-    const size_t begin = index(row_ - window);
-    std::memmove(numbers_.data(), &numbers_[begin], index(row_) - begin);
-    first_ += begin;
-  }
-  std::memcpy(&numbers_[index(row_)], numbers, width_);
 }
 
 // Two keys of half as many pixels make one, with a digit behind them if need be.

@@ -22,11 +22,11 @@ class PixelHistory {
 
   // What follows repeats nothing that came before.
   void clear();
-  // The next row, in numbers and as in the image.
-  void put_row(const uint8_t* numbers, const uint8_t* image, DeflateWriter& out);
+  // Where to put the numbers of the next row, before it ends with its image.
+  uint8_t* begin_row();
+  void end_row(const uint8_t* image, DeflateWriter& out);
 
  private:
-  void store(const uint8_t* numbers);
   void make_keys(uint32_t pixels, std::vector<uint16_t>& keys, std::vector<uint16_t>& half_keys) const;
   template <uint32_t fixed_key_pixels, uint32_t fixed_prefix_keys>
   void cut(const uint8_t* image, DeflateWriter& out);

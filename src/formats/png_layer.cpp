@@ -51,16 +51,10 @@ Samples samples(const Palette& palette, const PngLayout& layout) {
   return result;
 }
 
-// Numbers for the materials that occur.
-Samples numbers_of(const RunLayer& layer, const Palette& palette) {
-  const auto counts = count_materials(layer);
-  Samples result;
-  for (const MaterialId id : palette.ids()) {
-    if (counts[id] == 0) continue;
-    result.of[id] = static_cast<uint8_t>(result.ids.size());
-    result.ids.push_back(id);
-  }
-  result.bit_depth = bits_for(result.ids.size());
+std::vector<MaterialId> occurring(const RunLayer& layer, const Palette& palette) {
+  const auto found = materials_in(layer);
+  std::vector<MaterialId> result = palette.ids();
+  std::erase_if(result, [&](MaterialId id) { return !found[id]; });
   return result;
 }
 
@@ -137,7 +131,7 @@ std::string encode_png(const RunLayer& layer, const Palette& palette, const PngL
   add_resolution(file, layout);
   if (type == ColourType::rgba)
     add_data(file, layer, layout.flip_y,
-             RgbaRows(layer.width(), palette, numbers_of(layer, palette), layout.flip_x, stream), stream);
+             RgbaRows(layer.width(), palette, occurring(layer, palette), layout.flip_x, stream), stream);
   else
     add_data(file, layer, layout.flip_y, PackedRows(layer.width(), numbers, layout.flip_x, stream), stream);
   file.add("IEND", "");

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
+#include "base/byte_rows.h"
 #include "formats/smooth_row.h"
 
 namespace ombre::formats {
@@ -43,24 +45,20 @@ class RunReader {
 
 }  // namespace
 
-RgbaRows::RgbaRows(uint32_t width, const Palette& palette, const Samples& numbers, bool flip_x, ZlibStream& out)
+RgbaRows::RgbaRows(uint32_t width, const Palette& palette, std::vector<MaterialId> materials, bool flip_x,
+                   ZlibStream& out)
     : width_(width),
-      bits_(static_cast<unsigned>(numbers.bit_depth)),
       flip_x_(flip_x),
+      materials_(std::move(materials)),
       out_(out),
-      packer_(width, numbers, flip_x),
-      packed_(packer_.size()),
-      numbers_(packed_.size() * 8 / bits_),
-      image_(numbers_.size() * sizeof(Rgba)),
-      history_(width, static_cast<uint32_t>(numbers.ids.size())) {
-  std::array<Rgba, 256> of_number{};
-  for (const MaterialId id : numbers.ids)
-    of_number[numbers.of[id]] = colours_[id] = palette.colours()[palette.entry(id)];
-  for (unsigned byte = 0; byte < 256; ++byte) {
-    for (unsigned end = bits_; end <= 8; end += bits_) {
-      numbers_of_byte_.push_back(static_cast<uint8_t>(byte >> (8 - end) & ((1U << bits_) - 1)));
-      colours_of_byte_.push_back(of_number[numbers_of_byte_.back()]);
-    }
+      image_(size_t{width} * sizeof(Rgba)),
+      history_(width, static_cast<uint32_t>(materials_.size())) {
+  for (size_t number = 0; number < materials_.size(); ++number) {
+    const MaterialId id = materials_[number];
+    const Rgba colour = palette.colours()[palette.entry(id)];
+    number_of_[id] = static_cast<uint8_t>(number);
+    colours_[id] = colour;
+    if (number < few) colours_of_few_[number] = colour;
   }
 }
 
@@ -137,36 +135,35 @@ void RgbaRows::put_dense(const RowView& row) {
   stretches_.clear();
   out_.deflate.literals(&filter_none, 1);
   out_.sum.add(&filter_none, 1);
-  packer_.pack(row, packed_.data());
-  expand();
-  out_.sum.add(image_.data(), size_t{4} * width_);
-  history_.put_row(numbers_.data(), image_.data(), out_.deflate);
+  uint8_t* const numbers = history_.begin_row();
+  set_numbers(row, numbers);
+  set_image(numbers);
+  out_.sum.add(image_.data(), image_.size());
+  history_.end_row(image_.data(), out_.deflate);
 }
 
-void RgbaRows::expand() {
-  switch (bits_) {
-    case 1:
-      return expand_bytes<8>();
-    case 2:
-      return expand_bytes<4>();
-    case 4:
-      return expand_bytes<2>();
-    default:
-      return expand_bytes<1>();
+void RgbaRows::set_numbers(const RowView& row, uint8_t* numbers) const {
+  const MaterialId* loose = row.dense.data();
+  uint8_t* at = numbers;
+  for (const Run& run : row.runs) {
+    if (!run.is_dense) {
+      std::memset(at, number_of_[run.material], run.length);
+    } else {
+      if (materials_.size() <= few)
+        number_bytes({loose, run.length}, materials_, at);
+      else
+        std::transform(loose, loose + run.length, at, [&](MaterialId id) { return number_of_[id]; });
+      loose += run.length;
+    }
+    at += run.length;
   }
+  if (flip_x_) std::reverse(numbers, numbers + width_);
 }
 
-template <size_t pixels_in_byte>
-void RgbaRows::expand_bytes() {
-  const uint8_t* const numbers_of_byte = numbers_of_byte_.data();  // which no byte written can move
-  const Rgba* const colours_of_byte = colours_of_byte_.data();
-  uint8_t *numbers = numbers_.data(), *image = image_.data();
-  for (const uint8_t byte : packed_) {
-    std::memcpy(numbers, numbers_of_byte + byte * pixels_in_byte, pixels_in_byte);
-    std::memcpy(image, colours_of_byte + byte * pixels_in_byte, sizeof(Rgba) * pixels_in_byte);
-    numbers += pixels_in_byte;
-    image += sizeof(Rgba) * pixels_in_byte;
-  }
+void RgbaRows::set_image(const uint8_t* numbers) {
+  if (materials_.size() <= few) return look_up_four_bytes({numbers, width_}, colours_of_few_, image_.data());
+  for (size_t i = 0; i < width_; ++i)
+    std::memcpy(&image_[i * sizeof(Rgba)], &colours_[materials_[numbers[i]]], sizeof(Rgba));
 }
 
 void RgbaRows::put_filter(uint8_t filter) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/byte_rows.h"
+
 namespace ombre::formats {
 namespace {
 
@@ -13,12 +15,7 @@ constexpr size_t smooth_voxels = 32;
 bool is_smooth(const RowView& row, uint32_t width) {
   if (!row.has_dense()) return true;
   const size_t count = std::min(row.dense.size(), looked_at);
-  size_t changes = 1;
-  for (size_t i = 1; i < count;) {
-    uint8_t some = 0;  // few enough for a byte, of which the processor adds many at once
-    for (const size_t end = std::min(count, i + 128); i < end; ++i) some += row.dense[i] != row.dense[i - 1];
-    changes += some;
-  }
+  const size_t changes = count - count_repeats(row.dense.first(count));
   return row.runs.size() + row.dense.size() * changes / count <= width / smooth_voxels;
 }
 
