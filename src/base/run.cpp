@@ -217,19 +217,21 @@ std::array<uint64_t, 256> count_materials(const RunLayer& layer) {
   return counts;
 }
 
-std::array<bool, 256> materials_in(const RunLayer& layer) {
-  std::array<bool, 256> found{};
+void find_materials(const RunLayer& layer, const std::function<bool(MaterialId)>& found) {
   std::vector<MaterialId> known;
-  const auto add = [&](MaterialId material) {
-    if (!std::exchange(found[material], true)) known.push_back(material);
+  std::array<bool, 256> is_known{};
+  const auto goes_on = [&](MaterialId material) {
+    if (std::exchange(is_known[material], true)) return true;
+    known.push_back(material);
+    return found(material);
   };
   for (uint32_t j = 0; j < layer.height(); ++j) {
     const RowView row = layer.row(j);
     for (const Run& run : row.runs)
-      if (!run.is_dense) add(run.material);
-    if (known.size() > most_compared || !are_among(row.dense, known)) std::ranges::for_each(row.dense, add);
+      if (!run.is_dense && !goes_on(run.material)) return;
+    const bool may_be_new = known.size() > most_compared || !are_among(row.dense, known);
+    if (may_be_new && !std::ranges::all_of(row.dense, goes_on)) return;
   }
-  return found;
 }
 
 }  // namespace ombre

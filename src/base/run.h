@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -81,7 +82,7 @@ class RunLayer {
 // Voxels of each material in the layer, void included.
 std::array<uint64_t, 256> count_materials(const RunLayer& layer);
 
-// Those of which there are voxels, void included.
-std::array<bool, 256> materials_in(const RunLayer& layer);
+// Calls `found` once for each material of which there are voxels, void included, until it returns false.
+void find_materials(const RunLayer& layer, const std::function<bool(MaterialId)>& found);
 
 }  // namespace ombre

@@ -96,8 +96,12 @@ TEST_P(RunLayers, CountTheirMaterials) {
     const Voxels row = random_row(width(), materials, longest(), random);
     for (const MaterialId id : row) ++expected[id];
     layer.append_row(row.data());
-    const auto found = materials_in(layer);
+    std::array<int, 256> found{};
+    find_materials(layer, [&](MaterialId id) { return ++found[id] > 0; });
     for (size_t id = 0; id < found.size(); ++id) ASSERT_EQ(found[id], expected[id] > 0) << id;
+    int calls = 0;
+    find_materials(layer, [&](MaterialId) { return ++calls < 2; });
+    ASSERT_EQ(calls, std::min<ptrdiff_t>(2, std::ranges::count(found, 1)));
   }
   EXPECT_EQ(count_materials(layer), expected);
 }

@@ -1,5 +1,7 @@
 #include "formats/palette.h"
 
+#include <algorithm>
+
 #include "base/assert.h"
 
 namespace ombre::formats {
@@ -12,6 +14,12 @@ void Palette::add(MaterialId id, Rgba colour) {
   entries_[id] = static_cast<uint8_t>(colours_.size());
   colours_.push_back(colour);
   ids_.push_back(id);
+}
+
+Palette Palette::first(size_t count) const {
+  Palette result(colours_[0]);
+  for (size_t i = 1; i < std::min(count, ids_.size()); ++i) result.add(ids_[i], colours_[i]);
+  return result;
 }
 
 uint8_t Palette::entry(MaterialId id) const {

@@ -13,14 +13,16 @@ namespace ombre::formats {
 // The least of 1, 2, 4, 8 bits that tells so many things apart.
 int bits_for(size_t count);
 
-// Entry 0 is void, then come the materials in the order added. All layers of a job share one palette, and
-// with it one bit depth.
+// Entry 0 is void, then come the materials in the order added. All layers of a job share one palette, so that
+// a number means the same in all of them.
 class Palette {
  public:
   explicit Palette(Rgba background = {0, 0, 0, 0});
 
   // Each id once, and not 0.
   void add(MaterialId id, Rgba colour);
+  // As many entries from 0 on, or all if there are fewer.
+  Palette first(size_t count) const;
 
   const std::vector<Rgba>& colours() const { return colours_; }
   // By entry; void is 0.

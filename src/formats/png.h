@@ -12,6 +12,7 @@
 namespace ombre::formats {
 
 // gray has the luminance of each material's colour. mask is white (1) where one material is, black elsewhere.
+// indexed images have as much of the palette as fits into the fewest bits that hold the layer.
 enum class PngFormat { rgba, indexed, gray, mask };
 
 struct PngLayout {

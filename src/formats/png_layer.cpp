@@ -1,6 +1,7 @@
 // Layers to PNG files. Compression is our own: libraries pick their code by processor, some with it their
 // bytes, and none sees runs.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
 
@@ -52,10 +53,21 @@ Samples samples(const Palette& palette, const PngLayout& layout) {
 }
 
 std::vector<MaterialId> occurring(const RunLayer& layer, const Palette& palette) {
-  const auto found = materials_in(layer);
+  std::array<bool, 256> found{};
+  find_materials(layer, [&](MaterialId id) { return found[id] = true; });
   std::vector<MaterialId> result = palette.ids();
   std::erase_if(result, [&](MaterialId id) { return !found[id]; });
   return result;
+}
+
+// As much of it as the fewest bits can tell apart that hold the layer.
+Palette fitting(const RunLayer& layer, const Palette& palette) {
+  int bits = 1;
+  find_materials(layer, [&](MaterialId id) {
+    bits = std::max(bits, bits_for(size_t{palette.entry(id)} + 1));
+    return bits < palette.bit_depth();
+  });
+  return palette.first(size_t{1} << bits);
 }
 
 void add_header(PngChunks& file, const RunLayer& layer, ColourType type, int bit_depth) {
@@ -121,8 +133,9 @@ void add_data(PngChunks& file, const RunLayer& layer, bool flip_y, Rows&& rows, 
 
 }  // namespace
 
-std::string encode_png(const RunLayer& layer, const Palette& palette, const PngLayout& layout) try {
+std::string encode_png(const RunLayer& layer, const Palette& job_palette, const PngLayout& layout) try {
   const ColourType type = colour_type(layout.format);
+  const Palette palette = type == ColourType::indexed ? fitting(layer, job_palette) : job_palette;
   const Samples numbers = samples(palette, layout);
   PngChunks file;
   ZlibStream stream;

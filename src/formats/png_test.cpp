@@ -236,11 +236,26 @@ TEST(Png, SmoothRgbaLayersTakeFewBytesForEachEdge) {
   EXPECT_LT(encode_png(layer, palette_of(1), rgba).size(), 3 * waves * height);
 }
 
-TEST(Png, StoresTheDepthOfTheWholeJob) {
-  const RunLayer layer = random_layer(10, 4, 1, 4, 1);  // one material here, twenty in the job
-  const PngImage image = decode_png(encode_png(layer, palette_of(20), {}), "test");
-  EXPECT_EQ(image.bit_depth, 8);
-  EXPECT_EQ(image.palette.size(), 21U);
+// Of a job of twenty materials: entries keep their numbers, be there few or many bits for them.
+TEST(Png, StoresTheFewestBitsThatHoldTheLayer) {
+  struct Case {
+    MaterialId material;
+    int bits;
+    size_t entries;
+  };
+  for (const auto& [material, bits, entries] : {Case{0, 1, 2}, Case{1, 1, 2}, Case{2, 2, 4}, Case{3, 2, 4},
+                                                Case{4, 4, 16}, Case{15, 4, 16}, Case{16, 8, 21}, Case{20, 8, 21}}) {
+    RunLayer layer(100);
+    layer.append_uniform_row(0);
+    layer.add_uniform(0, 60);
+    layer.add_uniform(material, 3);
+    layer.add_uniform(0, 37);
+    layer.end_row();
+    const PngImage image = decode_png(encode_png(layer, palette_of(20), {}), "test");
+    EXPECT_EQ(image.bit_depth, bits);
+    EXPECT_EQ(image.palette.size(), entries);
+    expect_same_voxels(layer, palette_of(20));
+  }
 }
 
 TEST(Png, IdsNeedNotBeDense) {
