@@ -514,6 +514,38 @@ def suggestions_of_examples_work(job):
             expect(good, f"{example.name} {group}: {result.stderr}")
 
 
+def designs_of_openscad_are_explained(job):
+    """What its users write first: the message names the node that they mean, and that one works."""
+    instead = {
+        'color("red") cube(5);': 'material("red") { cube(5); }',
+        "cube([30, 20, 10]);": "rectprism([30, 20, 10]);",
+        "cube(size=[30, 20, 10]);": "rectprism([30, 20, 10]);",
+        "cube(10, center=true);": "translate([5, 5, 5]) cube(10);",
+        "cylinder(h=10, r1=5, r2=2);": "cone(r1=5, r2=2, h=10);",
+        "rotate(a=45, v=[0, 0, 1]) cube(5);": "rotate(axis=[0, 0, 1], deg=45) cube(5);",
+        "linear_extrude(5) square([20, 10]);": "polygon_extrude([[0, 0], [20, 0], [0, 10]], 5);",
+        "rotate_extrude() circle(2);": "revolve([[2, 0], [5, 0], [5, 10]]);",
+        "square(5);": "rectprism((20, 10, 5));",
+        "circle(5);": "cylinder(5, 10);",
+        "polygon([[0, 0], [20, 0], [0, 10]]);": "polygon_extrude([[0, 0], [20, 0], [0, 10]], 5);",
+        "polyhedron([], []);": "hull([[0, 0, 0], [10, 0, 0], [0, 10, 0], [0, 0, 10]]);",
+        'import("part.stl");': 'mesh("part.stl");',
+        'surface("picture.png");': 'relief("picture.png");',
+        "multmatrix([]) cube(5);": "matrix([[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) { cube(5); }",
+        "minkowski() { cube(5); sphere(1); }": "offset(1) { cube(5); }",
+        "resize([10, 5, 5]) sphere(5);": "scale([2, 1, 1]) { sphere(5); }",
+        "intersection_for(i = [0:2]) cube(5);": "intersection() { for (i = [0:2]) cube(5 + i); }",
+    }
+    ball = job.write("ball.vcad", "sphere(5);")
+    for command, made in (("mesh", "part.stl"), ("render", "picture.png")):
+        program.run([job.ombre, command, ball, "-o", job.folder / made, "-q"])
+    for theirs, ours in instead.items():
+        told = program.run(job.command("told", "--dry-run", design=job.write("theirs.vcad", theirs)))
+        expect(told.returncode == 1 and ours.partition("(")[0] in told.stderr, f"{theirs}: {told.stderr}")
+        made = program.run(job.command("made", "--dry-run", "--voxel", "0.5", design=job.write("ours.vcad", ours)))
+        expect(made.returncode == 0, f"{ours}: {made.stderr}")
+
+
 def reference_is_up_to_date(job):
     printed = program.run([job.ombre, "nodes", "--markdown"]).stdout
     reference = program.SOURCE / "docs" / "nodes.md"
@@ -541,7 +573,7 @@ QUICK = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make_
          wrong_layers_are_explained, resume_refuses_another_job, damaged_layers_are_made_again, foreign_files_are_left_alone,
          finished_jobs_are_not_overwritten, force_removes_the_old_layers, output_that_is_a_file,
          folder_that_may_not_be_written, full_disk, reference_is_up_to_date, examples_of_nodes_slice,
-         suggestions_of_examples_work]
+         suggestions_of_examples_work, designs_of_openscad_are_explained]
 SLOW = [killed_jobs_resume, killed_twice_resumes, interrupted_jobs_resume, large_layers_stop_and_resume]
 
 

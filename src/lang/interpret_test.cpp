@@ -174,6 +174,7 @@ TEST(Interpret, MistakesArePointedAt) {
   expect_messages({
       {"nosuch();", "1:1: error: there is no node or module \"nosuch\"; define it first: module nosuch(...) { ... }"},
       {"sphre(1);", "1:1: error: there is no node or module \"sphre\"; did you mean \"sphere\"?"},
+      {"color(1);", "1:1: error: there is no node or module \"color\"; write material"},
       {"module gear() cube(1); gaer();", "1:24: error: there is no node or module \"gaer\"; did you mean \"gear\"?"},
       {"width = 1; cube(widht);", "1:17: error: there is no variable \"widht\"; did you mean \"width\"?"},
       {"a = b; b = 1;", "1:5: error: \"b\" has no value yet; its assignment comes later in this scope; move it up"},

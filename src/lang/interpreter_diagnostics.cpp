@@ -126,6 +126,8 @@ void Interpreter::fail_unknown_function(const ast::Name& name, const Scope& scop
 }
 
 void Interpreter::fail_unknown_module(const ast::Name& name, const Scope& scope) {
+  if (const std::string hint = vocabulary_.hint(name.text()); !hint.empty())
+    fail(name.span, "there is no node or module \"" + name.text() + '"', hint);
   std::vector<std::string> candidates = vocabulary_.names();
   candidates.emplace_back("children");
   for (const Scope* at = &scope; at; at = at->parent().get()) {

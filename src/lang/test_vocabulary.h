@@ -38,6 +38,7 @@ class TestVocabulary : public Vocabulary {
 
   bool knows(std::string_view name) const override { return nodes_.count(fold_name(name)) > 0; }
   std::vector<std::string> names() const override { return {nodes_.begin(), nodes_.end()}; }
+  std::string hint(std::string_view unknown) const override { return unknown == "color" ? "write material" : ""; }
   std::optional<Data> constant(std::string_view name) const override {
     if (std::string(name).find_first_not_of("xyz") == std::string::npos && name.size() == 1)
       return Data("axis " + std::string(name));

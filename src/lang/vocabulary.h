@@ -43,6 +43,7 @@ class Vocabulary {
   virtual ~Vocabulary() = default;
   virtual bool knows(std::string_view name) const = 0;
   virtual std::vector<std::string> names() const = 0;                     // for suggestions
+  virtual std::string hint(std::string_view unknown) const = 0;           // what to write for it; empty if unknown here
   virtual std::optional<Data> constant(std::string_view name) const = 0;  // materials, axes
   virtual std::vector<std::string> constants() const = 0;                 // for suggestions
   // Null when the call is wrong (and then diagnostics were added) or gives nothing.

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "lang/vocabulary/legacy_forms.h"
+#include "lang/vocabulary/openscad.h"
 
 namespace ombre::lang {
 
@@ -34,11 +35,17 @@ std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std
     } else {
       index = type.parameter(argument.name);
     }
+    std::string hint = openscad_argument_hint(type, argument);
     if (index < 0) {
-      std::string hint = did_you_mean(argument.name, type.parameter_names());
+      if (hint.empty()) hint = did_you_mean(argument.name, type.parameter_names());
       if (hint.empty())
         hint = type.parameters.empty() ? "it takes none" : "it has " + join(type.parameter_names(), ", ");
       reader.diagnostics.error(where, type.name + " has no parameter \"" + argument.name + "\"", hint);
+      good = false;
+      continue;
+    }
+    if (!hint.empty()) {
+      reader.diagnostics.error(where, type.name + " does not take this", hint);
       good = false;
       continue;
     }

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "lang/vocabulary/legacy_forms.h"
 #include "lang/vocabulary/node_calls.h"
+#include "lang/vocabulary/openscad.h"
 
 namespace ombre::lang {
 
@@ -32,6 +33,8 @@ std::vector<std::string> VcadVocabulary::names() const {
   names.emplace_back("root");
   return names;
 }
+
+std::string VcadVocabulary::hint(std::string_view unknown) const { return openscad_module_hint(unknown); }
 
 std::optional<Data> VcadVocabulary::constant(std::string_view name) const {
   for (size_t i = 0; i < 3; ++i) {

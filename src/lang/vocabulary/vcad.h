@@ -17,6 +17,7 @@ class VcadVocabulary : public Vocabulary {
 
   bool knows(std::string_view name) const override;
   std::vector<std::string> names() const override;
+  std::string hint(std::string_view unknown) const override;
   std::optional<Data> constant(std::string_view name) const override;
   std::vector<std::string> constants() const override;
   design::NodePtr make(Invocation call, Diagnostics& diagnostics) override;
