@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "surface/vertex_place.h"
 
@@ -13,9 +14,11 @@ constexpr double rms_share = 0.3;
 
 int level_of(int32_t index) { return index == 0 ? 31 : std::countr_zero(static_cast<uint32_t>(index)); }
 
-// The levels of the two lattice planes that a quad's edge lies in: below 2^level units they are borders of cells.
-struct EdgeLevels {
-  int u = 0, v = 0;
+// A quad with its edge's axis, and the levels of the two lattice planes that the edge lies in: below 2^level units they
+// are borders of cells. Kept together, since crossings are large and lie far apart.
+struct LevelQuad {
+  uint32_t number = 0;
+  uint8_t axis = 0, u = 0, v = 0;
 };
 
 // What is known of the clusters that may become one.
@@ -51,12 +54,20 @@ class LevelBuilder {
  public:
   LevelBuilder(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh, double tolerance_mm,
                ClusterList& list)
-      : tree_(tree), crossings_(crossings), mesh_(mesh), tolerance_mm_(tolerance_mm), list_(list), clusters_(list.all) {
+      : tree_(tree), mesh_(mesh), tolerance_mm_(tolerance_mm), list_(list), clusters_(list.all) {
     for (const DualVertex& vertex : mesh.vertices) {
       euler_.push_back(1);
       may_join_.push_back(vertex.parts_two);
     }
-    for (uint32_t n = 0; n < mesh.quads.size(); ++n) later_quads_[edge_of(n).level].push_back(n);
+    tops_.resize(mesh.vertices.size());
+    std::iota(tops_.begin(), tops_.end(), uint32_t{0});
+    for (uint32_t n = 0; n < mesh.quads.size(); ++n) {
+      const CrossedEdge& edge = crossings[mesh.quads[n].crossing].edge;
+      const auto level = [&](unsigned turn) {
+        return static_cast<uint8_t>(level_of(edge.start[(edge.axis + turn) % 3]));
+      };
+      later_quads_[edge.level].push_back({n, static_cast<uint8_t>(edge.axis), level(1), level(2)});
+    }
   }
 
   // False when there is nothing left to join.
@@ -65,33 +76,23 @@ class LevelBuilder {
     for (uint32_t n = 0; n < mesh_.vertices.size(); ++n)
       if (clusters_[n].level == level - 1) fresh_.push_back(n);
     if (level <= grid_level + 1) {
-      const std::vector<uint32_t>& quads = later_quads_[static_cast<size_t>(level - 1)];
+      const std::vector<LevelQuad>& quads = later_quads_[static_cast<size_t>(level - 1)];
       quads_.insert(quads_.end(), quads.begin(), quads.end());
     }
-    std::erase_if(quads_, [&](uint32_t q) {
-      const EdgeLevels e = levels(q);
-      return std::max(e.u, e.v) < level - 1;
-    });
+    std::erase_if(quads_, [&](const LevelQuad& q) { return std::max(q.u, q.v) < level - 1; });
     gather();
     note_points();
     note_crossed_edges();
     make_clusters();
+    for (uint32_t& top : tops_)
+      if (clusters_[top].parent != Cluster::none) top = clusters_[top].parent;
     return !fresh_.empty() || level <= grid_level;
   }
 
  private:
-  const CrossedEdge& edge_of(uint32_t quad) const { return crossings_[mesh_.quads[quad].crossing].edge; }
-  EdgeLevels levels(uint32_t quad) const {
-    const CrossedEdge& edge = edge_of(quad);
-    return {level_of(edge.start[(edge.axis + 1U) % 3]), level_of(edge.start[(edge.axis + 2U) % 3])};
-  }
-  uint32_t top(uint32_t vertex) const {
-    while (clusters_[vertex].parent != Cluster::none) vertex = clusters_[vertex].parent;
-    return vertex;
-  }
-  std::array<uint32_t, 4> tops(uint32_t quad) const {
+  std::array<uint32_t, 4> tops(const LevelQuad& quad) const {
     std::array<uint32_t, 4> found{};
-    for (size_t n = 0; n < 4; ++n) found[n] = top(mesh_.quads[quad].corners[n]);
+    for (size_t n = 0; n < 4; ++n) found[n] = tops_[mesh_.quads[quad.number].corners[n]];
     return found;
   }
   bool is_fresh(uint32_t cluster) const { return clusters_[cluster].level == level_ - 1; }
@@ -102,11 +103,10 @@ class LevelBuilder {
     for (const uint32_t c : fresh_) group_[c] = c;
     arc_ends_.clear();
     blocked_.clear();
-    for (const uint32_t q : quads_) {
-      const EdgeLevels e = levels(q);
+    for (const LevelQuad& q : quads_) {
       const auto t = tops(q);
       for (size_t side = 0; side < 4; ++side)
-        if ((side % 2 == 0 ? e.u : e.v) == level_ - 1) hang_together(t[side], t[(side + 1) % 4]);
+        if ((side % 2 == 0 ? q.u : q.v) == level_ - 1) hang_together(t[side], t[(side + 1) % 4]);
     }
     collect();
   }
@@ -162,23 +162,20 @@ class LevelBuilder {
 
   // Points where four members meet, or more arcs go on.
   void note_points() {
-    for (const uint32_t q : quads_) {
-      const EdgeLevels e = levels(q);
-      if (std::max(e.u, e.v) != level_ - 1) continue;
-      if (Candidate* candidate = candidate_of(top(mesh_.quads[q].corners[0]))) ++candidate->euler;
+    for (const LevelQuad& q : quads_) {
+      if (std::max(q.u, q.v) != level_ - 1) continue;
+      if (Candidate* candidate = candidate_of(tops_[mesh_.quads[q.number].corners[0]])) ++candidate->euler;
     }
   }
 
   void note_crossed_edges() {
-    for (const uint32_t q : quads_) {
-      const EdgeLevels e = levels(q);
-      if (std::min(e.u, e.v) < level_) continue;
+    for (const LevelQuad& q : quads_) {
+      if (std::min(q.u, q.v) < level_) continue;
       const auto t = tops(q);
       for (size_t n = 0; n < 4; ++n) {
         Candidate* candidate = candidate_of(t[n]);
         if (!candidate) continue;
-        const auto bit =
-            static_cast<uint16_t>(1 << edge_number(edge_of(q).axis, quad_offsets[n][0], quad_offsets[n][1]));
+        const auto bit = static_cast<uint16_t>(1 << edge_number(q.axis, quad_offsets[n][0], quad_offsets[n][1]));
         candidate->crosses_twice |= (candidate->crossed_edges & bit) != 0;
         candidate->crossed_edges |= bit;
       }
@@ -215,7 +212,6 @@ class LevelBuilder {
   }
 
   const CellTree& tree_;
-  const std::vector<Crossing>& crossings_;
   const DualMesh& mesh_;
   double tolerance_mm_;
   ClusterList& list_;
@@ -225,8 +221,10 @@ class LevelBuilder {
   std::vector<NormalSpread> spreads_;  // the same
   std::vector<int> euler_;
   std::vector<bool> may_join_;
-  std::array<std::vector<uint32_t>, grid_level + 1> later_quads_;  // by levels of their edges
-  std::vector<uint32_t> fresh_, quads_, group_, number_, blocked_, arc_ends_;
+  std::vector<uint32_t> tops_;  // by vertex: the cluster above it that is in none itself
+  std::array<std::vector<LevelQuad>, grid_level + 1> later_quads_;  // by levels of their edges
+  std::vector<LevelQuad> quads_;
+  std::vector<uint32_t> fresh_, group_, number_, blocked_, arc_ends_;
   std::vector<Candidate> candidates_;
 };
 
