@@ -29,7 +29,8 @@ struct DoubleBits {
 };
 void pack_double_bits(const uint8_t* bytes, const DoubleBits& bits, std::span<uint8_t> packed);
 
-// Which of `values` each byte is, counted from 0; every byte is one of them. As many numbers as bytes.
+// Which of `values` each byte is, counted from 0; every byte is one of them. As many numbers as bytes, which they may
+// replace.
 void number_bytes(std::span<const uint8_t> bytes, std::span<const uint8_t> values, uint8_t* numbers);
 
 // Four bytes for each number, which are below 16.

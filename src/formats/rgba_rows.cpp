@@ -143,21 +143,10 @@ void RgbaRows::put_dense(const RowView& row) {
 }
 
 void RgbaRows::set_numbers(const RowView& row, uint8_t* numbers) const {
-  const MaterialId* loose = row.dense.data();
-  uint8_t* at = numbers;
-  for (const Run& run : row.runs) {
-    if (!run.is_dense) {
-      std::memset(at, number_of_[run.material], run.length);
-    } else {
-      if (materials_.size() <= few)
-        number_bytes({loose, run.length}, materials_, at);
-      else
-        std::transform(loose, loose + run.length, at, [&](MaterialId id) { return number_of_[id]; });
-      loose += run.length;
-    }
-    at += run.length;
-  }
+  row.unpack(numbers);
   if (flip_x_) std::reverse(numbers, numbers + width_);
+  if (materials_.size() <= few) return number_bytes({numbers, width_}, materials_, numbers);
+  std::transform(numbers, numbers + width_, numbers, [&](MaterialId id) { return number_of_[id]; });
 }
 
 void RgbaRows::set_image(const uint8_t* numbers) {
