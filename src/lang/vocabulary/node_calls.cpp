@@ -35,8 +35,8 @@ std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std
     } else {
       index = type.parameter(argument.name);
     }
-    std::string hint = openscad_argument_hint(type, argument);
     if (index < 0) {
+      std::string hint = openscad_argument_hint(type, argument.name);
       if (hint.empty()) hint = did_you_mean(argument.name, type.parameter_names());
       if (hint.empty())
         hint = type.parameters.empty() ? "it takes none" : "it has " + join(type.parameter_names(), ", ");
@@ -44,12 +44,12 @@ std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std
       good = false;
       continue;
     }
-    if (!hint.empty()) {
-      reader.diagnostics.error(where, type.name + " does not take this", hint);
+    const auto at = static_cast<size_t>(index);
+    if (is_block_of_openscad(type.name, type.parameters[at].name, argument.value)) {
+      reader.diagnostics.error(where, "cube has one side", "for three write rectprism([30, 20, 10])");
       good = false;
       continue;
     }
-    const auto at = static_cast<size_t>(index);
     if (taken[at]) {
       reader.diagnostics.error(where, "\"" + type.parameters[at].name + "\" of " + type.name + " is given twice");
       good = false;

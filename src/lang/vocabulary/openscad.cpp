@@ -50,11 +50,14 @@ std::string openscad_module_hint(std::string_view name) {
   return "";
 }
 
-std::string openscad_argument_hint(const design::NodeType& type, const Argument& argument) {
-  if (type.name == "cube" && argument.value.list()) return "for three sides write rectprism([30, 20, 10])";
+std::string openscad_argument_hint(const design::NodeType& type, std::string_view name) {
   for (const ArgumentHint& known : arguments)
-    if (known.node == type.name && known.argument == argument.name) return std::string(known.hint);
+    if (known.node == type.name && known.argument == name) return std::string(known.hint);
   return "";
+}
+
+bool is_block_of_openscad(std::string_view node, std::string_view parameter, const Data& value) {
+  return node == "cube" && parameter == "side" && value.list();
 }
 
 }  // namespace ombre::lang
