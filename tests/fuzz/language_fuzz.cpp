@@ -19,6 +19,7 @@ class Permissive : public lang::Vocabulary {
  public:
   bool knows(std::string_view name) const override { return name.empty() || name.front() != 'u'; }
   std::vector<std::string> names() const override { return {"cube", "sphere", "translate"}; }
+  std::string hint(std::string_view unknown) const override { return unknown == "union" ? "write it otherwise" : ""; }
   std::optional<Data> constant(std::string_view name) const override {
     if (name == "red" || name == "x") return Data(std::string(name));
     return std::nullopt;
