@@ -140,8 +140,9 @@ int slice(const SliceArguments& a, Session& session) {
     session.console.diagnose(diagnostics);
     return diagnostics.has_errors() ? wrong_input : done;
   };
-  const auto wishes = plan_options(a.job, diagnostics);
+  auto wishes = plan_options(a.job, diagnostics);
   if (!wishes) return diagnosed();
+  wishes->threads = a.threads;
   parse_memory(a.memory);  // a slip is better told before a long load
 
   const compile::LoadedPtr loaded = load_design(a.job, session, diagnostics);

@@ -203,8 +203,9 @@ int write(const VoxelsArguments& a, const compile::GridJob& job, const Format& f
 
 std::optional<compile::GridJob> plan_job(const VoxelsArguments& a, const compile::GridWishes& wishes, Session& session,
                                          Diagnostics& diagnostics) {
-  const auto options = plan_options(a.job, diagnostics);
+  auto options = plan_options(a.job, diagnostics);
   if (!options) return std::nullopt;
+  options->threads = a.threads;
   const compile::LoadedPtr loaded = load_design(a.job, session, diagnostics);
   if (!loaded) return std::nullopt;
   const auto plan = compile::plan_slice(loaded, *options, diagnostics);

@@ -1,9 +1,11 @@
 #include "base/json.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <unordered_set>
+#include <utility>
 
 #include "base/text.h"
 
@@ -151,6 +153,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
 // Escapes as JSON wants it; bytes that are not UTF-8 become U+FFFD.
 std::string quoted(const std::string& text) {
+  const auto is_plain = [](char c) { return c >= ' ' && c < 0x7f && c != '"' && c != '\\'; };
+  if (std::all_of(text.begin(), text.end(), is_plain)) return '"' + text + '"';
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -161,18 +165,21 @@ std::string number_text(double value) {
   return format_number(value == 0 ? 0.0 : value);
 }
 
+// What is neither a list nor an object.
+std::string scalar_text(const Data& data) {
+  if (const bool* b = data.boolean()) return *b ? "true" : "false";
+  if (const double* n = data.number()) return number_text(*n);
+  if (const std::string* s = data.string()) return quoted(*s);
+  if (data.host_object()) return quoted("a function of the host program");  // for people: nothing reads it back
+  return "null";
+}
+
 constexpr size_t longest_line = 100;
 
+// Lists and objects that fit stay on one line.
 class Printer {
  public:
-  explicit Printer(bool pretty) : pretty_(pretty) {}
-
   std::string print(const Data& data, size_t indent) const {
-    if (data.is_null()) return "null";
-    if (const bool* b = data.boolean()) return *b ? "true" : "false";
-    if (const double* n = data.number()) return number_text(*n);
-    if (const std::string* s = data.string()) return quoted(*s);
-    if (data.host_object()) return quoted("a function of the host program");  // for people: nothing reads it back
     if (const DataList* list = data.list()) {
       std::vector<std::string> parts;
       bool flat = true;
@@ -182,9 +189,10 @@ class Printer {
       }
       return bracket(parts, '[', ']', indent, flat);
     }
+    const DataMembers* members = data.members();
+    if (!members) return scalar_text(data);
     std::vector<std::string> parts;
-    for (const auto& [key, member] : *data.members())
-      parts.push_back(quoted(key) + (pretty_ ? ": " : ":") + print(member, indent + 2));
+    for (const auto& [key, member] : *members) parts.push_back(quoted(key) + ": " + print(member, indent + 2));
     return bracket(parts, '{', '}', indent, indent >= 4);
   }
 
@@ -197,14 +205,32 @@ class Printer {
       width += part.size() + 2;
       may_be_flat = may_be_flat && part.find('\n') == std::string::npos;
     }
-    if (!pretty_) return open + join(parts, ",") + close;
     if (may_be_flat && width <= longest_line) return open + join(parts, ", ") + close;
     const std::string pad(indent + 2, ' ');
     return open + ("\n" + pad) + join(parts, ",\n" + pad) + "\n" + std::string(indent, ' ') + close;
   }
-
-  bool pretty_;
 };
+
+void append_line(const Data& data, std::string& text) {
+  if (const DataList* list = data.list()) {
+    char before = '[';
+    for (const Data& element : *list) {
+      text += std::exchange(before, ',');
+      append_line(element, text);
+    }
+    text += list->empty() ? "[]" : "]";
+  } else if (const DataMembers* members = data.members()) {
+    char before = '{';
+    for (const auto& [key, member] : *members) {
+      text += std::exchange(before, ',');
+      text += quoted(key) + ':';
+      append_line(member, text);
+    }
+    text += members->empty() ? "{}" : "}";
+  } else {
+    text += scalar_text(data);
+  }
+}
 
 }  // namespace
 
@@ -218,7 +244,12 @@ std::optional<Data> parse_json(const SourcePtr& source, Diagnostics& diagnostics
   return std::move(builder.root);
 }
 
-std::string print_json(const Data& data) { return Printer(true).print(data, 0) + '\n'; }
-std::string print_json_line(const Data& data) { return Printer(false).print(data, 0); }
+std::string print_json(const Data& data) { return Printer().print(data, 0) + '\n'; }
+
+std::string print_json_line(const Data& data) {
+  std::string text;
+  append_line(data, text);
+  return text;
+}
 
 }  // namespace ombre

@@ -18,9 +18,9 @@ design::NodePtr whole_solid(const design::Design& design) {
                            {design.materials, none, nullptr, {}, "", ""});
 }
 
-Built build_program(const design::Design& design) {
+Built build_program(const design::Design& design, int threads) {
   const design::NodePtr solid = whole_solid(design);
-  design::LoweringContext context(design.materials, {solid}, design.voxel_mm());
+  design::LoweringContext context(design.materials, {solid}, design.voxel_mm(), threads);
   program::Builder builder;
   design::Lowering lowering(context, builder);
   const program::Point p = program::Point::origin_frame(builder);
@@ -67,8 +67,8 @@ std::optional<program::Program> flatten(const program::Program& program, const S
   return std::nullopt;
 }
 
-std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics) {
-  Built built = build_program(design);
+std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics, int threads) {
+  Built built = build_program(design, threads);
   auto flat = flatten(built.materials.program, design.parts[0].solid->where(), diagnostics);
   if (!flat) return std::nullopt;
   built.materials.program = std::move(*flat);

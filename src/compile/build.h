@@ -17,14 +17,15 @@ struct Built {
   voxel::MaterialProgram materials;
   std::vector<design::Check> checks;  // of the program's check outputs
 };
-Built build_program(const design::Design& design);
+// On up to `threads` threads; 0: all cores.
+Built build_program(const design::Design& design, int threads = 1);
 
 // Bodies written out where they are called. Nothing, and a diagnostic, when that would not fit into memory.
 std::optional<program::Program> flatten(const program::Program& program, const SourceRange& where,
                                         Diagnostics& diagnostics);
 
 // build_program, ready to be evaluated. Nothing, and a diagnostic, when it would not fit into memory.
-std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics);
+std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics, int threads = 1);
 
 // The shape alone, without calls and all of the first material. Nothing, and a diagnostic, like above.
 std::optional<voxel::MaterialProgram> build_inside_program(const design::Design& design, Diagnostics& diagnostics);

@@ -53,6 +53,7 @@ struct PlanOptions {
   std::optional<voxel::ImageFormat> image;  // else the printer's
   std::optional<voxel::Placement> place;    // else the printer's; center: the build plate, the part in its middle
   bool whole_tray = false;                  // the build plate, the part where the design has it
+  int threads = 0;                          // that read the design; 0: all cores
 };
 
 struct Plan {

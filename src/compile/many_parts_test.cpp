@@ -65,10 +65,10 @@ size_t differences(const Voxels& a, const Voxels& b) {
   return count;
 }
 
-Voxels slice_as(const std::string& body, voxel::EvaluatorOptions options) {
+Voxels slice_as(const std::string& body, voxel::EvaluatorOptions options, const std::string& where = box) {
   PlanOptions plan;
   plan.evaluator = options;
-  return slice_text(box + ("{" + body + "}"), plan, 5);
+  return slice_text(where + "{" + body + "}", plan, 5);
 }
 
 void expect_one_result(const std::string& body) {
@@ -150,6 +150,40 @@ TEST(ManyParts, TakeMeshesAlong) {
   auto parts = some_parts(60);
   parts.push_back("scale(0.1, 0.1, 0.1) mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");");
   expect_one_result(flat(parts));
+}
+
+// More than go into one task: first red ones alone, then all kinds, with one that has no row and one that can fail.
+std::vector<std::string> parts_of_several_tasks() {
+  std::vector<std::string> parts;
+  for (const std::string& part : some_parts(1600))
+    if (part.find("red") != std::string::npos && part.find("fgrade") == std::string::npos) parts.push_back(part);
+  EXPECT_GT(parts.size(), 300u);
+  parts.resize(300);
+  parts.push_back("scale(0.1, 0.1, 0.1) mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");");
+  parts.push_back("fgrade([\"x\", \"1 - x\"], [\"magenta\", \"blue\"]) sphere(1, \"cyan\");");
+  for (const std::string& part : some_parts(298)) parts.push_back(part);
+  return parts;
+}
+
+TEST(ManyParts, OfSeveralTasksAreOneTable) {
+  const std::string coarse = "root((-4, -4, -4), (4, 4, 4), (0.1, 0.12, 0.14)) ";
+  const auto parts = parts_of_several_tasks();
+  for (const std::string rule : {"materials=\"first\"", "materials=\"last\""})
+    EXPECT_EQ(differences(slice_as(flat(parts, rule), {}, coarse), slice_as(balanced(parts, rule), {}, coarse)), 0u);
+  voxel::EvaluatorOptions written_out;
+  written_out.write_parts_out = true;
+  for (const std::string options : {"", "blend=0.2"}) {
+    const std::string body = flat(parts, options);
+    EXPECT_EQ(differences(slice_as(body, {}, coarse), slice_as(body, written_out, coarse)), 0u) << options;
+  }
+}
+
+TEST(ManyParts, DoNotDependOnThreads) {
+  const std::string text = box + ("{" + flat(parts_of_several_tasks()) + "}");
+  PlanOptions one, several;
+  one.threads = 1;
+  several.threads = 4;
+  EXPECT_EQ(differences(slice_text(text, one, 5), slice_text(text, several, 5)), 0u);
 }
 
 TEST(ManyParts, TellOfFailedChecks) {

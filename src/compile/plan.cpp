@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/tasks.h"
 #include "base/text.h"
 #include "compile/build.h"
 #include "compile/load.h"
@@ -159,8 +160,15 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   if (!box) return std::nullopt;
   const auto lattice = LatticePlanner(*loaded, options, *box, diagnostics).run();
   if (!lattice) return std::nullopt;
-  const Hash design_hash = design::hash(design);  // before there are programs: both take memory
-  auto built = build_flat_program(design::for_voxels(design, lattice->voxel_mm()), diagnostics);
+  // The longer one first.
+  Hash design_hash;
+  std::optional<Built> built;
+  run_parallel(2, options.threads, [&](size_t task) {
+    if (task == 0)
+      built = build_flat_program(design::for_voxels(design, lattice->voxel_mm()), diagnostics, options.threads);
+    else
+      design_hash = design::hash(design);
+  });
   if (!built) return std::nullopt;
   leave_out_impossible(*built, lattice->box());
   warn_of_features(options.printer, box->size(), {loaded->source, 0, 0}, diagnostics);

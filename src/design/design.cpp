@@ -78,17 +78,53 @@ Data to_data(const Design& design) {
   return Data(std::move(members));
 }
 
-Hash hash(const Design& design) {
-  // Each node's hash covers its inputs' hashes, so equal sub-designs count as one.
-  std::unordered_map<const Node*, Hash> hashes;
-  for (const Node* node : topological(design.roots())) {
-    std::string text = node->type().name + print_json_line(node_parameters(*node, true));
-    for (const NodePtr& input : node->inputs()) text += hashes.at(input.get()).hex();
-    hashes.emplace(node, hash_bytes(text));
+namespace {
+
+// Hashes of nodes by their types, parameters and the hashes of their inputs, so that equal sub-designs count as one.
+class NodeHasher {
+ public:
+  explicit NodeHasher(const std::vector<NodePtr>& roots) {
+    const std::vector<const Node*> nodes = topological(roots);
+    for (const NodePtr& root : roots) shared_[root.get()];
+    for (const Node* node : nodes)
+      for (const NodePtr& input : node->inputs())
+        if (input.use_count() > 1) shared_[input.get()];
+    for (const Node* node : nodes) add(*node);
   }
+
+  Hash of_root(const NodePtr& root) const { return shared_.at(root.get()); }
+
+ private:
+  void add(const Node& node) {
+    std::string text = node.type().name + print_json_line(node_parameters(node, true));
+    const auto inputs = node.inputs();
+    const auto is_single = [&](const NodePtr& input) { return !shared_.contains(input.get()); };
+    auto single = waiting_.end() - std::count_if(inputs.begin(), inputs.end(), is_single);
+    const auto first_single = single;
+    for (const NodePtr& input : inputs) {
+      const auto known = shared_.find(input.get());
+      text += (known != shared_.end() ? known->second : *single++).hex();
+    }
+    waiting_.erase(first_single, waiting_.end());
+    const Hash made = hash_bytes(text);
+    if (const auto known = shared_.find(&node); known != shared_.end())
+      known->second = made;
+    else
+      waiting_.push_back(made);
+  }
+
+  std::unordered_map<const Node*, Hash> shared_;
+  std::vector<Hash> waiting_;  // of nodes that only one node uses, which comes after its inputs
+};
+
+}  // namespace
+
+Hash hash(const Design& design) {
+  const std::vector<NodePtr> roots = design.roots();
+  const NodeHasher hashes(roots);
   DataList parts;
   for (const Part& part : design.parts)
-    parts.emplace_back(DataList{Data(part.name), Data(hashes.at(part.solid.get()).hex())});
+    parts.emplace_back(DataList{Data(part.name), Data(hashes.of_root(part.solid).hex())});
   DataMembers members{
       {"version", Data(format_version)}, {"materials", design.materials.to_data()}, {"parts", Data(std::move(parts))}};
   if (design.sampling) members.emplace_back("sampling", sampling_data(*design.sampling));

@@ -37,8 +37,8 @@ struct LoweringContext::Body {
 };
 
 LoweringContext::LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots,
-                                 std::optional<Vec3> voxel_mm)
-    : materials_(materials), roots_(roots), voxel_mm_(voxel_mm) {
+                                 std::optional<Vec3> voxel_mm, int threads)
+    : materials_(materials), roots_(roots), voxel_mm_(voxel_mm), threads_(threads) {
   std::unordered_map<const Node*, int> uses;
   for (const Node* node : topological(roots)) {
     for (const NodePtr& input : node->inputs())
@@ -55,6 +55,7 @@ LoweringContext::~LoweringContext() = default;
 
 std::optional<Vec3> LoweringContext::voxel_mm(const Node& node) {
   if (!voxel_mm_) return std::nullopt;
+  const std::scoped_lock lock(asked_);
   if (scales_.empty()) find_scales();
   return scales_.at(&node) * *voxel_mm_;
 }
@@ -207,15 +208,27 @@ Field Lowering::make_attribute(const Node& node, std::string_view name, const Po
   return attribute(*node.inputs()[0], name, p, demand);
 }
 
-bool Lowering::has_attribute(const Node& node, std::string_view name) {
+bool Lowering::has_attribute(const Node& node, std::string_view name) { return context_.carries(node, name); }
+
+bool LoweringContext::carries(const Node& node, std::string_view attribute) {
   const auto declared = node.declares();
-  if (declared && declared->name == name) return true;
-  const auto carries = [&](const NodePtr& input) { return has_attribute(*input, name); };
-  if (!context_.is_shared(node)) return std::ranges::any_of(node.inputs(), carries);
+  if (declared && declared->name == attribute) return true;
+  const auto some_input = [&] {
+    return std::ranges::any_of(node.inputs(), [&](const NodePtr& input) { return carries(*input, attribute); });
+  };
+  if (!is_shared(node)) return some_input();
   // Asked once, since there may be very many ways to it.
-  const auto [known, is_new] = context_.carries_.try_emplace({&node, std::string(name)}, false);
-  if (is_new) known->second = std::ranges::any_of(node.inputs(), carries);
-  return known->second;
+  const std::pair key(&node, std::string(attribute));
+  const auto known = [&]() -> std::optional<bool> {
+    const std::scoped_lock lock(asked_);
+    const auto found = carries_.find(key);
+    return found != carries_.end() ? std::optional(found->second) : std::nullopt;
+  };
+  if (const auto answer = known()) return *answer;
+  const bool answer = some_input();
+  const std::scoped_lock lock(asked_);
+  carries_.emplace(key, answer);
+  return answer;
 }
 
 const AttributeDeclaration* Lowering::declaration(std::string_view name) const {

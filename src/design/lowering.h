@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <tuple>
 #include <unordered_map>
@@ -25,9 +26,9 @@ struct ManyParts;
 // State that all lowerings of one design share: checks and bodies.
 class LoweringContext {
  public:
-  // `voxel_mm` of the job, if it is known.
+  // `voxel_mm` of the job, if it is known. Tables of many parts are made on up to `threads` threads; 0: all cores.
   LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots,
-                  std::optional<Vec3> voxel_mm = std::nullopt);
+                  std::optional<Vec3> voxel_mm = std::nullopt, int threads = 1);
   ~LoweringContext();
 
   const MaterialTable& materials() const { return materials_; }
@@ -48,11 +49,15 @@ class LoweringContext {
   struct Body;
   Body& body_of(const Node& node);
   void find_scales();
+  bool carries(const Node& node, std::string_view attribute);
   bool is_shared(const Node& node) const { return shared_.contains(&node); }
 
   const MaterialTable& materials_;
   std::vector<NodePtr> roots_;
   std::optional<Vec3> voxel_mm_;
+  int threads_;
+  // Lowerings that stand alone may ask at once.
+  std::mutex asked_;
   std::unordered_map<const Node*, double> scales_;  // a length there for one of the root's; found when asked for
   std::vector<Check> checks_;
   std::map<std::pair<const Node*, std::string>, uint32_t> check_numbers_;
@@ -83,7 +88,7 @@ class Lowering {
   std::optional<PartFields> many_parts(const Node& node, const PartList& list, PartQuery query, const Point& p,
                                        const Falloff* falloff);
   // From here on, nodes that are used more than once are not called as bodies, and checks are kept here
-  // instead of in the context: for sub-programs that stand for themselves.
+  // instead of in the context: for sub-programs that stand for themselves. Several may be made at once.
   void write_bodies_out() { stands_alone_ = true; }
   struct LocalCheck {
     const Node* node;

@@ -48,8 +48,35 @@ void PartTable::add(const Program& program, const std::vector<int>& slots, bool 
     if (in.op == Op::constant) row_.push_back(in.value);
     if (in.op == Op::affine) row_.insert(row_.end(), program.maps[in.aux].begin(), program.maps[in.aux].end());
   }
+  add_row(body);
+}
+
+void PartTable::add_row(uint32_t body) {
   const uint32_t row = std::visit([&](auto& parameters) { return parameters.add(row_); }, parameters_[body]);
   rows_.push_back({body, row});
+}
+
+void PartTable::append(const PartTable& later, const std::vector<size_t>& places) {
+  ASSERT(later.precision_ == precision_);
+  std::vector<uint32_t> bodies;  // of its bodies, here
+  for (const Body& body : later.bodies_) {
+    std::vector<int> slots;
+    for (size_t slot = 0; slot < body.slots.size(); ++slot) {
+      if (body.slots[slot] < 0) continue;
+      if (slots.size() <= places[slot]) slots.resize(places[slot] + 1, -1);
+      slots[places[slot]] = body.slots[slot];
+    }
+    bodies.push_back(body_number(body.code, slots, body.may_be_unknown));
+  }
+  for (const Row& row : later.rows_) {
+    const auto copy = [&](const auto& parameters) {
+      row_.clear();
+      for (size_t number = 0; number < parameters.per_row(); ++number)
+        row_.push_back(parameters.at(row.number, number));
+    };
+    std::visit(copy, later.parameters_[row.body]);
+    add_row(bodies[row.body]);
+  }
 }
 
 uint32_t PartTable::body_number(const Program& program, const std::vector<int>& slots, bool may_be_unknown) {
@@ -198,6 +225,13 @@ void PartIndex::add(const Box& box, const std::vector<Cells>& pieces) {
   parts_.push_back({Bounds(box), static_cast<uint32_t>(parts_.size())});
   piece_begins_.push_back(static_cast<uint32_t>(pieces_.size()));
   pieces_.insert(pieces_.end(), pieces.begin(), pieces.end());
+}
+
+void PartIndex::append(const PartIndex& later) {
+  const auto parts = static_cast<uint32_t>(parts_.size()), pieces = static_cast<uint32_t>(pieces_.size());
+  for (const Part& part : later.parts_) parts_.push_back({part.bounds, parts + part.number});
+  for (const uint32_t begin : later.piece_begins_) piece_begins_.push_back(pieces + begin);
+  pieces_.insert(pieces_.end(), later.pieces_.begin(), later.pieces_.end());
 }
 
 void PartIndex::build() {

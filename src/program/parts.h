@@ -43,6 +43,8 @@ class PartTable {
   // `slots[s]` is the program's output for slot s, or -1. The program has neither calls nor sources.
   // `may_be_unknown`: can any of its values be NaN where the part is?
   void add(const Program& program, const std::vector<int>& slots, bool may_be_unknown);
+  // The rows of another table of the same precision, whose slot s is slot places[s] here.
+  void append(const PartTable& later, const std::vector<size_t>& places);
   // What of a body some slots need.
   struct Excerpt {
     struct Line {
@@ -75,6 +77,7 @@ class PartTable {
   class Parameters {
    public:
     uint32_t add(const std::vector<double>& row);  // its number
+    size_t per_row() const { return places_.size(); }
     double at(uint32_t row, size_t number) const {
       const uint32_t place = places_[number];
       return static_cast<double>(place == common ? common_[number] : values_[size_t{row} * varying_.size() + place]);
@@ -94,6 +97,7 @@ class PartTable {
   using ParametersOfReference = Parameters<double>;
 
   uint32_t body_number(const Program& program, const std::vector<int>& slots, bool may_be_unknown);
+  void add_row(uint32_t body);  // of the parameters in row_
 
   Precision precision_;
   std::vector<Body> bodies_;
@@ -126,6 +130,7 @@ class PartIndex {
   static Box rounded(const Box& box);
   void expect(size_t parts, size_t pieces);
   void add(const Box& box, const std::vector<Cells>& pieces);  // the next part
+  void append(const PartIndex& later);                         // its parts, before either is built
   void build();                                                // when all are added
   // The parts whose pieces meet the region, in ascending order.
   void find(const Box& region, std::vector<uint32_t>& parts) const;

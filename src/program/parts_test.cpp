@@ -60,21 +60,26 @@ TEST(Cells, OfOneBoxShareTheirFaces) {
   }
 }
 
-// x*a + b: a begins to differ late, b at last, and only by its sign.
+// x*a + b
+Program line_program(double a, double b) {
+  Program program;
+  program.code = {{Op::input}, {Op::constant}, {Op::multiply}, {Op::constant}, {Op::add}};
+  program.code[1].value = a;
+  program.code[2].a = 0, program.code[2].b = 1;
+  program.code[3].value = b;
+  program.code[4].a = 2, program.code[4].b = 3;
+  program.outputs = {4};
+  return program;
+}
+
+// Factors begin to differ late, sums at last, and only by the sign.
 TEST(PartTable, GivesBackTheParametersOfEachRow) {
   for (const Precision precision : {Precision::reference, Precision::batch}) {
     PartTable table(precision);
     std::vector<std::vector<double>> rows;
     for (uint32_t n = 0; n < 200; ++n) {
       const double a = n < 100 ? 0.1 : 0.1 * n, b = n == 199 ? -0.0 : 0.0;
-      Program program;
-      program.code = {{Op::input}, {Op::constant}, {Op::multiply}, {Op::constant}, {Op::add}};
-      program.code[1].value = a;
-      program.code[2].a = 0, program.code[2].b = 1;
-      program.code[3].value = b;
-      program.code[4].a = 2, program.code[4].b = 3;
-      program.outputs = {4};
-      table.add(program, {0}, false);
+      table.add(line_program(a, b), {0}, false);
       rows.push_back({a, b});
     }
     EXPECT_EQ(table.body_count(), 1);
@@ -88,16 +93,35 @@ TEST(PartTable, GivesBackTheParametersOfEachRow) {
   }
 }
 
+// The later table calls slot 2 what the first one calls slot 3.
+TEST(PartTable, AppendsRowsWhoseSlotsHaveOtherNumbers) {
+  PartTable first(Precision::reference), later(Precision::reference);
+  first.add(line_program(1, 2), {0, -1, -1, 0}, false);
+  later.add(line_program(3, 4), {0, 0}, false);
+  later.add(line_program(5, 6), {0, -1, 0}, false);
+  first.append(later, {0, 1, 3});
+  ASSERT_EQ(first.size(), 3u);
+  ASSERT_EQ(first.body_count(), 2u);
+  EXPECT_EQ(first.body_of(2), first.body_of(0));
+  EXPECT_EQ(first.body(first.body_of(1)).slots, (std::vector<int>{0, 0}));
+  EXPECT_EQ(first.body(first.body_of(2)).slots, (std::vector<int>{0, -1, -1, 0}));
+  for (uint32_t row = 0; row < 3; ++row) {
+    EXPECT_EQ(first.parameter(row, 0), 1.0 + 2 * row);
+    EXPECT_EQ(first.parameter(row, 1), 2.0 + 2 * row);
+  }
+}
+
 TEST(PartIndex, FindsThePartsWhosePiecesMeetARegion) {
   RandomBoxes boxes;
-  PartIndex index;
+  PartIndex index, later;
   std::vector<std::vector<Box>> parts;
   for (int n = 0; n < 500; ++n) {
     const Box whole = boxes.next(10, 3);
     const std::vector<Cells> pieces{boxes.cells(), boxes.cells()};
-    index.add(whole, pieces);
+    (n < 300 ? index : later).add(whole, pieces);
     parts.push_back({pieces[0].in(whole), pieces[1].in(whole)});
   }
+  index.append(later);
   index.build();
   std::vector<uint32_t> found;
   for (int n = 0; n < 500; ++n) {
