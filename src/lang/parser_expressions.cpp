@@ -80,16 +80,23 @@ ExprPtr Parser::conditional() {
   return result;
 }
 
-// Operators of `precedence`; those that bind tighter are read into its operands.
+// Operators of `precedence` and those that bind tighter.
 ExprPtr Parser::chain(int precedence) {
-  ExprPtr first = precedence == tightest ? unary() : chain(precedence + 1);
+  ExprPtr value = unary();
+  for (int level = tightest; level >= precedence && binary_operator(kind()); --level)
+    value = links(level, std::move(value));
+  return value;
+}
+
+// What operators of `precedence` append to the first operand.
+ExprPtr Parser::links(int precedence, ExprPtr first) {
   std::unique_ptr<Chain> result;
   for (const BinaryOperator* op = binary_operator(kind()); op && op->precedence == precedence;
        op = binary_operator(kind())) {
     if (!result) result = std::make_unique<Chain>(std::move(first));
     const Span op_span = span(token());
     take();
-    result->links.push_back({op->op, op_span, precedence == tightest ? unary() : chain(precedence + 1)});
+    result->links.push_back({op->op, op_span, chain(precedence + 1)});
   }
   if (!result) return first;
   result->span = since(result->span.begin);

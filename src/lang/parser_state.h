@@ -103,6 +103,7 @@ class Parser {
   ast::ExprPtr expression();
   ast::ExprPtr conditional();
   ast::ExprPtr chain(int precedence);
+  ast::ExprPtr links(int precedence, ast::ExprPtr first);
   ast::ExprPtr unary();
   ast::ExprPtr power();
   ast::ExprPtr postfix();
