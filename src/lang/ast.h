@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -22,11 +23,17 @@ using Symbol = const std::string*;
 
 class Names {
  public:
-  bool contains(std::string_view text) const { return names_.count(std::string(text)) > 0; }
-  Symbol intern(std::string_view text) { return &*names_.emplace(text).first; }
+  bool contains(std::string_view text) const { return names_.contains(text); }
+  Symbol intern(std::string_view text) {
+    const auto known = names_.find(text);
+    return known != names_.end() ? &*known : &*names_.emplace(text).first;
+  }
 
  private:
-  std::unordered_set<std::string> names_;
+  struct Hash : std::hash<std::string_view> {
+    using is_transparent = void;
+  };
+  std::unordered_set<std::string, Hash, std::equal_to<>> names_;
 };
 
 namespace ast {

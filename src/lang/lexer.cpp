@@ -290,10 +290,13 @@ void Lexer::sign() {
                                    {'=', '=', TokenKind::equal_equal}, {'!', '=', TokenKind::not_equal},
                                    {'&', '&', TokenKind::and_and},     {'|', '|', TokenKind::or_or}};
   const size_t begin = at_;
-  for (const Pair& pair : pairs) {
-    if (peek() != pair.first || peek(1) != pair.second) continue;
-    at_ += 2;
-    return put(pair.kind, begin);
+  const char next = peek(1);
+  if (next == '=' || next == '&' || next == '|') {
+    for (const Pair& pair : pairs) {
+      if (peek() != pair.first || next != pair.second) continue;
+      at_ += 2;
+      return put(pair.kind, begin);
+    }
   }
   const auto kind = single_sign(peek());
   if (!kind) return stray();
