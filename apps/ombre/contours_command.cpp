@@ -154,7 +154,7 @@ int contours(const ContoursArguments& a, Session& session) {
   refuse_to_overwrite_layers(a, format);
 
   Diagnostics diagnostics;
-  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics);
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
   const auto plan = loaded ? compile::plan_contours(*loaded, request, diagnostics) : std::nullopt;
   session.console.diagnose(diagnostics);
   if (!plan || diagnostics.has_errors()) return wrong_input;

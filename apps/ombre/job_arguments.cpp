@@ -78,10 +78,11 @@ std::optional<compile::PlanOptions> plan_options(const JobArguments& a, Diagnost
   return options;
 }
 
-compile::LoadedPtr load_design(const DesignArguments& a, Session& session, Diagnostics& diagnostics) {
+compile::LoadedPtr load_design(const DesignArguments& a, Session& session, Diagnostics& diagnostics, int threads) {
   compile::LoadOptions options{a.materials, a.definitions};
   options.echo = [&](const std::string& text) { session.console.say(text); };
   options.stop = &session.stop;
+  options.threads = threads;
   return session.load(a.design, options, diagnostics);
 }
 

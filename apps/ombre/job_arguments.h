@@ -32,7 +32,8 @@ void add_job_arguments(CLI::App& app, JobArguments& arguments);
 // Nothing, and diagnostics, when there is no such printer. Throws WrongArgument.
 std::optional<compile::PlanOptions> plan_options(const JobArguments& arguments, Diagnostics& diagnostics);
 
-// Null, and diagnostics, when the design is wrong.
-compile::LoadedPtr load_design(const DesignArguments& arguments, Session& session, Diagnostics& diagnostics);
+// On up to `threads` threads; 0: all cores. Null, and diagnostics, when the design is wrong.
+compile::LoadedPtr load_design(const DesignArguments& arguments, Session& session, Diagnostics& diagnostics,
+                               int threads = 0);
 
 }  // namespace ombre::cli

@@ -160,7 +160,7 @@ int mesh(const MeshArguments& a, Session& session) {
 
   const Stopwatch watch;
   Diagnostics diagnostics;
-  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics);
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
   std::optional<compile::MeshedDesign> made;
   if (loaded) {
     ProgressLine progress(session.console);

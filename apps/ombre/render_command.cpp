@@ -206,7 +206,7 @@ int render_design(const RenderArguments& a, Session& session) {
     for (const std::string& file : files) refuse_to_overwrite(file, a.force);
 
   Diagnostics diagnostics;
-  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics);
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
   const auto take = [&](int frame, const compile::Picture& picture) {
     const std::string bytes =
         formats::encode_png(static_cast<uint32_t>(request.width), static_cast<uint32_t>(request.height), picture.rgba);

@@ -145,7 +145,7 @@ int slice(const SliceArguments& a, Session& session) {
   wishes->threads = a.threads;
   parse_memory(a.memory);  // a slip is better told before a long load
 
-  const compile::LoadedPtr loaded = load_design(a.job, session, diagnostics);
+  const compile::LoadedPtr loaded = load_design(a.job, session, diagnostics, a.threads);
   if (!loaded) return diagnosed();
   if (const design::Node* node = a.resume || a.emit == "json" ? design::find_host_function(loaded->design) : nullptr) {
     diagnostics.error(node->where(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/json.h"
+#include "base/tasks.h"
 #include "base/text.h"
 #include "compile/data_folder.h"
 #include "compile/mesh_loader.h"
@@ -42,6 +43,7 @@ std::optional<design::Design> run_script(const SourcePtr& source, const LoadOpti
   lang::Options run;
   run.echo = options.echo;
   run.stop = options.stop;
+  run.threads = options.threads > 0 ? options.threads : core_count();
   for (const std::string& text : options.definitions)
     if (auto definition = parse_definition(text, diagnostics)) run.definitions.push_back(std::move(*definition));
   if (!materials || diagnostics.has_errors()) return std::nullopt;

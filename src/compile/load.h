@@ -22,6 +22,7 @@ struct LoadOptions {
   std::vector<std::string> definitions;                    // "name=value", set before the script runs
   std::function<void(const std::string&)> echo = nullptr;  // where the script's echo goes; may be empty
   const StopFlag* stop = nullptr;
+  int threads = 0;  // 0: all cores
 };
 
 // A design that was read and checked.

@@ -165,8 +165,9 @@ std::vector<std::string> parts_of_several_tasks() {
   return parts;
 }
 
+constexpr const char* coarse = "root((-4, -4, -4), (4, 4, 4), (0.1, 0.12, 0.14)) ";
+
 TEST(ManyParts, OfSeveralTasksAreOneTable) {
-  const std::string coarse = "root((-4, -4, -4), (4, 4, 4), (0.1, 0.12, 0.14)) ";
   const auto parts = parts_of_several_tasks();
   for (const std::string rule : {"materials=\"first\"", "materials=\"last\""})
     EXPECT_EQ(differences(slice_as(flat(parts, rule), {}, coarse), slice_as(balanced(parts, rule), {}, coarse)), 0u);
@@ -178,8 +179,9 @@ TEST(ManyParts, OfSeveralTasksAreOneTable) {
   }
 }
 
+// So many that they are read ahead, too.
 TEST(ManyParts, DoNotDependOnThreads) {
-  const std::string text = box + ("{" + flat(parts_of_several_tasks()) + "}");
+  const std::string text = coarse + ("{" + flat(some_parts(2600)) + "}");
   PlanOptions one, several;
   one.threads = 1;
   several.threads = 4;

@@ -21,6 +21,7 @@ struct Definition {
 struct Options {
   std::vector<Definition> definitions;
   Limits limits;
+  int threads = 1;                               // with more than one, long lists are read ahead of their evaluation
   const StopFlag* stop = nullptr;                // checked now and then; Cancelled is thrown
   std::function<void(const std::string&)> echo;  // one line without its end; may be empty
   // What `include` and `use` read: nothing where there is no such file. Empty for the real files.

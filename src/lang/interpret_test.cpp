@@ -10,9 +10,9 @@ namespace {
 
 using Cases = std::vector<std::pair<std::string, std::string>>;
 
-void expect_nodes(const Cases& cases) {
+void expect_nodes(const Cases& cases, const Options& options = {}) {
   for (const auto& [text, expected] : cases) {
-    const Result result = run_script(text);
+    const Result result = run_script(text, options);
     EXPECT_EQ(result.nodes, expected) << text;
     EXPECT_EQ(result.messages, "") << text;
   }
@@ -273,6 +273,13 @@ TEST(Interpret, StepsAndInstancesAreLimited) {
   EXPECT_NE(result.messages.find("the design makes more than 100 nodes"), std::string::npos);
 }
 
+// Reading ahead or not.
+std::vector<Options> for_long_lists() {
+  Options one, several;
+  several.threads = 2;
+  return {one, several};
+}
+
 // Long enough for calls to be read twice.
 std::string numbered_cubes(int count) {
   std::string text;
@@ -283,27 +290,57 @@ std::string numbered_cubes(int count) {
 TEST(Interpret, LongListsMeanWhatShortOnesDo) {
   std::string expected;
   for (int n = 0; n < 3000; ++n) expected += (n > 0 ? " cube(" : "cube(") + std::to_string(n) + ")";
-  expect_nodes({{numbered_cubes(3000), expected},
-                {"union() {" + numbered_cubes(3000) + "}", "union(){" + expected + "}"},
-                {"{" + numbered_cubes(3000) + "}", expected},
-                {"module m() {" + numbered_cubes(3000) + "} m();", expected},
-                {"for (i = [0:0]) {" + numbered_cubes(3000) + "}", expected},
-                {"module m() children(); m() {" + numbered_cubes(3000) + "}", expected},
-                {"module m() children(2500); m() {" + numbered_cubes(3000) + "}", "cube(2500)"},
-                {"module m() cube($children); m() {" + numbered_cubes(3000) + "}", "cube(3000)"}});
+  const std::string many = numbered_cubes(3000), row = "union() {" + many + "}", rows = row + row + many + row;
+  const std::string made = "union(){" + expected + "}";
+  const Cases cases = {
+      {many, expected},
+      {row, made},
+      {"{" + many + "}", expected},
+      {"module m() {" + many + "} m();", expected},
+      {"for (i = [0:0]) {" + many + "}", expected},
+      {"module m() children(); m() {" + many + "}", expected},
+      {"module m() children(2500); m() {" + many + "}", "cube(2500)"},
+      {"module m() { children(2500); children(2100); } m() {" + many + row + "}", "cube(2500) cube(2100)"},
+      {"module m() cube($children); m() {" + many + "}", "cube(3000)"},
+      {rows, made + " " + made + " " + expected + " " + made}};
+  for (const Options& options : for_long_lists()) expect_nodes(cases, options);
+}
+
+TEST(Interpret, ManyLongListsWithinALongOneAreRead) {
+  std::string text, expected;
+  for (int n = 0; n < 40; ++n) text += numbered_cubes(60);
+  text += "union() {" + text + "union() {" + text + "} }" + text;
+  const std::string one = run_script(text).nodes;
+  Options several;
+  several.threads = 2;
+  EXPECT_EQ(run_script(text, several).nodes, one);
+  EXPECT_GT(one.size(), 4 * 2400 * std::string("cube(1)").size());
 }
 
 TEST(Interpret, LongListsMayHoldAnything) {
   const std::string before = "module nothing() {}\n" + std::string(2000, ';');
   std::string many;
   for (int n = 0; n < 2000; ++n) many += "nothing();";
-  expect_nodes(
-      {{before + many + "*cube(1); %cube(2); #cube(3);", "cube(3)"},
-       {many + "cube(1); module nothing() {} !cube(2); !union() { cube(3); }", "cube(2) union(){cube(3)}"},
-       {before + many + "F-grade([\"1\"], [red]) { a = 3; cube(a); } cube(a); a = 4;",
-        "fgrade([\"1\"],[\"red\"]){cube(3)} cube(4)"},
-       {before + many + "module give(f) cube(f(2)); give(function(n) n + 1);", "cube(3)"},
-       {before + many + "union() {" + many + "cube(1); union() { cube(2); } }", "union(){cube(1) union(){cube(2)}}"}});
+  const Cases cases = {
+      {before + many + "*cube(1); %cube(2); #cube(3);", "cube(3)"},
+      {many + "cube(1); module nothing() {} !cube(2); !union() { cube(3); }", "cube(2) union(){cube(3)}"},
+      {before + many + "F-grade([\"1\"], [red]) { a = 3; cube(a); } cube(a); a = 4;",
+       "fgrade([\"1\"],[\"red\"]){cube(3)} cube(4)"},
+      {before + many + "module give(f) cube(f(2)); give(function(n) n + 1);", "cube(3)"},
+      {before + many + "union() {" + many + "cube(1); union() { cube(2); } }", "union(){cube(1) union(){cube(2)}}"}};
+  for (const Options& options : for_long_lists()) expect_nodes(cases, options);
+}
+
+TEST(Interpret, MistakesInLongListsAreTheSameReadAhead) {
+  Options several;
+  several.threads = 2;
+  for (const std::string mistake : {"cube(nowhere);", "broken();", "assert(false);", "show(\"\\q\");", "cube(1;"}) {
+    const std::string text = numbered_cubes(2500) + mistake + numbered_cubes(2500);
+    const Result one = run_script(text), ahead = run_script(text, several);
+    EXPECT_EQ(ahead.messages, one.messages);
+    EXPECT_NE(ahead.messages, "");
+    EXPECT_EQ(ahead.nodes, one.nodes);
+  }
 }
 
 TEST(Interpret, MistakesInLongListsAreToldOnceWithTheirPlaces) {
@@ -342,6 +379,8 @@ TEST(Interpret, StopsWhenAsked) {
   Options options;
   options.stop = &stop;
   EXPECT_THROW(run_script("cube(1);", options), Cancelled);
+  options.threads = 2;
+  EXPECT_THROW(run_script(numbered_cubes(5000), options), Cancelled);
 }
 
 TEST(Interpret, NothingIsEvaluatedAfterASyntaxError) {

@@ -11,6 +11,7 @@
 #include "lang/interpret.h"
 #include "lang/loader.h"
 #include "lang/operators.h"
+#include "lang/read_ahead.h"
 #include "lang/scope.h"
 
 namespace ombre::lang {
@@ -60,6 +61,19 @@ class Interpreter {
     const std::vector<ast::Parameter>* parameters = nullptr;
     const ast::Expr* body = nullptr;
     ScopePtr scope;  // where it was written
+  };
+
+  // The reader of a list, while its actions are run.
+  class Reading {
+   public:
+    Reading(ReadAhead*& place, ReadAhead* now) : place_(place), before_(std::exchange(place, now)) {}
+    ~Reading() { place_ = before_; }
+    Reading(const Reading&) = delete;
+    Reading& operator=(const Reading&) = delete;
+
+   private:
+    ReadAhead*& place_;
+    ReadAhead* before_;
   };
 
   // --- diagnostics.cpp
@@ -192,6 +206,7 @@ class Interpreter {
   uint64_t argument_bytes_ = 0;  // of the call being put together
   Nodes roots_;                  // of statements marked "!"
   bool has_roots_ = false;
+  ReadAhead* reader_ = nullptr;           // of the action begun last, if it has one
   std::unordered_set<std::string> told_;  // diagnostics that were given
 };
 

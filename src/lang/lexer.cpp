@@ -68,9 +68,10 @@ std::optional<TokenKind> single_sign(char c) {
 // Reads one string's escapes.
 class Unescaper {
  public:
-  Unescaper(const SourceRange& token, Diagnostics& diagnostics)
-      : token_(token),
-        text_(token.source->text().substr(token.begin, token.end - token.begin)),
+  Unescaper(const SourcePtr& source, const Token& token, Diagnostics& diagnostics)
+      : source_(source),
+        begin_(token.begin),
+        text_(source->text().substr(token.begin, token.end - token.begin)),
         diagnostics_(diagnostics) {}
 
   StringValue run() {
@@ -89,7 +90,7 @@ class Unescaper {
     const size_t size = text_[at_] == '\0' ? 0 : code_point_size(text_, at_);
     if (size == 0) {
       if (!was_told_)
-        diagnostics_.error(token_.part(at_, at_ + 1), "this is not text in UTF-8", "save the file as plain UTF-8 text");
+        diagnostics_.error(part(at_, at_ + 1), "this is not text in UTF-8", "save the file as plain UTF-8 text");
       was_told_ = true;
       ++at_;
       return;
@@ -127,7 +128,7 @@ class Unescaper {
         break;
     }
     // Designs written without escapes in mind (paths, formulas) keep what they say.
-    diagnostics_.warning(token_.part(begin, begin + 1), "this backslash starts no escape and stands for itself",
+    diagnostics_.warning(part(begin, begin + 1), "this backslash starts no escape and stands for itself",
                          "write \\\\ for a backslash");
     result_.text += '\\';
     at_ = begin + 1;
@@ -138,12 +139,12 @@ class Unescaper {
     for (size_t i = 0; i < digits; ++i, ++at_) {
       const int digit = at_ < text_.size() ? hex(text_[at_]) : -1;
       if (digit < 0)
-        return diagnostics_.error(token_.part(begin, at_),
+        return diagnostics_.error(part(begin, at_),
                                   "this escape needs " + std::to_string(digits) + " hexadecimal digits");
       value = value * 16 + static_cast<uint32_t>(digit);
     }
     if (!is_code_point(value) || (digits == 2 && value > 0x7F))
-      return diagnostics_.error(token_.part(begin, at_), "this escape is no Unicode character",
+      return diagnostics_.error(part(begin, at_), "this escape is no Unicode character",
                                 digits == 2 ? "\\x goes from 01 to 7f; write \\u for other characters" : "");
     append_code_point(result_.text, value);
   }
@@ -155,7 +156,12 @@ class Unescaper {
     return -1;
   }
 
-  const SourceRange& token_;
+  SourceRange part(size_t from, size_t to) const {
+    return {source_, begin_ + static_cast<uint32_t>(from), begin_ + static_cast<uint32_t>(to)};
+  }
+
+  const SourcePtr& source_;
+  uint32_t begin_;
   std::string_view text_;
   Diagnostics& diagnostics_;
   size_t at_ = 1;
@@ -334,8 +340,8 @@ void Tokens::take() {
   first_ = 0;
 }
 
-StringValue read_string(const SourceRange& token, Diagnostics& diagnostics) {
-  return Unescaper(token, diagnostics).run();
+StringValue read_string(const SourcePtr& source, const Token& token, Diagnostics& diagnostics) {
+  return Unescaper(source, token, diagnostics).run();
 }
 
 }  // namespace ombre::lang

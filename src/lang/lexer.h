@@ -111,6 +111,6 @@ struct StringValue {
 };
 
 // What a string token, quotes included, says.
-StringValue read_string(const SourceRange& token, Diagnostics& diagnostics);
+StringValue read_string(const SourcePtr& source, const Token& token, Diagnostics& diagnostics);
 
 }  // namespace ombre::lang

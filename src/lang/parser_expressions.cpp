@@ -188,7 +188,7 @@ ExprPtr Parser::number() {
 
 ExprPtr Parser::string() {
   const Span where = span(token());
-  StringValue value = read_string(where.range(), diagnostics_);
+  StringValue value = read_string(*source_, token(), diagnostics_);
   take();
   return std::make_unique<String>(where, std::move(value.text), value.is_plain);
 }

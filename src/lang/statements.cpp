@@ -75,9 +75,12 @@ void Interpreter::run_block(const ast::Block& block, const ScopePtr& outer, Node
 }
 
 void Interpreter::run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out, std::vector<size_t>* ends) {
-  for (const Statement* action : plan.actions) {
+  const auto reader = options_.threads > 1 ? ReadAhead::start(plan.actions, *program_.names) : nullptr;
+  const Reading reading(reader_, reader.get());
+  for (size_t n = 0; n < plan.actions.size(); ++n) {
     const size_t before = out.size();
-    run_action(*action, scope, out);
+    if (reader) reader->go_to(n);
+    run_action(*plan.actions[n], scope, out);
     if (ends && out.size() > before) ends->push_back(out.size());
   }
 }
@@ -132,6 +135,7 @@ void Interpreter::dispatch(const Statement& statement, const ScopePtr& scope, No
 
 // Nothing that evaluation keeps points into the statement: values that remember literals end with it.
 void Interpreter::run_deferred(const ast::Deferred& statement, const ScopePtr& scope, Nodes& out) {
+  if (const Statement* known = reader_ ? reader_->call(statement) : nullptr) return dispatch(*known, scope, out);
   const ast::StatementPtr call = read(statement, *program_.names);
   dispatch(*call, scope, out);
 }

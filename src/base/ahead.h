@@ -1,0 +1,86 @@
+// Things made before they are asked for.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace ombre {
+
+// make(0), make(1) ... make(count - 1), in order and on a thread of its own; at most `window` of them wait.
+template <class T>
+class Ahead {
+ public:
+  Ahead(size_t count, size_t window, std::function<T(size_t)> make)
+      : count_(count), window_(window), make_(std::move(make)), thread_([this] { work(); }) {}
+  Ahead(const Ahead&) = delete;
+  Ahead& operator=(const Ahead&) = delete;
+  ~Ahead() {
+    {
+      const std::scoped_lock lock(mutex_);
+      is_stopped_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+  }
+
+  // The next one; may be called `count` times. Throws what making it threw. What was taken before is best given back:
+  // memory is freed with less effort by the thread that asked for it.
+  T take(T spent = {}) {
+    std::unique_lock lock(mutex_);
+    spent_.push_back(std::move(spent));
+    changed_.wait(lock, [this] { return failure_ || !waiting_.empty(); });
+    if (waiting_.empty()) std::rethrow_exception(failure_);
+    T next = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    changed_.notify_all();
+    return next;
+  }
+
+ private:
+  void work() {
+    try {
+      for (size_t i = 0; i < count_ && has_room(); ++i) put(make_(i));
+    } catch (...) {
+      const std::scoped_lock lock(mutex_);
+      failure_ = std::current_exception();
+    }
+    changed_.notify_all();
+  }
+
+  // Waits for it; false when stopped.
+  bool has_room() {
+    std::vector<T> spent;
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return is_stopped_ || waiting_.size() < window_; });
+    spent.swap(spent_);
+    return !is_stopped_;
+  }
+
+  void put(T made) {
+    {
+      const std::scoped_lock lock(mutex_);
+      waiting_.push_back(std::move(made));
+    }
+    changed_.notify_all();
+  }
+
+  const size_t count_, window_;
+  const std::function<T(size_t)> make_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<T> waiting_;
+  std::vector<T> spent_;
+  std::exception_ptr failure_;
+  bool is_stopped_ = false;
+  std::thread thread_;  // the last member: it uses the others
+};
+
+}  // namespace ombre
