@@ -160,15 +160,18 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   if (!box) return std::nullopt;
   const auto lattice = LatticePlanner(*loaded, options, *box, diagnostics).run();
   if (!lattice) return std::nullopt;
-  // The longer one first.
   Hash design_hash;
   std::optional<Built> built;
-  run_parallel(2, options.threads, [&](size_t task) {
-    if (task == 0)
-      built = build_flat_program(design::for_voxels(design, lattice->voxel_mm()), diagnostics, options.threads);
-    else
-      design_hash = design::hash(design);
-  });
+  const auto hash = [&] { design_hash = design::hash(design); };
+  const auto build = [&] {
+    built = build_flat_program(design::for_voxels(design, lattice->voxel_mm()), diagnostics, options.threads);
+  };
+  if (options.threads == 1) {  // one after the other: both take memory
+    hash();
+    build();
+  } else {
+    run_parallel(2, options.threads, [&](size_t task) { task == 0 ? build() : hash(); });
+  }
   if (!built) return std::nullopt;
   leave_out_impossible(*built, lattice->box());
   warn_of_features(options.printer, box->size(), {loaded->source, 0, 0}, diagnostics);
