@@ -20,6 +20,14 @@ std::string percent(double share) {
   return std::string(3 - std::min<size_t>(3, text.size()), ' ') + text + '%';
 }
 
+Pace pace_of(const HowFar& how_far) {
+  Pace pace;
+  const auto done = static_cast<double>(how_far.done), total = static_cast<double>(how_far.total);
+  pace.share = total > 0 ? done / total : 1;
+  pace.seconds_left = how_far.seconds_left;
+  return pace;
+}
+
 }  // namespace
 
 std::string duration_text(double seconds) {
@@ -37,6 +45,7 @@ std::string rate_text(double voxels_per_second) {
 
 std::string progress_text(const Pace& pace) {
   std::string text = percent(pace.share);
+  if (pace.is_checking) text += "  checking what is there";
   if (pace.voxels_per_second > 0) text += "  " + rate_text(pace.voxels_per_second);
   if (pace.seconds_left >= 0) text += "  " + duration_text(pace.seconds_left) + " left";
   return text;
@@ -58,25 +67,41 @@ void ProgressLine::update(const HowFar& how_far) {
     done_at_start_ = how_far.done;  // what an earlier run finished tells nothing about the pace of this one
     return;
   }
-  const bool programs = console_.voice() == Voice::programs;
-  const double interval = programs ? event_interval_s : console_.is_terminal() ? bar_interval_s : line_interval_s;
-  if (std::chrono::duration<double>(now - shown_).count() < interval) return;
-  shown_ = now;
-
-  Pace pace;
-  const auto done = static_cast<double>(how_far.done), total = static_cast<double>(how_far.total);
-  pace.share = total > 0 ? done / total : 1;
-  pace.seconds_left = how_far.seconds_left;
+  if (!is_due()) return;
+  Pace pace = pace_of(how_far);
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  if (elapsed > 0) pace.voxels_per_second = (done - static_cast<double>(done_at_start_)) / elapsed;
-  if (programs) {
-    console_.event("progress", {{"voxels_done", done},
-                                {"voxels_total", total},
+  if (elapsed > 0) pace.voxels_per_second = static_cast<double>(how_far.done - done_at_start_) / elapsed;
+  show(pace);
+  if (console_.voice() == Voice::programs)
+    console_.event("progress", {{"voxels_done", static_cast<double>(how_far.done)},
+                                {"voxels_total", static_cast<double>(how_far.total)},
                                 {"voxels_per_second", std::round(pace.voxels_per_second)},
                                 {"seconds_left", std::round(pace.seconds_left)}});
-    return;
-  }
+}
+
+void ProgressLine::checking(const HowFar& how_far) {
+  const std::scoped_lock lock(mutex_);
+  if (!has_checked_) shown_ = Clock::now();
+  has_checked_ = true;
+  if (!is_due()) return;
+  Pace pace = pace_of(how_far);
+  pace.is_checking = true;
   show(pace);
+  if (console_.voice() == Voice::programs)
+    console_.event("checking", {{"bytes_done", static_cast<double>(how_far.done)},
+                                {"bytes_total", static_cast<double>(how_far.total)},
+                                {"seconds_left", std::round(pace.seconds_left)}});
+}
+
+// Not more often than anyone wants to know.
+bool ProgressLine::is_due() {
+  const double interval = console_.voice() == Voice::programs ? event_interval_s
+                          : console_.is_terminal()            ? bar_interval_s
+                                                              : line_interval_s;
+  const auto now = Clock::now();
+  if (std::chrono::duration<double>(now - shown_).count() < interval) return false;
+  shown_ = now;
+  return true;
 }
 
 void ProgressLine::show(const Pace& pace) {

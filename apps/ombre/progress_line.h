@@ -15,6 +15,7 @@ struct Pace {
   double share = 0;              // of the work, 0 ... 1
   double voxels_per_second = 0;  // 0 while unknown
   double seconds_left = -1;      // below 0 while unknown
+  bool is_checking = false;      // what is there already
 };
 
 // "[=====>    ]  45%  123 M voxels/s  0:34 left"
@@ -31,17 +32,19 @@ class ProgressLine : public Progress {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void update(const HowFar& how_far) override;
+  void checking(const HowFar& how_far) override;
   // Clears the bar, so that other text can follow.
   void finish();
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  bool is_due();
   void show(const Pace& pace);
 
   const Console& console_;
   std::mutex mutex_;
-  bool started_ = false, bar_shown_ = false;
+  bool started_ = false, has_checked_ = false, bar_shown_ = false;
   uint64_t done_at_start_ = 0;
   Clock::time_point start_, shown_;
 };

@@ -93,6 +93,7 @@ class SliceProgress : public Progress {
     console_.warn(warning);
     warned_ = true;
   }
+  void checking(const HowFar& how_far) override { line_.checking(how_far); }
   void finish() { line_.finish(); }
 
  private:

@@ -17,6 +17,8 @@ class Progress {
  public:
   virtual ~Progress() = default;
   virtual void update(const HowFar& how_far) = 0;
+  // Before the work, while what earlier runs left is read: in bytes.
+  virtual void checking(const HowFar&) {}
 };
 
 // Set from a signal handler or another thread; work looks at it every tenth of a second or so and throws Cancelled.

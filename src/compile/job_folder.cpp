@@ -2,6 +2,7 @@
 #include "compile/job_folder.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -11,6 +12,8 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/json.h"
+#include "base/steady_pace.h"
+#include "base/stopwatch.h"
 #include "base/tasks.h"
 #include "compile/job_description.h"
 #include "compile/job_lock.h"
@@ -79,6 +82,12 @@ void make_folder(const std::string& path) {
   if (error) throw Error(exporting::write_failure(path, error.value()));
 }
 
+uint64_t bytes_of(const JournalEntry& entry) {
+  uint64_t bytes = 0;
+  for (const JournalFile& file : entry.files) bytes += file.bytes;
+  return bytes;
+}
+
 void remove_file(const std::string& path) {
   std::error_code error;
   fs::remove(path, error);
@@ -87,8 +96,9 @@ void remove_file(const std::string& path) {
 
 }  // namespace
 
-JobFolder::JobFolder(std::string path, const SliceRequest& request, FolderUse use, int threads, const StopFlag* stop)
-    : path_(std::move(path)), request_(request), files_(request), threads_(threads), stop_(stop) {
+JobFolder::JobFolder(std::string path, const SliceRequest& request, FolderUse use, int threads, Progress* progress,
+                     const StopFlag* stop)
+    : path_(std::move(path)), request_(request), files_(request), threads_(threads), progress_(progress), stop_(stop) {
   make_folder(path_);
   lock_ = std::make_unique<FolderLock>(path_);
   switch (use) {
@@ -202,9 +212,15 @@ void JobFolder::remove_parts() const {
 
 void JobFolder::keep_proven(std::vector<JournalEntry> entries) {
   std::vector<char> good(entries.size());  // not vector<bool>: written from several threads
+  uint64_t total = 0;
+  for (const JournalEntry& entry : entries) total += bytes_of(entry);
+  std::atomic<uint64_t> done{0};
+  const Stopwatch watch;
   run_parallel(entries.size(), threads_, [&](size_t i) {
     if (stop_ && stop_->requested()) throw Cancelled();
     good[i] = proven(entries[i]);
+    done += bytes_of(entries[i]);
+    if (progress_) progress_->checking(at_steady_pace(done, total, watch.seconds()));
   });
   for (size_t i = 0; i < entries.size(); ++i)
     if (good[i]) finished_.emplace(entries[i].layer, std::move(entries[i]));

@@ -28,8 +28,9 @@ class JobFolder {
  public:
   // Makes the folder ready for the job's layers, as `use` says. Throws Error when it cannot be written,
   // holds what is not the job's, or is in use by another run. `threads` read what is there already, which
-  // takes its time for large jobs; Cancelled when asked to stop meanwhile.
-  JobFolder(std::string path, const SliceRequest& request, FolderUse use, int threads, const StopFlag* stop);
+  // takes its time for large jobs, as `progress` is told (or is null); Cancelled when asked to stop meanwhile.
+  JobFolder(std::string path, const SliceRequest& request, FolderUse use, int threads, Progress* progress,
+            const StopFlag* stop);
   ~JobFolder();
   JobFolder(const JobFolder&) = delete;
   JobFolder& operator=(const JobFolder&) = delete;
@@ -68,6 +69,7 @@ class JobFolder {
   const SliceRequest& request_;
   LayerFiles files_;
   int threads_;
+  Progress* progress_;
   const StopFlag* stop_;
   std::unique_ptr<FolderLock> lock_;
   std::map<int64_t, JournalEntry> finished_;

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <mutex>
 #include <random>
 #include <thread>
 
@@ -87,6 +88,28 @@ TEST_F(Slice, StopsWhileFinishedLayersAreRead) {
   const SliceRequest request = ball_request();
   EXPECT_THROW(slice(request, ball(request), options(FolderUse::resume), nullptr, &stop), Cancelled);
   expect_same(whole, contents(folder()));
+}
+
+TEST_F(Slice, TellsHowFarReadingFinishedLayersIs) {
+  struct Recorder : Progress {
+    std::vector<HowFar> seen;
+    std::mutex mutex;
+    void update(const HowFar&) override {}
+    void checking(const HowFar& how_far) override {
+      const std::scoped_lock lock(mutex);
+      seen.push_back(how_far);
+    }
+  } recorder;
+  run(ball_request(), options());
+  uint64_t bytes = 0;
+  for (const auto& [name, text] : contents(folder()))
+    if (name.ends_with(".png")) bytes += text.size();
+  const SliceRequest request = ball_request();
+  slice(request, ball(request), options(FolderUse::resume), &recorder);
+  EXPECT_EQ(recorder.seen.size(), 40u);  // layers
+  for (const HowFar& how_far : recorder.seen) EXPECT_EQ(how_far.total, bytes);
+  const auto less = [](const HowFar& a, const HowFar& b) { return a.done < b.done; };
+  EXPECT_EQ(std::ranges::max_element(recorder.seen, less)->done, bytes);
 }
 
 TEST_F(Slice, KilledRunsResumeToTheSameBytes) {

@@ -58,7 +58,7 @@ class SliceRun {
         options_(options),
         stop_(stop),
         size_(size_work(request, options)),
-        folder_(options.folder, request, options.use, size_.threads, stop),
+        folder_(options.folder, request, options.use, size_.threads, progress, stop),
         layers_(layers_asked_for(request, options)),
         slabs_(missing_slabs(layers_, folder_.finished(), size_.slab_layers)),
         forecast_(slabs_, size_.threads),
