@@ -1,6 +1,7 @@
 #include "compile/build.h"
 
 #include "base/text.h"
+#include "compile/possible_outputs.h"
 #include "nodes/all_nodes.h"
 #include "program/passes/passes.h"
 
@@ -77,6 +78,7 @@ std::optional<Built> build_flat_program(const design::Design& design, Diagnostic
 
 void leave_out_impossible(Built& built, const Box& box) {
   voxel::MaterialProgram& m = built.materials;
+  const std::vector<bool> possible = possible_outputs(m.program, box);
   std::vector<Interval> values;
   program::evaluate_intervals(m.program, box, values);
   program::Program kept = m.program;
@@ -85,7 +87,7 @@ void leave_out_impossible(Built& built, const Box& box) {
   kept.outputs.resize(1);
   kept.output_names.resize(1);
   for (size_t n = 1; n < m.program.outputs.size(); ++n) {
-    if (values[m.program.outputs[n]] == Interval(0)) continue;
+    if (!possible[n]) continue;
     kept.outputs.push_back(m.program.outputs[n]);
     kept.output_names.push_back(m.program.output_names[n]);
     if (n <= m.materials.size())
