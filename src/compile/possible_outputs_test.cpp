@@ -15,22 +15,28 @@ using MakeField = Field (*)(const Point& p);
 
 const Box space = Box::centered({5, 5, 5});
 
-bool is_possible(MakeField inside, MakeField output) {
+std::vector<bool> possible(const std::vector<MakeField>& outputs) {
   Builder builder;
   const Point p = Point::origin_frame(builder);
-  const Field in = inside(p), out = output(p);
-  return possible_outputs(builder.finish({{"inside", in}, {"output", out}}), space).at(1);
+  program::Outputs fields;
+  for (const MakeField output : outputs) fields.emplace_back("output", output(p));
+  return possible_outputs(builder.finish(fields), space);
 }
+
+bool is_possible(MakeField inside, MakeField output) { return possible({inside, output}).at(1); }
 
 Field all(const Point& p) { return p.constant(1); }
 
-TEST(PossibleOutputs, SharesThatAddUpLeaveNothing) {
-  const auto rest = [](const Point& p) {
-    const Field a = max(0.1 * p.x + 0.5, 0.0), b = max(0.5 - 0.1 * p.x, 0.0);
-    return select(a + b <= 0, p.constant(1), p.constant(0));
-  };
-  EXPECT_FALSE(is_possible(all, rest));
+// What two shares leave that add up to one.
+Field rest(const Point& p) {
+  const Field a = max(0.1 * p.x + 0.5, 0.0), b = max(0.5 - 0.1 * p.x, 0.0);
+  return select(a + b <= 0, p.constant(1), p.constant(0));
 }
+
+// A condition and its opposite: intervals never see that, along the surface between them.
+Field never(const Point& p) { return logical_and(less(p.x, p.y * p.z), less_equal(p.y * p.z, p.x)); }
+
+TEST(PossibleOutputs, SharesThatAddUpLeaveNothing) { EXPECT_FALSE(is_possible(all, rest)); }
 
 TEST(PossibleOutputs, SmallPlacesAreFound) {
   const auto in_a_corner = [](const Point& p) {
@@ -47,10 +53,10 @@ TEST(PossibleOutputs, OnlyWhatIsInsideCounts) {
   EXPECT_TRUE(is_possible(high, high));
 }
 
-// The second condition is the first one's opposite, which intervals never see along the surface between them.
-TEST(PossibleOutputs, WhatCannotBeExcludedIsPossible) {
-  const auto never = [](const Point& p) { return logical_and(less(p.x, p.y * p.z), less_equal(p.y * p.z, p.x)); };
-  EXPECT_TRUE(is_possible(all, never));
+TEST(PossibleOutputs, WhatCannotBeExcludedIsPossible) { EXPECT_TRUE(is_possible(all, never)); }
+
+TEST(PossibleOutputs, OneThatCannotBeExcludedDoesNotHideAnother) {
+  EXPECT_EQ(possible({all, never, rest}), (std::vector<bool>{true, true, false}));
 }
 
 std::vector<std::string> materials_of(const std::string& text, int most = 255) {
