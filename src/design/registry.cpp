@@ -75,15 +75,18 @@ NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, s
     const Reader one{reader.materials, reader.diagnostics, reader.loader, reader.where, type.name, parameter->name};
     good = type.set(*node, index, data, one) && good;
   }
+  const bool has_unwanted = type.inputs.most == 0 && !inputs.empty();
+  bool has_all = true;
   for (size_t i = 0; i < given.size(); ++i) {
     if (given[i] || !type.parameters[i].domain.required) continue;
     reader.diagnostics.error(reader.where,
-                             type.name + " needs \"" + type.parameters[i].name + "\": " + type.parameters[i].doc,
+                             type.name + (has_unwanted && has_all ? " takes no children; it needs \"" : " needs \"") +
+                                 type.parameters[i].name + "\": " + type.parameters[i].doc,
                              type.example.empty() ? "" : "for example " + type.example);
-    good = false;
+    has_all = false;
   }
-  good = check_inputs(type, inputs, reader) && good;
-  if (!good) return nullptr;
+  if (has_all || !has_unwanted) good = check_inputs(type, inputs, reader) && good;
+  if (!good || !has_all) return nullptr;
   const Reader whole{reader.materials, reader.diagnostics, reader.loader, reader.where, type.name, ""};
   if (!type.complete(*node, whole, inputs)) return nullptr;
   for (const NodePtr& input : inputs) {
