@@ -22,6 +22,7 @@ double finest_piece(const Node& node, const PartList& list, const Affine& node_f
 ManyParts make_parts(const PartsQuestion& question, int threads) {
   const size_t count = question.list.count(), tasks = (count + parts_per_task - 1) / parts_per_task;
   PartRows all(question);
+  all.expect_all();
   const auto produce = [&](size_t task) {
     auto rows = std::make_unique<PartRows>(question);
     const size_t begin = task * parts_per_task;

@@ -62,6 +62,12 @@ PartRows::PartRows(const PartsQuestion& question)
   if (question.falloff) made_.weight_slot = new_slot(SlotKind::sum);
 }
 
+void PartRows::expect_all() {
+  const size_t count = question_.list.count();
+  for (program::PartTable* table : {&set_->reference, &set_->batch}) table->expect(count);
+  set_->index.expect(count, count * most_pieces_);
+}
+
 void PartRows::add(size_t part) {
   if (!try_add(part)) made_.others.push_back(part);
 }

@@ -26,6 +26,8 @@ struct PartsQuestion {
 class PartRows {
  public:
   explicit PartRows(const PartsQuestion& question);
+  // All parts of the node will be appended: makes room for them once.
+  void expect_all();
   // The next part of the node's; may be called in rows of the same question at once.
   void add(size_t part);
   void append(const PartRows& later);
