@@ -4,6 +4,9 @@
 #include <bit>
 #include <cstring>
 
+#include "base/byte_row_set.h"
+#include "base/instruction_sets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "base/byte_rows.cpp"
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
@@ -222,52 +225,76 @@ void look_up_four_bytes(const uint8_t* numbers, size_t count, const FourBytes* t
 }
 
 }  // namespace
+
+ByteRowSet byte_rows_here() {
+  return {count_equal,        count_repeats,    are_among,    equal_at_begin,
+          find_sixteen_equal, pack_double_bits, number_bytes, look_up_four_bytes};
+}
+
 }  // namespace ombre::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace ombre {
+
 namespace {
-HWY_EXPORT(count_equal);
-HWY_EXPORT(count_repeats);
-HWY_EXPORT(are_among);
-HWY_EXPORT(equal_at_begin);
-HWY_EXPORT(find_sixteen_equal);
-HWY_EXPORT(pack_double_bits);
-HWY_EXPORT(number_bytes);
-HWY_EXPORT(look_up_four_bytes);
+
+std::vector<ByteRowSet> find_sets() {
+  std::vector<ByteRowSet> found;
+#if HWY_ARCH_X86
+  const InstructionSets has = instruction_sets();
+  if (has.avx512) found.push_back(N_AVX3::byte_rows_here());
+  if (has.avx2) found.push_back(N_AVX2::byte_rows_here());
+  if (has.sse4) found.push_back(N_SSE4::byte_rows_here());
+#endif
+  found.push_back(HWY_STATIC_DISPATCH(byte_rows_here)());
+  return found;
+}
+
+const std::vector<ByteRowSet>& sets() {
+  static const std::vector<ByteRowSet> found = find_sets();
+  return found;
+}
+
+ByteRowSet& rows() {
+  static ByteRowSet in_use = sets().front();
+  return in_use;
+}
+
 }  // namespace
 
+size_t byte_row_set_count() { return sets().size(); }
+
+void use_byte_row_set(size_t set) { rows() = sets().at(set); }
+
 size_t count_equal(std::span<const uint8_t> bytes, uint8_t value) {
-  return HWY_DYNAMIC_DISPATCH(count_equal)(bytes.data(), bytes.size(), value);
+  return rows().count_equal(bytes.data(), bytes.size(), value);
 }
 
 size_t count_repeats(std::span<const uint8_t> bytes) {
-  return bytes.empty() ? 0 : HWY_DYNAMIC_DISPATCH(count_repeats)(bytes.data(), bytes.size() - 1);
+  return bytes.empty() ? 0 : rows().count_repeats(bytes.data(), bytes.size() - 1);
 }
 
 bool are_among(std::span<const uint8_t> bytes, std::span<const uint8_t> values) {
-  return HWY_DYNAMIC_DISPATCH(are_among)(bytes.data(), bytes.size(), values.data(), values.size());
+  return rows().are_among(bytes.data(), bytes.size(), values.data(), values.size());
 }
 
-size_t equal_at_begin(std::span<const uint8_t> bytes) {
-  return HWY_DYNAMIC_DISPATCH(equal_at_begin)(bytes.data(), bytes.size());
-}
+size_t equal_at_begin(std::span<const uint8_t> bytes) { return rows().equal_at_begin(bytes.data(), bytes.size()); }
 
 size_t find_sixteen_equal(std::span<const uint8_t> bytes) {
-  return HWY_DYNAMIC_DISPATCH(find_sixteen_equal)(bytes.data(), bytes.size());
+  return rows().find_sixteen_equal(bytes.data(), bytes.size());
 }
 
 void pack_double_bits(const uint8_t* bytes, const DoubleBits& bits, std::span<uint8_t> packed) {
-  HWY_DYNAMIC_DISPATCH(pack_double_bits)(bytes, bits, packed.data(), packed.size());
+  rows().pack_double_bits(bytes, bits, packed.data(), packed.size());
 }
 
 void number_bytes(std::span<const uint8_t> bytes, std::span<const uint8_t> values, uint8_t* numbers) {
-  HWY_DYNAMIC_DISPATCH(number_bytes)(bytes.data(), bytes.size(), values.data(), values.size(), numbers);
+  rows().number_bytes(bytes.data(), bytes.size(), values.data(), values.size(), numbers);
 }
 
 void look_up_four_bytes(std::span<const uint8_t> numbers, const std::array<FourBytes, 16>& table, uint8_t* bytes) {
-  HWY_DYNAMIC_DISPATCH(look_up_four_bytes)(numbers.data(), numbers.size(), table.data(), bytes);
+  rows().look_up_four_bytes(numbers.data(), numbers.size(), table.data(), bytes);
 }
 
 }  // namespace ombre

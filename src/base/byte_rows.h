@@ -37,4 +37,9 @@ void number_bytes(std::span<const uint8_t> bytes, std::span<const uint8_t> value
 using FourBytes = std::array<uint8_t, 4>;
 void look_up_four_bytes(std::span<const uint8_t> numbers, const std::array<FourBytes, 16>& table, uint8_t* bytes);
 
+// For tests: the instruction sets that this processor has for these, of which the first is used, and the use of another
+// one, while nobody else is at it.
+size_t byte_row_set_count();
+void use_byte_row_set(size_t set);
+
 }  // namespace ombre

@@ -2,7 +2,6 @@
 #include "base/byte_rows.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <random>
@@ -27,16 +26,13 @@ Bytes random_bytes(size_t count, std::mt19937& random) {
 
 template <class Check>
 void with_each_set_and_row(const Check& check) {
-  const int64_t supported = hwy::SupportedTargets();
-  for (int64_t left = supported; left != 0; left &= left - 1) {
-    hwy::SetSupportedTargetsForTest(left & -left);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  for (size_t set = 0; set < byte_row_set_count(); ++set) {
+    use_byte_row_set(set);
     std::mt19937 random(1);
     for (size_t count = 0; count < 300; ++count) check(random_bytes(count, random));
     for (int n = 0; n < 20; ++n) check(random_bytes(20000, random));
   }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(supported);
+  use_byte_row_set(0);
 }
 
 bool is_equal(const Bytes& bytes, size_t begin, size_t count) {

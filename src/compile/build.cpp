@@ -76,9 +76,9 @@ std::optional<Built> build_flat_program(const design::Design& design, Diagnostic
   return built;
 }
 
-void leave_out_impossible(Built& built, const Box& box) {
+void leave_out_impossible(Built& built, const Box& box, int threads) {
   voxel::MaterialProgram& m = built.materials;
-  const std::vector<bool> possible = possible_outputs(m.program, box);
+  const std::vector<bool> possible = possible_outputs(m.program, box, threads);
   std::vector<Interval> values;
   program::evaluate_intervals(m.program, box, values);
   program::Program kept = m.program;

@@ -155,34 +155,40 @@ void JobFolder::resume() {
   update(journal_file, journal_text());
 }
 
-// Ombre's own files, and those that its job.json and its journal name.
+// Ombre's own files, and those that its job.json names, or the journal where that cannot be read.
 void JobFolder::remove_old_job() {
   if (!holds(job_file)) return;
   const std::optional<Data> job = read_job(in_folder(job_file));
-  std::set<std::string, std::less<>> ours;
-  if (holds(journal_file))
-    for (std::string& name : journal_files(formats::read_file(in_folder(journal_file))))
-      if (name.ends_with(".png")) ours.insert(std::move(name));
-  // A damaged job.json is taken for ours where the journal beside it names layers.
-  if (job ? !is_slice_job(*job) : ours.empty())
-    throw Error(in_folder(job_file) + " was not written by Ombre; move it away, or choose another folder");
   const std::optional<LayerFiles> layers = layer_files(job);
-  const auto is_ours = [&](std::string_view name) {
-    return is_bookkeeping(name) || ours.count(name) > 0 || (layers && layers->contains(name));
-  };
-  // Before anything goes: what stays may not be in the new job's way.
-  for (const std::string& name : names())
-    if (const std::string_view whole = without_part(name); files_.contains(whole) && !is_ours(whole))
-      refuse_collision(name);
+  const NameSet in_journal = layers ? NameSet() : images_in_journal();
+  // A damaged job.json is taken for ours where the journal beside it names layers.
+  if (job ? !is_slice_job(*job) : in_journal.empty())
+    throw Error(in_folder(job_file) + " was not written by Ombre; move it away, or choose another folder");
 
-  for (const std::string& name : names())
-    if (const std::string_view whole = without_part(name); !is_bookkeeping(whole) && is_ours(whole))
-      remove_file(in_folder(name));
+  // Before anything goes: what stays may not be in the new job's way.
+  std::vector<std::string> old;
+  for (std::string& name : names()) {
+    const std::string_view whole = without_part(name);
+    if (is_bookkeeping(whole)) continue;
+    if (layers ? layers->contains(whole) : in_journal.count(whole) > 0)
+      old.push_back(std::move(name));
+    else if (files_.contains(whole))
+      refuse_collision(name);
+  }
+  run_parallel(old.size(), threads_, [&](size_t i) { remove_file(in_folder(old[i])); });
   // job.json goes last: until then the folder is known for what it is.
   for (const std::string name : {journal_file, job_file}) {
     remove_file(in_folder(name + std::string(part_suffix)));
     remove_file(in_folder(name));
   }
+}
+
+NameSet JobFolder::images_in_journal() const {
+  NameSet images;
+  if (!holds(journal_file)) return images;
+  for (std::string& name : journal_files(formats::read_file(in_folder(journal_file))))
+    if (name.ends_with(".png")) images.insert(std::move(name));
+  return images;
 }
 
 void JobFolder::refuse_foreign_files() const {
@@ -250,12 +256,13 @@ void JobFolder::add(JournalEntry entry, const std::vector<std::string>& images) 
     entry.files.push_back({names[i], images[i].size(), hash_bytes(images[i]).hex()});
   }
   journal_->append(to_line(entry));
+  is_sorted_ = is_sorted_ && (finished_.empty() || finished_.rbegin()->first < entry.layer);
   finished_.insert_or_assign(entry.layer, std::move(entry));
 }
 
 bool JobFolder::close() {
   journal_.reset();
-  update(journal_file, journal_text());
+  if (!is_sorted_) update(journal_file, journal_text());
   if (is_complete()) update(job_file, job_text(true));
   return is_complete();
 }

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,8 @@ inline constexpr const char* job_file = "job.json";
 inline constexpr const char* journal_file = "journal.jsonl";
 
 class FolderLock;
+
+using NameSet = std::set<std::string, std::less<>>;
 
 class JobFolder {
  public:
@@ -50,6 +53,7 @@ class JobFolder {
   void start_fresh();
   void resume();
   void remove_old_job();
+  NameSet images_in_journal() const;
   void refuse_foreign_files() const;
   void refuse_collisions() const;
   [[noreturn]] void refuse_collision(const std::string& name) const;
@@ -73,6 +77,7 @@ class JobFolder {
   const StopFlag* stop_;
   std::unique_ptr<FolderLock> lock_;
   std::map<int64_t, JournalEntry> finished_;
+  bool is_sorted_ = true;  // the journal: later layers follow earlier ones
   std::unique_ptr<exporting::AppendFile> journal_;
 };
 

@@ -173,7 +173,7 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
     run_parallel(2, options.threads, [&](size_t task) { task == 0 ? build() : hash(); });
   }
   if (!built) return std::nullopt;
-  leave_out_impossible(*built, lattice->box());
+  leave_out_impossible(*built, lattice->box(), options.threads);
   warn_of_features(options.printer, box->size(), {loaded->source, 0, 0}, diagnostics);
 
   Plan plan;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <deque>
+#include <iterator>
 #include <utility>
 
+#include "base/tasks.h"
 #include "program/passes/passes.h"
 
 namespace ombre::compile {
@@ -12,30 +14,33 @@ namespace {
 using program::Precision;
 
 constexpr size_t most_boxes = 1024, most_instructions = 1'000'000;  // some 50 ms
+constexpr size_t boxes_at_once = 64, boxes_in_task = 8;
 
 enum class Answer : uint8_t { no, yes, undecided };
 
-// Looks at ever smaller boxes, and at their middles.
+// Looks at ever smaller boxes, and at their middles, some at once.
 class Search {
  public:
   // `first_counts`: where the first output is 0 the others do not count.
-  Search(const program::Program& program, bool first_counts)
-      : program_(program), batch_(program::fuse(program)), first_counts_(first_counts) {
+  Search(const program::Program& program, bool first_counts, int threads)
+      : program_(program), batch_(program::fuse(program)), first_counts_(first_counts), threads_(threads) {
     for (size_t n = first_counts ? 1 : 0; n < program.outputs.size(); ++n) open_.push_back(n);
   }
 
   std::vector<Answer> run(const Box& box) {
-    const size_t boxes = std::clamp(most_instructions / (program_.code.size() + 1), size_t{1}, most_boxes);
+    size_t left = std::clamp(most_instructions / (program_.code.size() + 1), size_t{1}, most_boxes);
     std::deque<Box> waiting{box};
-    for (size_t n = 0; n < boxes && !waiting.empty() && !open_.empty(); ++n) {
-      const Box part = waiting.front();
-      waiting.pop_front();
-      if (!may_be_anywhere(part)) continue;
-      look_at({part.center(), part.center()});
-      if (!may_be_anywhere(part)) continue;
-      const auto [low, high] = halves(part);
-      waiting.push_back(low);
-      waiting.push_back(high);
+    while (left > 0 && !waiting.empty() && !open_.empty()) {
+      const std::vector<Box> boxes = take(waiting, std::min(left, boxes_at_once));
+      left -= boxes.size();
+      const std::vector<Found> found = look_at(boxes);
+      for (size_t n = 0; n < boxes.size(); ++n) {
+        for (const size_t output : found[n].in_middle) std::erase(open_, output);
+        if (!found[n].may_be_elsewhere) continue;
+        const auto [low, high] = halves(boxes[n]);
+        waiting.push_back(low);
+        waiting.push_back(high);
+      }
     }
     std::vector<Answer> answers(program_.outputs.size(), Answer::yes);
     for (const size_t n : open_) answers[n] = waiting.empty() ? Answer::no : Answer::undecided;
@@ -43,22 +48,60 @@ class Search {
   }
 
  private:
-  // Any of the open outputs, whoever evaluates it.
-  bool may_be_anywhere(const Box& box) {
-    return may_be_anywhere(program_, box, Precision::reference) || may_be_anywhere(batch_, box, Precision::batch);
+  // Of the open outputs.
+  struct Found {
+    std::vector<size_t> in_middle;
+    bool may_be_elsewhere = false;  // any of the others, whoever evaluates it
+  };
+
+  static std::vector<Box> take(std::deque<Box>& waiting, size_t count) {
+    const auto end = waiting.begin() + static_cast<ptrdiff_t>(std::min(count, waiting.size()));
+    std::vector<Box> boxes(waiting.begin(), end);
+    waiting.erase(waiting.begin(), end);
+    return boxes;
   }
 
-  bool may_be_anywhere(const program::Program& program, const Box& box, Precision precision) {
-    program::evaluate_intervals(program, box, values_, nullptr, precision);
-    const auto is_zero = [&](size_t output) { return values_[program.outputs[output]] == Interval(0); };
+  std::vector<Found> look_at(const std::vector<Box>& boxes) const {
+    std::vector<Found> found(boxes.size());
+    const size_t tasks = (boxes.size() + boxes_in_task - 1) / boxes_in_task;
+    const auto look = [&](size_t task) {
+      std::vector<Interval> values;
+      const size_t end = std::min(boxes.size(), (task + 1) * boxes_in_task);
+      for (size_t n = task * boxes_in_task; n < end; ++n) found[n] = look_at(boxes[n], values);
+    };
+    if (tasks == 1)
+      look(0);
+    else
+      run_parallel(tasks, threads_, look);
+    return found;
+  }
+
+  Found look_at(const Box& box, std::vector<Interval>& values) const {
+    Found found;
+    if (!may_be_anywhere(box, open_, values)) return found;
+    const Vec3 middle = box.center();
+    program::evaluate_intervals(program_, {middle, middle}, values);
+    const auto is_there = [&](size_t output) { return values[program_.outputs[output]].lo > 0; };
+    std::vector<size_t> others = open_;
+    if (!first_counts_ || is_there(0)) {
+      std::ranges::copy_if(open_, std::back_inserter(found.in_middle), is_there);
+      std::erase_if(others, is_there);
+    }
+    found.may_be_elsewhere = found.in_middle.empty() || may_be_anywhere(box, others, values);
+    return found;
+  }
+
+  bool may_be_anywhere(const Box& box, const std::vector<size_t>& outputs, std::vector<Interval>& values) const {
+    return may_be_anywhere(program_, box, Precision::reference, outputs, values) ||
+           may_be_anywhere(batch_, box, Precision::batch, outputs, values);
+  }
+
+  bool may_be_anywhere(const program::Program& program, const Box& box, Precision precision,
+                       const std::vector<size_t>& outputs, std::vector<Interval>& values) const {
+    program::evaluate_intervals(program, box, values, nullptr, precision);
+    const auto is_zero = [&](size_t output) { return values[program.outputs[output]] == Interval(0); };
     if (first_counts_ && is_zero(0)) return false;
-    return !std::all_of(open_.begin(), open_.end(), is_zero);
-  }
-
-  void look_at(const Box& point) {
-    program::evaluate_intervals(program_, point, values_);
-    const auto is_there = [&](size_t output) { return values_[program_.outputs[output]].lo > 0; };
-    if (!first_counts_ || is_there(0)) std::erase_if(open_, is_there);
+    return !std::all_of(outputs.begin(), outputs.end(), is_zero);
   }
 
   static std::pair<Box, Box> halves(const Box& box) {
@@ -72,28 +115,28 @@ class Search {
   const program::Program& program_;
   const program::Program batch_;
   const bool first_counts_;
+  const int threads_;
   std::vector<size_t> open_;  // outputs for which no point was found
-  std::vector<Interval> values_;
 };
 
 // Without the first output, which may take far more code, there is time for smaller boxes.
-bool is_zero_everywhere(const program::Program& program, size_t output, const Box& box) {
+bool is_zero_everywhere(const program::Program& program, size_t output, const Box& box, int threads) {
   program::Program alone = program;
   alone.outputs = {program.outputs[output]};
   alone.output_names = {program.output_names[output]};
   std::vector<Interval> values;
   program::evaluate_intervals(alone, box, values);
-  return Search(program::shorten(alone, values), false).run(box)[0] == Answer::no;
+  return Search(program::shorten(alone, values), false, threads).run(box)[0] == Answer::no;
 }
 
 }  // namespace
 
-std::vector<bool> possible_outputs(const program::Program& program, const Box& box) {
-  const std::vector<Answer> answers = Search(program, true).run(box);
+std::vector<bool> possible_outputs(const program::Program& program, const Box& box, int threads) {
+  const std::vector<Answer> answers = Search(program, true, threads).run(box);
   std::vector<bool> possible(answers.size());
   for (size_t n = 0; n < answers.size(); ++n)
     possible[n] =
-        answers[n] == Answer::yes || (answers[n] == Answer::undecided && !is_zero_everywhere(program, n, box));
+        answers[n] == Answer::yes || (answers[n] == Answer::undecided && !is_zero_everywhere(program, n, box, threads));
   return possible;
 }
 

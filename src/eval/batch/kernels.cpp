@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "base/instruction_sets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "eval/batch/kernels.cpp"
 // Only what has fused multiply-add, and the portable version.
@@ -149,8 +151,8 @@ const std::vector<KernelSet>& kernel_sets() {
   static const std::vector<KernelSet> sets = [] {
     std::vector<KernelSet> found;
 #if HWY_ARCH_X86
-    if (hwy::SupportedTargets() & HWY_AVX3) found.push_back(N_AVX3::kernels_here());
-    if (hwy::SupportedTargets() & HWY_AVX2) found.push_back(N_AVX2::kernels_here());
+    if (instruction_sets().avx512) found.push_back(N_AVX3::kernels_here());
+    if (instruction_sets().avx2) found.push_back(N_AVX2::kernels_here());
     if (found.empty()) return found;
 #endif
     found.push_back(HWY_STATIC_DISPATCH(kernels_here)());

@@ -1,0 +1,22 @@
+// What each instruction set has for rows of bytes; byte_rows.h has the meaning.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/byte_rows.h"
+
+namespace ombre {
+
+struct ByteRowSet {
+  size_t (*count_equal)(const uint8_t* bytes, size_t count, uint8_t value);
+  size_t (*count_repeats)(const uint8_t* bytes, size_t count);  // bytes[count] may be read
+  bool (*are_among)(const uint8_t* bytes, size_t count, const uint8_t* values, size_t value_count);
+  size_t (*equal_at_begin)(const uint8_t* bytes, size_t count);
+  size_t (*find_sixteen_equal)(const uint8_t* bytes, size_t count);
+  void (*pack_double_bits)(const uint8_t* bytes, const DoubleBits& bits, uint8_t* packed, size_t packed_count);
+  void (*number_bytes)(const uint8_t* bytes, size_t count, const uint8_t* values, size_t value_count, uint8_t* numbers);
+  void (*look_up_four_bytes)(const uint8_t* numbers, size_t count, const FourBytes* table, uint8_t* bytes);
+};
+
+}  // namespace ombre
