@@ -128,6 +128,20 @@ double PartTable::parameter(uint32_t part, size_t number) const {
   return std::visit([&](const auto& parameters) { return parameters.at(row.number, number); }, parameters_[row.body]);
 }
 
+std::optional<double> PartTable::common_parameter(uint32_t body, size_t number) const {
+  const auto common = [&](const auto& parameters) -> std::optional<double> {
+    if (!parameters.is_common(number)) return std::nullopt;
+    return parameters.at(0, number);
+  };
+  return std::visit(common, parameters_[body]);
+}
+
+PartTable::Excerpt PartTable::reach(uint32_t body) const {
+  std::vector<bool> only_reached(bodies_[body].slots.size(), false);
+  only_reached[0] = true;
+  return excerpt(body, only_reached);
+}
+
 PartTable::Excerpt PartTable::excerpt(uint32_t number, const std::vector<bool>& wanted) const {
   const Body& body = bodies_[number];
   const std::vector<Instruction>& code = body.code.code;

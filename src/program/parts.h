@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <variant>
@@ -56,6 +57,7 @@ class PartTable {
   };
   static constexpr ValueId none = ~ValueId{0};
   Excerpt excerpt(uint32_t body, const std::vector<bool>& wanted) const;  // by slot
+  Excerpt reach(uint32_t body) const;                                     // slot 0, and it may be none
   // Appends the excerpt of a part's body to `to`; its inputs are the three given values. `slots` gets the value of
   // each slot, or none; it may be shorter than the set's slots.
   void append(uint32_t part, const Excerpt& excerpt, Program& to, const std::array<ValueId, 3>& inputs,
@@ -66,6 +68,8 @@ class PartTable {
   uint32_t body_of(uint32_t part) const { return rows_[part].body; }
   // Constants and rows of maps, in the order of the body's code.
   double parameter(uint32_t part, size_t number) const;
+  // Of all parts of a body, if they have it in common.
+  std::optional<double> common_parameter(uint32_t body, size_t number) const;
 
  private:
   struct Row {
@@ -78,6 +82,7 @@ class PartTable {
    public:
     uint32_t add(const std::vector<double>& row);  // its number
     size_t per_row() const { return places_.size(); }
+    bool is_common(size_t number) const { return places_[number] == common; }
     double at(uint32_t row, size_t number) const {
       const uint32_t place = places_[number];
       return static_cast<double>(place == common ? common_[number] : values_[size_t{row} * varying_.size() + place]);

@@ -158,4 +158,34 @@ TEST(AffineOperands, SeeThroughNestedMaps) {
   EXPECT_FALSE(affine_operands(curved, curved.code[curved.outputs[0]]));
 }
 
+TEST(ComposeAffine, TurnedFramesKnowTheirRanges) {
+  Builder b;
+  const Field x = b.input(0), y = b.input(1);
+  const double half = std::sqrt(0.5);
+  const Field right = half * (x + y), up = half * (y - x);                 // turned by 45 degrees,
+  const Program program = b.finish({{"v", square(half * (right - up))}});  // and back
+  const Program composed = compose_affine(program);
+  const Box box{{-1, -2, -3}, {1, 2, 3}};
+  std::vector<Interval> values;
+  evaluate_intervals(composed, box, values);
+  EXPECT_NEAR(values[composed.outputs[0]].hi, 1, 1e-9);
+  evaluate_intervals(program, box, values);
+  EXPECT_GT(values[program.outputs[0]].hi, 8.9);
+  for (const Vec3 p : {Vec3{1, 5, 7}, Vec3{-0.3, 0, 2}, Vec3{0, 0, 0}})
+    EXPECT_NEAR(value(composed, p), value(program, p), 1e-12);
+}
+
+TEST(ComposeAffine, LeavesWhatIsNotAffine) {
+  Builder b;
+  const Field x = b.input(0), y = b.input(1);
+  const Program program = b.finish({{"product", x * y}, {"ratio", (x + y) / (x + 1)}, {"constant", x - x}});
+  const Program composed = compose_affine(program);
+  for (size_t n = 0; n < program.outputs.size(); ++n) {
+    std::vector<double> before, after;
+    evaluate_point(program, {2, 3, 0}, before);
+    evaluate_point(composed, {2, 3, 0}, after);
+    EXPECT_EQ(after[composed.outputs[n]], before[program.outputs[n]]) << program.output_names[n];
+  }
+}
+
 }  // namespace ombre::program

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "eval/batch/part_reach.h"
 #include "program/passes/passes.h"
 #include "render/ray_tiles.h"
 
@@ -23,9 +24,12 @@ struct AskedTiles {
     intervals.values(tiles, values);
     shortener.shorten(values, left, kept);
   }
-  void write_out_parts() { left = program::expand_parts(left, kept, program::Precision::batch); }
+  void write_out_parts() {
+    left = program::compose_affine(program::expand_parts(left, kept, program::Precision::batch, &reach));
+  }
 
   TileIntervals intervals;
+  eval::PartReach reach{eval::kernel_sets().front()};
   program::Shortener shortener;
   std::vector<Interval> values, kept;
   program::Program left;

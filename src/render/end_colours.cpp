@@ -66,13 +66,24 @@ const AskedTiles& EndColours::without_parts(AskedTiles& of, const TileBox& fine,
 // A little behind the surface, if the solid is thick enough: where surfaces of two materials coincide, rounding
 // decides which is met first.
 void EndColours::take(const AskedTiles& asked, Group group, const voxel::StripSources& sources) {
-  asked_.clear();
-  for (const RayPlace& end : group)
-    for (const int64_t fine : {end.fine, end.fine + behind}) asked_.push_back({end.column, end.row, fine});
+  thin_.clear();
+  evaluate(asked, group, behind, sources);
+  for (size_t n = 0; n < group.size(); ++n) {
+    if (places_.value(Scene::opaque, n) != 0)
+      hits_.at(group[n].column, group[n].row).at_end = places_.colour(n);
+    else
+      thin_.push_back(group[n]);
+  }
+  if (thin_.empty()) return;
+  evaluate(asked, thin_, 0, sources);
+  for (size_t n = 0; n < thin_.size(); ++n) hits_.at(thin_[n].column, thin_[n].row).at_end = places_.colour(n);
+}
+
+void EndColours::evaluate(const AskedTiles& asked, Group group, int64_t fine_behind,
+                          const voxel::StripSources& sources) {
+  asked_.assign(group.begin(), group.end());
+  for (RayPlace& place : asked_) place.fine += fine_behind;
   places_.evaluate(asked.left, asked.kept, asked_, sources);
-  for (size_t n = 0; n < group.size(); ++n)
-    hits_.at(group[n].column, group[n].row).at_end =
-        places_.colour(places_.value(Scene::opaque, 2 * n + 1) != 0 ? 2 * n + 1 : 2 * n);
 }
 
 }  // namespace ombre::render

@@ -27,12 +27,13 @@ class EndColours {
             const std::function<bool()>& is_stopped);
   const AskedTiles& without_parts(AskedTiles& of, const TileBox& fine, const voxel::StripSources& sources);
   void take(const AskedTiles& asked, Group group, const voxel::StripSources& sources);
+  void evaluate(const AskedTiles& asked, Group group, int64_t fine_behind, const voxel::StripSources& sources);
 
   const program::Program& whole_;
   RayBand& hits_;
   RayPlaces places_;
   AskedTiles all_, each_, written_out_;
-  std::vector<RayPlace> ends_, asked_;
+  std::vector<RayPlace> ends_, asked_, thin_;
 };
 
 }  // namespace ombre::render

@@ -21,13 +21,13 @@ using voxel::StripSources;
 constexpr TileSize leaf{32, 16, 16}, block{steps_together, 4, 4};
 constexpr size_t most_samples = 512;  // in a row of a leaf
 constexpr int64_t tile_edge = 128;    // of the picture's tiles, in pixels
-constexpr size_t many_parts = 32;     // while so many reach a tile, it is cut before they are written out
+constexpr size_t many_parts = 20;     // while so many reach a tile, it is cut before they are written out
 constexpr float dark = 0.01F;         // less light than that is none
 
 // For batches. While surfaces are looked for, colours matter in translucent material only.
 struct Programs {
   program::Program whole, walk;
-  Programs(const Scene& scene, const program::Program& reference) : whole(fuse(sign_only(reference))) {
+  Programs(const Scene& scene, const program::Program& reference) : whole(compose_affine(fuse(sign_only(reference)))) {
     whole.output_names.clear();
     walk = whole;
     if (!scene.is_translucent) walk.outputs.resize(Scene::red);

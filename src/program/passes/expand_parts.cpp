@@ -8,20 +8,26 @@
 namespace ombre::program {
 namespace {
 
-// So many parts of the index are asked one by one whether they reach a region.
+// Fewer parts of the index are not asked whether they reach a region.
 constexpr size_t worth_asking = 3;
 
-// Can parts of one body reach a region? Sharper than their boxes in the index.
-class PartReach {
+// One part after the other, by intervals.
+class PartByPart : public PartFilter {
  public:
-  PartReach(const PartTable& table, uint32_t body) : table_(table) {
-    std::vector<bool> only_reached(table.body(body).slots.size(), false);
-    only_reached[0] = true;
-    excerpt_ = table.excerpt(body, only_reached);
+  explicit PartByPart(Precision precision) : precision_(precision) {}
+
+  void keep_reaching(const PartTable& table, const Box& where, std::vector<uint32_t>& parts) override {
+    std::map<uint32_t, PartTable::Excerpt> excerpts;  // by body
+    std::erase_if(parts, [&](uint32_t part) {
+      const auto [it, is_new] = excerpts.try_emplace(table.body_of(part));
+      if (is_new) it->second = table.reach(it->first);
+      return !may_reach(table, part, it->second, where);
+    });
   }
 
-  bool may_reach(uint32_t part, const Box& where, Precision precision) {
-    if (excerpt_.slots.empty() || excerpt_.slots[0] == PartTable::none) return true;
+ private:
+  bool may_reach(const PartTable& table, uint32_t part, const PartTable::Excerpt& excerpt, const Box& where) {
+    if (excerpt.slots[0] == PartTable::none) return true;
     program_.code.clear();
     program_.maps.clear();
     std::array<ValueId, 3> inputs{};
@@ -29,14 +35,12 @@ class PartReach {
       inputs[axis] = axis;
       program_.code.push_back({Op::input, 0, 0, 0, 0, static_cast<double>(axis)});
     }
-    table_.append(part, excerpt_, program_, inputs, slots_);
-    evaluate_intervals(program_, where, values_, nullptr, precision);
+    table.append(part, excerpt, program_, inputs, slots_);
+    evaluate_intervals(program_, where, values_, nullptr, precision_);
     return values_[slots_[0]] != Interval(0);
   }
 
- private:
-  const PartTable& table_;
-  PartTable::Excerpt excerpt_;
+  Precision precision_;
   Program program_;
   std::vector<ValueId> slots_;
   std::vector<Interval> values_;
@@ -44,8 +48,8 @@ class PartReach {
 
 class Expander {
  public:
-  Expander(const Program& program, const std::vector<Interval>& values, Precision precision)
-      : from_(program), values_(values), precision_(precision) {}
+  Expander(const Program& program, const std::vector<Interval>& values, Precision precision, PartFilter& filter)
+      : from_(program), values_(values), precision_(precision), filter_(filter) {}
 
   Program run() {
     std::vector<ValueId> renamed;
@@ -122,13 +126,7 @@ class Expander {
     const Interval &x = values_[place.a], &y = values_[place.b], &z = values_[place.c];
     const Box where{{x.lo, y.lo, z.lo}, {x.hi, y.hi, z.hi}};
     set.index.find(where, found_);
-    if (found_.size() < worth_asking) return;
-    const PartTable& table = set.table(precision_);
-    std::map<uint32_t, PartReach> reaches;
-    std::erase_if(found_, [&](uint32_t part) {
-      auto& reach = reaches.try_emplace(table.body_of(part), table, table.body_of(part)).first->second;
-      return !reach.may_reach(part, where, precision_);
-    });
+    if (found_.size() >= worth_asking) filter_.keep_reaching(set.table(precision_), where, found_);
   }
 
   // Which slots are asked for at the place of an instruction.
@@ -171,6 +169,7 @@ class Expander {
   const Program& from_;
   const std::vector<Interval>& values_;
   Precision precision_;
+  PartFilter& filter_;
   Program to_;
   std::vector<Expansion> expansions_;
   std::vector<uint32_t> found_;
@@ -189,8 +188,10 @@ size_t parts_in_reach(const Program& program, const std::vector<Interval>& value
   return count;
 }
 
-Program expand_parts(const Program& program, const std::vector<Interval>& values, Precision precision) {
-  return Expander(program, values, precision).run();
+Program expand_parts(const Program& program, const std::vector<Interval>& values, Precision precision,
+                     PartFilter* filter) {
+  PartByPart part_by_part(precision);
+  return Expander(program, values, precision, filter ? *filter : part_by_part).run();
 }
 
 }  // namespace ombre::program

@@ -12,9 +12,20 @@ namespace ombre::program {
 // Replaces every call by the code of its body.
 Program inline_bodies(const Program& program);
 
+class PartTable;
+
+// Drops parts that cannot reach a box, more sharply than their boxes in an index do.
+class PartFilter {
+ public:
+  virtual ~PartFilter() = default;
+  // Parts of the table, in ascending order.
+  virtual void keep_reaching(const PartTable& table, const Box& where, std::vector<uint32_t>& parts) = 0;
+};
+
 // Replaces ops that stand for many parts by the code of those that reach a region, in which the
-// instructions have the given values.
-Program expand_parts(const Program& program, const std::vector<Interval>& values, Precision precision);
+// instructions have the given values. Without a filter, parts are asked one by one.
+Program expand_parts(const Program& program, const std::vector<Interval>& values, Precision precision,
+                     PartFilter* filter = nullptr);
 
 // How many parts such ops stand for in the region: of the op with the most of them, or `most`.
 size_t parts_in_reach(const Program& program, const std::vector<Interval>& values, size_t most);
@@ -57,6 +68,10 @@ Program fuse(const Program& program);
 struct Workspace;
 void sign_only(const Program& program, Workspace& workspace, Program& result);
 void fuse(const Program& program, Workspace& workspace, Program& result);
+
+// Sums that are affine in the inputs are computed from these at once, not from each other. Equal but for rounding; the
+// ranges of such values are as narrow as can be.
+Program compose_affine(const Program& program);
 
 // Moves what output 0 needs to the front and returns how many instructions that is.
 size_t order_for_first(Program& program);
