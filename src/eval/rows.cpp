@@ -3,12 +3,31 @@
 #include <algorithm>
 
 #include "base/assert.h"
+#include "base/math_rows.h"
 
 namespace ombre::eval {
 
 using program::Instruction;
 using program::Op;
 using program::Program;
+
+namespace {
+
+// What does an op many at a time, or null.
+math::RowFunction row_function(Op op) {
+  static const math::RowFunctions best = math::row_functions().front();
+  switch (op) {
+#define OMBRE_ROW_FUNCTION(name) \
+  case Op::name:                 \
+    return best.name;
+    OMBRE_ELEMENTARY_FUNCTIONS(OMBRE_ROW_FUNCTION)
+#undef OMBRE_ROW_FUNCTION
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace
 
 void RowEvaluator::set_row(std::span<const double> xs, double y, double z) {
   ASSERT(xs.size() <= width_);
@@ -40,6 +59,10 @@ void RowEvaluator::run(const Program& program, size_t begin, size_t end, const S
     const Instruction& in = program.code[i];
     double* out = row(static_cast<program::ValueId>(i));
     const double *a = row(in.a), *b = row(in.b), *c = row(in.c);
+    if (const math::RowFunction function = row_function(in.op)) {
+      function(a, out, n);
+      continue;
+    }
     switch (in.op) {
       case Op::input:
         run_input(static_cast<int>(in.value), out);
