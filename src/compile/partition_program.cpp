@@ -70,7 +70,7 @@ class RegionBuilder {
     auto flat_details = flatten(builder_.finish(details), solid_->where(), diagnostics_);
     if (!flat_label || !flat_details) return std::nullopt;
     made_.partition.label = std::move(*flat_label);
-    made_.partition.details = std::move(*flat_details);
+    made_.partition.details = surface::LocalPrograms(std::move(*flat_details), box);
     made_.partition.regions = made_.regions.size();
     return std::move(made_);
   }

@@ -94,7 +94,7 @@ std::optional<MaterialId> most_varying_material(const design::Design& design, co
 }
 
 std::optional<Interval> score_range(const Partition& partition, const Box& box) {
-  const auto values = sample(partition.details, box);
+  const auto values = sample(partition.details.whole(), box);
   std::optional<Interval> range;
   for (size_t n = 0; n < values[Partition::label_output].size(); ++n) {
     const double value = values[Partition::first_score][n];

@@ -23,7 +23,8 @@ std::vector<std::optional<double>> border_offsets(const Partition& partition, co
   points.reserve(samples.size());
   for (const BorderSample& sample : samples) points.push_back(sample.at);
   std::vector<std::optional<double>> offsets(samples.size());
-  work_at(partition.details, points, reach_mm, threads, stop,
+  const auto details = [&](const Box& box) -> const program::Program& { return partition.details.around(box); };
+  work_at(details, points, reach_mm, threads, stop,
           [&](const program::Program& program, std::span<const uint32_t> numbers) {
             PointAsker asker;
             asker.begin(partition, program);

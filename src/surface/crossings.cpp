@@ -119,11 +119,25 @@ class BlockFinder {
   BlockFinder(const Partition& partition, const CellTree& tree, std::vector<Crossing>& crossings, const StopFlag* stop)
       : partition_(partition), tree_(tree), crossings_(crossings), stop_(stop) {}
 
+  void find(std::vector<uint32_t> block) {
+    const program::Program& details = partition_.details.around(box_of(block).expanded(margin_of(block)));
+    find(details, std::move(block), block_units);
+  }
+
+ private:
+  // Crossings times operations; asking intervals of a part costs some ten points.
+  static constexpr size_t most_work = 20000;
+
+  Vec3 cell_of(const std::vector<uint32_t>& block) const { return tree_.size_mm(crossings_[block[0]].edge.level); }
+
+  double margin_of(const std::vector<uint32_t>& block) const {
+    const Vec3 cell_mm = cell_of(block);
+    return normals_reach * std::max({cell_mm.x, cell_mm.y, cell_mm.z});
+  }
+
   void find(const program::Program& details, std::vector<uint32_t> block, int32_t units_a_side) {
     if (stop_ && stop_->requested()) throw Cancelled();
-    const Vec3 cell_mm = tree_.size_mm(crossings_[block[0]].edge.level);
-    const double margin = normals_reach * std::max({cell_mm.x, cell_mm.y, cell_mm.z});
-    const program::Program program = shortened_for(details, box_of(block).expanded(margin));
+    const program::Program program = shortened_for(details, box_of(block).expanded(margin_of(block)));
     if (units_a_side > 1 && block.size() * program.code.size() > most_work)
       return cut(program, block, units_a_side / 2);
     std::vector<EdgeSearch> searches;
@@ -131,16 +145,12 @@ class BlockFinder {
     PointAsker asker;
     asker.begin(partition_, program);
     search_edges(searches, asker);
-    const std::vector<Vec3> normals = border_normals(searches, cell_mm, asker);
+    const std::vector<Vec3> normals = border_normals(searches, cell_of(block), asker);
     for (size_t m = 0; m < block.size(); ++m) {
       crossings_[block[m]].at = searches[m].point(searches[m].t);
       crossings_[block[m]].normal = normals[m];
     }
   }
-
- private:
-  // Crossings times operations; asking intervals of a part costs some ten points.
-  static constexpr size_t most_work = 20000;
 
   Box box_of(const std::vector<uint32_t>& block) const {
     Box box;
@@ -175,7 +185,7 @@ std::vector<Crossing> find(const Partition& partition, const CellTree& tree, Cro
   const Stopwatch watch;
   std::atomic<uint64_t> done = 0;
   run_parallel(blocks.size(), threads, [&](size_t n) {
-    BlockFinder(partition, tree, crossings.all, stop).find(partition.details, blocks[n], block_units);
+    BlockFinder(partition, tree, crossings.all, stop).find(blocks[n]);
     const uint64_t now = ++done;
     if (progress) progress->update(at_steady_pace(now, blocks.size(), watch.seconds()));
   });

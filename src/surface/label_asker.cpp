@@ -8,15 +8,15 @@ namespace ombre::surface {
 std::vector<Label> labels_at(const Partition& partition, const std::vector<Vec3>& points, int threads,
                              const StopFlag* stop) {
   std::vector<Label> labels(points.size());
-  work_at(partition.label, points, 0, threads, stop,
-          [&](const program::Program& program, std::span<const uint32_t> numbers) {
-            PointAsker asker;
-            asker.begin(partition, program);
-            std::vector<Vec3> asked;
-            for (const uint32_t n : numbers) asked.push_back(points[n]);
-            asker.ask(asked);
-            for (size_t m = 0; m < numbers.size(); ++m) labels[numbers[m]] = asker.label(m);
-          });
+  const auto label = [&](const Box&) -> const program::Program& { return partition.label; };
+  work_at(label, points, 0, threads, stop, [&](const program::Program& program, std::span<const uint32_t> numbers) {
+    PointAsker asker;
+    asker.begin(partition, program);
+    std::vector<Vec3> asked;
+    for (const uint32_t n : numbers) asked.push_back(points[n]);
+    asker.ask(asked);
+    for (size_t m = 0; m < numbers.size(); ++m) labels[numbers[m]] = asker.label(m);
+  });
   return labels;
 }
 

@@ -45,7 +45,8 @@ void find_block(const voxel::Lattice& corners, int64_t k, std::span<const uint32
     searches.push_back(edge_of(graph.crossings[n], corners, k));
     box = hull(box, {searches.back().point(0), searches.back().point(1)});
   }
-  const program::Program program = shortened_for(partition.details, box.expanded(normals_reach * cell_mm));
+  const Box near = box.expanded(normals_reach * cell_mm);
+  const program::Program program = shortened_for(partition.details.around(near), near);
   asker.begin(partition, program);
   search_edges(searches, asker);
   const std::vector<Vec3> normals = border_normals(searches, {cell_mm, cell_mm, cell_mm}, asker);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "program/program.h"
+#include "surface/local_programs.h"
 
 namespace ombre::surface {
 
@@ -21,7 +22,7 @@ enum class Division : uint8_t {
 struct Partition {
   program::Program label;  // one output: the region's number
   // Outputs: the region's number, g (negative inside, 0 on the surface), then the scores.
-  program::Program details;
+  LocalPrograms details;
   enum Output : size_t { label_output, distance_output, first_score };
   Division division = Division::bands;
   std::vector<double> borders;  // of bands; increasing

@@ -6,11 +6,13 @@
 
 namespace ombre::surface {
 
-program::Program shortened_for(const program::Program& details, const Box& box) {
+program::Program shortened_for(const program::Program& details, const Box& box, size_t many) {
   std::vector<Interval> values, kept;
   program::evaluate_intervals(details, box, values);
   program::Program shorter = program::shorten(details, values, &kept);
-  return shorter.has_parts() ? program::expand_parts(shorter, kept, program::Precision::reference) : shorter;
+  if (!shorter.has_parts() || (many != all_parts && program::parts_in_reach(shorter, kept, many) >= many))
+    return shorter;
+  return program::expand_parts(shorter, kept, program::Precision::reference);
 }
 
 void PointAsker::begin(const Partition& partition, const program::Program& program) {

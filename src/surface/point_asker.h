@@ -1,6 +1,7 @@
 // Asks the details of a partition at scattered points, in double precision.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "base/box.h"
@@ -9,8 +10,11 @@
 
 namespace ombre::surface {
 
-// The program for a box of points: what is settled there is left out.
-program::Program shortened_for(const program::Program& details, const Box& box);
+constexpr size_t all_parts = std::numeric_limits<size_t>::max();
+
+// The program for a box of points: what is settled there is left out, and many parts are written out, if fewer than
+// `many` reach it.
+program::Program shortened_for(const program::Program& details, const Box& box, size_t many = all_parts);
 
 class PointAsker {
  public:

@@ -5,18 +5,22 @@
 #include <span>
 #include <vector>
 
+#include "base/box.h"
 #include "base/progress.h"
 #include "base/vec.h"
 #include "program/program.h"
 
 namespace ombre::surface {
 
+// A program that holds at least in a box.
+using ProgramAround = std::function<const program::Program&(const Box&)>;
+
 // The program as it is around these points; their numbers.
 using PointWork = std::function<void(const program::Program& program, std::span<const uint32_t> numbers)>;
 
 // Does the work for all points, each once, in parallel; the program may be asked as far as the margin from them.
 // Throws Cancelled.
-void work_at(const program::Program& program, const std::vector<Vec3>& points, double margin_mm, int threads,
+void work_at(const ProgramAround& program, const std::vector<Vec3>& points, double margin_mm, int threads,
              const StopFlag* stop, const PointWork& work);
 
 }  // namespace ombre::surface
