@@ -1,6 +1,6 @@
 // Which of the instruction sets that Highway compiles for this processor has.
 //
-// Highway's own answer is in a library that times the processor's clock for 3 ms whenever a program with it starts.
+// Highway's own answer is in a library that times the processor's clock for 2.5 ms whenever a program with it starts.
 #pragma once
 
 namespace ombre {

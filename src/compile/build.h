@@ -31,7 +31,7 @@ std::optional<Built> build_flat_program(const design::Design& design, Diagnostic
 std::optional<voxel::MaterialProgram> build_inside_program(const design::Design& design, Diagnostics& diagnostics);
 
 // Leaves out materials and checks that cannot occur within the box, and what only they needed.
-void leave_out_impossible(Built& built, const Box& box, int threads = 0);
+void leave_out_impossible(Built& built, const Box& box, int threads);
 
 // Where the design lies: the box that is sampled, or the bounds of its solids. Nothing, and diagnostics,
 // when it is empty or has no bounds.

@@ -256,13 +256,13 @@ void JobFolder::add(JournalEntry entry, const std::vector<std::string>& images) 
     entry.files.push_back({names[i], images[i].size(), hash_bytes(images[i]).hex()});
   }
   journal_->append(to_line(entry));
-  is_sorted_ = is_sorted_ && (finished_.empty() || finished_.rbegin()->first < entry.layer);
+  journal_is_sorted_ = journal_is_sorted_ && (finished_.empty() || finished_.rbegin()->first < entry.layer);
   finished_.insert_or_assign(entry.layer, std::move(entry));
 }
 
 bool JobFolder::close() {
   journal_.reset();
-  if (!is_sorted_) update(journal_file, journal_text());
+  if (!journal_is_sorted_) update(journal_file, journal_text());
   if (is_complete()) update(job_file, job_text(true));
   return is_complete();
 }

@@ -77,7 +77,7 @@ class JobFolder {
   const StopFlag* stop_;
   std::unique_ptr<FolderLock> lock_;
   std::map<int64_t, JournalEntry> finished_;
-  bool is_sorted_ = true;  // the journal: later layers follow earlier ones
+  bool journal_is_sorted_ = true;  // later layers follow earlier ones
   std::unique_ptr<exporting::AppendFile> journal_;
 };
 

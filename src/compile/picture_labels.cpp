@@ -40,7 +40,7 @@ std::optional<PictureLabels> PictureLabels::make(const Loaded& loaded, const Pic
   labels.annotations_.axes = wanted.axes;
   labels.annotations_.scale_bar = wanted.scale_bar;
   if (wanted.legend) {
-    const auto materials = materials_within(loaded.design, box, diagnostics);
+    const auto materials = materials_within(loaded.design, box, request.threads, diagnostics);
     if (!materials) return std::nullopt;
     for (const MaterialId id : *materials) {
       const design::Material& material = loaded.design.materials.all()[id];

@@ -11,6 +11,6 @@ namespace ombre::compile {
 // By output. The first one says where the others count, and is always among them. An output is possible where a point
 // is found at which it is positive, and as long as intervals over ever smaller boxes do not exclude it, for a bounded
 // time. The same with any number of threads, of which 0 means all.
-std::vector<bool> possible_outputs(const program::Program& program, const Box& box, int threads = 0);
+std::vector<bool> possible_outputs(const program::Program& program, const Box& box, int threads);
 
 }  // namespace ombre::compile

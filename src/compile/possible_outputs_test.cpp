@@ -20,7 +20,10 @@ std::vector<bool> possible(const std::vector<MakeField>& outputs) {
   const Point p = Point::origin_frame(builder);
   program::Outputs fields;
   for (const MakeField output : outputs) fields.emplace_back("output", output(p));
-  return possible_outputs(builder.finish(fields), space);
+  const program::Program program = builder.finish(fields);
+  const std::vector<bool> found = possible_outputs(program, space, 1);
+  EXPECT_EQ(possible_outputs(program, space, 2), found);
+  return found;
 }
 
 bool is_possible(MakeField inside, MakeField output) { return possible({inside, output}).at(1); }

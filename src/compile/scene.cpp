@@ -151,11 +151,11 @@ std::shared_ptr<const render::Section> make_section(const design::Design& design
   return std::make_shared<render::Section>(std::move(program), film);
 }
 
-std::optional<std::vector<MaterialId>> materials_within(const design::Design& design, const Box& box,
+std::optional<std::vector<MaterialId>> materials_within(const design::Design& design, const Box& box, int threads,
                                                         Diagnostics& diagnostics) {
-  auto built = build_flat_program(design, diagnostics);
+  auto built = build_flat_program(design, diagnostics, threads);
   if (!built) return std::nullopt;
-  leave_out_impossible(*built, box);
+  leave_out_impossible(*built, box, threads);
   return built->materials.materials;
 }
 

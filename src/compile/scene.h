@@ -40,7 +40,7 @@ std::shared_ptr<const render::Section> make_section(const design::Design& design
                                                     Diagnostics& diagnostics);
 
 // Those that may occur in the box, alone or in mixtures; ascending.
-std::optional<std::vector<MaterialId>> materials_within(const design::Design& design, const Box& box,
+std::optional<std::vector<MaterialId>> materials_within(const design::Design& design, const Box& box, int threads,
                                                         Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

@@ -14,7 +14,6 @@ namespace {
 constexpr size_t most_points = 8192;  // of a task
 constexpr size_t fewest_points = 32;  // for which a program is shortened once more
 constexpr size_t most_work = 40000;   // points times operations of a program that is not shortened further
-constexpr size_t many_parts = 32;     // that reach a box are not written out before it is cut
 
 using Numbers = std::span<uint32_t>;
 
@@ -98,10 +97,9 @@ class Task {
  private:
   void run(const program::Program& above, const Box& box, Numbers numbers) const {
     if (stop_ && stop_->requested()) throw Cancelled();
-    const size_t most_parts = numbers.size() <= fewest_points ? all_parts : many_parts;
-    const program::Program program = shortened_for(above, box.expanded(margin_mm_), most_parts);
-    const bool is_short = numbers.size() * program.code.size() <= most_work && !program.has_parts();
-    if (numbers.size() <= fewest_points || is_short) return work_(program, numbers);
+    const program::Program program = shortened_for(above, box.expanded(margin_mm_));
+    if (numbers.size() <= fewest_points || numbers.size() * program.code.size() <= most_work)
+      return work_(program, numbers);
     const auto [one, two] = halves(points_, box, numbers);
     run(program, box_of(points_, one), one);
     run(program, box_of(points_, two), two);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "program/passes/affine_form.h"
 #include "program/passes/copy_tables.h"
 #include "program/passes/passes.h"
 
@@ -19,7 +20,7 @@ class Composer {
     find_forms();
     find_needed();
     for (ValueId id = 0; id < from_.code.size(); ++id) {
-      if (is_needed_[id] != 0) renamed_[id] = is_composed_[id] != 0 ? chain(forms_[id]) : copy(id);
+      if (is_needed_[id] != 0) renamed_[id] = is_composed_[id] != 0 ? chain(*forms_[id]) : copy(id);
     }
     for (const ValueId output : from_.outputs) to_.outputs.push_back(renamed_[output]);
     to_.output_names = from_.output_names;
@@ -27,53 +28,27 @@ class Composer {
   }
 
  private:
-  enum class Kind : uint8_t { other, constant, scaled, sum };  // scaled: of one value, which may be an input
-
   void find_forms() {
-    forms_.resize(from_.code.size());
-    kinds_.assign(from_.code.size(), Kind::other);
-    for (ValueId id = 0; id < from_.code.size(); ++id) find_form(id);
-  }
-
-  void find_form(ValueId id) {
-    const Instruction& in = from_.code[id];
-    AffineRow& form = forms_[id];
-    switch (in.op) {
-      case Op::input:
-        form[static_cast<size_t>(in.value)] = 1;
-        kinds_[id] = Kind::scaled;
-        return;
-      case Op::constant:
-        form[3] = in.value;
-        if (std::isfinite(in.value)) kinds_[id] = Kind::constant;
-        return;
-      case Op::negate:
-        return add(id, in.a, -1, in.a, 0);
-      case Op::add:
-        return add(id, in.a, 1, in.b, 1);
-      case Op::subtract:
-        return add(id, in.a, 1, in.b, -1);
-      case Op::multiply:
-        if (is_constant(in.a)) return add(id, in.b, forms_[in.a][3], in.b, 0);
-        if (is_constant(in.b)) return add(id, in.a, forms_[in.b][3], in.a, 0);
-        return;
-      case Op::fma:
-        if (is_constant(in.a)) return add(id, in.b, forms_[in.a][3], in.c, 1);
-        if (is_constant(in.b)) return add(id, in.a, forms_[in.b][3], in.c, 1);
-        return;
-      default:
-        return;
+    forms_.reserve(from_.code.size());
+    const auto form_of = [&](ValueId id) { return forms_[id]; };
+    const auto is_finite = [](double f) { return std::isfinite(f); };
+    for (const Instruction& in : from_.code) {
+      forms_.push_back(affine_form(from_, in, form_of));
+      if (forms_.back() && !std::all_of(forms_.back()->begin(), forms_.back()->end(), is_finite)) forms_.back().reset();
     }
   }
 
-  bool is_constant(ValueId id) const { return kinds_[id] == Kind::constant; }
-
-  void add(ValueId id, ValueId a, double factor_a, ValueId b, double factor_b) {
-    if (kinds_[a] == Kind::other || kinds_[b] == Kind::other) return;
-    for (size_t n = 0; n < 4; ++n) forms_[id][n] = factor_a * forms_[a][n] + factor_b * forms_[b][n];
-    if (!std::all_of(forms_[id].begin(), forms_[id].end(), [](double f) { return std::isfinite(f); })) return;
-    const bool is_one = a == b || is_constant(a) || is_constant(b);
-    kinds_[id] = is_constant(a) && is_constant(b) ? Kind::constant : is_one ? Kind::scaled : Kind::sum;
+  // Of two values that are no constants: what is of one alone has ranges as narrow as that.
+  bool is_sum(ValueId id) const {
+    if (!forms_[id]) return false;
+    ValueId one = none;
+    bool has_two = false;
+    each_operand(from_.code[id], [&](ValueId operand) {
+      if (is_constant(*forms_[operand]) || operand == one) return;
+      has_two |= one != none;
+      one = operand;
+    });
+    return has_two;
   }
 
   // From the outputs on, through composed values to nothing: they need inputs alone.
@@ -84,7 +59,7 @@ class Composer {
     for (const ValueId output : from_.outputs) is_needed_[output] = 1;
     for (size_t n = from_.code.size(); n-- > 0;) {
       if (is_needed_[n] == 0) continue;
-      is_composed_[n] = kinds_[n] == Kind::sum ? 1 : 0;
+      is_composed_[n] = is_sum(static_cast<ValueId>(n)) ? 1 : 0;
       if (is_composed_[n] != 0) continue;
       each_operand(from_.code[n], [&](ValueId id) { is_needed_[id] = 1; });
     }
@@ -138,8 +113,7 @@ class Composer {
   static constexpr ValueId none = ~ValueId{0};
   const Program& from_;
   Program to_;
-  std::vector<AffineRow> forms_;  // factors of the inputs and a summand, where the kind is not `other`
-  std::vector<Kind> kinds_;
+  std::vector<std::optional<AffineRow>> forms_;
   std::vector<uint8_t> is_needed_, is_composed_;
   std::vector<ValueId> renamed_;
   std::array<ValueId, 3> inputs_{none, none, none};
