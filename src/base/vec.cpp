@@ -92,6 +92,10 @@ Affine inverse(const Affine& map) {
   return result;
 }
 
+bool mixes_axes(const Affine& map) {
+  return std::ranges::any_of(map.rows, [](const Vec3& row) { return (row.x != 0) + (row.y != 0) + (row.z != 0) > 1; });
+}
+
 Stretch stretch(const Affine& map) {
   std::array<std::array<double, 3>, 3> gram{};
   for (int i = 0; i < 3; ++i)

@@ -56,6 +56,8 @@ Affine operator*(const Affine& c_from_b, const Affine& b_from_a);
 double determinant(const Affine& map);
 // The map must have a non-zero determinant.
 Affine inverse(const Affine& map);
+// Does some coordinate of the image depend on several?
+bool mixes_axes(const Affine& map);
 // The factors by which the map can stretch a vector: {least, greatest}.
 struct Stretch {
   double least = 1, greatest = 1;

@@ -120,6 +120,14 @@ TEST(Affine, Determinants) {
   }
 }
 
+TEST(Affine, TurnsMixAxesAndScalesAndMirrorsDoNot) {
+  EXPECT_FALSE(mixes_axes({}));
+  EXPECT_FALSE(mixes_axes(Affine::translation({1, 2, 3}) * Affine::scaling({2, -3, 0.5})));
+  EXPECT_FALSE(mixes_axes(Affine::rotation({0, 0, 1}, 90)));
+  EXPECT_TRUE(mixes_axes(Affine::rotation({0, 0, 1}, 30)));
+  EXPECT_TRUE(mixes_axes({{Vec3{1, 0.5, 0}, ey, ez}, {}}));
+}
+
 TEST(Affine, StretchIsTheSingularValues) {
   RandomMaps random;
   for (int i = 0; i < 1000; ++i) {

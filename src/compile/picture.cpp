@@ -19,6 +19,7 @@ std::optional<SceneOptions> scene_options(const Loaded& loaded, const PictureReq
                                           Diagnostics& diagnostics) {
   SceneOptions options;
   options.box = request.box;
+  options.threads = request.threads;
   const design::MaterialTable& materials = loaded.design.materials;
   for (const auto& [name, opacity] : request.opacity) {
     if (const design::Material* material = materials.find(name)) {

@@ -73,7 +73,7 @@ using Outputs = std::vector<std::pair<std::string, Field>>;
 std::optional<Shown> lower(const design::Design& design, const SceneOptions& options, program::Builder& builder,
                            const Point& p, const Outputs& further, Diagnostics& diagnostics) {
   const design::NodePtr solid = whole_solid(design);
-  design::LoweringContext context(design.materials, {solid}, design.voxel_mm());
+  design::LoweringContext context(design.materials, {solid}, design.voxel_mm(), options.threads);
   design::Lowering lowering(context, builder);
   const Field inside = within_cuts(lowering.inside(*solid, p), p, options);
   const design::Composition composition = lowering.composition(*solid, p, design::Demand::inside);

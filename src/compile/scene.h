@@ -25,6 +25,7 @@ struct SceneOptions {
   std::vector<CutPlane> cuts;
   std::optional<Box> box;                // only what is within
   std::map<MaterialId, double> opacity;  // 0 to 1, in place of the materials' own
+  int threads = 1;                       // that make tables of many parts; 0: all cores
 };
 
 // The box that the picture should hold: the design's, cut.

@@ -53,7 +53,9 @@ static Cells common(Cells a, const Cells& b) {
 }  // namespace
 
 PartRows::PartRows(const PartsQuestion& question)
-    : question_(question), program_from_node_(inverse(question.node_from_program)) {
+    : question_(question),
+      program_from_node_(inverse(question.node_from_program)),
+      is_turned_(mixes_axes(question.node_from_program)) {
   most_pieces_ = std::clamp(most_pieces_together / question.list.count(), size_t{1}, most_pieces);
   new_slot(SlotKind::any);
   if (question.falloff) set_->held_slot = new_slot(SlotKind::any);
@@ -111,6 +113,7 @@ bool PartRows::try_add(size_t part) {
   add_to(set_->reference, program_, box, program::Precision::reference);
   sign_only(program_, workspace_, signs_);
   fuse(signs_, workspace_, batch_);
+  if (is_turned_) batch_ = compose_affine(batch_);
   add_to(set_->batch, batch_, box, program::Precision::batch);
   outputs_.resize(1);
   builder_.finish(outputs_, reached_);

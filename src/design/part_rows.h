@@ -72,6 +72,7 @@ class PartRows {
 
   PartsQuestion question_;
   Affine program_from_node_;
+  bool is_turned_ = false;  // parts have frames of their own, within one that is turned
   size_t most_pieces_ = 0;
 
   ManyParts made_;

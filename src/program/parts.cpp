@@ -330,6 +330,17 @@ void PartIndex::find(const Box& region, std::vector<Entry>& entries) const {
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.part < b.part; });
 }
 
+bool PartIndex::find_few(const Box& region, size_t most, std::vector<Entry>& entries) const {
+  entries.clear();
+  bool are_few = true;
+  visit(region, [&](uint32_t part, const Box& piece) {
+    are_few = entries.size() < most;
+    if (are_few) entries.push_back({piece, part});
+    return are_few;
+  });
+  return are_few;
+}
+
 size_t PartIndex::count(const Box& region, size_t most) const {
   size_t count = 0;
   uint32_t last = 0;

@@ -144,6 +144,8 @@ class PartIndex {
   // How many parts have pieces that meet the region, or `most` if it is more.
   size_t count(const Box& region, size_t most) const;
   bool reaches(const Box& region) const { return count(region, 1) > 0; }
+  // The pieces that meet the region, in any order, unless they are more than `most`: false.
+  bool find_few(const Box& region, size_t most, std::vector<Entry>& entries) const;
 
  private:
   struct Bounds {

@@ -124,6 +124,7 @@ TEST(PartIndex, FindsThePartsWhosePiecesMeetARegion) {
   index.append(later);
   index.build();
   std::vector<uint32_t> found;
+  std::vector<PartIndex::Entry> few;
   for (int n = 0; n < 500; ++n) {
     const Box region = boxes.next(10, 2);
     std::vector<uint32_t> expected;
@@ -133,6 +134,18 @@ TEST(PartIndex, FindsThePartsWhosePiecesMeetARegion) {
     EXPECT_EQ(found, expected);
     EXPECT_EQ(index.reaches(region), !expected.empty());
     EXPECT_EQ(index.count(region, 3), std::min<size_t>(expected.size(), 3));
+    // Each piece once, unless there are too many.
+    size_t pieces = 0;
+    for (const auto& part : parts) pieces += meet(part[0], region) + meet(part[1], region);
+    EXPECT_EQ(index.find_few(region, pieces, few), true);
+    EXPECT_EQ(few.size(), pieces);
+    for (const PartIndex::Entry& entry : few) {
+      EXPECT_TRUE(entry.box == parts[entry.part][0] || entry.box == parts[entry.part][1]);
+      EXPECT_TRUE(meet(entry.box, region));
+    }
+    if (pieces > 0) {
+      EXPECT_FALSE(index.find_few(region, pieces - 1, few));
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 // A program that was asked about some tiles, and what is left of it in one of them or some.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -25,7 +26,15 @@ struct AskedTiles {
     shortener.shorten(values, left, kept);
   }
   void write_out_parts() {
-    left = program::compose_affine(program::expand_parts(left, kept, program::Precision::batch, &reach));
+    const bool are_turned = has_turned_parts();
+    left = program::expand_parts(left, kept, program::Precision::batch, &reach);
+    if (are_turned) left = program::compose_affine(left);
+  }
+  // Are there parts that are not asked at the inputs themselves? Those that are have composed what is affine already.
+  bool has_turned_parts() const {
+    return std::ranges::any_of(left.code, [&](const program::Instruction& in) {
+      return in.op == program::Op::parts && left.code[in.a].op != program::Op::input;
+    });
   }
 
   TileIntervals intervals;

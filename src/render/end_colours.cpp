@@ -9,16 +9,16 @@ namespace {
 constexpr TileSize together{64, 32, 32};       // steps, columns, rows
 constexpr int64_t behind = fine_per_step / 2;  // a surface, its colour is taken
 
-auto group_of(const RayPlace& end) {
-  return std::tuple(end.row / together[2], end.column / together[1], end.fine / (together[0] * fine_per_step));
+auto group_of(const Ray& end) {
+  return std::tuple(end.row / together[2], end.column / together[1], end.first / (together[0] * fine_per_step));
 }
 
 // In fine steps.
-TileBox around(std::span<const RayPlace> ends) {
-  TileBox fine{{ends[0].fine, ends[0].column, ends[0].row}, {}};
-  for (const RayPlace& end : ends) {
-    const int64_t first[] = {end.fine, end.column, end.row};
-    const int64_t last[] = {end.fine + behind, end.column, end.row};
+TileBox around(std::span<const Ray> ends) {
+  TileBox fine{{ends[0].first, ends[0].column, ends[0].row}, {}};
+  for (const Ray& end : ends) {
+    const int64_t first[] = {end.first, end.column, end.row};
+    const int64_t last[] = {end.first + behind, end.column, end.row};
     for (size_t axis = 0; axis < 3; ++axis) {
       fine.lo[axis] = std::min(fine.lo[axis], first[axis]);
       fine.hi[axis] = std::max(fine.hi[axis], last[axis] + 1);
@@ -31,11 +31,11 @@ TileBox around(std::span<const RayPlace> ends) {
 
 void EndColours::take(const voxel::StripSources& sources, const std::function<bool()>& is_stopped) {
   std::ranges::sort(ends_, {},
-                    [](const RayPlace& end) { return std::tuple_cat(group_of(end), std::tuple(end.row, end.column)); });
+                    [](const Ray& end) { return std::tuple_cat(group_of(end), std::tuple(end.row, end.column)); });
   std::vector<Group> groups;
   for (auto begin = ends_.begin(); begin != ends_.end();) {
     const auto end =
-        std::find_if(begin, ends_.end(), [&](const RayPlace& other) { return group_of(other) != group_of(*begin); });
+        std::find_if(begin, ends_.end(), [&](const Ray& other) { return group_of(other) != group_of(*begin); });
     groups.emplace_back(begin, end);
     begin = end;
   }
@@ -67,23 +67,19 @@ const AskedTiles& EndColours::without_parts(AskedTiles& of, const TileBox& fine,
 // decides which is met first.
 void EndColours::take(const AskedTiles& asked, Group group, const voxel::StripSources& sources) {
   thin_.clear();
-  evaluate(asked, group, behind, sources);
+  asked_.assign(group.begin(), group.end());
+  for (Ray& ray : asked_) ray.first += behind;
+  batch_.compile(asked.left, asked.kept, group.size(), sources);
+  batch_.evaluate(asked_, 1, 1, true);
   for (size_t n = 0; n < group.size(); ++n) {
-    if (places_.value(Scene::opaque, n) != 0)
-      hits_.at(group[n].column, group[n].row).at_end = places_.colour(n);
+    if (batch_.value(Scene::opaque, n, 0) != 0)
+      hits_.at(group[n].column, group[n].row).at_end = batch_.colour(n, 0);
     else
       thin_.push_back(group[n]);
   }
   if (thin_.empty()) return;
-  evaluate(asked, thin_, 0, sources);
-  for (size_t n = 0; n < thin_.size(); ++n) hits_.at(thin_[n].column, thin_[n].row).at_end = places_.colour(n);
-}
-
-void EndColours::evaluate(const AskedTiles& asked, Group group, int64_t fine_behind,
-                          const voxel::StripSources& sources) {
-  asked_.assign(group.begin(), group.end());
-  for (RayPlace& place : asked_) place.fine += fine_behind;
-  places_.evaluate(asked.left, asked.kept, asked_, sources);
+  batch_.evaluate(thin_, 1, 1, true);
+  for (size_t n = 0; n < thin_.size(); ++n) hits_.at(thin_[n].column, thin_[n].row).at_end = batch_.colour(n, 0);
 }
 
 }  // namespace ombre::render

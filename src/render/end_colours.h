@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/asked_tiles.h"
-#include "render/ray_places.h"
+#include "render/ray_batch.h"
 
 namespace ombre::render {
 
@@ -14,26 +14,26 @@ class EndColours {
  public:
   // `whole` says colours; all outlive this.
   EndColours(const program::Program& whole, const RaySteps& steps, RayBand& hits)
-      : whole_(whole), hits_(hits), places_(steps), all_(steps), each_(steps), written_out_(steps) {}
+      : whole_(whole), hits_(hits), batch_(steps), all_(steps), each_(steps), written_out_(steps) {}
 
-  void note(int64_t column, int64_t row, int64_t fine) { ends_.push_back({column, row, fine}); }
+  // It begins where it ends.
+  void note(const Ray& end) { ends_.push_back(end); }
   // Those that were noted get their colours, those that lie together at a time.
   void take(const voxel::StripSources& sources, const std::function<bool()>& is_stopped);
 
  private:
-  using Group = std::span<const RayPlace>;
+  using Group = std::span<const Ray>;
 
   void take(const std::vector<Group>& groups, const voxel::StripSources& sources,
             const std::function<bool()>& is_stopped);
   const AskedTiles& without_parts(AskedTiles& of, const TileBox& fine, const voxel::StripSources& sources);
   void take(const AskedTiles& asked, Group group, const voxel::StripSources& sources);
-  void evaluate(const AskedTiles& asked, Group group, int64_t fine_behind, const voxel::StripSources& sources);
 
   const program::Program& whole_;
   RayBand& hits_;
-  RayPlaces places_;
+  RayBatch batch_;
   AskedTiles all_, each_, written_out_;
-  std::vector<RayPlace> ends_, asked_, thin_;
+  std::vector<Ray> ends_, asked_, thin_;
 };
 
 }  // namespace ombre::render

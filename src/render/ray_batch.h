@@ -1,6 +1,7 @@
 // Samples along rays, many at a time.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "eval/batch/batch.h"
@@ -12,10 +13,10 @@ namespace ombre::render {
 
 // Samples begin at the fine place `first`.
 struct Ray {
-  int64_t column = 0, first = 0;
+  int64_t column = 0, row = 0, first = 0;
 };
 
-// What a program says at samples of rays that lie in one row of the film.
+// What a program says at samples of rays.
 class RayBatch : private eval::SourceRows {
  public:
   explicit RayBatch(const RaySteps& steps) : steps_(steps), batch_(eval::kernel_sets().front()) {}
@@ -23,13 +24,12 @@ class RayBatch : private eval::SourceRows {
   // `ranges` are the program's, which outlives this, wherever it is asked. At most so many samples at a time.
   void compile(const program::Program& program, const std::vector<Interval>& ranges, size_t most_samples,
                const voxel::StripSources& sources);
-  // `width` samples of each ray, `stride` fine places apart; rays of one column follow each other. Only the program's
-  // output 0, or all of them.
-  void evaluate(const std::vector<Ray>& rays, int64_t row, int64_t stride, size_t width, bool all_outputs);
+  // `width` samples of each ray, `stride` fine places apart. Only the program's output 0, or all of them.
+  void evaluate(std::span<const Ray> rays, int64_t stride, size_t width, bool all_outputs);
 
   // Of sample `i` of ray `n`. What floats cannot hold counts as 0.
   float value(Scene::Output output, size_t n, size_t i) const {
-    const float value = outputs_[output][places_[n] + i];
+    const float value = outputs_[output][n * width_ + i];
     return std::isnan(value) ? 0 : value;
   }
   // The first of a ray's samples at or behind `from` whose value is not 0; `width` if there is none.
@@ -37,23 +37,21 @@ class RayBatch : private eval::SourceRows {
   Colour colour(size_t n, size_t i) const {
     return {value(Scene::red, n, i), value(Scene::green, n, i), value(Scene::blue, n, i)};
   }
-  float depth(size_t n, size_t i) const { return depths_[places_[n] + i]; }
+  float depth(size_t n, size_t i) const { return depths_[n * width_ + i]; }
 
  private:
   bool has(const program::Read& read) const override { return sources_->has(read.tag); }
   void fill(const program::Read& read, const eval::RowsToFill& to) const override;
-  void place_rays();
+  int64_t fine(const Ray& ray, size_t i) const { return ray.first + stride_ * static_cast<int64_t>(i); }
 
   const RaySteps& steps_;
   eval::BatchEvaluator batch_;
   const voxel::StripSources* sources_ = nullptr;
-  const std::vector<Ray>* rays_ = nullptr;
-  int64_t row_ = 0, fine_stride_ = 1;
+  std::span<const Ray> rays_;
+  int64_t stride_ = 1;
+  size_t width_ = 0;  // samples of a ray
   std::vector<eval::Values> outputs_;
-  size_t width_ = 0;            // samples of a ray
-  std::vector<size_t> places_;  // of each ray's samples
-  std::vector<float> depths_;   // of the samples at work
-  std::vector<eval::PointRow> rows_;
+  std::vector<float> depths_, rights_, downs_;  // of the samples at work, ray by ray
 };
 
 }  // namespace ombre::render

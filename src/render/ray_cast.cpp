@@ -5,6 +5,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <utility>
 
 #include "base/error.h"
@@ -19,7 +20,7 @@ using voxel::StripSources;
 
 // Rays are asked in blocks of samples; those of a leaf together.
 constexpr TileSize leaf{32, 16, 16}, block{steps_together, 4, 4};
-constexpr size_t most_samples = 512;  // in a row of a leaf
+constexpr size_t most_samples = 512;  // at a time
 constexpr int64_t tile_edge = 128;    // of the picture's tiles, in pixels
 constexpr size_t many_parts = 20;     // while so many reach a tile, it is cut before they are written out
 constexpr float dark = 0.01F;         // less light than that is none
@@ -51,18 +52,43 @@ class RayCaster {
 
   void cast(const TileBox& tile, const StripSources& sources) {
     sources_ = &sources;
+    first_column_ = tile.lo[1];
+    first_row_ = tile.lo[2];
+    is_open_.fill(1);
     descend(programs_.walk, tile, 0);
     colours_.take(sources, is_stopped_);
   }
 
  private:
-  RayHit& hit(int64_t column, int64_t row) { return hits_.at(column, row); }
-  bool is_open(int64_t column, int64_t row) { return hit(column, row).end == RayHit::none; }
+  RayHit& hit(const Ray& ray) { return hits_.at(ray.column, ray.row); }
+  // 1 until an end of the ray is found.
+  uint8_t& is_open(int64_t column, int64_t row) {
+    return is_open_[static_cast<size_t>((row - first_row_) * tile_edge + column - first_column_)];
+  }
   bool is_hidden(const TileBox& tile) {
+    for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row) {
+      const uint8_t* const begin = &is_open(tile.lo[1], row);
+      if (std::find(begin, begin + tile.size(1), 1) != begin + tile.size(1)) return false;
+    }
+    return true;
+  }
+  void end(const Ray& ray, float depth) {
+    hit(ray).end = depth;
+    is_open(ray.column, ray.row) = 0;
+  }
+
+  // Those of a tile, from its first step on.
+  void list_open(const TileBox& tile) {
     for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row)
       for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column)
-        if (is_open(column, row)) return false;
-    return true;
+        if (is_open(column, row)) rays_.push_back({column, row, RaySteps::fine_of(tile.lo[0])});
+  }
+  // f(some of the listed rays), as many as may have so many samples each at a time.
+  template <class F>
+  void each_batch(size_t width, F f) {
+    const size_t most = most_samples / width;
+    for (size_t begin = 0; begin < rays_.size(); begin += most)
+      f(std::span(rays_).subspan(begin, std::min(most, rays_.size() - begin)));
   }
 
   AskedTiles& level(size_t depth) {
@@ -125,9 +151,9 @@ class RayCaster {
     const Colour colour{value(Scene::red), value(Scene::green), value(Scene::blue)};
     const float depth = static_cast<float>(steps_.depth(RaySteps::fine_of(tile.lo[0])));
     const float opacity = value(Scene::opacity);
-    for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row)
-      for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column)
-        if (is_open(column, row)) absorb(hit(column, row), opacity, tile.size(0), depth, colour);
+    rays_.clear();
+    list_open(tile);
+    for (const Ray& ray : rays_) absorb(ray, opacity, tile.size(0), depth, colour);
   }
 
   // A few samples for many steps.
@@ -136,21 +162,20 @@ class RayCaster {
     blocks_.shorten(size_t{0});
     batch_.compile(blocks_.left, blocks_.kept, most_samples, *sources_);
     const int64_t count = (tile.size(0) + murky_steps - 1) / murky_steps;
-    for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row) {
-      rays_.clear();
-      for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column)
-        if (is_open(column, row)) rays_.push_back({column, RaySteps::fine_of(tile.lo[0])});
-      if (rays_.empty()) continue;
-      batch_.evaluate(rays_, row, fine_per_step * murky_steps, static_cast<size_t>(count), true);
-      for (size_t n = 0; n < rays_.size(); ++n) {
-        RayHit& ray = hit(rays_[n].column, row);
+    const auto width = static_cast<size_t>(count);
+    rays_.clear();
+    list_open(tile);
+    each_batch(width, [&](std::span<const Ray> rays) {
+      batch_.evaluate(rays, fine_per_step * murky_steps, width, true);
+      for (size_t n = 0; n < rays.size(); ++n) {
         for (int64_t i = 0; i < count; ++i) {
           const int64_t steps = std::min(murky_steps, tile.size(0) - i * murky_steps);
           const auto at = static_cast<size_t>(i);
-          if (absorb(ray, batch_.value(Scene::opacity, n, at), steps, batch_.depth(n, at), batch_.colour(n, at))) break;
+          if (absorb(rays[n], batch_.value(Scene::opacity, n, at), steps, batch_.depth(n, at), batch_.colour(n, at)))
+            break;
         }
       }
-    }
+    });
   }
 
   // The blocks of a leaf in which something may be met.
@@ -166,17 +191,17 @@ class RayCaster {
       if (pieces.empty()) return;
     }
     batch_.compile(blocks_.left, blocks_.kept, most_samples, *sources_);
-    for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row) {
-      surfaces_.clear();
-      ends_.clear();
-      list_runs(pieces, tile, row);
-      for (size_t round = 0; take_runs(tile, row, round); ++round) {
-        batch_.evaluate(rays_, row, fine_per_step, static_cast<size_t>(steps_together), scene_.is_translucent);
-        find_hits(row);
-      }
-      if (!surfaces_.empty()) look_closer(surfaces_, row, Scene::inside);
-      if (!ends_.empty()) look_closer(ends_, row, Scene::opaque);
+    surfaces_.clear();
+    ends_.clear();
+    // Of those at one depth together.
+    for (size_t n = 0; n < pieces.size();) {
+      const int64_t depth = pieces[n].lo[0];
+      rays_.clear();
+      for (; n < pieces.size() && pieces[n].lo[0] == depth; ++n) list_open(pieces[n]);
+      each_batch(steps_together, [&](std::span<const Ray> rays) { find_hits(rays); });
     }
+    if (!surfaces_.empty()) look_closer(surfaces_, Scene::inside);
+    if (!ends_.empty()) look_closer(ends_, Scene::opaque);
   }
 
   // Those in which something may be; blocks_ is asked, and its program shortened for them.
@@ -192,43 +217,21 @@ class RayCaster {
     if (!pieces.empty()) blocks_.shorten(met_);
   }
 
-  // The runs of samples of a row that matter, for each column, the near ones first.
-  void list_runs(const std::vector<TileBox>& pieces, const TileBox& tile, int64_t row) {
-    for (auto& runs : runs_) runs.clear();
-    for (const TileBox& piece : pieces) {
-      if (row < piece.lo[2] || row >= piece.hi[2]) continue;
-      for (int64_t column = piece.lo[1]; column < piece.hi[1]; ++column)
-        runs_[static_cast<size_t>(column - tile.lo[1])].push_back(RaySteps::fine_of(piece.lo[0]));
-    }
-  }
-
-  // The next ones of each open column, as many as are evaluated at the cost of one. False: there are none.
-  bool take_runs(const TileBox& tile, int64_t row, size_t round) {
-    constexpr size_t together = eval::batch_lanes / steps_together;
-    rays_.clear();
-    for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column) {
-      const std::vector<int64_t>& runs = runs_[static_cast<size_t>(column - tile.lo[1])];
-      if (runs.size() <= together * round || !is_open(column, row)) continue;
-      for (size_t n = together * round; n < std::min(together * (round + 1), runs.size()); ++n)
-        rays_.push_back({column, runs[n]});
-    }
-    return !rays_.empty();
-  }
-
   // Notes behind which samples rays meet a surface, for a closer look, and what the light loses at each.
-  void find_hits(int64_t row) {
-    for (size_t n = 0; n < rays_.size(); ++n) {
-      RayHit& ray = hit(rays_[n].column, row);
-      if (ray.end != RayHit::none) continue;  // in an earlier run
-      for (size_t i = 0; (i = batch_.first_set(Scene::inside, n, i)) < static_cast<size_t>(steps_together); ++i) {
-        const Ray before{rays_[n].column, rays_[n].first + (static_cast<int64_t>(i) - 1) * fine_per_step};
+  void find_hits(std::span<const Ray> rays) {
+    constexpr auto width = static_cast<size_t>(steps_together);
+    batch_.evaluate(rays, fine_per_step, width, scene_.is_translucent);
+    for (size_t n = 0; n < rays.size(); ++n) {
+      const Ray& ray = rays[n];
+      for (size_t i = 0; (i = batch_.first_set(Scene::inside, n, i)) < width; ++i) {
+        const Ray before{ray.column, ray.row, ray.first + (static_cast<int64_t>(i) - 1) * fine_per_step};
         const float depth = batch_.depth(n, i);
-        if (ray.surface == RayHit::none) {
+        if (hit(ray).surface == RayHit::none) {
           surfaces_.push_back(before);
-          ray.surface = depth;
+          hit(ray).surface = depth;
         }
         const bool is_end = !scene_.is_translucent || batch_.value(Scene::opaque, n, i) != 0;
-        if (is_end) ray.end = depth;
+        if (is_end) end(ray, depth);
         if (is_end && scene_.is_translucent) ends_.push_back(before);
         if (is_end || absorb(ray, batch_.value(Scene::opacity, n, i), 1, depth, batch_.colour(n, i))) break;
       }
@@ -236,37 +239,38 @@ class RayCaster {
   }
 
   // True: no light is left.
-  bool absorb(RayHit& ray, float opacity, int64_t steps, float depth, const Colour& here) {
+  bool absorb(const Ray& ray, float opacity, int64_t steps, float depth, const Colour& here) {
+    RayHit& found = hit(ray);
     const float through = clarity_.through(opacity, steps);
-    const float taken = ray.passes * (1 - through);
-    ray.veil.red += taken * here.red;
-    ray.veil.green += taken * here.green;
-    ray.veil.blue += taken * here.blue;
-    ray.passes *= through;
-    if (ray.passes > dark) return false;
-    ray.end = depth;
-    ray.at_end = here;
+    const float taken = found.passes * (1 - through);
+    found.veil.red += taken * here.red;
+    found.veil.green += taken * here.green;
+    found.veil.blue += taken * here.blue;
+    found.passes *= through;
+    if (found.passes > dark) return false;
+    end(ray, depth);
+    found.at_end = here;
     return true;
   }
 
-  // From places before a surface to the first fine step behind it. An opaque surface also ends its ray.
-  void look_closer(std::vector<Ray>& rays, int64_t row, Scene::Output what) {
-    for (const auto& [stride, count] : {std::pair{finest, finer}, std::pair{int64_t{1}, finest}}) {
-      for (Ray& ray : rays) ray.first += stride;
-      batch_.evaluate(rays, row, stride, static_cast<size_t>(count), what != Scene::inside);
-      for (size_t n = 0; n < rays.size(); ++n) {
-        const auto i = static_cast<int64_t>(std::min(batch_.first_set(what, n, 0), static_cast<size_t>(count) - 1));
-        rays[n].first += stride * (i - (stride > 1 ? 1 : 0));
-      }
+  // From places up to a step before a surface to the fine step behind it. An opaque surface also ends its ray.
+  void look_closer(std::vector<Ray>& rays, Scene::Output what) {
+    for (int64_t half = fine_per_step / 2; half > 0; half /= 2) {
+      rays_ = rays;
+      for (Ray& ray : rays_) ray.first += half;
+      batch_.evaluate(rays_, 1, 1, what != Scene::inside);
+      for (size_t n = 0; n < rays.size(); ++n)
+        if (batch_.value(what, n, 0) == 0) rays[n].first += half;
     }
     const bool is_end = what == Scene::opaque || !scene_.is_translucent;
-    for (const Ray& ray : rays) {
-      RayHit& found = hit(ray.column, row);
+    for (Ray& ray : rays) {
+      ++ray.first;
+      RayHit& found = hit(ray);
       const float depth = static_cast<float>(steps_.depth(ray.first));
       if (what == Scene::inside) found.surface = depth;
       if (!is_end) continue;
       found.end = depth;
-      colours_.note(ray.column, row, ray.first);
+      colours_.note(ray);
     }
   }
 
@@ -281,9 +285,10 @@ class RayCaster {
   std::deque<AskedTiles> levels_;
   AskedTiles blocks_;
   RayBand& hits_;
-  std::vector<size_t> met_;  // of the blocks that were asked
-  program::Program parts_;   // of a leaf, written out
-  std::array<std::vector<int64_t>, leaf[1]> runs_;
+  std::vector<size_t> met_;                   // of the blocks that were asked
+  program::Program parts_;                    // of a leaf, written out
+  int64_t first_column_ = 0, first_row_ = 0;  // of the tile
+  std::array<uint8_t, tile_edge * tile_edge> is_open_{};
   std::vector<Ray> rays_, surfaces_, ends_;
 };
 

@@ -10,9 +10,9 @@
 
 namespace ombre::render {
 
-// Rays are sampled in steps. Where one finds a surface, sixteenths of the step are tried, and 32nds of those.
+// Rays are sampled in steps. Where one finds a surface, the step is halved until a fine one is left.
 inline constexpr double steps_per_pixel = 4;  // of the picture
-inline constexpr int64_t finer = 16, finest = 32, fine_per_step = finer * finest;
+inline constexpr int64_t fine_per_step = 512;
 // So many steps of a ray are sampled together.
 inline constexpr int64_t steps_together = 8;
 // Within translucent material, where no surface is, one sample stands for so many steps.

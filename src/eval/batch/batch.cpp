@@ -144,8 +144,8 @@ void BatchEvaluator::each_read(const Instruction& in, F f) const {
 
 // Points of a layer, or all of them, lie along one row.
 uint8_t BatchEvaluator::mask_of_input(size_t axis) const {
-  const bool is_along_row = shape_.form == Form::list || (shape_.form == Form::layers && axis == 1);
-  return is_along_row ? axis_x : static_cast<uint8_t>(1 << axis);
+  if (shape_.form == Form::list) return all_axes;
+  return shape_.form == Form::layers && axis == 1 ? axis_x : static_cast<uint8_t>(1 << axis);
 }
 
 // Which axes does each value depend on, and who needs it?

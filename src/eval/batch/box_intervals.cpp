@@ -1,6 +1,7 @@
 #include "eval/batch/box_intervals.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/assert.h"
@@ -12,7 +13,22 @@ using program::Instruction;
 using program::Op;
 using program::ValueId;
 
+namespace {
+
 constexpr float inf = std::numeric_limits<float>::infinity();
+// So many are compared with all boxes rather than looked up for each.
+constexpr size_t few_pieces = 256;
+
+struct Ends {
+  float lo, hi;
+};
+
+void meet(const IntervalRow& row, Ends piece, std::vector<int32_t>& meets) {
+  for (size_t n = 0; n < meets.size(); ++n)
+    meets[n] &= static_cast<int32_t>(row.lo[n] <= piece.hi) & static_cast<int32_t>(row.hi[n] >= piece.lo);
+}
+
+}  // namespace
 
 void BoxIntervals::evaluate(const program::Program& program, std::span<const Box> boxes, const SourceRanges& sources) {
   program_ = &program;
@@ -87,12 +103,29 @@ void BoxIntervals::ask_parts(ValueId id) {
     const bool is_there = other.a == in.a && other.b == in.b && other.c == in.c;
     return other.op == Op::parts && is_there && program_->part_sets[other.aux].get() == &set;
   };
-  if (id == 0 || !asks_the_same(program_->code[id - 1])) {
-    reached_.resize(count_);
-    for (size_t box = 0; box < count_; ++box) reached_[box] = set.index.reaches(operands(in, box));
-  }
+  if (id == 0 || !asks_the_same(program_->code[id - 1])) find_reached(set.index, in);
   const Interval range = set.ranges[static_cast<size_t>(in.value)];
   fill(id, [&](size_t box) { return reached_[box] ? range : Interval(0); });
+}
+
+// Boxes that lie together have few pieces of parts near them: each is compared with all boxes.
+void BoxIntervals::find_reached(const program::PartIndex& index, const Instruction& in) {
+  Box around = operands(in, 0);
+  for (size_t box = 1; box < count_; ++box) around = hull(around, operands(in, box));
+  reached_.assign(stride_, 0);
+  if (!index.find_few(around, few_pieces, near_)) {
+    for (size_t box = 0; box < count_; ++box) reached_[box] = index.reaches(operands(in, box)) ? 1 : 0;
+    return;
+  }
+  const std::array<IntervalRow, 3> rows{row(in.a), row(in.b), row(in.c)};
+  for (const program::PartIndex::Entry& entry : near_) {
+    meets_.assign(stride_, 1);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const Interval piece = entry.box.axis(static_cast<int>(axis));
+      meet(rows[axis], {static_cast<float>(piece.lo), static_cast<float>(piece.hi)}, meets_);
+    }
+    for (size_t n = 0; n < stride_; ++n) reached_[n] |= meets_[n];
+  }
 }
 
 void BoxIntervals::values(size_t box, std::vector<Interval>& values) const {

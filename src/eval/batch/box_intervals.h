@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "eval/batch/kernels.h"
+#include "program/parts.h"
 #include "program/program.h"
 
 namespace ombre::eval {
@@ -40,13 +41,15 @@ class BoxIntervals {
   void fill(program::ValueId id, F value_of);  // box by box
   void evaluate_one(program::ValueId id, std::span<const Box> boxes, const SourceRanges& sources);
   void ask_parts(program::ValueId id);
+  void find_reached(const program::PartIndex& index, const program::Instruction& place);
 
   const KernelSet& kernels_;
   const program::Program* program_ = nullptr;
   size_t count_ = 0, stride_ = 0;  // boxes; floats from row to row
   std::vector<float> memory_;
-  float* floats_ = nullptr;    // for each instruction the lower ends, then the upper ones; then marks
-  std::vector<bool> reached_;  // by box: do parts reach it? Of the last `parts` instruction
+  float* floats_ = nullptr;               // for each instruction the lower ends, then the upper ones; then marks
+  std::vector<int32_t> reached_, meets_;  // by box: do parts reach it? Of the last `parts` instruction
+  std::vector<program::PartIndex::Entry> near_;
 };
 
 }  // namespace ombre::eval

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "eval/batch/kernels.h"
@@ -84,6 +85,47 @@ TEST(BoxIntervals, AreThoseOfOneBoxEach) {
               << to_text(program) << "v" << id << " is " << text(together[id]) << ", alone " << text(alone[id]);
       }
     }
+  }
+}
+
+// Whether few parts lie near the boxes, or many. Places are multiples of 1/8, so that nothing is rounded.
+TEST(BoxIntervals, PartsReachTheBoxesThatTheirPiecesMeet) {
+  std::mt19937 random(12);
+  const auto eighths = [&](int lo, int hi) { return 0.125 * std::uniform_int_distribution(8 * lo, 8 * hi)(random); };
+  const auto some_box = [&](int reach, Vec3 size) {
+    const Vec3 low{eighths(-reach, reach), eighths(-reach, reach), eighths(-reach, reach)};
+    return Box{low, low + size};
+  };
+  for (const int parts : {3, 40, 4000}) {
+    auto set = std::make_shared<program::PartSet>();
+    set->slots = {program::SlotKind::any};
+    set->ranges = {Interval(0, 1)};
+    for (int n = 0; n < parts; ++n) {
+      program::Cells slice;
+      slice.first[0] = static_cast<uint8_t>(random() % 128);
+      slice.last[0] = static_cast<uint8_t>(slice.first[0] + random() % 128);
+      set->index.add(some_box(30, {32, 4, 2}), {slice});
+    }
+    set->index.build();
+    program::Builder builder;
+    const program::Field inside = builder.parts(set, 0, builder.input(0), builder.input(1), builder.input(2));
+    const Program program = builder.finish({{"inside", inside}});
+    size_t reached = 0;
+    for (const KernelSet& kernels : kernel_sets()) {
+      BoxIntervals evaluator(kernels);
+      for (int round = 0; round < 50; ++round) {
+        std::vector<Box> boxes;
+        for (size_t n = 1 + random() % 64; n > 0; --n)
+          boxes.push_back(some_box(40, {eighths(0, 5), eighths(0, 5), eighths(0, 5)}));
+        evaluator.evaluate(program, boxes, no_sources);
+        for (size_t box = 0; box < boxes.size(); ++box) {
+          const bool is_reached = set->index.reaches(boxes[box]);
+          reached += is_reached;
+          EXPECT_EQ(evaluator.output(0, box), is_reached ? Interval(0, 1) : Interval(0)) << parts;
+        }
+      }
+    }
+    EXPECT_GT(reached, 0u);
   }
 }
 

@@ -19,6 +19,8 @@ class Composer {
   Program run() {
     find_forms();
     find_needed();
+    for (const Instruction& in : from_.code)
+      if (in.op == Op::input) input(static_cast<size_t>(in.value));
     for (ValueId id = 0; id < from_.code.size(); ++id) {
       if (is_needed_[id] != 0) renamed_[id] = is_composed_[id] != 0 ? chain(*forms_[id]) : copy(id);
     }
