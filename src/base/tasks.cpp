@@ -12,6 +12,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <utility>
 
 namespace ombre {
 
@@ -19,6 +20,33 @@ namespace {
 
 // More threads than cores gain nothing, and the library would complain.
 int worker_count(int threads) { return threads > 0 ? std::min(threads, core_count()) : core_count(); }
+
+// Threads of the run whose task this thread is at; 0: of none.
+thread_local int threads_of_task = 0;
+
+class AtTask {
+ public:
+  explicit AtTask(int threads) : before_(std::exchange(threads_of_task, threads)) {}
+  ~AtTask() { threads_of_task = before_; }
+  AtTask(const AtTask&) = delete;
+  AtTask& operator=(const AtTask&) = delete;
+
+ private:
+  int before_;
+};
+
+// run(threads) on so many. A run within a task of another shares its threads: an arena of its own would bring more. It
+// is isolated, so that what waits for it does not take up another task of the outer run.
+template <class Run>
+void with_threads(int threads, Run run) {
+  const int wanted = worker_count(threads);
+  if (threads_of_task > 0 && threads_of_task <= wanted) {
+    tbb::this_task_arena::isolate([&] { run(threads_of_task); });
+    return;
+  }
+  tbb::task_arena arena(wanted);
+  arena.execute([&] { run(wanted); });
+}
 
 }  // namespace
 
@@ -44,8 +72,7 @@ void run_ordered(size_t count, int threads, size_t window, const std::function<s
       failed = true;
     }
   };
-  tbb::task_arena arena(worker_count(threads));
-  arena.execute([&] {
+  with_threads(threads, [&](int shared) {
     size_t next = 0;
     const auto take = [&](tbb::flow_control& flow) -> Item {
       if (next < count && !failed) return {next++, nullptr};
@@ -53,10 +80,14 @@ void run_ordered(size_t count, int threads, size_t window, const std::function<s
       return {};
     };
     const auto work = [&](Item item) -> Item {
+      const AtTask here(shared);
       guarded([&] { item.result = produce(item.index); });
       return item;
     };
-    const auto give = [&](Item item) { guarded([&] { consume(item.index, item.result); }); };
+    const auto give = [&](Item item) {
+      const AtTask here(shared);
+      guarded([&] { consume(item.index, item.result); });
+    };
     tbb::parallel_pipeline(std::max<size_t>(1, window),
                            tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, take) &
                                tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, work) &
@@ -66,11 +97,13 @@ void run_ordered(size_t count, int threads, size_t window, const std::function<s
 }
 
 void run_parallel(size_t count, int threads, const std::function<void(size_t)>& body) {
-  tbb::task_arena arena(worker_count(threads));
   // One by one: the partitioner of choice hands out eighths, which may take very unequal times.
-  arena.execute([&] {
-    tbb::parallel_for(
-        size_t{0}, count, [&](size_t i) { body(i); }, tbb::simple_partitioner());
+  with_threads(threads, [&](int shared) {
+    const auto task = [&](size_t i) {
+      const AtTask here(shared);
+      body(i);
+    };
+    tbb::parallel_for(size_t{0}, count, task, tbb::simple_partitioner());
   });
 }
 

@@ -9,7 +9,7 @@ namespace ombre {
 
 // Runs produce(0..count) on up to `threads` threads and hands each result to consume(i, result) in
 // order, one at a time. At most `window` results exist at once. The first exception stops the rest
-// and is rethrown. `threads` 0 means all cores.
+// and is rethrown. `threads` 0 means all cores. A run within a task of another shares its threads.
 void run_ordered(size_t count, int threads, size_t window, const std::function<std::shared_ptr<void>(size_t)>& produce,
                  const std::function<void(size_t, const std::shared_ptr<void>&)>& consume);
 

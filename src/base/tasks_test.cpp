@@ -2,6 +2,9 @@
 #include "base/tasks.h"
 
 #include <gtest/gtest.h>
+#ifndef OMBRE_PLAIN_THREADS
+#include <tbb/global_control.h>
+#endif
 
 #include <atomic>
 #include <chrono>
@@ -158,6 +161,38 @@ TEST(Threads, NeverMoreThanAsked) {
     EXPECT_LE(most, threads);
   }
 }
+
+#ifndef OMBRE_PLAIN_THREADS
+// Where there are threads for each inner run as well.
+TEST(Threads, RunsWithinTasksShareThem) {
+  if (core_count() < 2) GTEST_SKIP();
+  const tbb::global_control enough(tbb::global_control::max_allowed_parallelism, 8);
+  std::atomic<int> now{0}, most{0}, runs{0};
+  run_parallel(2, 2, [&](size_t) {
+    run_parallel(100, 2, [&](size_t) {
+      const int mine = ++now;
+      for (int before = most; mine > before && !most.compare_exchange_weak(before, mine);) {
+      }
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+      --now;
+      ++runs;
+    });
+  });
+  EXPECT_EQ(runs, 200);
+  EXPECT_LE(most, 2);
+}
+
+// One that may have fewer has fewer.
+TEST(Threads, ARunWithinATaskHasNoMoreThanItAsksFor) {
+  run_parallel(2, 0, [](size_t) {
+    std::atomic<int> now{0};
+    run_parallel(50, 1, [&](size_t) {
+      EXPECT_EQ(++now, 1);
+      --now;
+    });
+  });
+}
+#endif
 
 TEST(Threads, AFailureIsThrownAgain) {
   for (const int threads : {1, 4})

@@ -22,14 +22,14 @@ void RayBatch::evaluate(std::span<const Ray> rays, int64_t stride, size_t width,
   rays_ = rays;
   stride_ = stride;
   width_ = width;
-  depths_.clear();
-  rights_.clear();
-  downs_.clear();
-  for (const Ray& ray : rays) {
+  for (std::vector<float>* coordinates : {&depths_, &rights_, &downs_}) coordinates->resize(rays.size() * width);
+  for (size_t n = 0; n < rays.size(); ++n) {
     // Whole numbers of doubles, so as exact as those of steps.
-    for (size_t i = 0; i < width; ++i) depths_.push_back(steps_.sample(static_cast<double>(fine(ray, i))));
-    rights_.insert(rights_.end(), width, static_cast<float>(steps_.film.right_of(ray.column)));
-    downs_.insert(downs_.end(), width, static_cast<float>(steps_.film.down_of(ray.row)));
+    const auto first = static_cast<double>(rays[n].first), apart = static_cast<double>(stride);
+    float* const depths = depths_.data() + n * width;
+    for (int i = 0; i < static_cast<int>(width); ++i) depths[i] = steps_.sample(first + apart * i);
+    std::fill_n(rights_.data() + n * width, width, static_cast<float>(steps_.film.right_of(rays[n].column)));
+    std::fill_n(downs_.data() + n * width, width, static_cast<float>(steps_.film.down_of(rays[n].row)));
   }
   batch_.place({depths_, rights_, downs_});
   batch_.begin_layer(0);

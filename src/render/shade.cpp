@@ -47,8 +47,8 @@ struct Light {
 
 Light light_on(Vec3 normal) {
   const double towards_light = std::max(0.0, dot(normal, key_light)), towards_eye = std::max(0.0, -normal.x);
-  const Vec3 eye{-1, 0, 0};
-  const Vec3 half = (1 / length(eye + key_light)) * (eye + key_light);
+  static const Vec3 between = Vec3{-1, 0, 0} + key_light;  // the eye and the light
+  static const Vec3 half = (1 / length(between)) * between;
   const double glance = std::max(0.0, dot(normal, half));
   return {ambient + diffuse * towards_light + from_the_eye * towards_eye, highlight * to_the_40th(glance)};
 }

@@ -137,7 +137,10 @@ void BoxIntervals::values(std::span<const size_t> boxes, std::vector<Interval>& 
   std::fill_n(chosen(), stride_, 0.0F);
   for (const size_t box : boxes) chosen()[box] = 1;
   values.resize(program_->code.size());
-  for (ValueId id = 0; id < values.size(); ++id) values[id] = kernels_.hull(row(id), chosen(), stride_);
+  for (ValueId id = 0; id < values.size(); ++id) {
+    const bool is_constant = program_->code[id].op == Op::constant;
+    values[id] = is_constant ? value(id, 0) : kernels_.hull(row(id), chosen(), stride_);
+  }
 }
 
 }  // namespace ombre::eval

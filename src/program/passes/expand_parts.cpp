@@ -116,7 +116,10 @@ class Expander {
     for (const uint32_t part : found_) {
       const uint32_t body = table.body_of(part);
       auto excerpt = made.excerpts.find(body);
-      if (excerpt == made.excerpts.end()) excerpt = made.excerpts.emplace(body, table.excerpt(body, wanted(in))).first;
+      if (excerpt == made.excerpts.end()) {
+        excerpt = made.excerpts.emplace(body, table.excerpt(body, wanted(in))).first;
+        to_.code.reserve(to_.code.size() + found_.size() * excerpt->second.lines.size());
+      }
       table.append(part, excerpt->second, to_, at, made.values.emplace_back());
     }
     return made;
