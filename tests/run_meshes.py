@@ -45,7 +45,7 @@ class Meshes:
         return [str(self.ombre), *(str(a) for a in arguments)]
 
     def mesh(self, *arguments, status=0, design="bar.vcad"):
-        result = program.run(self.command("mesh", design, *arguments), cwd=self.folder)
+        result = program.run(self.command("mesh", design, *arguments), cwd=self.folder, timeout=600)
         expect(result.returncode == status, f"status {result.returncode}, expected {status}: {result.stderr[-1500:]}")
         return result
 

@@ -50,8 +50,29 @@ TEST(CommandLine, SlipsGetSuggestions) {
   expect_wrong({"slice", "part.vcad", "other.vcad"}, "one argument too many: \"other.vcad\"");
   expect_wrong({"slice", "part.vcad", "--printer", "j570"}, "did you mean \"j750\"?");
   expect_wrong({"slice", "part.vcad", "--voxel", "thin"}, "write for example --voxel 0.1");
-  expect_wrong({"slice", "part.vcad", "--force", "--resume"}, "excludes");
+  expect_wrong({"slice", "part.vcad", "--force", "--resume"}, "--force and --resume do not go together");
   expect_wrong({"nodes", "spere"}, "did you mean \"sphere\"?");
+}
+
+TEST(CommandLine, ValuesThatDoNotFitAreToldWithThoseThatDo) {
+  expect_wrong({"slice", "part.vcad", "--threads", "x"}, "--threads: \"x\" is not a whole number from 1 to 1024");
+  expect_wrong({"slice", "part.vcad", "--threads", "0"}, "--threads: \"0\" is not a whole number from 1 to 1024");
+  expect_wrong({"slice", "part.vcad", "--threads", "2.5"}, "--threads: \"2.5\" is not a whole number");
+  expect_wrong({"slice", "part.vcad", "--threads", "1e3"}, "--threads: \"1e3\" is not a whole number");
+  expect_wrong({"render", "part.vcad", "--perspective", "121"}, "--perspective: \"121\" is not a number from 0 to 120");
+  expect_wrong({"render", "part.vcad", "--zoom", "nan"}, "--zoom: \"nan\" is not a number from 0.01 to 1000");
+  expect_wrong({"slice", "part.vcad", "--dither", "blu-noise"}, "did you mean \"blue-noise\"?\n");
+  expect_wrong({"mesh", "part.vcad", "--flavor", "cura"}, "there is no \"cura\"; there are generic, prusa, bambu; see");
+}
+
+TEST(CommandLine, WhatIsMissingIsTold) {
+  expect_wrong({"slice"}, "the design is missing; write for example ombre slice part.vcad; see ombre slice --help");
+  expect_wrong({"probe", "part.vcad"}, "--at is missing; write ombre probe ... --at X,Y,Z; see");
+  expect_wrong({"sheet"}, "folder is missing; write ombre sheet ... DIR; see");
+  expect_wrong({"render", "part.vcad", "--zoom"}, "--zoom needs a value: --zoom X; see");
+  expect_wrong({"render", "part.vcad", "--view"}, "--view needs a value: --view NAME; see");
+  expect_wrong({"slice", "part.vcad", "--layers"}, "--layers needs a value: --layers A:B; see");
+  expect_wrong({"slice", "part.vcad", "--seed", "1", "--seed", "2"}, "--seed is given more than once; see");
 }
 
 TEST(CommandLine, PicturesSayWhatToWrite) {

@@ -8,6 +8,7 @@
 #include "compile/contour_job.h"
 #include "export/outline_files.h"
 #include "ombre/arguments.h"
+#include "ombre/checks.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
@@ -49,7 +50,7 @@ void add_arguments(CLI::App& app, ContoursArguments& a) {
   app.add_option("--z", a.z, "Only one layer: what is cut at this height; mm")->type_name("MM");
   add_region_arguments(app, a.regions, "An outline");
   app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_between(1, 1024))
       ->type_name("N");
   app.add_flag("--force", a.force, "Replace files that are there");
 }

@@ -5,6 +5,7 @@
 
 #include "compile/find_printer.h"
 #include "ombre/arguments.h"
+#include "ombre/checks.h"
 
 namespace ombre::cli {
 namespace {
@@ -36,17 +37,17 @@ void add_voxel_arguments(CLI::App& app, JobArguments& a) {
   app.add_option("--layer-height", a.layer_height, "Voxel size along z; mm")->type_name("MM");
   app.add_option("--dither", a.dither,
                  "How a mixture becomes one material a voxel: stochastic (default), blue-noise, diffusion or threshold")
-      ->check(CLI::IsMember(voxel::dither_names()))
+      ->check(one_of(voxel::dither_names()))
       ->type_name("MODE");
   app.add_option("--evaluator", a.evaluator,
                  "Who computes values: batch (default, floats, fast) or reference (double precision, slow)")
-      ->check(CLI::IsMember({"batch", "reference"}))
+      ->check(one_of({"batch", "reference"}))
       ->type_name("NAME");
   app.add_option("--seed", a.seed, "Seed of the dithering (default 0); equal seeds give equal files")->type_name("N");
   CLI::Option* place =
       app.add_option("--place", a.place,
                      "Layers cover the design's own box, or the build plate with the part in its middle")
-          ->check(CLI::IsMember({"design", "center"}))
+          ->check(one_of({"design", "center"}))
           ->type_name("design|center");
   app.add_flag("--tray", a.tray, "Layers cover the printer's whole build box, the design where it stands")
       ->excludes(place);
@@ -55,7 +56,7 @@ void add_voxel_arguments(CLI::App& app, JobArguments& a) {
 void add_job_arguments(CLI::App& app, JobArguments& a) {
   add_voxel_arguments(app, a);
   app.add_option("--format", a.image, "Image format: rgba, indexed, gray or mask (default: the printer's)")
-      ->check(CLI::IsMember(voxel::image_format_names()))
+      ->check(one_of(voxel::image_format_names()))
       ->type_name("FORMAT");
 }
 

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "compile/mesh_job.h"
 #include "export/mesh_file.h"
+#include "ombre/checks.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
@@ -51,7 +52,7 @@ void add_arguments(CLI::App& app, MeshArguments& a) {
   add_region_arguments(app, a.regions, "A body");
   app.add_flag("--keep-all", a.keep_all, "Keep the triangles of all cells, also where the surface is flat");
   app.add_option("--flavour,--flavor", a.flavour, "Whom a .3mf is for: generic (default), prusa or bambu")
-      ->check(CLI::IsMember({"generic", "prusa", "bambu"}))
+      ->check(one_of({"generic", "prusa", "bambu"}))
       ->type_name("SLICER");
   app.add_option("--setting", a.settings,
                  "A slicer's setting for the bodies: KEY=VALUE, KEY=FIRST..LAST from the first region to the last, or\n"
@@ -59,7 +60,7 @@ void add_arguments(CLI::App& app, MeshArguments& a) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_between(1, 1024))
       ->type_name("N");
   app.add_flag("--force", a.force, "Replace the file if it is there");
 }

@@ -6,6 +6,7 @@
 
 #include "base/pitch.h"
 #include "ombre/arguments.h"
+#include "ombre/checks.h"
 #include "ombre/commands.h"
 
 namespace ombre::cli {
@@ -39,7 +40,7 @@ void add_region_arguments(CLI::App& app, RegionArguments& a, const std::string& 
       ->type_name("materials|NAME");
   auto* bands =
       app.add_option("--bands", a.bands, "Number of bands of equal width (default 4, of the fraction that varies most)")
-          ->check(CLI::Range(2, 1000))
+          ->check(whole_between(2, 1000))
           ->type_name("N");
   app.add_option("--borders", a.borders, "Values between bands: fractions from 0 to 1, or the attribute's")
       ->excludes(bands)

@@ -9,6 +9,7 @@
 #include "export/output_file.h"
 #include "formats/png.h"
 #include "ombre/arguments.h"
+#include "ombre/checks.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
@@ -44,7 +45,7 @@ void add_arguments(CLI::App& app, RenderArguments& a) {
   app.add_option("--size", a.size, "Of the picture in pixels (default 800x600)")->type_name("WxH");
   CLI::Option* view =
       app.add_option("--view", a.view, "From where: iso (default), front, back, left, right, top or bottom")
-          ->check(CLI::IsMember(render::view_names()))
+          ->check(one_of(render::view_names()))
           ->type_name("NAME");
   CLI::Option* from =
       app.add_option("--from", a.from, "From where, as angles: azimuth (0 in front, 90 from the right), elevation")
@@ -52,11 +53,9 @@ void add_arguments(CLI::App& app, RenderArguments& a) {
           ->type_name("AZ,EL");
   CLI::Option* perspective =
       app.add_option("--perspective", a.perspective, "Vertical field of view; degrees (default 0: parallel rays)")
-          ->check(CLI::Range(0.0, 120.0))
+          ->check(between(0.0, 120.0))
           ->type_name("DEG");
-  app.add_option("--zoom", a.zoom, "Enlarge the middle of the picture")
-      ->check(CLI::Range(0.01, 1000.0))
-      ->type_name("X");
+  app.add_option("--zoom", a.zoom, "Enlarge the middle of the picture")->check(between(0.01, 1000.0))->type_name("X");
   app.add_option("--cut", a.cuts,
                  "Cut along a plane: x=0 takes away the side of the eye, x>0 or x<0 that side; may be repeated")
       ->allow_extra_args(false)
@@ -69,12 +68,12 @@ void add_arguments(CLI::App& app, RenderArguments& a) {
   app.add_option("--background", a.background, "white (default), black, gray, transparent or #rrggbb")
       ->type_name("COLOUR");
   app.add_option("--aa", a.samples, "Rays along the edge of a pixel, which smooth edges (default 2)")
-      ->check(CLI::Range(1, 8))
+      ->check(whole_between(1, 8))
       ->type_name("N");
   CLI::Option* frames = app.add_option("--frames", a.frames, "Pictures all around the part, numbered (default 1)")
-                            ->check(CLI::Range(1, 3600))
+                            ->check(whole_between(1, 3600))
                             ->type_name("N");
-  app.add_option("--threads", a.threads, "Threads (default: all cores)")->check(CLI::Range(0, 1024))->type_name("N");
+  app.add_option("--threads", a.threads, "Threads (default: all cores)")->check(whole_between(0, 1024))->type_name("N");
   app.add_option("--slice", a.slice, "The plane x, y or z = mm in place of a view: flat, in the materials' colours")
       ->excludes(view, from, perspective, opacity, frames)
       ->type_name("PLANE");

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "compile/job_sheet.h"
+#include "ombre/checks.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/overwrite.h"
@@ -18,7 +19,7 @@ Command add_sheet(CLI::App& program, OutputOptions& output) {
   app->add_option("folder", arguments->folder, "Folder of a slice job")->required()->type_name("DIR");
   app->add_option("-o,--output", arguments->image, "The picture to write (default sheet.png)")->type_name("FILE");
   app->add_option("--count", arguments->layers, "How many layers, evenly spaced (default 12)")
-      ->check(CLI::Range(1, 200))
+      ->check(whole_between(1, 200))
       ->type_name("N");
   app->add_flag("--force", arguments->force, "Replace the picture if it is there");
   add_output_options(*app, output);

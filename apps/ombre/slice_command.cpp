@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "compile/slice.h"
 #include "ombre/arguments.h"
+#include "ombre/checks.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/free_space.h"
@@ -41,7 +42,7 @@ void add_arguments(CLI::App& app, SliceArguments& a) {
   app.add_option("--layers", a.layers, "Only these layers, a:b as in Python (b excluded), a:, :b or a")
       ->type_name("A:B");
   app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_between(1, 1024))
       ->type_name("N");
   app.add_option("--memory", a.memory,
                  "Most memory for layers in flight, with their images and what evaluating them takes (default 2G)")
@@ -52,7 +53,7 @@ void add_arguments(CLI::App& app, SliceArguments& a) {
   app.add_flag("--dry-run", a.dry_run, "Say what the job would take, from a few layers; write nothing");
   app.add_flag("--strict", a.strict, "End with exit code 3 as soon as a check fails");
   app.add_option("--emit", a.emit, "Print an intermediate form to stdout, and slice nothing")
-      ->check(CLI::IsMember(compile::emit_forms()))
+      ->check(one_of(compile::emit_forms()))
       ->type_name("FORM");
 }
 

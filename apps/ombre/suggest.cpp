@@ -23,9 +23,42 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
+// "--zoom X", "FOLDER"
+std::string with_value(const CLI::App& command, const std::string& name) {
+  const CLI::Option* option = command.get_option_no_throw(name);
+  if (!option) return name;
+  // What the option accepts follows (checks.h).
+  const std::string type = option->get_type_name();
+  const size_t accepted =
+      std::min(type.find(":{"), type.find(" to ") == std::string::npos ? type.npos : type.find(':'));
+  const std::string value = type.substr(0, accepted);
+  return name.starts_with('-') ? name + ' ' + value : value;
+}
+
 const CLI::App& chosen_command(const CLI::App& program) {
   const auto chosen = program.get_subcommands();
   return chosen.empty() ? program : *chosen.front();
+}
+
+// "--zoom: 1 required X:0.01 to 1000 missing" and the like, so that people see what to write.
+std::string in_other_words(const CLI::App& command, const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const auto before = [&](const char* words) { return text.substr(0, text.find(words)); };
+  const auto after = [&](const char* words) { return text.substr(text.find(words) + std::string_view(words).size()); };
+  if (dynamic_cast<const CLI::ExcludesError*>(&error))
+    return before(" excludes ") + " and " + after(" excludes ") + " do not go together";
+  if (dynamic_cast<const CLI::RequiredError*>(&error)) {
+    const std::string name = before(" is required");
+    const std::string call = "ombre " + command.get_name() + ' ';
+    if (name == "design") return "the design is missing; write for example " + call + "part.vcad";
+    return name + " is missing; write " + call + "... " + with_value(command, name);
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
+    const std::string name = before(":");
+    if (text.ends_with(" missing")) return name + " needs a value: " + with_value(command, name);
+    if (text.find("At Most") != std::string::npos) return name + " is given more than once";
+  }
+  return text;
 }
 
 }  // namespace
@@ -42,11 +75,12 @@ std::string unknown_command(const CLI::App& program, const std::string& argument
 std::string explain(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App& command = chosen_command(program);
   const std::string help = "; see ombre " + (&command == &program ? "" : command.get_name() + ' ') + "--help";
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return std::string(error.what()) + help;
-
   // CLI11 lists what was left over, of the program and of the command.
   const std::vector<std::string> left_over = program.remaining(true);
-  if (left_over.empty()) return std::string(error.what()) + help;
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || left_over.empty()) {
+    const std::string text = in_other_words(command, error);
+    return text.ends_with('?') ? text : text + help;
+  }
   const auto first_option =
       std::find_if(left_over.begin(), left_over.end(), [](const std::string& s) { return s.starts_with('-'); });
   if (first_option == left_over.end()) return "one argument too many: \"" + left_over.front() + '"' + help;

@@ -1,0 +1,16 @@
+// What options accept, and what is said of the rest.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+namespace ombre::cli {
+
+// Numbers, ends included.
+CLI::Validator between(double least, double greatest);
+// Whole numbers.
+CLI::Validator whole_between(int least, int greatest);
+CLI::Validator one_of(const std::vector<std::string>& names);
+
+}  // namespace ombre::cli
