@@ -314,7 +314,7 @@ def wrong_layers_are_explained(job):
                             (["--index", "100"], "0 to 99"), (["--index", "1:3"], "0 to 99"),
                             (["--z", "0", "--box", "1,2,3"], "x0,y0,x1,y1"), (["--z", "0", "--box", "2,0,1,1"], "x0,y0,x1,y1"),
                             (["--z", "0", "--box", "5,5,6,6"], "from -5,-5 to 5,5 mm"),
-                            (["--z", "0", "--index", "0"], "excludes")):
+                            (["--z", "0", "--index", "0"], "do not go together")):
         result = ombre_layer(job, *SMALL, *arguments, status=1)
         expect(part in result.stderr, f"{arguments}: {result.stderr}")
     expect(not list(job.folder.glob("*.png")), "it wrote all the same")

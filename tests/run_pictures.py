@@ -78,12 +78,12 @@ def check(ombre, name):
 
 
 MISTAKES = [
-    (["--zoom", "nan"], "--zoom is no number"),
-    (["--perspective", "nan"], "--perspective is no number"),
+    (["--zoom", "nan"], "--zoom: \"nan\" is not a number from 0.01 to 1000"),
+    (["--perspective", "nan"], "--perspective: \"nan\" is not a number from 0 to 120"),
     (["--from", "nan,0"], "azimuth,elevation"),
     (["--slice", "z"], "--slice z=3.2"),
     (["--slice", "z=50"], "z -15 to 10 mm"),
-    (["--slice", "z=0", "--view", "top"], "excludes"),
+    (["--slice", "z=0", "--view", "top"], "do not go together"),
     (["--cut", "x<50"], "nothing of the design is left"),
     (["--size", "20000x1"], "at most 16384"),
     (["--output", "picture.jpg"], "PNG"),

@@ -110,9 +110,6 @@ void set_view(const RenderArguments& a, compile::PictureRequest& request) {
     request.view.azimuth_deg = angles[0];
     request.view.elevation_deg = angles[1];
   }
-  // Ranges let what is no number pass.
-  if (std::isnan(a.perspective)) throw WrongArgument("--perspective is no number; write for example --perspective 40");
-  if (std::isnan(a.zoom)) throw WrongArgument("--zoom is no number; write for example --zoom 2");
   request.view.field_of_view_deg = a.perspective;
   request.view.zoom = a.zoom;
 }
