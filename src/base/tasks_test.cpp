@@ -29,6 +29,11 @@ const Case cases[] = {{0, 4, 3},   {1, 1, 1},    {1, 8, 100},  {100, 1, 1},   {1
 // Work of uneven length, so that results come out of order by themselves.
 void work(size_t i) { std::this_thread::sleep_for(std::chrono::microseconds((i * 2654435761u) % 97)); }
 
+void raise_to(int value, std::atomic<int>& most) {
+  for (int before = most; value > before && !most.compare_exchange_weak(before, value);) {
+  }
+}
+
 // Counts how many of its kind live.
 struct Counted {
   std::atomic<int>* alive;
@@ -64,8 +69,7 @@ TEST(Ordered, TheWindowBoundsWhatLives) {
     std::atomic<int> alive{0}, most{0};
     const auto produce = [&](size_t i) {
       auto result = std::make_shared<Counted>(alive, i);
-      for (int now = alive, before = most; now > before && !most.compare_exchange_weak(before, now);) {
-      }
+      raise_to(alive, most);
       work(i);
       return std::static_pointer_cast<void>(result);
     };
@@ -152,9 +156,7 @@ TEST(Threads, NeverMoreThanAsked) {
   for (const int threads : {1, 2, 3}) {
     std::atomic<int> now{0}, most{0};
     run_parallel(200, threads, [&](size_t i) {
-      const int mine = ++now;
-      for (int before = most; mine > before && !most.compare_exchange_weak(before, mine);) {
-      }
+      raise_to(++now, most);
       work(i);
       --now;
     });
@@ -170,9 +172,7 @@ TEST(Threads, RunsWithinTasksShareThem) {
   std::atomic<int> now{0}, most{0}, runs{0};
   run_parallel(2, 2, [&](size_t) {
     run_parallel(100, 2, [&](size_t) {
-      const int mine = ++now;
-      for (int before = most; mine > before && !most.compare_exchange_weak(before, mine);) {
-      }
+      raise_to(++now, most);
       std::this_thread::sleep_for(std::chrono::microseconds(200));
       --now;
       ++runs;

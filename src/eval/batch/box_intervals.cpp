@@ -108,7 +108,8 @@ void BoxIntervals::ask_parts(ValueId id) {
   fill(id, [&](size_t box) { return reached_[box] ? range : Interval(0); });
 }
 
-// Boxes that lie together have few pieces of parts near them: each is compared with all boxes.
+// Boxes that lie together have few pieces of parts near them: each is compared with all boxes. Its ends are rounded to
+// nearest, since boxes of parts are grown by more than that (program/parts.h).
 void BoxIntervals::find_reached(const program::PartIndex& index, const Instruction& in) {
   Box around = operands(in, 0);
   for (size_t box = 1; box < count_; ++box) around = hull(around, operands(in, box));
