@@ -201,7 +201,7 @@ class Studio {
       const int64_t end = std::min(begin + rows, height_);
       const auto band = shot.cast(begin * samples, end * samples);
       if (stop_.requested()) throw Cancelled();
-      is_empty_ = is_empty_ && std::ranges::none_of(band.hits, [](const render::RayHit& ray) {
+      is_empty_ = is_empty_ && std::ranges::none_of(band.all(), [](const render::RayHit& ray) {
                     return ray.surface != render::RayHit::none;
                   });
       render::shade(band, shot.film, shot.camera, {shot.lighting, samples, request_.background}, begin, end,

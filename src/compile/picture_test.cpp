@@ -65,7 +65,7 @@ TEST(Pictures, PerspectiveSeesTheConeAroundASphere) {
   // The outline of a sphere lies on the cone of tangents.
   const double outline = away * std::tan(std::asin(10 / away));
   size_t seen = 0;
-  for (const render::RayHit& ray : shot.band.hits) seen += ray.surface != none;
+  for (const render::RayHit& ray : shot.band.all()) seen += ray.surface != none;
   const double area = static_cast<double>(seen) * shot.film.pixel_mm * shot.film.pixel_mm;
   EXPECT_NEAR(area / (3.14159265358979 * outline * outline), 1, 0.005);
   const float nearest = shot.at(100, 100).surface;
@@ -79,7 +79,7 @@ TEST(Pictures, MeshesAndCallsAndManyPartsAreSeenToo) {
   const LoadedPtr loaded = load_text(mesh, diagnostics);
   const Box box = *design_box(loaded->design, diagnostics);
   float top = none;
-  for (const render::RayHit& ray : gear.band.hits) top = std::min(top, ray.surface);
+  for (const render::RayHit& ray : gear.band.all()) top = std::min(top, ray.surface);
   EXPECT_NEAR(top, -box.size().z / 2, gear.film.pixel_mm / 100);
 
   std::string balls = "union() {";
@@ -87,7 +87,7 @@ TEST(Pictures, MeshesAndCallsAndManyPartsAreSeenToo) {
     balls += "translate(" + std::to_string(3 * (n % 8)) + ", " + std::to_string(3 * (n / 8)) + ", 0) sphere(1);";
   const Shot many = shoot(balls + "}", view("top"), {}, 1, 400);
   size_t seen = 0;
-  for (const render::RayHit& ray : many.band.hits) seen += ray.surface != none;
+  for (const render::RayHit& ray : many.band.all()) seen += ray.surface != none;
   EXPECT_NEAR(static_cast<double>(seen) * many.film.pixel_mm * many.film.pixel_mm, 40 * 3.14159265, 1.5);
 }
 
@@ -99,8 +99,8 @@ TEST(Pictures, MeshesFromAFarEyeAreThoseOfParallelRays) {
   const Shot perspective = shoot(mesh, far), parallel = shoot(mesh, view("iso"));
   EXPECT_NEAR(perspective.film.pixel_mm / parallel.film.pixel_mm, 1, 1e-4);
   size_t seen = 0, other = 0;
-  for (size_t n = 0; n < parallel.band.hits.size(); ++n) {
-    const float a = parallel.band.hits[n].surface, b = perspective.band.hits[n].surface;
+  for (size_t n = 0; n < parallel.band.all().size(); ++n) {
+    const float a = parallel.band.all()[n].surface, b = perspective.band.all()[n].surface;
     seen += a != none;
     other += (a == none) != (b == none) || (a != none && std::abs(a - b) > parallel.film.pixel_mm / 10);
   }
@@ -177,10 +177,10 @@ TEST(Pictures, DoNotDependOnThreads) {
   const std::string text =
       "fgrade([\"0.5 + x/40\", \"0.5 - x/40\"], [\"red\", \"clear\"]) rotate(20, 30, 40) cube(20);";
   const Shot one = shoot(text, view("iso"), {}, 1), two = shoot(text, view("iso"), {}, 2);
-  for (size_t n = 0; n < one.band.hits.size(); ++n) {
-    ASSERT_EQ(one.band.hits[n].end, two.band.hits[n].end);
-    ASSERT_EQ(one.band.hits[n].passes, two.band.hits[n].passes);
-    ASSERT_EQ(one.band.hits[n].veil.red, two.band.hits[n].veil.red);
+  for (size_t n = 0; n < one.band.all().size(); ++n) {
+    ASSERT_EQ(one.band.all()[n].end, two.band.all()[n].end);
+    ASSERT_EQ(one.band.all()[n].passes, two.band.all()[n].passes);
+    ASSERT_EQ(one.band.all()[n].veil.red, two.band.all()[n].veil.red);
   }
 }
 
@@ -199,14 +199,14 @@ TEST_P(EveryPicture, ShowsWhatTheReferenceFinds) {
   const render::Camera camera = render::camera_around(box, options, 1);
   const render::Film film{160, 160, camera.height_mm / 160};
   const auto scene = make_scene(loaded->design, box, camera, {}, diagnostics);
-  const auto hits = render::cast_rays(*scene, film, 0, film.height, 2, [] { return false; }).hits;
+  const render::RayBand band = render::cast_rays(*scene, film, 0, film.height, 2, [] { return false; });
   const program::Program program =
       program::expand_parts(scene->program, std::vector<Interval>(scene->program.code.size(), Interval(-1e4, 1e4)),
                             program::Precision::reference);
   size_t seen = 0, wrong = 0;
   std::vector<double> values;
   for (int64_t n = 0; n < film.width * film.height; ++n) {
-    const render::RayHit& ray = hits[static_cast<size_t>(n)];
+    const render::RayHit& ray = band.all()[static_cast<size_t>(n)];
     if (ray.end == none || ray.passes < 1) continue;
     ++seen;
     const auto value = [&](render::Scene::Output output) { return values[program.outputs[output]]; };

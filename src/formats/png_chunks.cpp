@@ -14,6 +14,23 @@ std::string big_endian(uint32_t value) {
 
 PngChunks::PngChunks() : file_("\x89PNG\r\n\x1A\n") {}
 
+void PngChunks::add_header(uint32_t width, uint32_t height, PngColours type, int bit_depth) {
+  const char rest[] = {static_cast<char>(bit_depth), static_cast<char>(type), 0, 0, 0};
+  add("IHDR", big_endian(width) + big_endian(height) + std::string(rest, sizeof rest));
+}
+
+void PngChunks::add_palette(std::span<const Rgba> colours) {
+  std::string opaque, alphas;
+  size_t alpha_count = 0;
+  for (const Rgba& colour : colours) {
+    for (size_t i = 0; i < 3; ++i) opaque += static_cast<char>(colour[i]);
+    alphas += static_cast<char>(colour[3]);
+    if (colour[3] != 255) alpha_count = alphas.size();
+  }
+  add("PLTE", opaque);
+  if (alpha_count > 0) add("tRNS", alphas.substr(0, alpha_count));
+}
+
 void PngChunks::add(std::string_view type, std::initializer_list<std::string_view> data) {
   size_t size = 0;
   uint32_t sum = libdeflate_crc32(0, type.data(), type.size());

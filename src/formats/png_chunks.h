@@ -3,14 +3,22 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "formats/rgba.h"
+
 namespace ombre::formats {
+
+enum class PngColours : uint8_t { gray = 0, indexed = 3, rgba = 6 };
 
 class PngChunks {
  public:
   PngChunks();
+
+  void add_header(uint32_t width, uint32_t height, PngColours type, int bit_depth);
+  void add_palette(std::span<const Rgba> colours);
 
   // `type` has four letters.
   void add(std::string_view type, std::string_view data) { add(type, {data}); }

@@ -17,16 +17,14 @@ namespace {
 
 constexpr size_t data_chunk_bytes = size_t{1} << 18;
 
-enum class ColourType : uint8_t { gray = 0, indexed = 3, rgba = 6 };
-
-ColourType colour_type(PngFormat format) {
+PngColours colour_type(PngFormat format) {
   switch (format) {
     case PngFormat::rgba:
-      return ColourType::rgba;
+      return PngColours::rgba;
     case PngFormat::indexed:
-      return ColourType::indexed;
+      return PngColours::indexed;
     default:
-      return ColourType::gray;
+      return PngColours::gray;
   }
 }
 
@@ -68,23 +66,6 @@ Palette fitting(const RunLayer& layer, const Palette& palette) {
     return bits < palette.bit_depth();
   });
   return palette.first(size_t{1} << bits);
-}
-
-void add_header(PngChunks& file, const RunLayer& layer, ColourType type, int bit_depth) {
-  const char rest[] = {static_cast<char>(bit_depth), static_cast<char>(type), 0, 0, 0};
-  file.add("IHDR", big_endian(layer.width()) + big_endian(layer.height()) + std::string(rest, sizeof rest));
-}
-
-void add_palette(PngChunks& file, const Palette& palette) {
-  std::string colours, alphas;
-  size_t alpha_count = 0;
-  for (const Rgba& colour : palette.colours()) {
-    for (size_t i = 0; i < 3; ++i) colours += static_cast<char>(colour[i]);
-    alphas += static_cast<char>(colour[3]);
-    if (colour[3] != 255) alpha_count = alphas.size();
-  }
-  file.add("PLTE", colours);
-  if (alpha_count > 0) file.add("tRNS", alphas.substr(0, alpha_count));
 }
 
 uint32_t whole_dots(double dots_per_metre) {
@@ -134,15 +115,15 @@ void add_data(PngChunks& file, const RunLayer& layer, bool flip_y, Rows&& rows, 
 }  // namespace
 
 std::string encode_png(const RunLayer& layer, const Palette& job_palette, const PngLayout& layout) try {
-  const ColourType type = colour_type(layout.format);
-  const Palette palette = type == ColourType::indexed ? fitting(layer, job_palette) : job_palette;
+  const PngColours type = colour_type(layout.format);
+  const Palette palette = type == PngColours::indexed ? fitting(layer, job_palette) : job_palette;
   const Samples numbers = samples(palette, layout);
   PngChunks file;
   ZlibStream stream;
-  add_header(file, layer, type, numbers.bit_depth);
-  if (type == ColourType::indexed) add_palette(file, palette);
+  file.add_header(layer.width(), layer.height(), type, numbers.bit_depth);
+  if (type == PngColours::indexed) file.add_palette(palette.colours());
   add_resolution(file, layout);
-  if (type == ColourType::rgba)
+  if (type == PngColours::rgba)
     add_data(file, layer, layout.flip_y,
              RgbaRows(layer.width(), palette, occurring(layer, palette), layout.flip_x, stream), stream);
   else

@@ -128,6 +128,13 @@ double PartTable::parameter(uint32_t part, size_t number) const {
   return std::visit([&](const auto& parameters) { return parameters.at(row.number, number); }, parameters_[row.body]);
 }
 
+void PartTable::parameters(std::span<const uint32_t> parts, size_t number, float* row) const {
+  const auto fill = [&](const auto& parameters) {
+    for (const uint32_t part : parts) *row++ = static_cast<float>(parameters.at(rows_[part].number, number));
+  };
+  if (!parts.empty()) std::visit(fill, parameters_[rows_[parts.front()].body]);
+}
+
 std::optional<double> PartTable::common_parameter(uint32_t body, size_t number) const {
   const auto common = [&](const auto& parameters) -> std::optional<double> {
     if (!parameters.is_common(number)) return std::nullopt;

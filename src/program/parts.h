@@ -10,6 +10,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <variant>
@@ -68,6 +69,8 @@ class PartTable {
   uint32_t body_of(uint32_t part) const { return rows_[part].body; }
   // Constants and rows of maps, in the order of the body's code.
   double parameter(uint32_t part, size_t number) const;
+  // Of parts of one body, in a row.
+  void parameters(std::span<const uint32_t> parts, size_t number, float* row) const;
   // Of all parts of a body, if they have it in common.
   std::optional<double> common_parameter(uint32_t body, size_t number) const;
 

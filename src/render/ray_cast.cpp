@@ -55,6 +55,8 @@ class RayCaster {
     first_column_ = tile.lo[1];
     first_row_ = tile.lo[2];
     is_open_.fill(1);
+    for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row)
+      std::ranges::fill(hits_.part(row, tile.lo[1], tile.hi[1]), RayHit::nothing());
     descend(programs_.walk, tile, 0);
     colours_.take(sources, is_stopped_);
   }
@@ -71,6 +73,24 @@ class RayCaster {
       if (std::find(begin, begin + tile.size(1), 1) != begin + tile.size(1)) return false;
     }
     return true;
+  }
+  // The least part of a tile that has all its open rays.
+  TileBox around_open(TileBox tile) {
+    TileBox open = tile;
+    open.lo[1] = tile.hi[1], open.hi[1] = tile.lo[1];
+    open.lo[2] = tile.hi[2], open.hi[2] = tile.lo[2];
+    for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row) {
+      const uint8_t *const begin = &is_open(tile.lo[1], row), *const end = begin + tile.size(1);
+      const uint8_t* const first = std::find(begin, end, 1);
+      if (first == end) continue;
+      const uint8_t* last = end;
+      while (last[-1] == 0) --last;
+      open.lo[1] = std::min(open.lo[1], tile.lo[1] + (first - begin));
+      open.hi[1] = std::max(open.hi[1], tile.lo[1] + (last - begin));
+      open.lo[2] = std::min(open.lo[2], row);
+      open.hi[2] = row + 1;
+    }
+    return open;
   }
   void end(const Ray& ray, float depth) {
     hit(ray).end = depth;
@@ -99,7 +119,7 @@ class RayCaster {
   // The near pieces first, which may hide the others.
   void descend(const program::Program& program, const TileBox& tile, size_t depth) {
     if (is_stopped_()) return;
-    const std::vector<TileBox> pieces = cut(tile, leaf);
+    const std::vector<TileBox> pieces = cut(around_open(tile), leaf);
     AskedTiles& here = level(depth);
     here.ask(program, fine_boxes(pieces), *sources_);
     for (size_t n = 0; n < pieces.size(); ++n) {
@@ -180,7 +200,7 @@ class RayCaster {
 
   // The blocks of a leaf in which something may be met.
   void sample(const program::Program& program, const TileBox& tile) {
-    std::vector<TileBox> pieces = cut(tile, block);
+    std::vector<TileBox> pieces = cut(around_open(tile), block);
     std::erase_if(pieces, [&](const TileBox& piece) { return is_hidden(piece); });
     if (!pieces.empty()) keep_met(program, pieces);
     if (pieces.empty()) return;
@@ -341,7 +361,7 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
   program::Program reference = scene.program;
   const auto samplers = place_sources(reference, scene, steps);
   const Programs programs(scene, reference);
-  RayBand band{begin, end, film.width, std::vector<RayHit>(static_cast<size_t>(film.width * (end - begin)))};
+  RayBand band(begin, end, film.width);
   RayCasters casters([&] { return std::make_unique<RayCaster>(scene, programs, steps, clarity, is_stopped, band); });
   const int64_t across = (film.width + tile_edge - 1) / tile_edge, down = (end - begin + tile_edge - 1) / tile_edge;
   run_parallel(static_cast<size_t>(across * down), threads, [&](size_t n) {

@@ -3,7 +3,8 @@
 
 #include <functional>
 #include <limits>
-#include <vector>
+#include <memory>
+#include <span>
 
 #include "base/tasks.h"
 #include "render/scene.h"
@@ -11,17 +12,18 @@
 namespace ombre::render {
 
 struct Colour {
-  float red = 0, green = 0, blue = 0;  // linear, 0 to 1
+  float red, green, blue;  // linear, 0 to 1
 };
 
 // Depths are mm in the view's frame; infinite where the ray meets nothing.
 struct RayHit {
   static constexpr float none = std::numeric_limits<float>::infinity();
-  float surface = none;  // where it enters what is inside
-  float end = none;      // where no light comes through any more
-  Colour at_end;         // the material there
-  Colour veil;           // what translucent material before the end adds
-  float passes = 1;      // the share of light that it lets through
+  float surface;  // where it enters what is inside
+  float end;      // where no light comes through any more
+  Colour at_end;  // the material there
+  Colour veil;    // what translucent material before the end adds
+  float passes;   // the share of light that it lets through
+  static constexpr RayHit nothing() { return {none, none, {}, {}, 1}; }
 };
 
 struct Film {
@@ -33,19 +35,37 @@ struct Film {
 };
 
 // What the rays of some rows of the film meet.
-struct RayBand {
-  int64_t begin = 0, end = 0, width = 0;  // rows, columns
-  std::vector<RayHit> hits;               // row by row
-  RayHit& at(int64_t column, int64_t row) { return hits[static_cast<size_t>((row - begin) * width + column)]; }
+class RayBand {
+ public:
+  RayBand() = default;
+  // Rows [begin, end). Memory is asked for, but not touched: that takes long enough to be shared by the threads that
+  // fill it.
+  RayBand(int64_t begin, int64_t end, int64_t width)
+      : begin_(begin), end_(end), width_(width), hits_(std::make_unique_for_overwrite<RayHit[]>(size())) {}
+
+  bool has(int64_t column, int64_t row) const { return column >= 0 && column < width_ && row >= begin_ && row < end_; }
+  RayHit& at(int64_t column, int64_t row) { return hits_[static_cast<size_t>((row - begin_) * width_ + column)]; }
   const RayHit& at(int64_t column, int64_t row) const {
-    return hits[static_cast<size_t>((row - begin) * width + column)];
+    return hits_[static_cast<size_t>((row - begin_) * width_ + column)];
   }
+  // Row by row.
+  std::span<const RayHit> all() const { return {hits_.get(), size()}; }
+  // Rays of a row, from one column up to another.
+  std::span<RayHit> part(int64_t row, int64_t first, int64_t last) {
+    return {&at(first, row), static_cast<size_t>(last - first)};
+  }
+
+ private:
+  size_t size() const { return static_cast<size_t>(width_ * (end_ - begin_)); }
+
+  int64_t begin_ = 0, end_ = 0, width_ = 0;  // rows, columns
+  std::unique_ptr<RayHit[]> hits_;
 };
 
 // Of rows [begin, end), which may lie beyond the film. The same whatever the band, but for sums over translucent
 // material, and the number of threads.
 // Surfaces are found to some thousandths of a pixel of the picture; what is thinner than a quarter of one along the
-// ray may be missed. `is_stopped` is asked now and then; if it says so, the rest is left empty.
+// ray may be missed. `is_stopped` is asked now and then; if it says so, the rest is left unset.
 RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t end, int threads,
                   const std::function<bool()>& is_stopped);
 

@@ -59,8 +59,14 @@ void TileIntervals::evaluate(const program::Program& program, std::vector<TileBo
   for (const TileBox& tile : fine_)
     boxes_.push_back({{steps_.depth(tile.lo[0]), film.right_of(tile.lo[1]), film.down_of(tile.lo[2])},
                       {steps_.depth(tile.hi[0] - 1), film.right_of(tile.hi[1] - 1), film.down_of(tile.hi[2] - 1)}});
-  intervals_.evaluate(program, boxes_, [&](size_t box, const program::Read& read, const Box& where) {
-    return sources.has(read.tag) ? sources.range(read.tag, fine_[box]) : read.source->range(read.channel, where);
+  using Place = eval::BoxIntervals::Place;
+  intervals_.evaluate(program, boxes_, [&](const program::Read& read, const Place& at, eval::IntervalRow to) {
+    for (size_t box = 0; box < fine_.size(); ++box) {
+      const Interval range =
+          sources.has(read.tag) ? sources.range(read.tag, fine_[box]) : read.source->range(read.channel, at.in(box));
+      to.lo[box] = static_cast<float>(range.lo);
+      to.hi[box] = static_cast<float>(range.hi);
+    }
   });
 }
 

@@ -23,8 +23,9 @@ void copy(const voxel::FieldTile& tile, RayBand& band) {
   for (int64_t row = tile.box.lo[1]; row < tile.box.hi[1]; ++row) {
     for (int64_t column = tile.box.lo[0]; column < tile.box.hi[0]; ++column) {
       const int64_t n = tile.is_uniform ? 0 : (row - tile.box.lo[1]) * tile.box.size(0) + column - tile.box.lo[0];
-      if (!(tile.output(Section::inside)[n] > 0)) continue;
       RayHit& ray = band.at(column, row);
+      ray = RayHit::nothing();
+      if (!(tile.output(Section::inside)[n] > 0)) continue;
       ray.surface = ray.end = 0;
       ray.at_end = {tile.output(Section::red)[n], tile.output(Section::green)[n], tile.output(Section::blue)[n]};
     }
@@ -44,7 +45,7 @@ Section::Section(program::Program program, const Film& film)
     : width_(film.width), fields_(std::move(program), lattice_of(film), evaluator()) {}
 
 RayBand Section::cast(int64_t begin, int64_t end, int threads, const StopFlag& stop) const {
-  RayBand band{begin, end, width_, std::vector<RayHit>(static_cast<size_t>(width_ * (end - begin)))};
+  RayBand band(begin, end, width_);
   const int64_t strips = (end - begin + strip_rows - 1) / strip_rows;
   run_parallel(static_cast<size_t>(strips), threads, [&](size_t n) {
     const int64_t first = begin + static_cast<int64_t>(n) * strip_rows;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "base/math.h"
@@ -32,13 +33,32 @@ double border_below(size_t n) {
   return v <= 12.92 * 0.0031308 ? v / 12.92 : math::pow((v + 0.055) / 1.055, 2.4);
 }
 
+// Finds bytes by their borders, from near below on.
+class SrgbBytes {
+ public:
+  SrgbBytes() {
+    for (size_t n = 0; n < 255; ++n) borders_[n] = border_below(n + 1);
+    borders_[255] = std::numeric_limits<double>::infinity();
+    for (size_t n = 0; n < first_.size(); ++n) first_[n] = above(0, static_cast<double>(n) / parts);
+  }
+  uint8_t of(double linear) const {
+    const double within = linear > 0 ? std::min(linear, 1.0) : 0;
+    return above(first_[static_cast<size_t>(within * parts)], linear);
+  }
+
+ private:
+  static constexpr double parts = 1024;
+  uint8_t above(uint8_t byte, double linear) const {
+    while (borders_[byte] <= linear) ++byte;
+    return byte;
+  }
+  std::array<double, 256> borders_;
+  std::array<uint8_t, 1025> first_;
+};
+
 uint8_t to_srgb(double linear) {
-  static const std::array<double, 255> borders = [] {
-    std::array<double, 255> made;
-    for (size_t n = 0; n < made.size(); ++n) made[n] = border_below(n + 1);
-    return made;
-  }();
-  return static_cast<uint8_t>(std::upper_bound(borders.begin(), borders.end(), linear) - borders.begin());
+  static const SrgbBytes bytes;
+  return bytes.of(linear);
 }
 
 struct Light {
@@ -60,8 +80,7 @@ class Relief {
       : band_(band), film_(film), camera_(camera), depth_(depth) {}
 
   float depth(int64_t column, int64_t row) const {
-    if (column < 0 || column >= film_.width || row < band_.begin || row >= band_.end) return RayHit::none;
-    return band_.at(column, row).*depth_;
+    return band_.has(column, row) ? band_.at(column, row).*depth_ : RayHit::none;
   }
 
   // Towards the eye. Of the neighbours on both sides the nearer one in depth is taken: the other may lie behind an

@@ -28,14 +28,28 @@ void meet(const IntervalRow& row, Ends piece, std::vector<int32_t>& meets) {
     meets[n] &= static_cast<int32_t>(row.lo[n] <= piece.hi) & static_cast<int32_t>(row.hi[n] >= piece.lo);
 }
 
+// Better known than a quotient of two.
+bool is_own_quotient(const Instruction& in) { return in.a == in.b && (in.op == Op::divide || in.op == Op::share); }
+
 }  // namespace
+
+BoxIntervals::BoxIntervals(const KernelSet& kernels) : kernels_(kernels) {
+  for (size_t op = 0; op < by_op_.size(); ++op) by_op_[op] = kernels.interval_kernel(static_cast<Op>(op));
+}
 
 void BoxIntervals::evaluate(const program::Program& program, std::span<const Box> boxes, const SourceRanges& sources) {
   program_ = &program;
   count_ = boxes.size();
   stride_ = padded(count_);
   reserve(program.code.size());
-  for (ValueId id = 0; id < program.code.size(); ++id) evaluate_one(id, boxes, sources);
+  for (ValueId id = 0; id < program.code.size(); ++id) {
+    const Instruction& in = program.code[id];
+    const IntervalKernel kernel = by_op_[static_cast<size_t>(in.op)];
+    if (kernel && !is_own_quotient(in))
+      kernel(row(in.a), row(in.b), row(in.c), row(id), stride_);
+    else
+      evaluate_alone(id, boxes, sources);
+  }
 }
 
 void BoxIntervals::reserve(size_t instructions) {
@@ -46,27 +60,32 @@ void BoxIntervals::reserve(size_t instructions) {
   floats_ = memory_.data() + (alignment - address % alignment) % alignment / sizeof(float);
 }
 
-// The padding repeats the last box.
 template <class F>
 void BoxIntervals::fill(ValueId id, F value_of) {
   const IntervalRow to = row(id);
-  for (size_t n = 0; n < stride_; ++n) {
-    const Interval value = n < count_ ? value_of(n) : this->value(id, count_ - 1);
+  for (size_t n = 0; n < count_; ++n) {
+    const Interval value = value_of(n);
     to.lo[n] = static_cast<float>(value.lo);
     to.hi[n] = static_cast<float>(value.hi);
   }
+  pad(to);
 }
 
-Box BoxIntervals::operands(const Instruction& in, size_t box) const {
-  const Interval a = value(in.a, box), b = value(in.b, box), c = value(in.c, box);
-  return {{a.lo, b.lo, c.lo}, {a.hi, b.hi, c.hi}};
+void BoxIntervals::pad(IntervalRow row) {
+  std::fill(row.lo + count_, row.lo + stride_, row.lo[count_ - 1]);
+  std::fill(row.hi + count_, row.hi + stride_, row.hi[count_ - 1]);
 }
 
-void BoxIntervals::evaluate_one(ValueId id, std::span<const Box> boxes, const SourceRanges& sources) {
-  const Instruction& in = program_->code[id];
-  const auto one = [&](size_t box) {
-    return apply_interval(in, value(in.a, box), value(in.b, box), value(in.c, box), program::Precision::batch);
+Box BoxIntervals::Place::in(size_t box) const {
+  const auto end = [&](size_t axis, float* IntervalRow::*which) {
+    return static_cast<double>((rows[axis].*which)[box]);
   };
+  return {{end(0, &IntervalRow::lo), end(1, &IntervalRow::lo), end(2, &IntervalRow::lo)},
+          {end(0, &IntervalRow::hi), end(1, &IntervalRow::hi), end(2, &IntervalRow::hi)}};
+}
+
+void BoxIntervals::evaluate_alone(ValueId id, std::span<const Box> boxes, const SourceRanges& sources) {
+  const Instruction& in = program_->code[id];
   switch (in.op) {
     case Op::input:
       return fill(id, [&](size_t box) { return boxes[box].axis(static_cast<int>(in.value)); });
@@ -79,7 +98,8 @@ void BoxIntervals::evaluate_one(ValueId id, std::span<const Box> boxes, const So
       return;
     }
     case Op::source:
-      return fill(id, [&](size_t box) { return sources(box, program_->reads[in.aux], operands(in, box)); });
+      sources(program_->reads[in.aux], operands(in), row(id));
+      return pad(row(id));
     case Op::parts:
       return ask_parts(id);
     case Op::affine:
@@ -87,12 +107,10 @@ void BoxIntervals::evaluate_one(ValueId id, std::span<const Box> boxes, const So
       ASSERT(false && "calls are inlined and maps written out before evaluation in batches");
       return;
     default:
-      break;
+      return fill(id, [&](size_t box) {
+        return apply_interval(in, value(in.a, box), value(in.b, box), value(in.c, box), program::Precision::batch);
+      });
   }
-  const bool is_own_quotient = in.a == in.b && (in.op == Op::divide || in.op == Op::share);
-  const IntervalKernel kernel = is_own_quotient ? nullptr : kernels_.interval_kernel(in.op);
-  if (!kernel) return fill(id, one);
-  kernel(row(in.a), row(in.b), row(in.c), row(id), stride_);
 }
 
 // Slots of one set at one place follow each other, so the index is asked once.
@@ -111,19 +129,19 @@ void BoxIntervals::ask_parts(ValueId id) {
 // Boxes that lie together have few pieces of parts near them: each is compared with all boxes. Its ends are rounded to
 // nearest, since boxes of parts are grown by more than that (program/parts.h).
 void BoxIntervals::find_reached(const program::PartIndex& index, const Instruction& in) {
-  Box around = operands(in, 0);
-  for (size_t box = 1; box < count_; ++box) around = hull(around, operands(in, box));
+  const Place place = operands(in);
+  Box around = place.in(0);
+  for (size_t box = 1; box < count_; ++box) around = hull(around, place.in(box));
   reached_.assign(stride_, 0);
   if (!index.find_few(around, few_pieces, near_)) {
-    for (size_t box = 0; box < count_; ++box) reached_[box] = index.reaches(operands(in, box)) ? 1 : 0;
+    for (size_t box = 0; box < count_; ++box) reached_[box] = index.reaches(place.in(box)) ? 1 : 0;
     return;
   }
-  const std::array<IntervalRow, 3> rows{row(in.a), row(in.b), row(in.c)};
   for (const program::PartIndex::Entry& entry : near_) {
     meets_.assign(stride_, 1);
     for (size_t axis = 0; axis < 3; ++axis) {
       const Interval piece = entry.box.axis(static_cast<int>(axis));
-      meet(rows[axis], {static_cast<float>(piece.lo), static_cast<float>(piece.hi)}, meets_);
+      meet(place.rows[axis], {static_cast<float>(piece.lo), static_cast<float>(piece.hi)}, meets_);
     }
     for (size_t n = 0; n < stride_; ++n) reached_[n] |= meets_[n];
   }

@@ -1,6 +1,7 @@
 // Evaluates a program's intervals over many boxes at once: what evaluate_intervals does for one, with SIMD.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -13,10 +14,15 @@ namespace ombre::eval {
 
 class BoxIntervals {
  public:
-  // What a source can be over operands' ranges, in box number `box`.
-  using SourceRanges = std::function<Interval(size_t box, const program::Read&, const Box&)>;
+  // The operands' ranges that a source is asked at.
+  struct Place {
+    std::array<IntervalRow, 3> rows;
+    Box in(size_t box) const;
+  };
+  // Fills `to`, as long as the boxes, with what a source can be at a place in each of them.
+  using SourceRanges = std::function<void(const program::Read&, const Place& at, IntervalRow to)>;
 
-  explicit BoxIntervals(const KernelSet& kernels) : kernels_(kernels) {}
+  explicit BoxIntervals(const KernelSet& kernels);
 
   // The values enclose what float batches compute (program/single.h). `program` without calls and affine maps; it
   // must outlive the questions. Equal to evaluate_intervals, but for sine, cosine, atan2 and exp, which are some 1e-6
@@ -35,15 +41,17 @@ class BoxIntervals {
     const float* lo = floats_ + place(id) + box;
     return {static_cast<double>(*lo), static_cast<double>(lo[stride_])};
   }
-  Box operands(const program::Instruction& in, size_t box) const;
+  Place operands(const program::Instruction& in) { return {{row(in.a), row(in.b), row(in.c)}}; }
   void reserve(size_t instructions);
   template <class F>
   void fill(program::ValueId id, F value_of);  // box by box
-  void evaluate_one(program::ValueId id, std::span<const Box> boxes, const SourceRanges& sources);
+  void pad(IntervalRow row);                   // repeats the last box
+  void evaluate_alone(program::ValueId id, std::span<const Box> boxes, const SourceRanges& sources);
   void ask_parts(program::ValueId id);
   void find_reached(const program::PartIndex& index, const program::Instruction& place);
 
   const KernelSet& kernels_;
+  std::array<IntervalKernel, program::op_table.size()> by_op_{};  // null for what is done box by box
   const program::Program* program_ = nullptr;
   size_t count_ = 0, stride_ = 0;  // boxes; floats from row to row
   std::vector<float> memory_;

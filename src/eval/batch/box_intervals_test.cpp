@@ -61,7 +61,7 @@ std::vector<Box> random_boxes(std::mt19937& random, size_t count) {
   return boxes;
 }
 
-Interval no_sources(size_t, const program::Read&, const Box&) { return Interval::everything(); }
+void no_sources(const program::Read&, const BoxIntervals::Place&, IntervalRow) { FAIL() << "there are none"; }
 
 std::string text(Interval v) { return "[" + std::to_string(v.lo) + ", " + std::to_string(v.hi) + "]"; }
 

@@ -80,8 +80,9 @@ void PartReach::ask(const PartTable& table, uint32_t body, const Box& where) {
     return;
   }
   boxes_.assign(together_.size(), where);
-  intervals_.evaluate(program, boxes_, [&](size_t lane, const program::Read& read, const Box&) {
-    return Interval(table.parameter(together_[lane], read.tag));
+  intervals_.evaluate(program, boxes_, [&](const program::Read& read, const BoxIntervals::Place&, IntervalRow to) {
+    table.parameters(together_, read.tag, to.lo);
+    std::copy_n(to.lo, together_.size(), to.hi);
   });
   for (size_t lane = 0; lane < together_.size(); ++lane)
     if (intervals_.output(0, lane) != Interval(0)) reaching_.push_back(together_[lane]);
