@@ -109,9 +109,9 @@ void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scop
     };
     ++node_depth_;
     const Inside inside{node_depth_};
-    const size_t mistakes = diagnostics_.error_count();
+    const size_t failures = failures_;
     run_block(statement.children, scope, invocation.children, &invocation.group_ends);
-    invocation.has_wrong_children = diagnostics_.error_count() > mistakes;
+    invocation.has_wrong_children = failures_ > failures;
   }
   invocation.name = statement.name.text();
   invocation.where = statement.name.span.range();
@@ -148,6 +148,7 @@ void Interpreter::make_node(Invocation invocation, const ast::Span& where, Nodes
   Diagnostics found;
   design::NodePtr node = vocabulary_.make(std::move(invocation), found);
   for (const Diagnostic& diagnostic : found.list()) report(diagnostic);
+  if (!node) ++failures_;
   if (node) out.push_back(std::move(node));
 }
 

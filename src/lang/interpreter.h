@@ -208,6 +208,7 @@ class Interpreter {
   bool has_roots_ = false;
   ReadAhead* reader_ = nullptr;           // of the action begun last, if it has one
   std::unordered_set<std::string> told_;  // diagnostics that were given
+  size_t failures_ = 0;                   // of statements, told or not
 };
 
 }  // namespace ombre::lang

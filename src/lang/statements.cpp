@@ -90,6 +90,7 @@ void Interpreter::run_action(const Statement& statement, const ScopePtr& scope, 
   try {
     execute(statement, scope, out);
   } catch (const Failure&) {
+    ++failures_;
     if (statement.kind == Statement::Kind::assertion) throw;
   }
 }
