@@ -33,4 +33,10 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
   return CLI::Validator(check, '{' + join(names, ",") + '}', "");
 }
 
+void add_threads(CLI::App& app, int& threads) {
+  app.add_option("--threads", threads, "Threads (default: all cores); never changes a result")
+      ->check(whole_between(1, 1024))
+      ->type_name("N");
+}
+
 }  // namespace ombre::cli

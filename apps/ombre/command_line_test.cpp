@@ -56,7 +56,8 @@ TEST(CommandLine, SlipsGetSuggestions) {
 
 TEST(CommandLine, ValuesThatDoNotFitAreToldWithThoseThatDo) {
   expect_wrong({"slice", "part.vcad", "--threads", "x"}, "--threads: \"x\" is not a whole number from 1 to 1024");
-  expect_wrong({"slice", "part.vcad", "--threads", "0"}, "--threads: \"0\" is not a whole number from 1 to 1024");
+  for (const char* command : {"slice", "render", "mesh", "voxels", "contours"})
+    expect_wrong({command, "part.vcad", "--threads", "0"}, "--threads: \"0\" is not a whole number from 1 to 1024");
   expect_wrong({"slice", "part.vcad", "--threads", "2.5"}, "--threads: \"2.5\" is not a whole number");
   expect_wrong({"slice", "part.vcad", "--threads", "1e3"}, "--threads: \"1e3\" is not a whole number");
   expect_wrong({"render", "part.vcad", "--perspective", "121"}, "--perspective: \"121\" is not a number from 0 to 120");

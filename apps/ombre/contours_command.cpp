@@ -49,9 +49,7 @@ void add_arguments(CLI::App& app, ContoursArguments& a) {
       ->type_name("MM");
   app.add_option("--z", a.z, "Only one layer: what is cut at this height; mm")->type_name("MM");
   add_region_arguments(app, a.regions, "An outline");
-  app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
-      ->check(whole_between(1, 1024))
-      ->type_name("N");
+  add_threads(app, a.threads);
   app.add_flag("--force", a.force, "Replace files that are there");
 }
 

@@ -59,9 +59,7 @@ void add_arguments(CLI::App& app, MeshArguments& a) {
                  "KEY=V1,V2,... one by one; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
-      ->check(whole_between(1, 1024))
-      ->type_name("N");
+  add_threads(app, a.threads);
   app.add_flag("--force", a.force, "Replace the file if it is there");
 }
 

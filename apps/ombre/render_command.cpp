@@ -73,7 +73,7 @@ void add_arguments(CLI::App& app, RenderArguments& a) {
   CLI::Option* frames = app.add_option("--frames", a.frames, "Pictures all around the part, numbered (default 1)")
                             ->check(whole_between(1, 3600))
                             ->type_name("N");
-  app.add_option("--threads", a.threads, "Threads (default: all cores)")->check(whole_between(0, 1024))->type_name("N");
+  add_threads(app, a.threads);
   app.add_option("--slice", a.slice, "The plane x, y or z = mm in place of a view: flat, in the materials' colours")
       ->excludes(view, from, perspective, opacity, frames)
       ->type_name("PLANE");

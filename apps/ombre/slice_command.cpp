@@ -41,9 +41,7 @@ void add_arguments(CLI::App& app, SliceArguments& a) {
       ->type_name("DIR");
   app.add_option("--layers", a.layers, "Only these layers, a:b as in Python (b excluded), a:, :b or a")
       ->type_name("A:B");
-  app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
-      ->check(whole_between(1, 1024))
-      ->type_name("N");
+  add_threads(app, a.threads);
   app.add_option("--memory", a.memory,
                  "Most memory for layers in flight, with their images and what evaluating them takes (default 2G)")
       ->type_name("SIZE");

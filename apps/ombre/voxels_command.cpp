@@ -60,9 +60,7 @@ void add_arguments(CLI::App& app, VoxelsArguments& a) {
                  "distance,fractions")
       ->type_name("WHAT");
   app.add_option("--box", a.box, "Only the voxels that touch this box; mm")->type_name("X0,Y0,Z0,X1,Y1,Z1");
-  app.add_option("--threads", a.threads, "Threads (default: all cores); never changes a result")
-      ->check(whole_between(1, 1024))
-      ->type_name("N");
+  add_threads(app, a.threads);
   app.add_flag("--gzip", a.gzip, "Compress the numbers of a .nrrd file");
   app.add_flag("--force", a.force, "Replace files that are there, and write even if the disk seems too small");
 }
