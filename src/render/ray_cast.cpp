@@ -19,11 +19,14 @@ namespace {
 using voxel::StripSources;
 
 // Rays are asked in blocks of samples; those of a leaf together.
-constexpr TileSize leaf{32, 16, 16}, block{steps_together, 4, 4};
-constexpr size_t most_samples = 512;  // at a time
-constexpr int64_t tile_edge = 128;    // of the picture's tiles, in pixels
-constexpr size_t many_parts = 20;     // while so many reach a tile, it is cut before they are written out
-constexpr float dark = 0.01F;         // less light than that is none
+constexpr TileSize leaf{64, 32, 16}, block{steps_together, 8, 8};
+constexpr TileSize fine_block{steps_together, 4, 4};  // of programs that ask sources, sample by sample
+constexpr size_t most_samples = 512;                  // at a time
+static_assert((leaf[0] / block[0]) * (leaf[1] / block[1]) * (leaf[2] / block[2]) <= most_pieces);
+static_assert(leaf[1] * leaf[2] <= most_samples, "all rays of a leaf are followed together");
+constexpr int64_t tile_edge = 128;  // of the picture's tiles, in rays
+constexpr size_t many_parts = 12;   // while so many reach a tile, it is cut before they are written out
+constexpr float dark = 0.01F;       // less light than that is none
 
 // For batches. While surfaces are looked for, colours matter in translucent material only.
 struct Programs {
@@ -34,6 +37,10 @@ struct Programs {
     if (!scene.is_translucent) walk.outputs.resize(Scene::red);
   }
 };
+
+bool reads_sources(const program::Program& program) {
+  return std::ranges::any_of(program.code, [](const program::Instruction& in) { return in.op == program::Op::source; });
+}
 
 // One thread's.
 class RayCaster {
@@ -206,8 +213,12 @@ class RayCaster {
     if (pieces.empty()) return;
     if (program.has_parts()) {
       blocks_.write_out_parts();
-      std::swap(parts_, blocks_.left);
-      keep_met(parts_, pieces);
+      ask_again(pieces);
+      if (pieces.empty()) return;
+    }
+    if (reads_sources(blocks_.left)) {
+      cut_finer(pieces);
+      ask_again(pieces);
       if (pieces.empty()) return;
     }
     batch_.compile(blocks_.left, blocks_.kept, most_samples, *sources_);
@@ -222,6 +233,20 @@ class RayCaster {
     }
     if (!surfaces_.empty()) look_closer(surfaces_, Scene::inside);
     if (!ends_.empty()) look_closer(ends_, Scene::opaque);
+  }
+
+  void cut_finer(std::vector<TileBox>& pieces) {
+    std::vector<TileBox> finer;
+    for (const TileBox& piece : pieces)
+      for (const TileBox& part : cut(piece, fine_block))
+        if (!is_hidden(part)) finer.push_back(part);
+    pieces = std::move(finer);
+  }
+
+  // What is left of the program.
+  void ask_again(std::vector<TileBox>& pieces) {
+    std::swap(asked_, blocks_.left);
+    keep_met(asked_, pieces);
   }
 
   // Those in which something may be; blocks_ is asked, and its program shortened for them.
@@ -306,7 +331,7 @@ class RayCaster {
   AskedTiles blocks_;
   RayBand& hits_;
   std::vector<size_t> met_;                   // of the blocks that were asked
-  program::Program parts_;                    // of a leaf, written out
+  program::Program asked_;                    // what blocks_ was asked about again
   int64_t first_column_ = 0, first_row_ = 0;  // of the tile
   std::array<uint8_t, tile_edge * tile_edge> is_open_{};
   std::vector<Ray> rays_, surfaces_, ends_;

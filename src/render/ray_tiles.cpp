@@ -5,8 +5,6 @@
 namespace ombre::render {
 namespace {
 
-constexpr int64_t most_pieces = 64;
-
 int64_t units(int64_t size, int64_t unit) { return (size + unit - 1) / unit; }
 
 // So many pieces that a few levels of them come to the units.

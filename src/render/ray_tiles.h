@@ -14,8 +14,9 @@ namespace ombre::render {
 using voxel::TileBox;
 using TileSize = std::array<int64_t, 3>;
 
+constexpr int64_t most_pieces = 64;
 // Pieces of a tile whose sizes are multiples of `unit`, but for the last ones; the nearest first. About the same
-// number at each level until the pieces are units, and at most 64.
+// number at each level until the pieces are units, and at most `most_pieces`.
 std::vector<TileBox> cut(const TileBox& tile, const TileSize& unit);
 
 // In fine steps. Samples that look closer lie up to a step before a tile's first.

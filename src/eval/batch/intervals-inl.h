@@ -195,6 +195,9 @@ inline Interval at(IntervalRow row, size_t n) {
   return {static_cast<double>(row.lo[n]), static_cast<double>(row.hi[n])};
 }
 
+// As the lane before?
+inline bool is_same(IntervalRow row, size_t n) { return row.lo[n] == row.lo[n - 1] && row.hi[n] == row.hi[n - 1]; }
+
 template <Op op, int arity>
 void run(IntervalRow a, IntervalRow b, IntervalRow c, IntervalRow out, size_t count) {
   for (size_t n = 0; n < count; n += hn::Lanes(D())) {
@@ -214,6 +217,13 @@ void run(IntervalRow a, IntervalRow b, IntervalRow c, IntervalRow out, size_t co
     hn::Store(result.hi, D(), out.hi + n);
     if (op == Op::select || hn::AllTrue(D(), known)) continue;
     for (size_t i = n; i < n + hn::Lanes(D()); ++i) {
+      // Padding repeats what comes before it.
+      const bool is_repeated = i > n && is_same(a, i) && (arity < 2 || is_same(b, i)) && (arity < 3 || is_same(c, i));
+      if (is_repeated) {
+        out.lo[i] = out.lo[i - 1];
+        out.hi[i] = out.hi[i - 1];
+        continue;
+      }
       const Interval first = at(a, i), second = arity > 1 ? at(b, i) : first, third = arity > 2 ? at(c, i) : first;
       if (first.is_bounded() && second.is_bounded() && third.is_bounded()) continue;
       const Interval value = program::apply_single(op, first, second, third);
