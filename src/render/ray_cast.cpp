@@ -81,8 +81,8 @@ class RayCaster {
     }
     return true;
   }
-  // The least part of a tile that has all its open rays.
-  TileBox around_open(TileBox tile) {
+  // The least part of a tile that has all its open rays, of which there are some.
+  TileBox around_open(const TileBox& tile) {
     TileBox open = tile;
     open.lo[1] = tile.hi[1], open.hi[1] = tile.lo[1];
     open.lo[2] = tile.hi[2], open.hi[2] = tile.lo[2];

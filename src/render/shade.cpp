@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "base/math.h"
@@ -38,16 +37,17 @@ class SrgbBytes {
  public:
   SrgbBytes() {
     for (size_t n = 0; n < 255; ++n) borders_[n] = border_below(n + 1);
-    borders_[255] = std::numeric_limits<double>::infinity();
+    borders_[255] = 2;
     for (size_t n = 0; n < first_.size(); ++n) first_[n] = above(0, static_cast<double>(n) / parts);
   }
   uint8_t of(double linear) const {
     const double within = linear > 0 ? std::min(linear, 1.0) : 0;
-    return above(first_[static_cast<size_t>(within * parts)], linear);
+    return above(first_[static_cast<size_t>(within * parts)], within);
   }
 
  private:
   static constexpr double parts = 1024;
+  // At most 1.
   uint8_t above(uint8_t byte, double linear) const {
     while (borders_[byte] <= linear) ++byte;
     return byte;
