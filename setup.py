@@ -16,7 +16,7 @@ packages = sorted(p.parent.name for p in python.glob("*/__init__.py"))
 
 
 class CMakeBuild(build_ext):
-    """One CMake build gives the extension, the modules for OpenVDB and Open CASCADE, and the type stub."""
+    """One CMake build gives the extension, the modules that it loads, and the type stub."""
 
     def build_extension(self, ext):
         folder = sources / "build" / "wheel"  # as deep as the other builds, so that ccache knows what they compiled
@@ -29,7 +29,7 @@ class CMakeBuild(build_ext):
         for file in (folder / "python" / "ombre").iterdir():
             if not file.is_symlink() and (file.suffix == ".pyi" or file.name.startswith("_core.")):
                 shutil.copy2(file, target / file.name)
-        for module in [*folder.glob("src/vdb/libombre_openvdb.so"), *folder.glob("src/cad/libombre_opencascade.so")]:
+        for module in folder.glob("src/*/libombre_*.so"):
             shutil.copy2(module, target / module.name)
         for data in ("printers", "materials"):
             shutil.copytree(sources / data, target / "data" / data, dirs_exist_ok=True)

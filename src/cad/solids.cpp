@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include "base/error.h"
-#include "base/loaded_module.h"
+#include "base/module_loader.h"
 #include "base/text.h"
 #include "cad/module.h"
 
@@ -12,10 +12,10 @@ namespace {
 
 using ReadCad = decltype(&ombre_read_cad);
 
-#ifdef OMBRE_CAD_MODULE
+#ifdef OMBRE_OPENCASCADE_MODULE
 
 ReadCad load_module() {
-  return reinterpret_cast<ReadCad>(load_function(OMBRE_CAD_MODULE, "ombre_read_cad", "CAD files"));  // NOLINT
+  return reinterpret_cast<ReadCad>(load_function(OMBRE_OPENCASCADE_MODULE, "ombre_read_cad", "CAD files"));  // NOLINT
 }
 
 #else

@@ -2,20 +2,27 @@
 
 #include "formats/zip_archive.h"
 
-#include <zip.h>
-
 #include <algorithm>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
 #include <system_error>
 
+#include "base/module_loader.h"
 #include "base/text.h"
+#include "formats/libzip_calls.h"
 #include "formats/mesh_writers.h"
 #include "formats/text_scanner.h"
 
 namespace ombre::formats {
 namespace {
+
+// Loaded when the first archive is read or written.
+const LibzipCalls& libzip() {
+  static const LibzipCalls& calls = *reinterpret_cast<decltype(&ombre_libzip_calls)>(  // NOLINT
+      load_function(OMBRE_LIBZIP_MODULE, "ombre_libzip_calls", "zip archives"))();
+  return calls;
+}
 
 // 1980-01-01 00:00, the first date there is.
 constexpr uint16_t first_date = 1 << 5 | 1, midnight = 0;
@@ -48,13 +55,13 @@ class EntrySource {
       case ZIP_SOURCE_STAT:
         return tell_size(static_cast<zip_stat_t*>(data));
       case ZIP_SOURCE_ERROR:
-        return zip_error_to_data(zip_error_in_memory(), data, length);
+        return libzip().error_to_data(zip_error_in_memory(), data, length);
       case ZIP_SOURCE_CLOSE:
       case ZIP_SOURCE_FREE:
         return 0;
       case ZIP_SOURCE_SUPPORTS:
-        return zip_source_make_command_bitmap(ZIP_SOURCE_OPEN, ZIP_SOURCE_READ, ZIP_SOURCE_CLOSE, ZIP_SOURCE_STAT,
-                                              ZIP_SOURCE_ERROR, ZIP_SOURCE_FREE, -1);
+        return libzip().source_make_command_bitmap(ZIP_SOURCE_OPEN, ZIP_SOURCE_READ, ZIP_SOURCE_CLOSE, ZIP_SOURCE_STAT,
+                                                   ZIP_SOURCE_ERROR, ZIP_SOURCE_FREE, -1);
       default:
         return -1;
     }
@@ -62,7 +69,7 @@ class EntrySource {
 
   static zip_error_t* zip_error_in_memory() {
     static thread_local zip_error_t error;
-    zip_error_init_with_code(&error, ZIP_ER_MEMORY);
+    libzip().error_init_with_code(&error, ZIP_ER_MEMORY);
     return &error;
   }
 
@@ -80,7 +87,7 @@ class EntrySource {
   }
 
   zip_int64_t tell_size(zip_stat_t* stat) const {
-    zip_stat_init(stat);
+    libzip().stat_init(stat);
     stat->valid = ZIP_STAT_SIZE;
     stat->size = size_;
     return sizeof *stat;
@@ -93,38 +100,38 @@ class EntrySource {
 };
 
 [[noreturn]] void throw_failure(zip_error_t* error) {
-  if (zip_error_system_type(error) == ZIP_ET_SYS && zip_error_code_system(error) != 0)
-    throw std::system_error(zip_error_code_system(error), std::generic_category());
-  throw std::runtime_error(zip_error_strerror(error));
+  if (libzip().error_system_type(error) == ZIP_ET_SYS && libzip().error_code_system(error) != 0)
+    throw std::system_error(libzip().error_code_system(error), std::generic_category());
+  throw std::runtime_error(libzip().error_strerror(error));
 }
 
 // An archive that is not written unless it is closed.
 struct Discard {
-  void operator()(zip_t* archive) const { zip_discard(archive); }
+  void operator()(zip_t* archive) const { libzip().discard(archive); }
 };
 using Archive = std::unique_ptr<zip_t, Discard>;
 
 Archive create(const std::string& path) {
   int code = 0;
-  Archive archive(zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code));
+  Archive archive(libzip().open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code));
   if (archive) return archive;
   zip_error_t error;
-  zip_error_init_with_code(&error, code);
+  libzip().error_init_with_code(&error, code);
   throw_failure(&error);
 }
 
 void add(zip_t* archive, const std::string& name, EntrySource& bytes) {
-  zip_source_t* const source = zip_source_function(archive, &EntrySource::call, &bytes);
-  if (!source) throw_failure(zip_get_error(archive));
-  const zip_int64_t index = zip_file_add(archive, name.c_str(), source, ZIP_FL_ENC_UTF_8);
+  zip_source_t* const source = libzip().source_function(archive, &EntrySource::call, &bytes);
+  if (!source) throw_failure(libzip().get_error(archive));
+  const zip_int64_t index = libzip().file_add(archive, name.c_str(), source, ZIP_FL_ENC_UTF_8);
   if (index < 0) {
-    zip_source_free(source);
-    throw_failure(zip_get_error(archive));
+    libzip().source_free(source);
+    throw_failure(libzip().get_error(archive));
   }
   const auto entry = static_cast<zip_uint64_t>(index);
-  if (zip_set_file_compression(archive, entry, ZIP_CM_DEFLATE, compression_level) != 0 ||
-      zip_file_set_dostime(archive, entry, midnight, first_date, 0) != 0)
-    throw_failure(zip_get_error(archive));
+  if (libzip().set_file_compression(archive, entry, ZIP_CM_DEFLATE, compression_level) != 0 ||
+      libzip().file_set_dostime(archive, entry, midnight, first_date, 0) != 0)
+    throw_failure(libzip().get_error(archive));
 }
 
 }  // namespace
@@ -134,7 +141,7 @@ void write_zip(const std::string& path, const std::vector<ZipEntry>& entries) {
   for (const ZipEntry& entry : entries) sources.push_back(std::make_unique<EntrySource>(entry.bytes));
   Archive archive = create(path);
   for (size_t i = 0; i < entries.size(); ++i) add(archive.get(), entries[i].name, *sources[i]);
-  if (zip_close(archive.get()) != 0) throw_failure(zip_get_error(archive.get()));
+  if (libzip().close(archive.get()) != 0) throw_failure(libzip().get_error(archive.get()));
   static_cast<void>(archive.release());  // closed
 }
 
@@ -143,23 +150,24 @@ bool can_write_3mf() { return true; }
 ZipReader::ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
     : name_(name), diagnostics_(diagnostics) {
   zip_error_t error;
-  zip_error_init(&error);
-  zip_source_t* const source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
-  if (source) archive_ = zip_open_from_source(source, ZIP_RDONLY, &error);
-  const std::string problem = zip_error_strerror(&error);
-  zip_error_fini(&error);
+  libzip().error_init(&error);
+  zip_source_t* const source = libzip().source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+  if (source) archive_ = libzip().open_from_source(source, ZIP_RDONLY, &error);
+  const std::string problem = libzip().error_strerror(&error);
+  libzip().error_fini(&error);
   if (!archive_) {
-    if (source) zip_source_free(source);
+    if (source) libzip().source_free(source);
     fail(diagnostics, name, "this zip archive is damaged or cut short (libzip: " + to_lower(problem) + ")",
          "save or copy it again");
   }
-  const zip_int64_t count = zip_get_num_entries(archive_, 0);
+  const zip_int64_t count = libzip().get_num_entries(archive_, 0);
   for (zip_int64_t i = 0; i < std::min<zip_int64_t>(count, most_entries); ++i)
-    if (const char* const entry = zip_get_name(archive_, static_cast<zip_uint64_t>(i), 0)) names_.emplace_back(entry);
+    if (const char* const entry = libzip().get_name(archive_, static_cast<zip_uint64_t>(i), 0))
+      names_.emplace_back(entry);
 }
 
 ZipReader::~ZipReader() {
-  if (archive_) zip_discard(archive_);
+  if (archive_) libzip().discard(archive_);
 }
 
 void ZipReader::fail_entry(const std::string& entry, const std::string& problem, const std::string& hint) const {
@@ -184,10 +192,11 @@ void ZipReader::check(const std::string& entry, const struct zip_stat& stat) con
 
 std::string ZipReader::read(const std::string& entry) {
   zip_stat_t stat;
-  if (zip_stat(archive_, entry.c_str(), 0, &stat) != 0) fail_entry(entry, "is missing");
+  if (libzip().stat(archive_, entry.c_str(), 0, &stat) != 0) fail_entry(entry, "is missing");
   check(entry, stat);
-  const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(zip_fopen_index(archive_, stat.index, 0), zip_fclose);
-  if (!file) fail_entry(entry, std::string("cannot be unpacked: ") + zip_strerror(archive_));
+  const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(libzip().fopen_index(archive_, stat.index, 0),
+                                                               libzip().fclose);
+  if (!file) fail_entry(entry, std::string("cannot be unpacked: ") + libzip().strerror(archive_));
 
   // Room is made as bytes come.
   constexpr uint64_t piece = uint64_t{1} << 20;
@@ -195,8 +204,8 @@ std::string ZipReader::read(const std::string& entry) {
   for (;;) {
     const size_t filled = bytes.size();
     bytes.resize(filled + std::min(piece, stat.size - filled + 1));
-    const zip_int64_t got = zip_fread(file.get(), bytes.data() + filled, bytes.size() - filled);
-    if (got < 0) fail_entry(entry, std::string("cannot be unpacked: ") + zip_file_strerror(file.get()));
+    const zip_int64_t got = libzip().fread(file.get(), bytes.data() + filled, bytes.size() - filled);
+    if (got < 0) fail_entry(entry, std::string("cannot be unpacked: ") + libzip().file_strerror(file.get()));
     bytes.resize(filled + static_cast<size_t>(got));
     if (bytes.size() > stat.size) fail_entry(entry, "is larger than the archive says");
     if (got == 0) break;

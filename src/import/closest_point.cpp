@@ -1,15 +1,15 @@
 // The distance from a point to a mesh.
 #include "import/closest_point.h"
 
-#ifdef OMBRE_MESH_DISTANCE
-
-#include <embree3/rtcore.h>
+#ifdef OMBRE_EMBREE_MODULE
 
 #include <cmath>
 #include <future>
 #include <limits>
 
 #include "base/error.h"
+#include "base/module_loader.h"
+#include "import/embree_calls.h"
 #include "import/triangle_distance.h"
 
 namespace ombre::importing {
@@ -18,13 +18,20 @@ bool has_mesh_distance() { return true; }
 
 namespace {
 
+// Loaded when the first distance is asked for.
+const EmbreeCalls& embree() {
+  static const EmbreeCalls& calls = *reinterpret_cast<decltype(&ombre_embree_calls)>(  // NOLINT
+      load_function(OMBRE_EMBREE_MODULE, "ombre_embree_calls", "distances to meshes"))();
+  return calls;
+}
+
 // Of Embree's single precision, relative to the mesh's size: rounded vertices, points and boxes.
 constexpr double rounding_room = 16 * std::numeric_limits<float>::epsilon();
 
 struct Release {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+  void operator()(RTCDevice device) const { embree().release_device(device); }
+  void operator()(RTCScene scene) const { embree().release_scene(scene); }
+  void operator()(RTCGeometry geometry) const { embree().release_geometry(geometry); }
 };
 using Device = std::unique_ptr<RTCDeviceTy, Release>;
 using Scene = std::unique_ptr<RTCSceneTy, Release>;
@@ -68,21 +75,21 @@ struct ClosestPoint::Tree {
   Device device;
   Scene scene;
 
-  explicit Tree(SurfacePtr of) : surface(std::move(of)), frame(bounds(*surface)), device(rtcNewDevice(nullptr)) {
+  explicit Tree(SurfacePtr of) : surface(std::move(of)), frame(bounds(*surface)), device(embree().new_device(nullptr)) {
     if (!device) throw Error("Embree, which measures distances to meshes, cannot start on this machine");
-    scene.reset(rtcNewScene(device.get()));
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    scene.reset(embree().new_scene(device.get()));
+    embree().set_scene_flags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     add_triangles();
-    rtcCommitScene(scene.get());
-    if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE)
+    embree().commit_scene(scene.get());
+    if (embree().get_device_error(device.get()) != RTC_ERROR_NONE)
       throw Error("Embree cannot build the search tree for distances to a mesh (is there enough memory?)");
   }
 
   void add_triangles() {
-    const Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    auto* const points = static_cast<float*>(rtcSetNewGeometryBuffer(
+    const Geometry geometry(embree().new_geometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    auto* const points = static_cast<float*>(embree().set_new_geometry_buffer(
         geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), surface->vertices.size()));
-    auto* const corners = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
+    auto* const corners = static_cast<uint32_t*>(embree().set_new_geometry_buffer(
         geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), surface->triangles.size()));
     if (points == nullptr || corners == nullptr) throw Error("out of memory for distances to a mesh");
     for (size_t i = 0; i < surface->vertices.size(); ++i) {
@@ -91,8 +98,8 @@ struct ClosestPoint::Tree {
     }
     for (size_t i = 0; i < surface->triangles.size(); ++i)
       for (size_t corner = 0; corner < 3; ++corner) corners[3 * i + corner] = surface->triangles[i][corner];
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometry(scene.get(), geometry.get());
+    embree().commit_geometry(geometry.get());
+    embree().attach_geometry(scene.get(), geometry.get());
   }
 
   double distance(Vec3 p, double at_most) const {
@@ -105,7 +112,7 @@ struct ClosestPoint::Tree {
     query.radius = static_cast<float>(at_most * frame.scale + search.room);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    rtcPointQuery(scene.get(), &query, &context, visit, &search);
+    embree().point_query(scene.get(), &query, &context, visit, &search);
     return std::sqrt(std::isinf(search.best) ? squared_distance_to_all(p) : search.best);
   }
 

@@ -2,7 +2,7 @@
 #include "vdb/sparse_grids.h"
 
 #include "base/error.h"
-#include "base/loaded_module.h"
+#include "base/module_loader.h"
 #include "vdb/grid_store.h"
 
 namespace ombre::vdb {

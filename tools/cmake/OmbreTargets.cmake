@@ -6,12 +6,12 @@ if(OMBRE_TESTS)
 endif()
 
 # ombre_folder(<name> [DEPENDS ombre libraries] [LINKS third-party libraries])
-# Every .cpp here belongs to the library, every *_test.cpp to its test program.
+# Every .cpp here belongs to the library, but for every *_test.cpp, which is its test program's, and every *_module.cpp.
 function(ombre_folder name)
   cmake_parse_arguments(ARG "" "" "DEPENDS;LINKS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
   set(tests ${sources})
-  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_(test|module)\\.cpp$")
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
 
   if(NOT sources) # headers alone
@@ -34,4 +34,18 @@ function(ombre_folder name)
     target_compile_definitions(test_${name} PRIVATE OMBRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
   endif()
+endfunction()
+
+# ombre_module(<name> FOR <folder> SOURCES files [LINKS third-party libraries])
+# What src/<folder> loads from OMBRE_<NAME>_MODULE when it is first needed (base/module_loader.h), since loading the
+# libraries takes longer than many jobs. It shares no code with the program.
+function(ombre_module name)
+  cmake_parse_arguments(ARG "" "FOR" "SOURCES;LINKS" ${ARGN})
+  add_library(ombre_${name} MODULE ${ARG_SOURCES})
+  target_include_directories(ombre_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(ombre_${name} PRIVATE ${ARG_LINKS})
+  string(TOUPPER ${name} variable)
+  target_compile_definitions(ombre_${ARG_FOR} PRIVATE OMBRE_${variable}_MODULE="$<TARGET_FILE:ombre_${name}>")
+  add_dependencies(ombre_${ARG_FOR} ombre_${name})
+  install(TARGETS ombre_${name} LIBRARY DESTINATION lib/ombre)
 endfunction()

@@ -1,4 +1,4 @@
-#include "base/loaded_module.h"
+#include "base/module_loader.h"
 
 #include <dlfcn.h>
 

@@ -1,0 +1,26 @@
+// Embree's functions as its module hands them over.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+namespace ombre::importing {
+
+struct EmbreeCalls {
+  decltype(&rtcNewDevice) new_device = rtcNewDevice;
+  decltype(&rtcReleaseDevice) release_device = rtcReleaseDevice;
+  decltype(&rtcGetDeviceError) get_device_error = rtcGetDeviceError;
+  decltype(&rtcNewScene) new_scene = rtcNewScene;
+  decltype(&rtcReleaseScene) release_scene = rtcReleaseScene;
+  decltype(&rtcSetSceneFlags) set_scene_flags = rtcSetSceneFlags;
+  decltype(&rtcCommitScene) commit_scene = rtcCommitScene;
+  decltype(&rtcNewGeometry) new_geometry = rtcNewGeometry;
+  decltype(&rtcReleaseGeometry) release_geometry = rtcReleaseGeometry;
+  decltype(&rtcSetNewGeometryBuffer) set_new_geometry_buffer = rtcSetNewGeometryBuffer;
+  decltype(&rtcCommitGeometry) commit_geometry = rtcCommitGeometry;
+  decltype(&rtcAttachGeometry) attach_geometry = rtcAttachGeometry;
+  decltype(&rtcPointQuery) point_query = rtcPointQuery;
+};
+
+}  // namespace ombre::importing
+
+extern "C" const ombre::importing::EmbreeCalls* ombre_embree_calls();
