@@ -132,6 +132,15 @@ def materials_get_a_body_each(meshes):
         near(body["volume_mm3"], 500, 1e-6, body["name"])
 
 
+def steps_have_borders(meshes):
+    """Beyond the step both fractions are the same, and the first material wins."""
+    (meshes.folder / "step.vcad").write_text('fgrade(["if(x < 0.1, 0, 0.5)", "if(x < 0.1, 1, 0.5)"], ["red", "blue"]) '
+                                             'cube(10);', encoding="utf-8")
+    told = meshes.bodies("-o", "step.off", "--by", "materials", "--cell", "0.3", design="step.vcad")
+    for body, volume in zip(told["bodies"], (490, 510), strict=True):
+        near(body["volume_mm3"], volume, 1e-4, body["name"])
+
+
 def materials_come_back(meshes):
     """What a mesh file says of materials, read into a design again, by volumes and at points."""
     (meshes.folder / "ball.vcad").write_text('union(materials="first") { translate(1, 2, 2) sphere(4, "red"); '
@@ -202,8 +211,8 @@ def interrupts_leave_nothing(meshes):
     expect(meshes.names() == ["bar.vcad"], str(meshes.names()))
 
 
-CHECKS = [bands_fill_the_whole, materials_get_a_body_each, materials_come_back, slicers_get_settings_of_each_band, slips_get_remedies,
-          files_are_kept, interrupts_leave_nothing]
+CHECKS = [bands_fill_the_whole, materials_get_a_body_each, steps_have_borders, materials_come_back,
+          slicers_get_settings_of_each_band, slips_get_remedies, files_are_kept, interrupts_leave_nothing]
 
 
 def in_a_folder(ombre, checker, comparer, check):

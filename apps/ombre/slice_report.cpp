@@ -94,6 +94,9 @@ void tell_report(const Console& console, const compile::SliceRequest& request, c
     materials.emplace_back(
         DataMembers{{"name", request.materials[i].name}, {"voxels", number(count)}, {"volume_mm3", volume}});
   }
+  const bool has_all_layers = report.layers.begin == 0 && report.layers.end == request.lattice.count[2];
+  if (has_all_layers && report.voxels_inside == 0)
+    console.warn("no voxel's centre is inside the design: all layers are empty");
   if (!report.whole_job_finished && !report.stopped_by_check)
     console.say("other layers of the job are missing; --resume writes them");
   console.event("done", {{"folder", options.folder},

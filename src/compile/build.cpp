@@ -1,5 +1,7 @@
 #include "compile/build.h"
 
+#include <algorithm>
+
 #include "base/text.h"
 #include "compile/possible_outputs.h"
 #include "nodes/all_nodes.h"
@@ -78,7 +80,9 @@ std::optional<Built> build_flat_program(const design::Design& design, Diagnostic
 
 void leave_out_impossible(Built& built, const Box& box, int threads) {
   voxel::MaterialProgram& m = built.materials;
-  const std::vector<bool> possible = possible_outputs(m.program, box, threads);
+  std::vector<bool> possible = possible_outputs(m.program, box, threads);
+  const auto first = possible.begin() + 1, behind = first + static_cast<ptrdiff_t>(m.materials.size());
+  if (std::find(first, behind, true) == behind) *first = true;  // a program has a material, also where all is void
   std::vector<Interval> values;
   program::evaluate_intervals(m.program, box, values);
   program::Program kept = m.program;

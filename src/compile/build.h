@@ -30,7 +30,7 @@ std::optional<Built> build_flat_program(const design::Design& design, Diagnostic
 // The shape alone, without calls and all of the first material. Nothing, and a diagnostic, like above.
 std::optional<voxel::MaterialProgram> build_inside_program(const design::Design& design, Diagnostics& diagnostics);
 
-// Leaves out materials and checks that cannot occur within the box, and what only they needed.
+// Leaves out materials and checks that cannot occur within the box, and what only they needed. One material stays.
 void leave_out_impossible(Built& built, const Box& box, int threads);
 
 // Where the design lies: the box that is sampled, or the bounds of its solids. Nothing, and diagnostics,

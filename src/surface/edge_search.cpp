@@ -7,6 +7,26 @@ namespace {
 
 constexpr double exact_enough = 1e-8;  // of the edge's length
 constexpr int most_rounds = 40;
+constexpr double beside = 1e-4;  // an end
+
+// Where the value is 0 at an end, the border is there; or the value stays 0 for a while, and labels say where it is.
+void settle_ends(std::span<EdgeSearch> searches, PointAsker& asker) {
+  std::vector<EdgeSearch*> settled;
+  std::vector<Vec3> points;
+  for (EdgeSearch& s : searches) {
+    if (!s.by_value || (s.f_lo != 0 && s.f_hi != 0)) continue;
+    s.t = s.f_lo == 0 ? 0 : 1;
+    settled.push_back(&s);
+    points.push_back(s.point(s.t == 0 ? beside : 1 - beside));
+  }
+  if (settled.empty()) return;
+  asker.ask(points);
+  for (size_t n = 0; n < settled.size(); ++n) {
+    EdgeSearch& s = *settled[n];
+    s.is_done = asker.between(s.from, s.to, n) != 0;
+    s.by_value = s.is_done;
+  }
+}
 
 void bracket(std::span<EdgeSearch> searches, PointAsker& asker) {
   std::vector<Vec3> ends;
@@ -27,7 +47,7 @@ void bracket(std::span<EdgeSearch> searches, PointAsker& asker) {
 
 void choose(EdgeSearch& s) {
   const double before = s.t;
-  s.t = s.by_value ? s.lo + (s.hi - s.lo) * s.f_lo / (s.f_lo - s.f_hi) : 0.5 * (s.lo + s.hi);
+  s.t = s.by_value && s.f_lo < s.f_hi ? s.lo + (s.hi - s.lo) * s.f_lo / (s.f_lo - s.f_hi) : 0.5 * (s.lo + s.hi);
   s.is_done = s.hi - s.lo < exact_enough || (s.by_value && std::abs(s.t - before) < exact_enough);
 }
 
@@ -52,6 +72,7 @@ void narrow_by_value(EdgeSearch& s, double f) {
 
 void search_edges(std::span<EdgeSearch> searches, PointAsker& asker) {
   bracket(searches, asker);
+  settle_ends(searches, asker);
   std::vector<EdgeSearch*> active;
   std::vector<Vec3> points;
   for (int round = 0; round < most_rounds; ++round) {
