@@ -23,7 +23,8 @@ void settle_ends(std::span<EdgeSearch> searches, PointAsker& asker) {
   asker.ask(points);
   for (size_t n = 0; n < settled.size(); ++n) {
     EdgeSearch& s = *settled[n];
-    s.is_done = asker.between(s.from, s.to, n) != 0;
+    const double f = asker.between(s.from, s.to, n);
+    s.is_done = std::isfinite(f) && f != 0;
     s.by_value = s.is_done;
   }
 }
