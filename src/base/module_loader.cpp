@@ -23,11 +23,13 @@ std::string found(const std::filesystem::path& built) {
 
 }  // namespace
 
-void* load_function(const std::string& built, const char* function, const std::string& what) {
+void* load_symbol(const std::string& built, const char* function, const std::string& what) {
   const std::string path = found(built);
   void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!module) throw Error(what + " need " + path + ", which cannot be loaded: " + dlerror());  // NOLINT
-  return dlsym(module, function);
+  void* const symbol = dlsym(module, function);
+  if (!symbol) throw Error(what + " need " + path + ", which does not belong to this ombre: build both again");
+  return symbol;
 }
 
 }  // namespace ombre

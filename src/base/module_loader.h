@@ -7,6 +7,11 @@ namespace ombre {
 
 // A function of a module by its C name. `built` is the module's path where it was built; it is looked for beside this
 // code and where it is installed first. Throws Error: "`what` need ..., which cannot be loaded".
-void* load_function(const std::string& built, const char* function, const std::string& what);
+void* load_symbol(const std::string& built, const char* function, const std::string& what);
+
+template <class Function>
+Function* load_function(const std::string& built, const char* function, const std::string& what) {
+  return reinterpret_cast<Function*>(load_symbol(built, function, what));  // NOLINT
+}
 
 }  // namespace ombre

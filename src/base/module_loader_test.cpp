@@ -9,7 +9,7 @@ namespace {
 
 TEST(ModuleLoader, SaysWhatCannotBeDoneWithoutAModule) {
   try {
-    load_function("/nowhere/libombre_of_no_one.so", "ombre_calls", "zip archives");
+    load_symbol("/nowhere/libombre_of_no_one.so", "ombre_calls", "zip archives");
     FAIL() << "a module that is not there was loaded";
   } catch (const Error& error) {
     EXPECT_TRUE(std::string(error.what())
@@ -19,8 +19,9 @@ TEST(ModuleLoader, SaysWhatCannotBeDoneWithoutAModule) {
 }
 
 TEST(ModuleLoader, FindsFunctionsOfLibraries) {
-  const auto cosine = reinterpret_cast<double (*)(double)>(load_function("libm.so.6", "cos", "cosines"));  // NOLINT
+  const auto cosine = load_function<double(double)>("libm.so.6", "cos", "cosines");
   EXPECT_EQ(cosine(0), 1);
+  EXPECT_THROW(load_symbol("libm.so.6", "no_such_function", "cosines"), Error);
 }
 
 }  // namespace

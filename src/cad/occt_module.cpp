@@ -1,6 +1,4 @@
 // CAD files by Open CASCADE: the module.
-#ifdef OMBRE_CAD
-
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
@@ -26,5 +24,3 @@ void ombre_read_cad(const std::string* path, std::vector<ombre::cad::SolidPtr>* 
   if (!ombre::cad::survives([&] { ombre::cad::guarded(what, read); }))
     throw ombre::Error(what + ": it is broken; export it again, as STEP AP214 or AP242");
 }
-
-#endif

@@ -15,7 +15,7 @@ using ReadCad = decltype(&ombre_read_cad);
 #ifdef OMBRE_OPENCASCADE_MODULE
 
 ReadCad load_module() {
-  return reinterpret_cast<ReadCad>(load_function(OMBRE_OPENCASCADE_MODULE, "ombre_read_cad", "CAD files"));  // NOLINT
+  return load_function<decltype(ombre_read_cad)>(OMBRE_OPENCASCADE_MODULE, "ombre_read_cad", "CAD files");
 }
 
 #else

@@ -19,8 +19,8 @@ namespace {
 
 // Loaded when the first archive is read or written.
 const LibzipCalls& libzip() {
-  static const LibzipCalls& calls = *reinterpret_cast<decltype(&ombre_libzip_calls)>(  // NOLINT
-      load_function(OMBRE_LIBZIP_MODULE, "ombre_libzip_calls", "zip archives"))();
+  static const LibzipCalls& calls =
+      *load_function<decltype(ombre_libzip_calls)>(OMBRE_LIBZIP_MODULE, "ombre_libzip_calls", "zip archives")();
   return calls;
 }
 

@@ -20,8 +20,8 @@ namespace {
 
 // Loaded when the first distance is asked for.
 const EmbreeCalls& embree() {
-  static const EmbreeCalls& calls = *reinterpret_cast<decltype(&ombre_embree_calls)>(  // NOLINT
-      load_function(OMBRE_EMBREE_MODULE, "ombre_embree_calls", "distances to meshes"))();
+  static const EmbreeCalls& calls =
+      *load_function<decltype(ombre_embree_calls)>(OMBRE_EMBREE_MODULE, "ombre_embree_calls", "distances to meshes")();
   return calls;
 }
 

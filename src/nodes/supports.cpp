@@ -32,7 +32,7 @@ struct Support {
          {"pitch", &Support::pitch, "Size of the cells by which it is found; none: the job's voxels",
           unit::positive_mm}},
         one_solid,
-        "support(angle=45) union() { cylinder(3, 20); translate(0, 0, 11) rectprism((20, 20, 2)); }"};
+        "support(angle=45) { cylinder(3, 20); translate(0, 0, 11) rectprism((20, 20, 2)); }"};
     spec.parameters[1].fill = [](Support& node, const Reader& reader) {
       const Material* usual = reader.materials.find("support");
       if (!node.material.material) node.material.material = usual ? usual : &reader.materials.first();

@@ -13,8 +13,7 @@ using MakeGridStore = decltype(&ombre_make_grid_store);
 #ifdef OMBRE_OPENVDB_MODULE
 
 MakeGridStore load_module() {
-  return reinterpret_cast<MakeGridStore>(
-      load_function(OMBRE_OPENVDB_MODULE, "ombre_make_grid_store", "sparse grids"));  // NOLINT
+  return load_function<decltype(ombre_make_grid_store)>(OMBRE_OPENVDB_MODULE, "ombre_make_grid_store", "sparse grids");
 }
 
 #else
