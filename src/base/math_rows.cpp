@@ -5,7 +5,11 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "base/math_rows.cpp"
+#if OMBRE_WIDE_SLEEF
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#else
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX2 | HWY_AVX3 | HWY_AVX3_DL)
+#endif
 #include <hwy/foreach_target.h>
 //
 #include <hwy/highway.h>
@@ -74,7 +78,7 @@ namespace ombre::math {
 const std::vector<RowFunctions>& row_functions() {
   static const std::vector<RowFunctions> sets = [] {
     std::vector<RowFunctions> found;
-#if HWY_ARCH_X86
+#if OMBRE_WIDE_SLEEF
     if (instruction_sets().avx512) found.push_back(N_AVX3::row_functions_here());
     if (instruction_sets().avx2) found.push_back(N_AVX2::row_functions_here());
 #endif

@@ -7,7 +7,11 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "eval/batch/kernels.cpp"
 // Only what has fused multiply-add, and the portable version.
+#if OMBRE_WIDE_SLEEF
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#else
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX2 | HWY_AVX3 | HWY_AVX3_DL)
+#endif
 #include <hwy/foreach_target.h>
 //
 #include "eval/batch/intervals-inl.h"
@@ -150,7 +154,7 @@ namespace ombre::eval {
 const std::vector<KernelSet>& kernel_sets() {
   static const std::vector<KernelSet> sets = [] {
     std::vector<KernelSet> found;
-#if HWY_ARCH_X86
+#if OMBRE_WIDE_SLEEF
     if (instruction_sets().avx512) found.push_back(N_AVX3::kernels_here());
     if (instruction_sets().avx2) found.push_back(N_AVX2::kernels_here());
     if (found.empty()) return found;
