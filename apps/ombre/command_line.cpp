@@ -18,7 +18,7 @@ namespace ombre::cli {
 namespace {
 
 constexpr const char* description = "Ombre compiles solids whose material varies through their volume.";
-constexpr const char* footer =
+constexpr const char* program_footer =
     "A design is a script (.vcad), a design file (.json) or a Python script (.py, whose root it is; see: ombre run "
     "-h).\n"
     "ombre COMMAND --help tells more. Lengths are millimetres, angles degrees; z is up, layer 0 the lowest.\n"
@@ -39,7 +39,7 @@ DataList described_options(const CLI::App& app) {
 class CommandLine {
  public:
   explicit CommandLine(const Host& host) : program_(description, "ombre"), host_(host), console_(host) {
-    program_.footer(footer);
+    program_.footer(program_footer);
     program_.set_version_flag("--version", "ombre " OMBRE_VERSION);
     program_.require_subcommand(0, 1);
     commands_ = {add_slice(program_, output_),    add_layer(program_, output_),    add_render(program_, output_),

@@ -29,7 +29,7 @@ struct ContoursArguments {
   bool force = false;
 };
 
-constexpr const char* footer =
+constexpr const char* contours_footer =
     "Lengths are millimetres.\n\n"
     "An output that ends in .cli is one file of all layers (Common Layer Interface 2.0, ASCII). One that ends in .svg\n"
     "is the layer at --z. Any other is a folder, with layer_0000.svg and so on.\n\n"
@@ -167,7 +167,7 @@ Command add_contours(CLI::App& program, OutputOptions& output) {
   auto arguments = std::make_shared<ContoursArguments>();
   add_arguments(*app, *arguments);
   add_output_options(*app, output);
-  app->footer(footer);
+  app->footer(contours_footer);
   return {app, [arguments](Session& session) { return contours(*arguments, session); }};
 }
 

@@ -23,7 +23,7 @@ struct LayerArguments {
   bool force = false;
 };
 
-constexpr const char* footer =
+constexpr const char* layer_footer =
     "Lengths are millimetres in the design's space.\n\n"
     "Examples:\n"
     "  ombre layer part.vcad --z 3.2 -o layer.png           the layer at that height\n"
@@ -43,8 +43,6 @@ void add_arguments(CLI::App& app, LayerArguments& a) {
   app.add_flag("--force", a.force, "Replace the image if it is there");
 }
 
-std::string mm(double value) { return format_rounded(value, 6); }
-
 int64_t chosen_layer(const LayerArguments& a, const voxel::Lattice& lattice) {
   const int64_t count = lattice.count[2];
   if (!a.index.empty()) {
@@ -59,8 +57,8 @@ int64_t chosen_layer(const LayerArguments& a, const voxel::Lattice& lattice) {
   if (!z) throw WrongArgument("--z " + a.z + " is not a height; write for example --z 3.2 (mm)");
   if (const auto layer = compile::layer_at(lattice, *z)) return *layer;
   const Box box = lattice.box();
-  throw WrongArgument("--z " + a.z + " is outside the part, which lies from " + mm(box.lo.z) + " to " + mm(box.hi.z) +
-                      " mm along z");
+  throw WrongArgument("--z " + a.z + " is outside the part, which lies from " + mm_text(box.lo.z) + " to " +
+                      mm_text(box.hi.z) + " mm along z");
 }
 
 std::optional<compile::LayerWindow> chosen_window(const LayerArguments& a, const voxel::Lattice& lattice) {
@@ -70,8 +68,8 @@ std::optional<compile::LayerWindow> chosen_window(const LayerArguments& a, const
     throw WrongArgument("--box " + a.box + " is not a box x0,y0,x1,y1; write for example --box -5,-5,5,5 (mm)");
   if (const auto window = compile::window_over(lattice, corners[0], corners[1], corners[2], corners[3])) return window;
   const Box box = lattice.box();
-  throw WrongArgument("--box " + a.box + " is beside the images, which lie from " + mm(box.lo.x) + "," + mm(box.lo.y) +
-                      " to " + mm(box.hi.x) + "," + mm(box.hi.y) + " mm");
+  throw WrongArgument("--box " + a.box + " is beside the images, which lie from " + mm_text(box.lo.x) + "," +
+                      mm_text(box.lo.y) + " to " + mm_text(box.hi.x) + "," + mm_text(box.hi.y) + " mm");
 }
 
 // part.vcad and slice_00012.png give part_slice_00012.png. Where each material has a file, -o layer.png gives
@@ -97,7 +95,7 @@ void tell_layer(const Console& console, const compile::SliceRequest& request, in
   const auto face = [&](int64_t index) {
     return request.lattice.origin.z + request.lattice.pitch[2].times(static_cast<double>(index));
   };
-  console.say("layer " + std::to_string(layer) + ", " + mm(face(layer)) + " to " + mm(face(layer + 1)) +
+  console.say("layer " + std::to_string(layer) + ", " + mm_text(face(layer)) + " to " + mm_text(face(layer + 1)) +
               " mm, written to " + join(files, ", "));
   DataList materials, names;
   for (size_t i = 0; i < request.materials.size(); ++i) {
@@ -160,7 +158,7 @@ Command add_layer(CLI::App& program, OutputOptions& output) {
   auto arguments = std::make_shared<LayerArguments>();
   add_arguments(*app, *arguments);
   add_output_options(*app, output);
-  app->footer(footer);
+  app->footer(layer_footer);
   return {app, [arguments](Session& session) { return layer(*arguments, session); }};
 }
 

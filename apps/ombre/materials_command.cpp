@@ -17,7 +17,7 @@ std::string colour_text(const design::Rgba& c) {
   return text;
 }
 
-int list(const std::string& file, Session& session) {
+int list_materials(const std::string& file, Session& session) {
   Diagnostics diagnostics;
   const auto table = compile::load_materials(file, diagnostics);
   session.console.diagnose(diagnostics);
@@ -48,7 +48,7 @@ Command add_materials(CLI::App& program, OutputOptions& output) {
   auto file = std::make_shared<std::string>();
   app->add_option("file", *file, "A materials file (default: the set that comes with Ombre)")->type_name("FILE");
   add_output_options(*app, output);
-  return {app, [file](Session& session) { return list(*file, session); }};
+  return {app, [file](Session& session) { return list_materials(*file, session); }};
 }
 
 }  // namespace ombre::cli

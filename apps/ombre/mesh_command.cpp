@@ -29,7 +29,7 @@ struct MeshArguments {
   bool keep_all = false, force = false;
 };
 
-constexpr const char* footer =
+constexpr const char* mesh_footer =
     "Lengths are millimetres.\n\n"
     "FILE ends in .3mf (default), .stl, .obj, .ply, .off, .amf or .glb. Bodies share their borders exactly: no gaps, "
     "no "
@@ -187,7 +187,7 @@ Command add_mesh(CLI::App& program, OutputOptions& output) {
   auto arguments = std::make_shared<MeshArguments>();
   add_arguments(*app, *arguments);
   add_output_options(*app, output);
-  app->footer(footer);
+  app->footer(mesh_footer);
   return {app, [arguments](Session& session) { return mesh(*arguments, session); }};
 }
 

@@ -85,7 +85,7 @@ DataMembers event_of(const NodeType& type) {
           {"example", type.example}};
 }
 
-void list(Session& session) {
+void list_nodes(Session& session) {
   const auto& types = compile::node_registry().types();
   size_t width = 0;
   for (const auto& type : types) width = std::max(width, type->name.size());
@@ -101,7 +101,7 @@ void list(Session& session) {
   }
 }
 
-int show(const std::string& wanted, Session& session) {
+int show_node(const std::string& wanted, Session& session) {
   const design::Registry& registry = compile::node_registry();
   const NodeType* type = registry.find(wanted);
   if (!type) {
@@ -156,8 +156,8 @@ Command add_nodes(CLI::App& program, OutputOptions& output) {
               session.console.print(reference());
               return done;
             }
-            if (!wanted->empty()) return show(*wanted, session);
-            list(session);
+            if (!wanted->empty()) return show_node(*wanted, session);
+            list_nodes(session);
             return done;
           }};
 }

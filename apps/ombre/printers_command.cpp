@@ -47,7 +47,7 @@ std::string describe(const voxel::Printer& printer) {
   return text;
 }
 
-int show(const std::string& name, Session& session) {
+int show_printer(const std::string& name, Session& session) {
   Diagnostics diagnostics;
   const auto printer = compile::find_printer(name, diagnostics);
   session.console.diagnose(diagnostics);
@@ -60,7 +60,7 @@ int show(const std::string& name, Session& session) {
   return done;
 }
 
-int list(Session& session) {
+int list_printers(Session& session) {
   const std::vector<std::string> names = compile::printer_names();
   size_t width = 0;
   for (const std::string& name : names) width = std::max(width, name.size());
@@ -85,7 +85,8 @@ Command add_printers(CLI::App& program, OutputOptions& output) {
   app->add_option("printer", *name, "A profile's name, or the path of a .json file")->type_name("NAME");
   add_output_options(*app, output);
   app->footer("Examples:\n  ombre printers\n  ombre printers j750\n");
-  return {app, [name](Session& session) { return name->empty() ? list(session) : show(*name, session); }};
+  return {app,
+          [name](Session& session) { return name->empty() ? list_printers(session) : show_printer(*name, session); }};
 }
 
 }  // namespace ombre::cli

@@ -27,7 +27,7 @@ struct RenderArguments {
   bool axes = false, scale_bar = false, legend = false, annotate = false, force = false;
 };
 
-constexpr const char* footer =
+constexpr const char* render_footer =
     "Lengths are millimetres, angles degrees.\n\n"
     "Examples:\n"
     "  ombre render part.vcad -o part.png\n"
@@ -224,7 +224,7 @@ Command add_render(CLI::App& program, OutputOptions& output) {
   auto arguments = std::make_shared<RenderArguments>();
   add_arguments(*app, *arguments);
   add_output_options(*app, output);
-  app->footer(footer);
+  app->footer(render_footer);
   return {app, [arguments](Session& session) { return render_design(*arguments, session); }};
 }
 

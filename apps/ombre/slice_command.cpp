@@ -24,7 +24,7 @@ struct SliceArguments {
   bool force = false, resume = false, dry_run = false, strict = false;
 };
 
-constexpr const char* footer =
+constexpr const char* slice_footer =
     "Lengths are millimetres and may be exact: 25.4/600 is 600 dpi.\n\n"
     "Examples:\n"
     "  ombre slice part.vcad                                0.1 mm voxels, or those of the design's root()\n"
@@ -174,7 +174,7 @@ Command add_slice(CLI::App& program, OutputOptions& output) {
   auto arguments = std::make_shared<SliceArguments>();
   add_arguments(*app, *arguments);
   add_output_options(*app, output);
-  app->footer(footer);
+  app->footer(slice_footer);
   return {app, [arguments](Session& session) { return slice(*arguments, session); }};
 }
 

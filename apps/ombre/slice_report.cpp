@@ -13,14 +13,7 @@ std::string counted(int64_t count, const std::string& noun) {
   return format_count(static_cast<unsigned long long>(count)) + ' ' + noun + (count == 1 ? "" : "s");
 }
 
-template <class T>
-Data number(T value) {
-  return static_cast<double>(value);
-}
-
-std::string mm_text(Vec3 p) {
-  return '(' + format_rounded(p.x, 6) + ", " + format_rounded(p.y, 6) + ", " + format_rounded(p.z, 6) + ')';
-}
+std::string place_text(Vec3 p) { return '(' + mm_text(p.x) + ", " + mm_text(p.y) + ", " + mm_text(p.z) + ')'; }
 
 double voxel_mm3(const compile::SliceRequest& request) {
   const auto& pitch = request.lattice.pitch;
@@ -28,6 +21,8 @@ double voxel_mm3(const compile::SliceRequest& request) {
 }
 
 }  // namespace
+
+std::string mm_text(double mm) { return format_rounded(mm, 6); }
 
 std::string bytes_text(double bytes) {
   for (const auto& [unit, name] : {std::pair{1099511627776.0, " TiB"}, std::pair{1073741824.0, " GiB"},
@@ -116,7 +111,7 @@ void tell_checks(const Console& console, const std::vector<compile::CheckReport>
                             {"voxels", number(check.voxels)},
                             {"first_mm", DataList{check.first_mm.x, check.first_mm.y, check.first_mm.z}}});
     console.warn(check.text + " (" + counted(static_cast<int64_t>(check.voxels), "voxel") + ", the lowest at " +
-                 mm_text(check.first_mm) + " mm)");
+                 place_text(check.first_mm) + " mm)");
   }
 }
 

@@ -16,6 +16,8 @@ void tell_report(const Console& console, const compile::SliceRequest& request, c
                  const compile::SliceReport& report);
 void tell_checks(const Console& console, const std::vector<compile::CheckReport>& checks);
 
+// Up to six decimals.
+std::string mm_text(double mm);
 // "1.5 GiB"
 std::string bytes_text(double bytes);
 

@@ -29,7 +29,7 @@ struct VoxelsArguments {
   bool gzip = false, force = false;
 };
 
-constexpr const char* footer =
+constexpr const char* voxels_footer =
     "Lengths are millimetres in the design's space.\n\n"
     "FILE ends in\n"
     "  .raw    numbers alone, x fastest; FILE.json describes them\n"
@@ -103,8 +103,7 @@ compile::GridWishes chosen_grids(const VoxelsArguments& a, const Format& format)
   return wishes;
 }
 
-std::string mm(double value) { return format_rounded(value, 6); }
-std::string corner(Vec3 p) { return mm(p.x) + "," + mm(p.y) + "," + mm(p.z); }
+std::string corner(Vec3 p) { return mm_text(p.x) + "," + mm_text(p.y) + "," + mm_text(p.z); }
 
 voxel::TileBox chosen_region(const VoxelsArguments& a, const voxel::Lattice& lattice) {
   if (a.box.empty()) return {{0, 0, 0}, lattice.count};
@@ -114,15 +113,13 @@ voxel::TileBox chosen_region(const VoxelsArguments& a, const voxel::Lattice& lat
                       corner(box.hi) + " mm");
 }
 
-Data number(int64_t value) { return static_cast<double>(value); }
-
 void tell_plan(const Console& console, const compile::GridJob& job, const std::vector<std::string>& paths,
                const std::string& bytes) {
   const auto& pitch = job.request.lattice.pitch;
   const int64_t nx = job.region.size(0), ny = job.region.size(1), nz = job.region.size(2);
   console.say(std::to_string(nx) + " x " + std::to_string(ny) + " x " + std::to_string(nz) + " voxels of " +
-              mm(pitch[0].mm()) + " x " + mm(pitch[1].mm()) + " x " + mm(pitch[2].mm()) + " mm, " + bytes + " in " +
-              join(paths, ", "));
+              mm_text(pitch[0].mm()) + " x " + mm_text(pitch[1].mm()) + " x " + mm_text(pitch[2].mm()) + " mm, " +
+              bytes + " in " + join(paths, ", "));
   DataList files, names;
   for (const std::string& path : paths) files.emplace_back(path);
   for (const compile::Grid& grid : job.grids) names.emplace_back(grid.name);
@@ -232,7 +229,7 @@ Command add_voxels(CLI::App& program, OutputOptions& output) {
   auto arguments = std::make_shared<VoxelsArguments>();
   add_arguments(*app, *arguments);
   add_output_options(*app, output);
-  app->footer(footer);
+  app->footer(voxels_footer);
   return {app, [arguments](Session& session) { return voxels(*arguments, session); }};
 }
 

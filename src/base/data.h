@@ -54,6 +54,12 @@ struct Data {
   bool operator==(const Data& other) const { return value == other.value; }
 };
 
+// Of any type of number; beyond 2^53 the nearest that a double holds.
+template <class T>
+Data number(T value) {
+  return static_cast<double>(value);
+}
+
 // "a number", "a list of 3": for messages.
 std::string describe(const Data& data);
 

@@ -4,9 +4,13 @@
 // deterministic ("cinz") scalar family, whose error is at most one unit in the last place.
 #pragma once
 
+#include <numbers>
+
 #include "base/interval.h"
 
 namespace ombre::math {
+
+inline constexpr double degree = std::numbers::pi / 180;  // in radians
 
 double sin(double v);
 double cos(double v);

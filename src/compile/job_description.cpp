@@ -9,9 +9,6 @@
 namespace ombre::compile {
 namespace {
 
-Data number(int64_t value) { return static_cast<double>(value); }
-Data count(uint64_t value) { return static_cast<double>(value); }
-
 Data triple(Vec3 v) { return DataList{v.x, v.y, v.z}; }
 
 Data colour(const formats::Rgba& rgba) {
@@ -58,7 +55,7 @@ Data materials(const SliceRequest& request) {
   return list;
 }
 
-std::string difference(const std::string& name, const Data* there, const Data* here) {
+std::string member_difference(const std::string& name, const Data* there, const Data* here) {
   if (there && here && *there == *here) return "";
   if (there && here && there->members() && here->members())
     return first_difference(*there->members(), *here->members());
@@ -98,21 +95,23 @@ Data describe_totals(const SliceRequest& request, const std::vector<JournalEntry
   DataList by_material;
   for (size_t i = 0; i < voxels.size(); ++i)
     by_material.emplace_back(DataMembers{{"name", request.materials[i].name},
-                                         {"voxels", count(voxels[i])},
+                                         {"voxels", number(voxels[i])},
                                          {"volume_mm3", static_cast<double>(voxels[i]) * voxel_mm3}});
   // The layers with material, counted from the lowest layer of the job: the offset of a stack that
   // drops its empty layers.
   const Data occupied = lowest ? Data(DataList{number(lowest->layer), number(highest->layer)}) : Data();
-  return DataMembers{
-      {"materials", by_material}, {"first_and_last_layer", occupied}, {"files", count(files)}, {"bytes", count(bytes)}};
+  return DataMembers{{"materials", by_material},
+                     {"first_and_last_layer", occupied},
+                     {"files", number(files)},
+                     {"bytes", number(bytes)}};
 }
 
 std::string first_difference(const DataMembers& there, const DataMembers& here) {
   const Data old_job(there), new_job(here);
   for (const auto& [name, member] : here)
-    if (std::string text = difference(name, old_job.find(name), &member); !text.empty()) return text;
+    if (std::string text = member_difference(name, old_job.find(name), &member); !text.empty()) return text;
   for (const auto& [name, member] : there)
-    if (!new_job.find(name)) return difference(name, &member, nullptr);
+    if (!new_job.find(name)) return member_difference(name, &member, nullptr);
   return "";
 }
 

@@ -38,7 +38,7 @@ struct JobSummary {
   size_t check_count = 0;
 };
 
-formats::Rgba colour(const Data& material, const std::string& path) {
+formats::Rgba read_colour(const Data& material, const std::string& path) {
   const std::vector<double> channels = numbers(member(&material, "rgba"), path);
   if (channels.size() != 4) throw Error(path + " is not a slice job");
   formats::Rgba rgba{};
@@ -69,7 +69,7 @@ JobSummary read_summary(const std::string& path) {
   summary.style.pixel_width_mm = pitch[0];
   summary.style.pixel_height_mm = pitch[1];
   summary.format = format(member(&*job, "images"), path);
-  for (const Data& material : *materials->list()) summary.colours.push_back(colour(material, path));
+  for (const Data& material : *materials->list()) summary.colours.push_back(read_colour(material, path));
   const formats::Rgba background = summary.colours.front();
   summary.colours.erase(summary.colours.begin());
   const bool is_mask = summary.format == voxel::ImageFormat::mask;

@@ -14,7 +14,7 @@ using design::Rgba;
 using formats::MeshGroup;
 
 // Squared, of red, green, blue and opacity.
-int difference(const Rgba& a, const Rgba& b) {
+int colour_distance(const Rgba& a, const Rgba& b) {
   int sum = 0;
   for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
   return sum;
@@ -24,7 +24,8 @@ int difference(const Rgba& a, const Rgba& b) {
 const Material* nearest(const Rgba& colour, const design::MaterialTable& table) {
   const Material* best = &table.first();
   for (const Material& material : table.all())
-    if (material.id != 0 && difference(material.colour, colour) < difference(best->colour, colour)) best = &material;
+    if (material.id != 0 && colour_distance(material.colour, colour) < colour_distance(best->colour, colour))
+      best = &material;
   return best;
 }
 

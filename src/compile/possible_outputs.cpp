@@ -13,7 +13,7 @@ namespace {
 
 using program::Precision;
 
-constexpr size_t most_boxes = 1024, most_instructions = 1'000'000;  // some 50 ms
+constexpr size_t most_boxes = 1024, most_box_instructions = 1'000'000;  // some 50 ms
 constexpr size_t boxes_at_once = 64, boxes_in_task = 8;
 
 enum class Answer : uint8_t { no, yes, undecided };
@@ -28,7 +28,7 @@ class Search {
   }
 
   std::vector<Answer> run(const Box& box) {
-    size_t left = std::clamp(most_instructions / (program_.code.size() + 1), size_t{1}, most_boxes);
+    size_t left = std::clamp(most_box_instructions / (program_.code.size() + 1), size_t{1}, most_boxes);
     std::deque<Box> waiting{box};
     while (left > 0 && !waiting.empty() && !open_.empty()) {
       const std::vector<Box> boxes = take(waiting, std::min(left, boxes_at_once));

@@ -21,7 +21,7 @@ Picture slice(const std::string& text, SliceView plane, PictureRequest request =
   return picture;
 }
 
-render::Rgba8 at(const Picture& picture, int64_t column, int64_t row) {
+render::Rgba8 dot(const Picture& picture, int64_t column, int64_t row) {
   render::Rgba8 colour;
   std::copy_n(picture.rgba.begin() + (row * 200 + column) * 4, 4, colour.begin());
   return colour;
@@ -40,8 +40,8 @@ TEST(Sections, OfASphereAreDiscs) {
     for (size_t n = 3; n < picture.rgba.size(); n += 4) area += picture.rgba[n] / 255.0;
     const double pi = 3.14159265358979;
     EXPECT_NEAR(area * picture.pixel_mm * picture.pixel_mm / (pi * (100 - 36)), 1, 0.002);
-    EXPECT_EQ(at(picture, 100, 100), red);  // no light falls on it
-    EXPECT_EQ(at(picture, 2, 2)[3], 0);
+    EXPECT_EQ(dot(picture, 100, 100), red);  // no light falls on it
+    EXPECT_EQ(dot(picture, 2, 2)[3], 0);
   }
 }
 
@@ -52,7 +52,7 @@ TEST(Sections, LieAsTheDesignDoes) {
     translate(0, 0, 8) cube(4, "blue"); })";
   const auto pixel = [](const Picture& picture, double right, double up, double middle_right, double middle_up) {
     const auto index = [&](double mm) { return static_cast<int64_t>(std::floor(100 + mm / picture.pixel_mm)); };
-    return at(picture, index(right - middle_right), index(middle_up - up));
+    return dot(picture, index(right - middle_right), index(middle_up - up));
   };
   // The design lies in x from -5 to 10, y from -10 to 5, z from -5 to 10.
   const Picture z = slice(design, {2, 1.5}), y = slice(design, {1, 0.5}), x = slice(design, {0, 0.5});
@@ -74,7 +74,7 @@ TEST(Sections, MixColoursByFraction) {
     const double x = (static_cast<double>(column) + 0.5 - 100) * picture.pixel_mm, share = x / 20 + 0.5;
     const double linear_red = share;  // red has 1 of it, blue none
     const double srgb = linear_red <= 0.0031308 ? 12.92 * linear_red : 1.055 * std::pow(linear_red, 1 / 2.4) - 0.055;
-    EXPECT_NEAR(at(picture, column, 100)[0], 255 * srgb, 1) << column;
+    EXPECT_NEAR(dot(picture, column, 100)[0], 255 * srgb, 1) << column;
   }
 }
 
@@ -98,8 +98,8 @@ TEST(Sections, OfMeshesAndOfWhatIsCut) {
   request.cuts = {{0, '>', 0}};
   const Picture half = slice("sphere(10, \"red\");", {2, 0}, request);
   EXPECT_NEAR(covered(half) / (50 * 3.14159265358979), 1, 0.004);
-  EXPECT_EQ(at(half, 140, 100)[3], 255);  // x from -10 to 0: 0 lies 5 mm right of the middle
-  EXPECT_EQ(at(half, 150, 100)[3], 0);
+  EXPECT_EQ(dot(half, 140, 100)[3], 255);  // x from -10 to 0: 0 lies 5 mm right of the middle
+  EXPECT_EQ(dot(half, 150, 100)[3], 0);
 }
 
 TEST(Sections, OfNothingAreSaidToBeEmpty) {

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <span>
 
+#include "import/channels.h"
+
 namespace ombre::compile {
 namespace {
 
-enum Channel : int { inside_channel = 0, distance_channel = 1 };
+using importing::distance_channel;
+using importing::inside_channel;
 
 // Larger boxes are not asked column by column.
 constexpr int64_t most_columns_asked = 1024;
@@ -44,9 +47,7 @@ class Columns final : public program::FieldSource {
   Hash content() const override { return content_; }
   Box bounds() const override { return box_; }
 
-  int channel(std::string_view channel_name) const override {
-    return channel_name == "inside" ? inside_channel : channel_name == "distance" ? distance_channel : -1;
-  }
+  int channel(std::string_view channel_name) const override { return importing::channel_of(channel_name); }
 
   double sample(int channel, Vec3 p) const override {
     if (channel == inside_channel) return box_.contains(p) && holds(cell_of(p)) ? 1 : 0;

@@ -11,10 +11,10 @@
 namespace ombre::draw {
 namespace {
 
-struct Destroy {
+struct DestroyPattern {
   void operator()(FcPattern* pattern) const { FcPatternDestroy(pattern); }
 };
-using Pattern = std::unique_ptr<FcPattern, Destroy>;
+using Pattern = std::unique_ptr<FcPattern, DestroyPattern>;
 
 const FcChar8* letters(const std::string& text) { return reinterpret_cast<const FcChar8*>(text.c_str()); }
 

@@ -43,9 +43,9 @@ std::optional<Rgba> colour_of(xml_node node) {
   return parts;
 }
 
-class Reader {
+class AmfReader {
  public:
-  Reader(const XmlFile& file, Assembly& assembly) : file_(file), assembly_(assembly) {}
+  AmfReader(const XmlFile& file, Assembly& assembly) : file_(file), assembly_(assembly) {}
 
   void read() {
     const xml_node amf = file_.root("amf");
@@ -166,7 +166,7 @@ std::optional<Mesh> read_amf(const std::string& name, std::string_view bytes, Di
     const std::string text = is_zip(bytes) ? unpacked(name, bytes, diagnostics) : "";
     const XmlFile file(name, is_zip(bytes) ? text : bytes, diagnostics);
     Assembly assembly;
-    Reader(file, assembly).read();
+    AmfReader(file, assembly).read();
     return assemble(assembly, name, diagnostics);
   } catch (const DesignError&) {
     return std::nullopt;

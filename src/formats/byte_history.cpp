@@ -10,7 +10,7 @@ namespace {
 
 constexpr unsigned table_bits = 12, key_bits = 32;
 constexpr size_t most_kept = size_t{1} << 18;  // more, and all but the window goes
-constexpr size_t fewest_bytes = 4, fewest_repeats = 3;
+constexpr size_t fewest_bytes = 4, fewest_byte_repeats = 3;
 
 uint64_t load(const uint8_t* bytes) {
   static_assert(std::endian::native == std::endian::little);
@@ -68,7 +68,7 @@ ByteHistory::Match ByteHistory::find(size_t at) {
   const bool is_near = there != 0 && at - there <= DeflateWriter::window;
   const size_t length = is_near ? common_length(at, there) : 0;
   if (length > repeats && length >= fewest_bytes) return {length, at - there};
-  if (repeats >= fewest_repeats) return {repeats, 1};
+  if (repeats >= fewest_byte_repeats) return {repeats, 1};
   return {};
 }
 

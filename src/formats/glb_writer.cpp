@@ -12,12 +12,10 @@ namespace ombre::formats {
 namespace {
 
 constexpr uint32_t glb_magic = 0x46546C67, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
-constexpr size_t header_bytes = 12, chunk_header_bytes = 8;
+constexpr size_t file_header_bytes = 12, chunk_header_bytes = 8;
 constexpr double float_type = 5126, uint16_type = 5123, uint32_type = 5125;
 constexpr double vertex_buffer = 34962, index_buffer = 34963;
 constexpr size_t point_bytes = 12, colour_bytes = 8, triangle_bytes = 12;
-
-Data number(size_t value) { return static_cast<double>(value); }
 
 double linear(uint8_t srgb) {
   const double v = srgb / 255.0;
@@ -202,7 +200,7 @@ LazyBytes glb_bytes(const MeshDocument& document) {
   }
   std::string json = scene.json(document);
   json.append((4 - json.size() % 4) % 4, ' ');
-  const uint64_t size = header_bytes + 2 * chunk_header_bytes + json.size() + scene.binary_bytes();
+  const uint64_t size = file_header_bytes + 2 * chunk_header_bytes + json.size() + scene.binary_bytes();
   if (size > UINT32_MAX) throw Error("a .glb file holds at most 4 GiB; write a .ply file, or a coarser mesh");
   LazyBytes bytes;
   bytes.add(words({glb_magic, 2, size, json.size(), json_chunk}) + json + words({scene.binary_bytes(), binary_chunk}));

@@ -18,9 +18,9 @@ constexpr std::array<std::string_view, 38> passed_over{
     "mg",    "bevel", "c_interp", "d_interp", "lod",  "maplib", "usemap", "shadow_obj", "trace_obj", "ctech",
     "stech", "call",  "csh",      "bsp",      "bzp",  "cdc",    "cdp",    "res"};
 
-class Reader {
+class ObjReader {
  public:
-  Reader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
+  ObjReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
       : scanner_(name, bytes, diagnostics, {'#', true}), name_(name), diagnostics_(diagnostics) {}
 
   Mesh read() {
@@ -145,7 +145,7 @@ class Reader {
 std::optional<Mesh> read_obj(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
   try {
     if (bytes.empty()) fail(diagnostics, name, "the file is empty");
-    return Reader(name, bytes, diagnostics).read();
+    return ObjReader(name, bytes, diagnostics).read();
   } catch (const DesignError&) {
     return std::nullopt;
   }

@@ -31,9 +31,9 @@ std::optional<Header> parse_header(std::string_view word) {
   return header;
 }
 
-class Reader {
+class OffReader {
  public:
-  Reader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
+  OffReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
       : scanner_(name, bytes, diagnostics, {comment, false}), name_(name), diagnostics_(diagnostics) {}
 
   Mesh read() {
@@ -129,7 +129,7 @@ bool is_off(std::string_view bytes) {
 std::optional<Mesh> read_off(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
   try {
     if (bytes.empty()) fail(diagnostics, name, "the file is empty");
-    return Reader(name, bytes, diagnostics).read();
+    return OffReader(name, bytes, diagnostics).read();
   } catch (const DesignError&) {
     return std::nullopt;
   }

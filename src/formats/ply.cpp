@@ -128,9 +128,9 @@ Role face_role(const PlyProperty& property) {
   return property.is_list && is_corners ? Role::corners : Role::none;
 }
 
-class Reader {
+class PlyReader {
  public:
-  Reader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
+  PlyReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
       : scanner_(name, bytes, diagnostics),
         header_(read_ply_header(scanner_)),
         values_(scanner_, header_.encoding, name, bytes, diagnostics),
@@ -277,7 +277,7 @@ bool is_ply(std::string_view bytes) { return bytes.substr(0, 4) == "ply\n" || by
 std::optional<Mesh> read_ply(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
   try {
     if (bytes.empty()) fail(diagnostics, name, "the file is empty");
-    return Reader(name, bytes, diagnostics).read();
+    return PlyReader(name, bytes, diagnostics).read();
   } catch (const DesignError&) {
     return std::nullopt;
   }

@@ -9,7 +9,7 @@
 #include "base/assert.h"
 #include "base/error.h"
 
-// libpng leaves by longjmp, which runs no destructors. So everything that owns memory lives in a Reader, outside the
+// libpng leaves by longjmp, which runs no destructors. So everything that owns memory lives in a PngReader, outside the
 // functions that call libpng, and those hold plain values only.
 
 namespace ombre::formats {
@@ -33,7 +33,7 @@ void on_error(png_structp png, png_const_charp message) {
 
 void on_warning(png_structp, png_const_charp) {}
 
-struct Reader {
+struct PngReader {
   Failure failure;
   std::string_view bytes;
   size_t position = 0;
@@ -42,23 +42,23 @@ struct Reader {
   int stored_bit_depth = 0;
   std::vector<png_bytep> rows;
 
-  explicit Reader(std::string_view from) : bytes(from) {
+  explicit PngReader(std::string_view from) : bytes(from) {
     png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, on_error, on_warning);
     if (png) info = png_create_info_struct(png);
   }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
 void take(png_structp png, png_bytep data, size_t size) {
-  auto* reader = static_cast<Reader*>(png_get_io_ptr(png));
+  auto* reader = static_cast<PngReader*>(png_get_io_ptr(png));
   if (size > reader->bytes.size() - reader->position) png_error(png, "the file ends too early");
   std::memcpy(data, reader->bytes.data() + reader->position, size);
   reader->position += size;
 }
 
-bool read_header(Reader& reader) {
+bool read_header(PngReader& reader) {
   if (setjmp(png_jmpbuf(reader.png))) return false;
   png_set_read_fn(reader.png, &reader, take);
   png_set_user_limits(reader.png, largest_side, largest_side);
@@ -77,14 +77,14 @@ bool read_header(Reader& reader) {
   return true;
 }
 
-bool read_pixels(Reader& reader) {
+bool read_pixels(PngReader& reader) {
   if (setjmp(png_jmpbuf(reader.png))) return false;
   png_read_image(reader.png, reader.rows.data());
   png_read_end(reader.png, nullptr);
   return true;
 }
 
-std::vector<Rgba> read_palette(Reader& reader) {
+std::vector<Rgba> read_palette(PngReader& reader) {
   png_colorp colours = nullptr;
   png_bytep alphas = nullptr;
   int colour_count = 0, alpha_count = 0;
@@ -98,7 +98,7 @@ std::vector<Rgba> read_palette(Reader& reader) {
   return palette;
 }
 
-void read_dots(Reader& reader, PngImage& image) {
+void read_dots(PngReader& reader, PngImage& image) {
   png_uint_32 x = 0, y = 0;
   int unit = PNG_RESOLUTION_UNKNOWN;
   png_get_pHYs(reader.png, reader.info, &x, &y, &unit);
@@ -110,10 +110,10 @@ void read_dots(Reader& reader, PngImage& image) {
 }  // namespace
 
 PngImage decode_png(std::string_view bytes, const std::string& name) {
-  const auto require_read = [&](bool read, const Reader& reader) {
+  const auto require_read = [&](bool read, const PngReader& reader) {
     if (!read) throw Error("cannot read " + name + ": not a whole PNG image (" + reader.failure.message + ")");
   };
-  Reader reader(bytes);
+  PngReader reader(bytes);
   if (!reader.png || !reader.info) throw Error("cannot read " + name + ": not enough memory");
   require_read(read_header(reader), reader);
 

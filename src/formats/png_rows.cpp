@@ -5,12 +5,12 @@
 
 #include "base/assert.h"
 #include "base/byte_rows.h"
+#include "formats/png_filters.h"
 #include "formats/smooth_row.h"
 
 namespace ombre::formats {
 namespace {
 
-constexpr uint8_t filter_none = 0, filter_up = 2;
 constexpr size_t fewest_changes = 16;  // of bytes, that a row with fewer has little to gain
 constexpr size_t fewest_repeats = 8;   // in a match
 constexpr size_t pixels_at = 2;        // in the buffers of PackedRows

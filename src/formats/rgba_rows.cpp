@@ -5,12 +5,11 @@
 #include <utility>
 
 #include "base/byte_rows.h"
+#include "formats/png_filters.h"
 #include "formats/smooth_row.h"
 
 namespace ombre::formats {
 namespace {
-
-constexpr uint8_t filter_none = 0, filter_up = 2;
 
 Rgba difference(Rgba a, Rgba b) {
   Rgba result;

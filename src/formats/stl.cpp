@@ -12,7 +12,7 @@
 namespace ombre::formats {
 namespace {
 
-constexpr size_t header_bytes = 84, count_offset = 80;
+constexpr size_t bytes_before_triangles = 84, count_offset = 80;
 constexpr size_t triangle_bytes = 50, normal_bytes = 12;
 constexpr size_t sniffed_bytes = 1024;
 
@@ -27,7 +27,8 @@ double load_float(const char* bytes) { return std::bit_cast<float>(load_u32(byte
 uint64_t promised_triangles(std::string_view bytes) { return load_u32(bytes.data() + count_offset); }
 
 bool has_binary_size(std::string_view bytes) {
-  return bytes.size() >= header_bytes && bytes.size() == header_bytes + triangle_bytes * promised_triangles(bytes);
+  return bytes.size() >= bytes_before_triangles &&
+         bytes.size() == bytes_before_triangles + triangle_bytes * promised_triangles(bytes);
 }
 
 // Binary files may begin with "solid" as well, but text has no zero bytes.
@@ -39,12 +40,12 @@ bool looks_like_text(std::string_view bytes) {
 
 // Checks that the triangles which the header promises are there.
 void check_size(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  if (bytes.size() < header_bytes)
+  if (bytes.size() < bytes_before_triangles)
     fail(diagnostics, name,
          "this is not an STL file: it has " + format_count(bytes.size()) +
              " bytes, does not begin with \"solid\", and a binary STL has at least 84");
   const uint64_t triangles = promised_triangles(bytes);
-  const uint64_t needed = header_bytes + triangle_bytes * triangles;
+  const uint64_t needed = bytes_before_triangles + triangle_bytes * triangles;
   if (bytes.size() < needed)
     fail(diagnostics, name,
          "this binary STL is cut short: its header promises " + format_count(triangles) + " triangles (" +
@@ -62,7 +63,7 @@ Mesh read_binary(const std::string& name, std::string_view bytes, Diagnostics& d
   Mesh mesh;
   mesh.triangles.resize(count);
   for (uint64_t t = 0; t < count; ++t) {
-    const size_t at = header_bytes + triangle_bytes * t + normal_bytes;
+    const size_t at = bytes_before_triangles + triangle_bytes * t + normal_bytes;
     for (size_t corner = 0; corner < 3; ++corner) {
       const char* const from = bytes.data() + at + 12 * corner;
       const Vec3 p{load_float(from), load_float(from + 4), load_float(from + 8)};

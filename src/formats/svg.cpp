@@ -13,19 +13,8 @@ std::string number(double value) {
   return text;
 }
 
-// #RRGGBB
-std::string hex(const Rgba& colour) {
-  constexpr const char* digits = "0123456789ABCDEF";
-  std::string text = "#";
-  for (size_t n = 0; n < 3; ++n) {
-    text += digits[colour[n] >> 4];
-    text += digits[colour[n] & 15];
-  }
-  return text;
-}
-
 std::string fill_of(const Rgba& colour) {
-  const std::string fill = xml_attribute("fill", hex(colour));
+  const std::string fill = xml_attribute("fill", hex_colour({colour.data(), 3}));
   return colour[3] == 255 ? fill : fill + xml_attribute("fill-opacity", number(colour[3] / 255.0));
 }
 

@@ -12,17 +12,6 @@ constexpr std::string_view model_begin =
     " xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\""
     " xmlns:slic3rpe=\"http://schemas.slic3r.org/3mf/2017/06\">\n";
 
-// #RRGGBBAA
-std::string hex(const Rgba& colour) {
-  constexpr const char* digits = "0123456789ABCDEF";
-  std::string text = "#";
-  for (const uint8_t part : colour) {
-    text += digits[part >> 4];
-    text += digits[part & 15];
-  }
-  return text;
-}
-
 std::string id_text(uint64_t id) { return xml_attribute("id", std::to_string(id)); }
 
 void append_vertex(std::string& text, Vec3 p) {
@@ -103,9 +92,9 @@ class ModelText {
     const std::string element = is_colours ? "m:colorgroup" : "basematerials";
     std::string text = '<' + element + id_text(materials_id_) + ">\n";
     for (const MeshMaterial& material : document_.materials)
-      text += is_colours ? "<m:color" + xml_attribute("color", hex(material.colour)) + "/>\n"
+      text += is_colours ? "<m:color" + xml_attribute("color", hex_colour(material.colour)) + "/>\n"
                          : "<base" + xml_attribute("name", material.name) +
-                               xml_attribute("displaycolor", hex(material.colour)) + "/>\n";
+                               xml_attribute("displaycolor", hex_colour(material.colour)) + "/>\n";
     bytes_.add(text + "</" + element + ">\n");
   }
 
@@ -114,7 +103,7 @@ class ModelText {
     if (body.vertex_colours.empty()) return;
     bytes_.add("<m:colorgroup" + id_text(first_colours_id_ + index) + ">\n");
     bytes_.add_rows(body.vertex_colours.size(), [&body](std::string& text, size_t vertex) {
-      text += "<m:color color=\"" + hex(body.vertex_colours[vertex]) + "\"/>\n";
+      text += "<m:color color=\"" + hex_colour(body.vertex_colours[vertex]) + "\"/>\n";
     });
     bytes_.add("</m:colorgroup>\n");
   }

@@ -13,9 +13,9 @@ namespace {
 constexpr const char* relationships = "_rels/.rels";
 constexpr std::string_view model_relationship = "/3dmodel";
 
-class Reader {
+class ThreeMfReader {
  public:
-  Reader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
+  ThreeMfReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
       : name_(name), diagnostics_(diagnostics), archive_(name, bytes, diagnostics) {}
 
   Mesh read() {
@@ -79,7 +79,7 @@ std::optional<Mesh> read_3mf(const std::string& name, std::string_view bytes, Di
   try {
     if (bytes.empty()) fail(diagnostics, name, "the file is empty");
     if (!is_zip(bytes)) fail(diagnostics, name, "this is not a 3MF file: those are zip archives");
-    return Reader(name, bytes, diagnostics).read();
+    return ThreeMfReader(name, bytes, diagnostics).read();
   } catch (const DesignError&) {
     return std::nullopt;
   }

@@ -76,4 +76,14 @@ std::string xml_attribute(std::string_view name, std::string_view value) {
   return ' ' + std::string(name) + "=\"" + xml_escaped(value) + '"';
 }
 
+std::string hex_colour(std::span<const uint8_t> parts) {
+  constexpr const char* digits = "0123456789ABCDEF";
+  std::string text = "#";
+  for (const uint8_t part : parts) {
+    text += digits[part >> 4];
+    text += digits[part & 15];
+  }
+  return text;
+}
+
 }  // namespace ombre::formats

@@ -1,6 +1,8 @@
 // XML as text.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -13,5 +15,8 @@ std::string xml_escaped(std::string_view text);
 
 // ` name="value"`
 std::string xml_attribute(std::string_view name, std::string_view value);
+
+// "#RRGGBB" of three parts, "#RRGGBBAA" of four.
+std::string hex_colour(std::span<const uint8_t> parts);
 
 }  // namespace ombre::formats

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "base/error.h"
+#include "import/channels.h"
 #include "import/mesh_source.h"
 
 namespace ombre::importing {
@@ -59,8 +60,6 @@ class QueryPool {
 
 class ExactSource final : public program::FieldSource {
  public:
-  enum Channel : int { inside_channel = 0, distance_channel = 1 };
-
   ExactSource(std::string name, const std::vector<cad::SolidPtr>& solids, Hash content, double deflection_mm)
       : name_(std::move(name)),
         content_(content),
@@ -77,9 +76,7 @@ class ExactSource final : public program::FieldSource {
   Hash content() const override { return content_; }
   Box bounds() const override { return bounds_; }
 
-  int channel(std::string_view channel_name) const override {
-    return channel_name == "inside" ? inside_channel : channel_name == "distance" ? distance_channel : -1;
-  }
+  int channel(std::string_view channel_name) const override { return channel_of(channel_name); }
 
   double sample(int channel, Vec3 p) const override { return channel == inside_channel ? inside(p) : distance(p); }
 

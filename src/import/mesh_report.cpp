@@ -12,7 +12,7 @@ namespace {
 constexpr size_t most_examples = 5;
 
 // An edge between two places, the lesser first, and which way a triangle runs along it.
-struct Edge {
+struct FacetEdge {
   uint32_t a = 0, b = 0;
   int direction = 1;
 };
@@ -27,8 +27,8 @@ std::vector<std::array<uint32_t, 3>> merge_places(const formats::Mesh& mesh, for
   return triangles;
 }
 
-std::vector<Edge> sorted_edges(const std::vector<std::array<uint32_t, 3>>& triangles) {
-  std::vector<Edge> edges;
+std::vector<FacetEdge> sorted_edges(const std::vector<std::array<uint32_t, 3>>& triangles) {
+  std::vector<FacetEdge> edges;
   edges.reserve(3 * triangles.size());
   for (const auto& t : triangles) {
     for (size_t i = 0; i < 3; ++i) {
@@ -38,13 +38,13 @@ std::vector<Edge> sorted_edges(const std::vector<std::array<uint32_t, 3>>& trian
     }
   }
   std::sort(edges.begin(), edges.end(),
-            [](const Edge& x, const Edge& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+            [](const FacetEdge& x, const FacetEdge& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
   return edges;
 }
 
-void check_edges(const std::vector<Edge>& edges, const std::vector<Vec3>& places, MeshReport& report) {
+void check_edges(const std::vector<FacetEdge>& edges, const std::vector<Vec3>& places, MeshReport& report) {
   for (size_t i = 0; i < edges.size();) {
-    const Edge& edge = edges[i];
+    const FacetEdge& edge = edges[i];
     size_t uses = 0;
     int64_t balance = 0;
     for (; i < edges.size() && edges[i].a == edge.a && edges[i].b == edge.b; ++i) {

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 
+#include "import/channels.h"
 #include "import/closest_point.h"
 #include "import/point_winding.h"
 #include "import/solid_angle.h"
@@ -13,10 +14,8 @@
 namespace ombre::importing {
 namespace {
 
-enum Channel : int { inside_channel = 0, distance_channel = 1 };
-
 // Of a distance, relative to the numbers that it was computed from.
-constexpr double distance_rounding = 1e-12;
+constexpr double mesh_rounding = 1e-12;
 
 // A value that the first to ask for it builds, while others wait.
 template <class T>
@@ -51,9 +50,8 @@ class MeshSource final : public program::FieldSource {
   Box bounds() const override { return bounds_; }
 
   int channel(std::string_view channel_name) const override {
-    if (channel_name == "inside") return inside_channel;
-    if (channel_name == "distance" && has_mesh_distance()) return distance_channel;
-    return -1;
+    const int channel = channel_of(channel_name);
+    return channel == distance_channel && !has_mesh_distance() ? -1 : channel;
   }
 
   double sample(int channel, Vec3 p) const override {
@@ -107,7 +105,7 @@ class MeshSource final : public program::FieldSource {
     const Vec3 center = box.center();
     const double value = sample(distance_channel, center);
     const double reach = 0.5 * length(box.size());
-    const double room = reach + distance_rounding * (reach + std::abs(value) + length(center));
+    const double room = reach + mesh_rounding * (reach + std::abs(value) + length(center));
     if (has_reliable_sign()) return outward(value - room, value + room);
     const double farthest = std::abs(value) + room;
     return outward(-farthest, farthest);

@@ -10,7 +10,7 @@ namespace ombre::importing {
 namespace {
 
 // Of a distance, relative to the numbers that it was computed from.
-constexpr double distance_rounding = 1e-12;
+constexpr double path_rounding = 1e-12;
 
 std::vector<LineSegment> segments_of(const std::vector<Vec3>& points) {
   std::vector<LineSegment> segments;
@@ -35,7 +35,7 @@ class PathSource final : public program::FieldSource {
     if (!box.is_bounded()) return {0, Box::inf};
     const Vec3 center = box.center();
     const double value = lines_.distance(center), reach = 0.5 * length(box.size());
-    const double room = reach + distance_rounding * (reach + value + length(center) + length(bounds().size()));
+    const double room = reach + path_rounding * (reach + value + length(center) + length(bounds().size()));
     return {std::max(0.0, round_down(value - room)), round_up(value + room)};
   }
 

@@ -4,16 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "import/channels.h"
 #include "import/polygon_rows.h"
 #include "import/polygon_walls.h"
 
 namespace ombre::importing {
 namespace {
 
-enum Channel : int { inside_channel = 0, distance_channel = 1 };
-
 // Of a distance, relative to the numbers that it was computed from.
-constexpr double distance_rounding = 1e-9;
+constexpr double polygon_rounding = 1e-9;
 
 Hash hash_of(const Polygons& polygons, PolygonOptions options) {
   std::string bytes = options.turns_about_y ? "turns" : "flat";
@@ -62,10 +61,7 @@ class PolygonSource final : public program::FieldSource {
   Hash content() const override { return content_; }
   Box bounds() const override { return bounds_; }
 
-  int channel(std::string_view channel_name) const override {
-    if (channel_name == "inside") return inside_channel;
-    return channel_name == "distance" ? distance_channel : -1;
-  }
+  int channel(std::string_view channel_name) const override { return channel_of(channel_name); }
 
   double sample(int channel, Vec3 p) const override {
     const bool is_inside = contains(p);
@@ -85,7 +81,7 @@ class PolygonSource final : public program::FieldSource {
                                              Vec2{box.hi.x - box.lo.x, box.hi.y - box.lo.y}));
     const double size =
         std::max(length(Vec3{bounds_.lo.x, bounds_.lo.y, 0}), length(Vec3{bounds_.hi.x, bounds_.hi.y, 0}));
-    const double room = reach + distance_rounding * (reach + std::abs(value) + length(center) + size);
+    const double room = reach + polygon_rounding * (reach + std::abs(value) + length(center) + size);
     if (channel == distance_channel) return outward(value - room, value + room);
     return std::abs(value) > room ? Interval(value < 0 ? 1 : 0) : Interval(0, 1);
   }

@@ -14,8 +14,8 @@ using namespace design;
 // What a point may have to ask; programs would get too large.
 constexpr double most_asked = 10'000;
 
-Domain overlap_choices() { return one_of({"first", "mix", "last"}); }
-constexpr std::string_view overlap_doc =
+Domain copy_overlap_choices() { return one_of({"first", "mix", "last"}); }
+constexpr std::string_view copy_overlap_doc =
     "Where copies overlap: first and last let one take precedence, mix adds their compositions and normalises";
 
 // What the family shares: the union of copies, of which each point asks those that matter to it. T has
@@ -163,7 +163,7 @@ struct ArrayLinear : LatticeArray<ArrayLinear> {
             "Copies of its child in a row.",
             {{"count", &ArrayLinear::count, "How many, with the child itself", required(from_to(1, 100'000))},
              {"step", &ArrayLinear::step, "From one copy to the next along x, y and z", required(unit::mm)},
-             {"materials", &ArrayLinear::materials, overlap_doc, overlap_choices()}},
+             {"materials", &ArrayLinear::materials, copy_overlap_doc, copy_overlap_choices()}},
             one_solid,
             "array_linear(4, (6, 0, 1)) { sphere(2, \"red\"); }"};
   }
@@ -199,7 +199,7 @@ struct ArrayGrid : LatticeArray<ArrayGrid> {
             {{"counts", &ArrayGrid::counts, "How many along x, y and z", required(from_to(1, 100'000))},
              {"steps", &ArrayGrid::steps, "From one copy to the next along x, y and z", required(unit::mm)},
              {"centred", &ArrayGrid::centred, "Whether the grid lies around the child's place; else it begins there"},
-             {"materials", &ArrayGrid::materials, overlap_doc, overlap_choices()}},
+             {"materials", &ArrayGrid::materials, copy_overlap_doc, copy_overlap_choices()}},
             one_solid,
             "array_grid((3, 3, 2), (5, 5, 5)) { sphere(2, \"red\"); }"};
   }
@@ -253,7 +253,7 @@ struct ArrayPolar : Array<ArrayPolar> {
              {"radius", &ArrayPolar::radius,
               "How far the child is moved away from the axis first: along x, or along y where the axis is x", unit::mm},
              {"around", &ArrayPolar::around, "A point on the axis", unit::mm},
-             {"materials", &ArrayPolar::materials, overlap_doc, overlap_choices()}},
+             {"materials", &ArrayPolar::materials, copy_overlap_doc, copy_overlap_choices()}},
             one_solid,
             "array_polar(6, radius=8) { cube(3, \"red\"); }"};
   }
@@ -301,7 +301,7 @@ struct ArrayMirror : Array<ArrayMirror> {
             "Its child and the child's mirror image.",
             {{"normal", &ArrayMirror::normal, "Direction at a right angle to the plane", required()},
              {"around", &ArrayMirror::around, "A point of the plane", unit::mm},
-             {"materials", &ArrayMirror::materials, overlap_doc, overlap_choices()}},
+             {"materials", &ArrayMirror::materials, copy_overlap_doc, copy_overlap_choices()}},
             one_solid,
             "array_mirror(x) { translate(5, 0, 0) { cone(3, 1, 6, \"red\"); } }"};
   }

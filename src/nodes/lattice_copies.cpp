@@ -8,16 +8,14 @@
 namespace ombre::nodes {
 namespace {
 
-// With so few copies, asking all costs less than finding those that matter.
-constexpr int few = 16;
+// With so few_in_lattice copies, asking all costs less than finding those that matter.
+constexpr int few_in_lattice = 16;
 // Of the greatest coordinate: which copies are asked may be computed with single precision.
 constexpr double rounding = 1e-6;
 
 Interval multiplied(double factor, Interval v) {
   return factor < 0 ? Interval(factor * v.hi, factor * v.lo) : Interval(factor * v.lo, factor * v.hi);
 }
-
-Field ceil(Field v) { return v.builder->apply(program::Op::ceil, v); }
 
 }  // namespace
 
@@ -41,7 +39,7 @@ LatticeCopies::LatticeCopies(const Affine& frame_from_here, const std::array<Row
 LatticeCopies::Window LatticeCopies::window(double reach_mm) const {
   Window result;
   result.reach_mm = reach_mm;
-  const bool are_few = double{1} * rows_[0].count * rows_[1].count * rows_[2].count <= few;
+  const bool are_few = double{1} * rows_[0].count * rows_[1].count * rows_[2].count <= few_in_lattice;
   for (size_t axis = 0; axis < 3; ++axis) {
     const int count = rows_[axis].count;
     const double mm = box_.size()[static_cast<int>(axis)] + 2 * reach_mm;

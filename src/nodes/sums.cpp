@@ -56,7 +56,7 @@ struct Sum {
     program::Builder& builder = p.builder();
     // Inverse of the smooth step: 1/2 - sin(asin(1 - 2t) / 3).
     const Field angle = builder.apply(program::Op::asin, min(max(1 - t * 2.0, -1.0), p.constant(1))) / 3;
-    return blend(p) * (builder.apply(program::Op::sin, angle) * 2.0);
+    return blend(p) * (sin(angle) * 2.0);
   }
 
   Field inside(const Inputs& in, const Point& p) const {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/math.h"
 
@@ -13,14 +12,11 @@ namespace {
 using program::Field;
 using program::Point;
 
-// With so few copies, asking all costs less than finding those that matter.
-constexpr int few = 8;
+// With so few_turned copies, asking all costs less than finding those that matter.
+constexpr int few_turned = 8;
 // Of the greatest coordinate, and of an angle in degrees: which copies are asked may be computed with single precision.
 constexpr double rounding = 1e-6, rounding_degrees = 1e-3;
-constexpr double degree = std::numbers::pi / 180;
 constexpr Vec3 z_axis{0, 0, 1};
-
-Field apply(program::Op op, Field v) { return v.builder->apply(op, v); }
 
 }  // namespace
 
@@ -32,7 +28,7 @@ TurnedCopies::TurnedCopies(const Affine& turn_from_here, const Affine& turn_from
       degrees_(degrees),
       is_full_(is_full),
       asked_(count) {
-  if (count <= few) return;
+  if (count <= few_turned) return;
   find_sector(bounds);
   const double room = is_full ? 180 : half_degrees_ + (count - 1) * std::abs(degrees) / 2;
   if (half_degrees_ >= 180 || (!is_full && room >= 180)) return;
@@ -46,11 +42,11 @@ void TurnedCopies::find_sector(const Box& bounds) {
   box = box.expanded(rounding * (1 + length(box.lo) + length(box.hi)));
   if (box.lo.x <= 0 && box.hi.x >= 0 && box.lo.y <= 0 && box.hi.y >= 0) return;
   const Vec3 c = box.center();
-  middle_degrees_ = math::atan2(c.y, c.x) / degree;
+  middle_degrees_ = math::atan2(c.y, c.x) / math::degree;
   half_degrees_ = rounding_degrees;
   for (const double x : {box.lo.x, box.hi.x})
     for (const double y : {box.lo.y, box.hi.y}) {
-      const double turn = std::remainder(math::atan2(y, x) / degree - middle_degrees_, 360.0);
+      const double turn = std::remainder(math::atan2(y, x) / math::degree - middle_degrees_, 360.0);
       half_degrees_ = std::max(half_degrees_, std::abs(turn) + rounding_degrees);
     }
 }
@@ -62,12 +58,12 @@ std::vector<Point> TurnedCopies::holding(const Point& p) const {
   const Affine level = Affine::rotation(z_axis, -(middle_degrees_ + before * degrees_));
   const Point q = p.mapped(turn_from_here_), seen = q.mapped(level);
   const Field angle = p.builder().apply(program::Op::atan2, seen.y, seen.x);
-  const Field reached = angle / (degrees_ * degree) + (before - half_degrees_ / std::abs(degrees_));
-  Field first = apply(program::Op::ceil, reached);
+  const Field reached = angle / (degrees_ * math::degree) + (before - half_degrees_ / std::abs(degrees_));
+  Field first = ceil(reached);
   if (!is_full_) first = min(max(first, 0.0), p.constant(count_ - asked_));
 
-  const Field turn = first * (degrees_ * degree);
-  const Field c = apply(program::Op::cos, turn), s = apply(program::Op::sin, turn);
+  const Field turn = first * (degrees_ * math::degree);
+  const Field c = cos(turn), s = sin(turn);
   const Point turned = q.moved_to(q.x * c + q.y * s, q.y * c - q.x * s, q.z);
   std::vector<Point> points;
   for (int n = 0; n < asked_; ++n)

@@ -38,7 +38,7 @@ Struts joined(std::initializer_list<Struts> lists) {
   return all;
 }
 
-const Vec3 centre{0, 0, 0}, face{0.5, 0, 0}, edge{0.5, 0.5, 0}, corner{0.5, 0.5, 0.5};
+const Vec3 centre{0, 0, 0}, face{0.5, 0, 0}, edge{0.5, 0.5, 0}, vertex{0.5, 0.5, 0.5};
 
 Struts edges_along_z() {
   Struts struts;
@@ -58,8 +58,8 @@ Struts diamond() {
 }
 
 std::vector<UnitCell> all_cells() {
-  const Struts cubic = symmetric({{edge, corner}}), bcc = symmetric({{centre, corner}}),
-               fcc = symmetric({{face, corner}}), octahedral = symmetric({{face, {0, 0.5, 0}}});
+  const Struts cubic = symmetric({{edge, vertex}}), bcc = symmetric({{centre, vertex}}),
+               fcc = symmetric({{face, vertex}}), octahedral = symmetric({{face, {0, 0.5, 0}}});
   return {
       {"cubic", "the edges of the cell", cubic},
       {"bcc", "body-centred cubic: from the centre to the corners", bcc},
@@ -72,7 +72,7 @@ std::vector<UnitCell> all_cells() {
       {"kelvin", "the edges of a truncated octahedron, which fills space",
        symmetric({{{0.5, 0.25, 0}, {0.5, 0, 0.25}}, {{0.5, 0.25, 0}, {0.25, 0.5, 0}}})},
       {"rhombic_dodecahedron", "the edges of rhombic dodecahedra, which fill space",
-       symmetric({{face, 0.5 * corner}, {corner, 0.5 * corner}})},
+       symmetric({{face, 0.5 * vertex}, {vertex, 0.5 * vertex}})},
       {"diamond", "bonds of a diamond crystal", diamond(), false},
   };
 }

@@ -15,10 +15,8 @@ using namespace design;
 using program::Op;
 using std::numbers::pi;
 
-constexpr double degree = pi / 180;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-Field apply(Op op, Field v) { return v.builder->apply(op, v); }
 Field angle_of(Field y, Field x) { return x.builder->apply(Op::atan2, y, x); }
 
 Box box_of(Interval x, Interval y, Interval z) {
@@ -51,22 +49,22 @@ struct Twist : Warp<Twist> {
   }
 
   Point inner(const Point& p) const {
-    const Field turn = p.z * (rate * degree);
-    const Field c = apply(Op::cos, turn), s = apply(Op::sin, turn);
+    const Field turn = p.z * (rate * math::degree);
+    const Field c = cos(turn), s = sin(turn);
     return p.moved_to(p.x * c + p.y * s, p.y * c - p.x * s, p.z);
   }
 
   Box image_of(const Box& child) const {
     if (child.is_empty()) return child;
     const double r = farthest_from_z_axis(child);
-    const Interval turn = math::multiply(rate * degree, child.axis(2)), c = math::cos(turn), s = math::sin(turn);
+    const Interval turn = math::multiply(rate * math::degree, child.axis(2)), c = math::cos(turn), s = math::sin(turn);
     const Interval x = math::subtract(math::multiply(child.axis(0), c), math::multiply(child.axis(1), s));
     const Interval y = math::add(math::multiply(child.axis(0), s), math::multiply(child.axis(1), c));
     return box_of(both(x, {-r, r}), both(y, {-r, r}), child.axis(2));
   }
 
   double stretch_in(const Box& box) const {
-    return shear_stretch(1, std::abs(rate) * degree * farthest_from_z_axis(box));
+    return shear_stretch(1, std::abs(rate) * math::degree * farthest_from_z_axis(box));
   }
   void warn(const Reader&, const Box&) const {}
 };

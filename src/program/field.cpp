@@ -280,6 +280,9 @@ Field operator<(Field a, double b) { return less(a, a.builder->constant(b)); }
 Field operator<=(Field a, double b) { return less_equal(a, a.builder->constant(b)); }
 Field less(Field a, Field b) { return a.builder->apply(Op::less, a, b); }
 Field less_equal(Field a, Field b) { return a.builder->apply(Op::less_equal, a, b); }
+Field ceil(Field a) { return a.builder->apply(Op::ceil, a); }
+Field sin(Field a) { return a.builder->apply(Op::sin, a); }
+Field cos(Field a) { return a.builder->apply(Op::cos, a); }
 Field truth(Field a) { return a.builder->apply(Op::truth, a); }
 Field logical_not(Field a) { return a.builder->apply(Op::logical_not, a); }
 Field logical_and(Field a, Field b) { return a.builder->apply(Op::logical_and, a, b); }

@@ -95,6 +95,9 @@ Field max(Field a, double b);
 Field abs(Field a);
 Field sqrt(Field a);
 Field square(Field a);
+Field ceil(Field a);
+Field sin(Field a);
+Field cos(Field a);
 Field length(Field a, Field b);
 Field length(Field a, Field b, Field c);
 // Integer powers become products.

@@ -36,6 +36,13 @@ enum class Op : uint8_t {
 #undef OMBRE_ROW
 };
 
+// All that have a meaning on numbers.
+inline constexpr Op numeric_ops[] = {
+#define OMBRE_ROW(name, arity) Op::name,
+    OMBRE_OPS(OMBRE_ROW)
+#undef OMBRE_ROW
+};
+
 struct OpInfo {
   std::string_view name;
   int arity;

@@ -22,7 +22,7 @@ constexpr int smallest_text = 11, largest_text = 64;
 constexpr double axes_strip = 6, scale_strip = 2.6, row = 1.6, margin = 1, gap = 0.5, swatch = 1, arm = 2;
 constexpr double legend_share = 0.3;  // of the picture's width, at most
 constexpr double bar_share = 0.3;     // of the width of what is shown, at most
-constexpr Rgb dark{45, 48, 54}, light{235, 237, 240};
+constexpr Rgb dark_ink{45, 48, 54}, light_ink{235, 237, 240};
 
 int text_size(int64_t height) {
   return static_cast<int>(
@@ -30,10 +30,10 @@ int text_size(int64_t height) {
 }
 
 Rgb ink_on(const Background& background) {
-  if (background.is_transparent) return dark;
+  if (background.is_transparent) return dark_ink;
   const Rgba8 c = background.colour;
   constexpr int half_bright = 500 * 255;
-  return 299 * c[0] + 587 * c[1] + 114 * c[2] > half_bright ? dark : light;
+  return 299 * c[0] + 587 * c[1] + 114 * c[2] > half_bright ? dark_ink : light_ink;
 }
 
 // Text that is too long ends in dots.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int32_t block_cells = 32;  // along each side of a block that shares a shortened program
 constexpr double rounding_cells = 1e-9;
-constexpr double room_cells = 2;  // that a corner may lie outside of its cell
+constexpr double corner_room_cells = 2;  // that a corner may lie outside of its cell
 // Borders that are nearly level have no direction in the plane.
 constexpr double least_in_plane = 1e-6;
 
@@ -138,7 +138,7 @@ void place_outline_vertices(const voxel::Lattice& corners, OutlineGraph& graph) 
     }
     const Vec3 best = planes.least().at;
     vertex.at = {best.x, best.y};
-    const bool is_usable = is_near(corners, vertex, vertex.at, room_cells * corners.pitch[0].mm());
+    const bool is_usable = is_near(corners, vertex, vertex.at, corner_room_cells * corners.pitch[0].mm());
     if (!is_usable) vertex.at = point_on_cell(corners, graph, vertex);
   }
 }

@@ -11,7 +11,7 @@
 namespace ombre::surface {
 namespace {
 
-constexpr int most_rounds = 12;  // of halving the tolerance
+constexpr int most_simplifying_rounds = 12;  // of halving the tolerance
 
 double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
   const Vec2 along = b - a, to = p - a;
@@ -154,7 +154,7 @@ std::vector<OutlineChain> simplify(const OutlineGraph& graph, const std::vector<
     if (is_ring(graph, chain)) turn_ring(graph, chain);
   std::vector<OutlineChain> simple = full;
   std::vector<bool> is_wrong(chains.size(), true);
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_simplifying_rounds; ++round) {
     const double tolerance = std::ldexp(tolerance_mm, -round);
     for (size_t n = 0; n < full.size(); ++n)
       if (is_wrong[n]) simple[n].nodes = Thinner(graph, full[n].nodes, tolerance).thin();

@@ -6,7 +6,8 @@
 namespace ombre::surface {
 namespace {
 
-constexpr double room_cells = 0.5;  // around a cell, in its sides, or in those of the grid's cells if it is larger
+constexpr double vertex_room_cells =
+    0.5;  // around a cell, in its sides, or in those of the grid's cells if it is larger
 
 // From the mean, which lies in the cell, as far towards the best point as the cell reaches.
 Vec3 within(const Box& cell, Vec3 mean, Vec3 best) {
@@ -25,7 +26,7 @@ Box room_of(const CellTree& tree, const CellPlace& place, int level) {
   const auto corner = [&](int32_t more) {
     return tree.point({(place[0] + more) << level, (place[1] + more) << level, (place[2] + more) << level});
   };
-  return Box{corner(0), corner(1)}.expanded(room_cells * tree.size_mm(std::min(level, grid_level)).x);
+  return Box{corner(0), corner(1)}.expanded(vertex_room_cells * tree.size_mm(std::min(level, grid_level)).x);
 }
 
 Vec3 place_of(const DualVertex& vertex, const CellTree& tree) {

@@ -22,7 +22,7 @@ struct FieldEvaluator::Parts {
 
 namespace {
 
-constexpr int64_t strip_rows = 64;
+constexpr int64_t field_strip_rows = 64;
 // Tiles that are evaluated without further questions.
 constexpr int64_t leaf_width = 32, leaf_height = 8;
 
@@ -207,7 +207,7 @@ std::vector<FieldTile> FieldEvaluator::tiles(const TileBox& region, const StopFl
   FieldWalk walk(*parts_, tiles);
   for (int64_t j = region.lo[1]; j < region.hi[1];) {
     if (stop && stop->requested()) throw Cancelled();
-    const int64_t end = std::min(multiple_below(j, strip_rows) + strip_rows, region.hi[1]);
+    const int64_t end = std::min(multiple_below(j, field_strip_rows) + field_strip_rows, region.hi[1]);
     walk.run({{region.lo[0], j, region.lo[2]}, {region.hi[0], end, region.hi[2]}});
     j = end;
   }

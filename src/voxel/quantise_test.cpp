@@ -9,7 +9,7 @@
 namespace ombre::voxel {
 namespace {
 
-double draw(uint64_t seed, int64_t i, int64_t j, int64_t k) { return hashed_draw(row_hash(seed, j, k), i) * 0x1p-24; }
+double hashed(uint64_t seed, int64_t i, int64_t j, int64_t k) { return hashed_draw(row_hash(seed, j, k), i) * 0x1p-24; }
 
 // Correlation of draws at voxels that differ by the given step, over a 100^3 block.
 double correlation(std::array<int64_t, 3> step, uint64_t seed, uint64_t other_seed) {
@@ -18,7 +18,7 @@ double correlation(std::array<int64_t, 3> step, uint64_t seed, uint64_t other_se
   for (int64_t k = 0; k < n; ++k)
     for (int64_t j = 0; j < n; ++j)
       for (int64_t i = 0; i < n; ++i)
-        sum += (draw(seed, i, j, k) - 0.5) * (draw(other_seed, i + step[0], j + step[1], k + step[2]) - 0.5);
+        sum += (hashed(seed, i, j, k) - 0.5) * (hashed(other_seed, i + step[0], j + step[1], k + step[2]) - 0.5);
   return sum / (n * n * n) * 12;  // the variance of a uniform draw is 1/12
 }
 
@@ -32,7 +32,7 @@ TEST(Quantise, DrawsAreUniform) {
     std::array<int, 256> bins{};
     for (int64_t k = 0; k < 100; ++k)
       for (int64_t j = 0; j < 100; ++j)
-        for (int64_t i = 0; i < 100; ++i) ++bins[static_cast<size_t>(draw(seed, i, j, k) * 256)];
+        for (int64_t i = 0; i < 100; ++i) ++bins[static_cast<size_t>(hashed(seed, i, j, k) * 256)];
     double chi = 0;
     for (const int count : bins) chi += std::pow(count - 1e6 / 256, 2) / (1e6 / 256);
     EXPECT_NEAR(chi, 255, 4 * 22.6) << seed;
@@ -56,8 +56,8 @@ TEST(Quantise, NeighboursAndSeedsAreUncorrelated) {
 }
 
 TEST(Quantise, NegativeAndLargeIndicesDiffer) {
-  EXPECT_NE(draw(0, 0, 0, 0), draw(0, 0, 0, 1));
-  EXPECT_NE(draw(0, 11574, 4605, 7407), draw(0, 11575, 4605, 7407));
+  EXPECT_NE(hashed(0, 0, 0, 0), hashed(0, 0, 0, 1));
+  EXPECT_NE(hashed(0, 11574, 4605, 7407), hashed(0, 11575, 4605, 7407));
 }
 
 TEST(Quantise, TheFirstThresholdAboveTheDrawDecides) {

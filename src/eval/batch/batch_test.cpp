@@ -61,12 +61,6 @@ std::vector<float> evaluate(const KernelSet& kernels, const Program& program, co
   return values;
 }
 
-constexpr Op all_ops[] = {
-#define OMBRE_ROW(name, arity) Op::name,
-    OMBRE_OPS(OMBRE_ROW)
-#undef OMBRE_ROW
-};
-
 // Some outputs over all axes, from ops that are drawn at random.
 Program random_program(std::mt19937& random, size_t size) {
   Builder builder;
@@ -74,7 +68,8 @@ Program random_program(std::mt19937& random, size_t size) {
   for (const double v : {0.5, -2.0, 3.0}) fields.push_back(builder.constant(v));
   const auto any = [&] { return fields[random() % fields.size()]; };
   for (size_t n = 0; n < size; ++n)
-    fields.push_back(builder.apply(all_ops[random() % std::size(all_ops)], any(), any(), any()));
+    fields.push_back(
+        builder.apply(program::numeric_ops[random() % std::size(program::numeric_ops)], any(), any(), any()));
   std::vector<std::pair<std::string, Field>> outputs;
   for (size_t n = 0; n < 4; ++n) outputs.emplace_back("v", fields[fields.size() - 1 - n]);
   return builder.finish(outputs);
@@ -105,7 +100,7 @@ TEST(Batch, EveryInstructionSetGivesTheSameBits) {
   constexpr size_t count = 4096;
   alignas(64) static float a[count], b[count], c[count], first[count], other[count];
   for (size_t n = 0; n < count; ++n) a[n] = pick(), b[n] = pick(), c[n] = pick();
-  for (const Op op : all_ops) {
+  for (const Op op : program::numeric_ops) {
     const int arity = program::info(op).arity;
     for (unsigned shape = 0; shape < (arity == 1 ? 1u : arity == 2 ? 3u : 7u); ++shape) {
       for (const Unknowns unknowns : {Unknowns::never, Unknowns::possible}) {
@@ -132,7 +127,7 @@ TEST(Batch, ElementaryFunctionsAreAccurate) {
   std::mt19937 random(2);
   constexpr size_t count = 16384;
   alignas(64) static float a[count], b[count], c[count], out[count];
-  for (const Op op : all_ops) {
+  for (const Op op : program::numeric_ops) {
     const bool truth = op >= Op::less && op <= Op::is_finite;
     const bool jumps = op == Op::mod || truth;  // exact, or not at all
     for (size_t n = 0; n < count; ++n) {

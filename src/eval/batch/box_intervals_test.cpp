@@ -21,13 +21,7 @@ using program::Field;
 using program::Op;
 using program::Program;
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-
-constexpr Op all_ops[] = {
-#define OMBRE_ROW(name, arity) Op::name,
-    OMBRE_OPS(OMBRE_ROW)
-#undef OMBRE_ROW
-};
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Their functions on floats stand in for those on doubles.
 constexpr Op wider_ops[] = {Op::sin, Op::cos, Op::atan2, Op::exp};
@@ -37,10 +31,11 @@ bool is_wider(Op op) { return std::find(std::begin(wider_ops), std::end(wider_op
 Program random_program(std::mt19937& random, size_t size, bool with_wider) {
   Builder builder;
   std::vector<Field> fields{builder.input(0), builder.input(1), builder.input(2)};
-  for (const double v : {0.0, 1.0, 0.5, -2.0, 3e38, 1e300, inf, std::nan("")}) fields.push_back(builder.constant(v));
+  for (const double v : {0.0, 1.0, 0.5, -2.0, 3e38, 1e300, infinite, std::nan("")})
+    fields.push_back(builder.constant(v));
   const auto any = [&] { return fields[random() % fields.size()]; };
   for (size_t n = 0; n < size; ++n) {
-    const Op op = all_ops[random() % std::size(all_ops)];
+    const Op op = program::numeric_ops[random() % std::size(program::numeric_ops)];
     if (with_wider || !is_wider(op)) fields.push_back(builder.apply(op, any(), any(), any()));
   }
   std::vector<std::pair<std::string, Field>> outputs;
@@ -226,7 +221,7 @@ TEST(BoxIntervals, HullsHoldTheBoxesTheyAreOf) {
   const std::vector<size_t> some{3, 4, 19};
   std::vector<Interval> all, one;
   evaluator.values(some, all);
-  std::vector<Interval> expected(program.code.size(), Interval(inf, -inf));
+  std::vector<Interval> expected(program.code.size(), Interval(infinite, -infinite));
   for (const size_t box : some) {
     evaluator.values(box, one);
     for (size_t id = 0; id < one.size(); ++id) expected[id] = hull(expected[id], one[id]);
