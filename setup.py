@@ -20,8 +20,9 @@ class CMakeBuild(build_ext):
 
     def build_extension(self, ext):
         folder = sources / "build" / "wheel"  # as deep as the other builds, so that ccache knows what they compiled
-        options = ["-DCMAKE_BUILD_TYPE=Release", "-DOMBRE_TESTS=OFF", "-DOMBRE_PYTHON_MODULE=ON",
-                   f"-DPython_EXECUTABLE={sys.executable}", *shlex.split(os.environ.get("CMAKE_ARGS", ""))]
+        options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON", "-DOMBRE_TESTS=OFF",
+                   "-DOMBRE_PYTHON_MODULE=ON", f"-DPython_EXECUTABLE={sys.executable}",
+                   *shlex.split(os.environ.get("CMAKE_ARGS", ""))]
         subprocess.run(["cmake", "-S", str(sources), "-B", str(folder), "-G", "Ninja", *options], check=True)
         subprocess.run(["cmake", "--build", str(folder), "--target", "ombre_python"], check=True)
         target = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve().parent

@@ -29,7 +29,8 @@ def compiler_flags(build):
               "OMBRE_TEXT", "OMBRE_QHULL", "OMBRE_MESH_DISTANCE")
     lines = (build / "CMakeCache.txt").read_text(encoding="utf-8").splitlines()
     values = dict(line.split("=", 1) for line in lines if "=" in line and not line.startswith(("#", "//")))
-    return [f"-D{name}={value}" for key, value in values.items() if (name := key.split(":")[0]) in wanted]
+    return ["-DCMAKE_UNITY_BUILD=OFF",
+            *(f"-D{name}={value}" for key, value in values.items() if (name := key.split(":")[0]) in wanted)]
 
 
 def main():
