@@ -8,7 +8,7 @@
 namespace ombre::nodes {
 namespace {
 
-// With so few_in_lattice copies, asking all costs less than finding those that matter.
+// With so few copies, asking all costs less than finding those that matter.
 constexpr int few_in_lattice = 16;
 // Of the greatest coordinate: which copies are asked may be computed with single precision.
 constexpr double rounding = 1e-6;

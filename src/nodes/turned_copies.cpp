@@ -12,7 +12,7 @@ namespace {
 using program::Field;
 using program::Point;
 
-// With so few_turned copies, asking all costs less than finding those that matter.
+// With so few copies, asking all costs less than finding those that matter.
 constexpr int few_turned = 8;
 // Of the greatest coordinate, and of an angle in degrees: which copies are asked may be computed with single precision.
 constexpr double rounding = 1e-6, rounding_degrees = 1e-3;

@@ -6,7 +6,7 @@ namespace ombre::surface {
 namespace {
 
 constexpr double exact_enough = 1e-8;  // of the edge's length
-constexpr int most_halvings = 40;
+constexpr int most_search_rounds = 40;
 constexpr double beside = 1e-4;  // an end
 
 // Where the value is 0 at an end, the border is there; or the value stays 0 for a while, and labels say where it is.
@@ -76,7 +76,7 @@ void search_edges(std::span<EdgeSearch> searches, PointAsker& asker) {
   settle_ends(searches, asker);
   std::vector<EdgeSearch*> active;
   std::vector<Vec3> points;
-  for (int round = 0; round < most_halvings; ++round) {
+  for (int round = 0; round < most_search_rounds; ++round) {
     active.clear();
     points.clear();
     for (EdgeSearch& s : searches) {

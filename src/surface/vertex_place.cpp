@@ -6,8 +6,8 @@
 namespace ombre::surface {
 namespace {
 
-constexpr double vertex_room_cells =
-    0.5;  // around a cell, in its sides, or in those of the grid's cells if it is larger
+// Around a cell, in its sides, or in those of the grid's cells if it is larger.
+constexpr double vertex_room_cells = 0.5;
 
 // From the mean, which lies in the cell, as far towards the best point as the cell reaches.
 Vec3 within(const Box& cell, Vec3 mean, Vec3 best) {
