@@ -12,7 +12,8 @@
 namespace ombre {
 namespace {
 
-constexpr size_t most_compared = 6;  // comparing with more takes as long as looking each voxel up
+// Comparing with more takes as long as looking each voxel up: to count them, and to see that there are no others.
+constexpr size_t most_compared = 6, most_sought = 16;
 
 uint64_t word_at(const MaterialId* voxels) {
   uint64_t word;
@@ -229,7 +230,7 @@ void find_materials(const RunLayer& layer, const std::function<bool(MaterialId)>
     const RowView row = layer.row(j);
     for (const Run& run : row.runs)
       if (!run.is_dense && !goes_on(run.material)) return;
-    const bool may_be_new = known.size() > most_compared || !are_among(row.dense, known);
+    const bool may_be_new = known.size() > most_sought || !are_among(row.dense, known);
     if (may_be_new && !std::ranges::all_of(row.dense, goes_on)) return;
   }
 }

@@ -223,6 +223,26 @@ TEST(Mesh, OfANarrowValleyStaysWithinTheTolerance) {
   EXPECT_TRUE(again.bodies.at(0).body.triangles == body.triangles);
 }
 
+TEST(Mesh, HasPocketsThatNoCornerOfACellSees) {
+  constexpr double tolerance = 0.1, cell = 0.4, radius = 0.15;
+  std::vector<Vec3> middles;
+  std::string pockets;
+  for (int n = 0; n < 10; ++n) {
+    const Vec3 at{-4 + 0.83 * n, -2 + 0.37 * n, -1 + 0.29 * n};
+    middles.push_back(at);
+    pockets += "translate(" + std::to_string(at.x) + ", " + std::to_string(at.y) + ", " + std::to_string(at.z) +
+               ") sphere(" + std::to_string(radius) + ");";
+  }
+  const MeshedDesign made =
+      mesh_text("difference() { cube(10); union() { " + pockets + " } }", cells_of(cell, tolerance));
+  ASSERT_EQ(made.bodies.size(), 1u);
+  const surface::Body& body = made.bodies[0].body;
+  expect_manifold(body);
+  for (const Vec3 middle : middles)
+    for (const Vec3 way : {Vec3{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}})
+      EXPECT_LE(distance(middle + radius * way, body), tolerance) << middle.x;
+}
+
 TEST(Mesh, OfAGyroidHalvesItsCells) {
   const MeshedDesign made = mesh_text(
       "intersection() { cube(8); function(\"sin(pi/2*x)*cos(pi/2*y) + sin(pi/2*y)*cos(pi/2*z) + "

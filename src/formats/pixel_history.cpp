@@ -1,6 +1,7 @@
 #include "formats/pixel_history.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <utility>
@@ -17,17 +18,18 @@ constexpr size_t stored_rows = 8;  // more than the window, so that its pixels s
 // The window holds 8192 pixels, and in it stand most of half as many keys.
 constexpr uint32_t most_keys = 4096;
 
-constexpr uint32_t very_long = 32;    // pixels of a match
-constexpr uint32_t equal_pixels = 4;  // distance of a match
+constexpr uint32_t most_known_colours = 9;  // with void
+constexpr uint32_t very_long = 32;          // pixels of a match
+constexpr uint32_t equal_pixels = 4;        // distance of a match
 
-uint32_t power(uint32_t base, uint32_t exponent) {
+constexpr uint32_t power(uint32_t base, uint32_t exponent) {
   uint32_t result = 1;
   for (; exponent > 0; --exponent) result *= base;
   return result;
 }
 
 // The most digits that make no more than `count` numbers, and two at least.
-uint32_t digits_within(uint32_t base, uint32_t count) {
+constexpr uint32_t digits_within(uint32_t base, uint32_t count) {
   uint32_t digits = 2;
   while (power(base, digits + 1) <= count) ++digits;
   return digits;
@@ -45,19 +47,21 @@ uint32_t begin_count(uint32_t width, uint32_t pixels) { return width - std::min(
 
 }  // namespace
 
+constexpr PixelHistory::KeyShape PixelHistory::shape_for(uint32_t colours) {
+  const uint32_t pixels = digits_within(colours, most_keys), behind_prefix = colours == 2 ? 2 : 1;
+  return {pixels, pixels / 2, pixels - behind_prefix, power(colours, behind_prefix)};
+}
+
 PixelHistory::PixelHistory(uint32_t width, uint32_t colours)
     : width_(width),
       colours_(std::max(colours, 2U)),
-      key_pixels_(digits_within(colours_, most_keys)),
-      half_pixels_(key_pixels_ / 2),
-      prefix_pixels_(key_pixels_ - (colours_ == 2 ? 2 : 1)),
-      prefix_keys_(power(colours_, key_pixels_ - prefix_pixels_)),
+      shape_(shape_for(colours_)),
       goes_on_mask_(colours_ == 2 ? ~uint64_t{0} : 0xFFFFFFFF),
       numbers_(window / 4 + stored_rows * (size_t{width} + 1) + 2 * word_bytes),
-      keys_(size_t{width} + key_pixels_),
+      keys_(size_t{width} + shape_.pixels),
       half_keys_(keys_.size()),
-      latest_(power(colours_, key_pixels_)),
-      latest_half_(power(colours_, half_pixels_)) {
+      latest_(power(colours_, shape_.pixels)),
+      latest_half_(power(colours_, shape_.half_pixels)) {
   clear();
 }
 
@@ -83,30 +87,24 @@ uint8_t* PixelHistory::begin_row() {
 
 void PixelHistory::end_row(const uint8_t* image, DeflateWriter& out) {
   std::memset(&numbers_[index(row_) + width_], 0, 2 * word_bytes);
-  make_keys(key_pixels_, keys_, half_keys_);
-  // Loops of a known length are faster: for the usual numbers of materials, with void.
-  static_assert(most_keys == 4096);
-  switch (colours_) {
-    case 2:
-      return cut<12, 4>(image, out);
-    case 3:
-      return cut<7, 3>(image, out);
-    case 4:
-      return cut<6, 4>(image, out);
-    case 5:
-      return cut<5, 5>(image, out);
-    default:
-      return cut<0, 0>(image, out);
+  make_keys(shape_.pixels, keys_, half_keys_);
+  // Loops of a known length are faster.
+  constexpr auto cutters = []<uint32_t... n>(std::integer_sequence<uint32_t, n...>) {
+    return std::array{&PixelHistory::cut<0>, &PixelHistory::cut<0>, &PixelHistory::cut<n + 2>...};
   }
+  (std::make_integer_sequence<uint32_t, most_known_colours - 1>());
+  (this->*cutters[colours_ <= most_known_colours ? colours_ : 0])(image, out);
 }
 
-// The pixels of a key and the keys of a prefix, or 0 where they are not known beforehand.
-template <uint32_t fixed_key_pixels, uint32_t fixed_prefix_keys>
+// With 0 for colours whose number is not known beforehand.
+template <uint32_t known_colours>
 void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
+  constexpr KeyShape known = known_colours > 0 ? shape_for(known_colours) : KeyShape{};
   // What no store below can change.
-  const uint32_t row = row_, width = width_, half_pixels = half_pixels_;
-  const uint32_t key_pixels = fixed_key_pixels ? fixed_key_pixels : key_pixels_;
-  const uint32_t prefix_pixels = prefix_pixels_, prefix_keys = fixed_prefix_keys ? fixed_prefix_keys : prefix_keys_;
+  const KeyShape shape = known_colours > 0 ? known : shape_;
+  const uint32_t row = row_, width = width_;
+  const uint32_t key_pixels = shape.pixels, half_pixels = shape.half_pixels;
+  const uint32_t prefix_pixels = shape.prefix_pixels, prefix_keys = shape.prefix_keys;
   const uint32_t begins = begin_count(width, key_pixels), half_begins = begin_count(width, half_pixels);
   const uint64_t goes_on_mask = goes_on_mask_;
   const uint16_t *const keys = keys_.data(), *const half_keys = half_keys_.data();
@@ -160,7 +158,7 @@ void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
 
 // Of all columns from one on.
 void PixelHistory::enter(uint32_t column, uint32_t end) {
-  const uint32_t begins = begin_count(width_, key_pixels_), row = row_;
+  const uint32_t begins = begin_count(width_, shape_.pixels), row = row_;
   const uint16_t* const keys = keys_.data();
   uint32_t* const latest = latest_.data();
   for (; column < std::min(end, begins); ++column) latest[keys[column]] = row + 4 * column;

@@ -27,8 +27,15 @@ class PixelHistory {
   void end_row(const uint8_t* image, DeflateWriter& out);
 
  private:
+  // How many pixels a key has, half a key, and the most that some keys begin with in common; and how many keys those
+  // are.
+  struct KeyShape {
+    uint32_t pixels, half_pixels, prefix_pixels, prefix_keys;
+  };
+  static constexpr KeyShape shape_for(uint32_t colours);
+
   void make_keys(uint32_t pixels, std::vector<uint16_t>& keys, std::vector<uint16_t>& half_keys) const;
-  template <uint32_t fixed_key_pixels, uint32_t fixed_prefix_keys>
+  template <uint32_t known_colours>
   void cut(const uint8_t* image, DeflateWriter& out);
   void enter(uint32_t column, uint32_t end);
   uint32_t common_pixels(uint32_t column, uint32_t there, uint32_t known) const;
@@ -36,8 +43,7 @@ class PixelHistory {
   size_t index(uint32_t position) const { return position / 4 - first_; }
 
   uint32_t width_, colours_;
-  uint32_t key_pixels_, half_pixels_, prefix_pixels_;
-  uint32_t prefix_keys_;   // how many keys begin with the same pixels
+  KeyShape shape_;
   uint64_t goes_on_mask_;  // of the pixels that follow a match which is followed to its end
   // Positions are bytes of the image data. Rows follow each other here as they do there; the byte before a row
   // takes a quarter of a pixel, rounded.

@@ -14,10 +14,6 @@ CellPlace moved(const CellPlace& at, size_t number, int32_t by) {
   return place;
 }
 
-CellPlace grid_cell_of(const CellPlace& unit) {
-  return {unit[0] >> grid_level, unit[1] >> grid_level, unit[2] >> grid_level};
-}
-
 CellPlace first_unit_of(const CellPlace& grid_cell) {
   return {grid_cell[0] << grid_level, grid_cell[1] << grid_level, grid_cell[2] << grid_level};
 }
@@ -41,6 +37,10 @@ bool comes_before(const MixedCell& a, const MixedCell& b) {
 }
 
 }  // namespace
+
+CellPlace grid_cell_of(const CellPlace& unit) {
+  return {unit[0] >> grid_level, unit[1] >> grid_level, unit[2] >> grid_level};
+}
 
 size_t PlaceHash::operator()(const CellPlace& at) const {
   uint64_t mixed = 0;

@@ -14,6 +14,8 @@ namespace ombre::surface {
 constexpr int grid_level = 3;
 constexpr int32_t units_per_cell = 1 << grid_level;
 
+CellPlace grid_cell_of(const CellPlace& unit);
+
 struct PlaceHash {
   size_t operator()(const CellPlace& at) const;
 };

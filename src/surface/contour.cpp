@@ -31,23 +31,32 @@ class CellRefiner {
       if (progress_) progress_->update({static_cast<uint64_t>(round), most_cutting_rounds + most_finishing_rounds});
       SurfaceMaker maker(tree_, crossings_, mesh_, options_, check_, intersections_);
       maker.bring_near();
-      if (round < most_cutting_rounds && cut(maker.coarse_leaves())) continue;
+      if (round < most_cutting_rounds) {
+        const std::vector<uint32_t> coarse = maker.coarse_leaves();
+        if (cut(coarse, round == 0 ? hidden_edges(maker, coarse.size()) : std::vector<CrossedEdge>())) continue;
+      }
       maker.finish(partition_, stop_);
       // What was mended may lie too far off.
-      if (++finished < most_finishing_rounds && cut(maker.far_leaves())) continue;
+      if (++finished < most_finishing_rounds && cut(maker.far_leaves(), {})) continue;
       return maker.build();
     }
   }
 
  private:
+  size_t most_cut() const { return static_cast<size_t>(most_cut_share * static_cast<double>(tree_.leaves().size())); }
+
+  // As many as may be cut besides.
+  std::vector<CrossedEdge> hidden_edges(const SurfaceMaker& maker, size_t to_cut) const {
+    if (to_cut >= most_cut() || options_.tolerance_mm == 0) return {};
+    return maker.far_hidden_edges(most_cut() - to_cut);
+  }
+
   // False when there is nothing to cut, or so much that the whole grid is too coarse.
-  bool cut(const std::vector<uint32_t>& leaves) {
-    const double all = static_cast<double>(tree_.leaves().size());
-    if (leaves.empty() || static_cast<double>(leaves.size()) > most_cut_share * all ||
-        tree_.leaves().size() >= most_leaves_)
-      return false;
+  bool cut(const std::vector<uint32_t>& leaves, const std::vector<CrossedEdge>& hidden) {
+    if (leaves.empty() && hidden.empty()) return false;
+    if (leaves.size() + hidden.size() > most_cut() || tree_.leaves().size() >= most_leaves_) return false;
     const std::vector<Leaf> before = tree_.leaves();
-    refine(tree_, leaves, most_leaves_, partition_, options_.threads, stop_);
+    refine(tree_, leaves, hidden, most_leaves_, partition_, options_.threads, stop_);
     const std::vector<uint32_t> numbers = numbers_after_growth(before, tree_.leaves());
     crossings_ = find_crossings_after_growth(partition_, tree_, crossings_, numbers, options_.threads, stop_);
     mesh_ = make_dual_mesh_after_growth(tree_, crossings_, mesh_, numbers, options_.threads);

@@ -5,7 +5,9 @@
 #include <iterator>
 
 #include "base/evenly_spaced.h"
+#include "surface/border_offsets.h"
 #include "surface/facet_distance.h"
+#include "surface/hidden_edges.h"
 
 namespace ombre::surface {
 namespace {
@@ -89,6 +91,13 @@ class Sampler {
   bool is_seen_from_less_ = true;
 };
 
+// An edge's direction, as long as its axis.
+Vec3 along(const CrossedEdge& edge, const Vec3& lengths) {
+  Vec3 way;
+  way[edge.axis] = lengths[edge.axis];
+  return way;
+}
+
 std::vector<Vec3> places_of(const std::vector<uint32_t>& crossings, const QuadSurface& surface) {
   std::vector<Vec3> places;
   places.reserve(crossings.size());
@@ -136,6 +145,47 @@ void FacetCheck::check_crossings(const QuadSurface& surface, const std::vector<u
   far_crossings_.clear();
   for (size_t n = 0; n < off.size(); ++n)
     if (near[n] > reach_mm_) far_crossings_.push_back(off[n]);
+}
+
+std::vector<CrossedEdge> FacetCheck::far_hidden_edges(const QuadSurface& surface, const CellTree& tree,
+                                                      size_t most) const {
+  std::vector<CrossedEdge> far;
+  find_hidden_edges(partition_.label, tree, threads_, stop_, [&](const std::vector<CrossedEdge>& hidden) {
+    const std::vector<CrossedEdge> more = far_among(hidden, surface, tree);
+    far.insert(far.end(), more.begin(), more.end());
+    return far.size() <= most;
+  });
+  if (far.size() > most) far.clear();
+  return far;
+}
+
+// By their middles first: most are humps of a face that is near.
+std::vector<CrossedEdge> FacetCheck::far_among(const std::vector<CrossedEdge>& hidden, const QuadSurface& surface,
+                                               const CellTree& tree) const {
+  double half_mm = 0;  // at most
+  std::vector<Vec3> middles;
+  for (const CrossedEdge& edge : hidden) {
+    const Vec3 edge_mm = along(edge, tree.size_mm(edge.level));
+    half_mm = std::max(half_mm, 0.5 * length(edge_mm));
+    middles.push_back(tree.point(edge.start) + 0.5 * edge_mm);
+  }
+  const std::vector<double> about = distances_to_facets(middles, surface, reach_mm_, threads_);
+  std::vector<CrossedEdge> left;
+  std::vector<BorderSample> samples;
+  for (size_t n = 0; n < hidden.size(); ++n) {
+    if (about[n] <= reach_mm_ - half_mm) continue;
+    left.push_back(hidden[n]);
+    samples.push_back({middles[n], along(hidden[n], {1, 1, 1}), hidden[n].from, hidden[n].to});
+  }
+  const auto offsets = border_offsets(partition_, samples, half_mm, threads_, stop_);
+  std::vector<Vec3> borders;
+  for (size_t n = 0; n < samples.size(); ++n)
+    borders.push_back(samples[n].at + offsets[n].value_or(0) * samples[n].normal);
+  const std::vector<double> distances = distances_to_facets(borders, surface, reach_mm_, threads_);
+  std::vector<CrossedEdge> far;
+  for (size_t n = 0; n < left.size(); ++n)
+    if (distances[n] > reach_mm_) far.push_back(left[n]);
+  return far;
 }
 
 void FacetCheck::renumber(const std::vector<Crossing>& crossings) {

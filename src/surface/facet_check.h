@@ -19,6 +19,9 @@ class FacetCheck {
   void renumber(const std::vector<Crossing>& crossings);
   // As the last look said; in order.
   std::vector<uint32_t> far_quads() const;
+  // Borders that no corner of the grid's cells sees and no facet is near; none if they are more than `most`. Nothing of
+  // the tree is cut. Throws Cancelled.
+  std::vector<CrossedEdge> far_hidden_edges(const QuadSurface& surface, const CellTree& tree, size_t most) const;
   // At the samples, or a thousand of the far ones, and at crossings; 1 when all are near. Throws Cancelled.
   double farthest_in_tolerances(const QuadSurface& surface) const;
 
@@ -28,6 +31,8 @@ class FacetCheck {
     SurfaceSample sample;
   };
 
+  std::vector<CrossedEdge> far_among(const std::vector<CrossedEdge>& hidden, const QuadSurface& surface,
+                                     const CellTree& tree) const;
   void check_facets(const QuadSurface& surface, const std::vector<uint32_t>& quads);
   void check_crossings(const QuadSurface& surface, const std::vector<uint32_t>& quads);
 

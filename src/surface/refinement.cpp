@@ -24,6 +24,24 @@ struct Growth {
   }
 };
 
+Growth growth_to_cells_of(const std::vector<CrossedEdge>& hidden) {
+  Growth growth;
+  for (const CrossedEdge& edge : hidden) growth.taken_in.push_back(grid_cell_of(edge.start));
+  growth.sort();
+  return growth;
+}
+
+// One level of it.
+Growth growth_within(const CellTree& tree, const std::vector<CrossedEdge>& hidden) {
+  Growth growth;
+  for (const CrossedEdge& edge : hidden) {
+    const uint32_t leaf = tree.find(edge.start);
+    if (tree.leaves()[leaf].level > edge.level) growth.cut.push_back(leaf);
+  }
+  growth.sort();
+  return growth;
+}
+
 Growth growth_around_cuts(const CellTree& tree, bool may_cut) {
   Growth growth;
   std::vector<CrossedEdge> edges;
@@ -33,8 +51,7 @@ Growth growth_around_cuts(const CellTree& tree, bool may_cut) {
     for (size_t corner = 0; corner < 4; ++corner) {
       const uint32_t number = edge.leaves[corner];
       if (number == CellTree::none) {
-        const CellPlace unit = unit_beside(edge, corner);
-        growth.taken_in.push_back({unit[0] >> grid_level, unit[1] >> grid_level, unit[2] >> grid_level});
+        growth.taken_in.push_back(grid_cell_of(unit_beside(edge, corner)));
         continue;
       }
       const Leaf& leaf = tree.leaves()[number];
@@ -47,8 +64,8 @@ Growth growth_around_cuts(const CellTree& tree, bool may_cut) {
 
 }  // namespace
 
-void refine(CellTree& tree, const std::vector<uint32_t>& leaves, size_t most_leaves, const Partition& partition,
-            int threads, const StopFlag* stop) {
+void refine(CellTree& tree, const std::vector<uint32_t>& leaves, const std::vector<CrossedEdge>& hidden,
+            size_t most_leaves, const Partition& partition, int threads, const StopFlag* stop) {
   const auto ask = [&](const std::vector<CellPlace>& corners) {
     std::vector<Vec3> points;
     for (const CellPlace& corner : corners) points.push_back(tree.point(corner));
@@ -57,7 +74,11 @@ void refine(CellTree& tree, const std::vector<uint32_t>& leaves, size_t most_lea
       if (tree.is_outermost(corners[n])) labels[n] = 0;
     return labels;
   };
-  tree.grow(leaves, {}, ask);
+  Growth first = growth_to_cells_of(hidden);
+  first.cut = leaves;
+  tree.grow(first.cut, first.taken_in, ask);
+  for (Growth more = growth_within(tree, hidden); !more.is_empty(); more = growth_within(tree, hidden))
+    tree.grow(more.cut, {}, ask);
   for (Growth more = growth_around_cuts(tree, true); !more.is_empty();) {
     tree.grow(more.cut, more.taken_in, ask);
     more = growth_around_cuts(tree, tree.leaves().size() < most_leaves);

@@ -8,9 +8,9 @@
 
 namespace ombre::surface {
 
-// Cuts leaves, and those around them that are not mixed, though the surface goes into them, or far larger; these
-// as long as the tree has fewer than `most_leaves`. Throws Cancelled.
-void refine(CellTree& tree, const std::vector<uint32_t>& leaves, size_t most_leaves, const Partition& partition,
-            int threads, const StopFlag* stop);
+// Cuts leaves, and until they show them those in which hidden edges are; then those around them that are not mixed,
+// though the surface goes into them, or far larger, as long as the tree has fewer than `most_leaves`. Throws Cancelled.
+void refine(CellTree& tree, const std::vector<uint32_t>& leaves, const std::vector<CrossedEdge>& hidden,
+            size_t most_leaves, const Partition& partition, int threads, const StopFlag* stop);
 
 }  // namespace ombre::surface

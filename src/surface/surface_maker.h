@@ -21,6 +21,10 @@ class SurfaceMaker {
   // in order.
   std::vector<uint32_t> far_leaves() const;
   std::vector<uint32_t> coarse_leaves();
+  // What the grid does not see; nothing of the tree is cut.
+  std::vector<CrossedEdge> far_hidden_edges(size_t most) const {
+    return check_.far_hidden_edges(surface_, tree_, most);
+  }
   // Fits volumes and mends intersections. Throws Cancelled.
   void finish(const Partition& partition, const StopFlag* stop);
 
