@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 
 #include "base/assert.h"
 #include "base/error.h"
@@ -67,9 +68,7 @@ class TileLooker {
     const float* const here = tile_.values.data() + j * step(1) + k * step(2);
     const float* const next = here + step(axis);
     const int64_t count = tile_.box.size(0) - (axis == 0);
-    bool differs = false;
-    for (int64_t i = 0; i < count; ++i) differs |= here[i] != next[i];
-    if (!differs) return;
+    if (std::memcmp(here, next, static_cast<size_t>(count) * sizeof *here) == 0) return;
     for (int64_t i = 0; i < count; ++i)
       if (here[i] != next[i]) add({i, j, k}, axis, here[i], next[i], edges);
   }
