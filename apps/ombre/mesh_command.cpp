@@ -130,10 +130,14 @@ void tell_bodies(const Console& console, const compile::MeshedDesign& made) {
 
 void warn_of_folds(const Console& console, const compile::MeshedDesign& made) {
   const uint64_t folded = made.report.folded, crossing = made.report.intersections;
-  if (folded + crossing == 0) return;
-  console.warn(format_count(crossing) + " pairs of triangles go through each other and " + format_count(folded) +
-               " look inwards, where the design is finer than the cells of " + format_rounded(made.cell_mm, 3) +
-               " mm; choose a smaller --cell");
+  std::vector<std::string> what;
+  if (crossing == 1) what.emplace_back("1 pair of triangles goes through each other");
+  if (crossing > 1) what.push_back(format_count(crossing) + " pairs of triangles go through each other");
+  if (folded == 1) what.emplace_back("1 triangle looks inwards");
+  if (folded > 1) what.push_back(format_count(folded) + " triangles look inwards");
+  if (what.empty()) return;
+  console.warn(join(what, " and ") + ", where the design is finer than the cells of " +
+               format_rounded(made.cell_mm, 3) + " mm; choose a smaller --cell");
 }
 
 void warn_of_distance(const Console& console, const compile::MeshedDesign& made) {

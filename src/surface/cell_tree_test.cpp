@@ -39,7 +39,7 @@ std::vector<Label> ball(const std::vector<CellPlace>& corners) {
 
 std::vector<CrossedEdge> all_crossed_edges(const CellTree& tree) {
   std::vector<CrossedEdge> edges;
-  for (uint32_t n = 0; n < tree.leaves().size(); ++n) list_crossed_edges(tree, n, edges);
+  for (const ListedEdge& listed : crossed_edges(tree, false, 1)) edges.push_back(listed.edge);
   return edges;
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <numeric>
 
+#include "base/tasks.h"
 #include "surface/vertex_place.h"
 
 namespace ombre::surface {
@@ -53,8 +54,8 @@ bool borders_are_simple(uint16_t crossed) {
 class LevelBuilder {
  public:
   LevelBuilder(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh, double tolerance_mm,
-               ClusterList& list)
-      : tree_(tree), mesh_(mesh), tolerance_mm_(tolerance_mm), list_(list), clusters_(list.all) {
+               int threads, ClusterList& list)
+      : tree_(tree), mesh_(mesh), tolerance_mm_(tolerance_mm), threads_(threads), list_(list), clusters_(list.all) {
     for (const DualVertex& vertex : mesh.vertices) {
       euler_.push_back(1);
       may_join_.push_back(vertex.parts_two);
@@ -182,12 +183,25 @@ class LevelBuilder {
     }
   }
 
+  // Of candidates that are not blocked.
+  std::vector<Quadric::Least> find_least() const {
+    constexpr size_t piece = 4096;
+    std::vector<Quadric::Least> least(candidates_.size());
+    run_parallel((least.size() + piece - 1) / piece, threads_, [&](size_t p) {
+      for (size_t n = p * piece; n < std::min((p + 1) * piece, least.size()); ++n)
+        if (!candidates_[n].is_blocked) least[n] = candidates_[n].planes.least();
+    });
+    return least;
+  }
+
   // What cannot stand for its members may still hang together with others, and be a disc with them, a level up.
   void make_clusters() {
     std::vector<uint32_t> made;
-    for (const Candidate& candidate : candidates_) {
+    const std::vector<Quadric::Least> leasts = find_least();
+    for (size_t n = 0; n < candidates_.size(); ++n) {
+      const Candidate& candidate = candidates_[n];
+      const Quadric::Least& least = leasts[n];
       if (candidate.is_blocked) continue;
-      const Quadric::Least least = candidate.planes.least();
       if (least.rms_mm > candidate.spread.most_rms(rms_share) * tolerance_mm_) continue;
       CellPlace place = clusters_[candidate.members[0]].place;
       for (int32_t& index : place) index >>= 1;
@@ -214,6 +228,7 @@ class LevelBuilder {
   const CellTree& tree_;
   const DualMesh& mesh_;
   double tolerance_mm_;
+  int threads_;
   ClusterList& list_;
   std::vector<Cluster>& clusters_;
   int level_ = 0;
@@ -231,7 +246,7 @@ class LevelBuilder {
 }  // namespace
 
 Clusters::Clusters(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh,
-                   double tolerance_mm)
+                   double tolerance_mm, int threads)
     : vertices_(mesh.vertices.size()) {
   int lowest = grid_level;
   for (const DualVertex& vertex : mesh.vertices) {
@@ -242,7 +257,7 @@ Clusters::Clusters(const CellTree& tree, const std::vector<Crossing>& crossings,
     lowest = std::min<int>(lowest, leaf.level);
   }
   if (tolerance_mm > 0) {
-    LevelBuilder builder(tree, crossings, mesh, tolerance_mm, list_);
+    LevelBuilder builder(tree, crossings, mesh, tolerance_mm, threads, list_);
     const auto& count = tree.lattice().count;
     const auto longest = static_cast<uint64_t>(std::max({count[0], count[1], count[2]}));
     // What hangs together in the whole grid ends there.

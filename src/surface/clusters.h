@@ -29,7 +29,8 @@ struct ClusterList {
 class Clusters {
  public:
   // Clusters keep within about tolerance_mm of the planes at their crossings; 0: none are made.
-  Clusters(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh, double tolerance_mm);
+  Clusters(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh, double tolerance_mm,
+           int threads);
 
   // What stands for a vertex now.
   uint32_t of(uint32_t vertex) const { return stands_for_[vertex]; }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/tasks.h"
+
 namespace ombre::surface {
 namespace {
 
@@ -9,7 +11,7 @@ class Lister {
  public:
   explicit Lister(const CellTree& tree) : tree_(tree) {}
 
-  void list(uint32_t number, std::vector<CrossedEdge>& edges) const {
+  void list(uint32_t number, std::vector<ListedEdge>& edges) const {
     const Leaf& leaf = tree_.leaves()[number];
     for (const std::array<int, 2> offsets : {std::array{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
       // Among cells of the same size that are all there, the one where the edge has no offsets lists it.
@@ -22,7 +24,7 @@ class Lister {
   }
 
  private:
-  void add(const Leaf& leaf, uint32_t number, int number_of_edge, std::vector<CrossedEdge>& edges) const {
+  void add(const Leaf& leaf, uint32_t number, int number_of_edge, std::vector<ListedEdge>& edges) const {
     CrossedEdge edge;
     const std::array<int, 3> offsets = start_of_edge(number_of_edge);
     for (size_t axis = 0; axis < 3; ++axis) edge.start[axis] = leaf.at[axis] + offsets[axis] * (1 << leaf.level);
@@ -40,7 +42,7 @@ class Lister {
       if (level == leaf.level && !is_listed && other != number) return;
       is_listed |= other == number;
     }
-    edges.push_back(edge);
+    edges.push_back({number, edge});
   }
 
   const CellTree& tree_;
@@ -55,8 +57,18 @@ CellPlace unit_beside(const CrossedEdge& edge, size_t corner) {
   return unit;
 }
 
-void list_crossed_edges(const CellTree& tree, uint32_t leaf, std::vector<CrossedEdge>& edges) {
-  Lister(tree).list(leaf, edges);
+std::vector<ListedEdge> crossed_edges(const CellTree& tree, bool only_near_cuts, int threads) {
+  constexpr size_t piece = 4096;
+  const std::vector<Leaf>& leaves = tree.leaves();
+  std::vector<std::vector<ListedEdge>> pieces((leaves.size() + piece - 1) / piece);
+  run_parallel(pieces.size(), threads, [&](size_t p) {
+    const Lister lister(tree);
+    for (size_t n = p * piece; n < std::min((p + 1) * piece, leaves.size()); ++n)
+      if (leaves[n].is_near_cut || !only_near_cuts) lister.list(static_cast<uint32_t>(n), pieces[p]);
+  });
+  std::vector<ListedEdge> all;
+  for (const auto& part : pieces) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 }  // namespace ombre::surface

@@ -21,8 +21,14 @@ constexpr std::array<std::array<int, 2>, 4> quad_offsets{{{0, 0}, {1, 0}, {1, 1}
 // The unit at an edge's start, in the leaf of this corner.
 CellPlace unit_beside(const CrossedEdge& edge, size_t corner);
 
-// Adds those that a leaf lists: each edge is listed by one leaf. Leaves around it are CellTree::none where the tree has
-// no cell of the grid.
-void list_crossed_edges(const CellTree& tree, uint32_t leaf, std::vector<CrossedEdge>& edges);
+// One leaf around each edge lists it.
+struct ListedEdge {
+  uint32_t leaf = 0;
+  CrossedEdge edge;
+};
+
+// The edges that all leaves list, or those near cuts, in order of the leaves, then axes. Leaves around them are
+// CellTree::none where the tree has no cell of the grid.
+std::vector<ListedEdge> crossed_edges(const CellTree& tree, bool only_near_cuts, int threads);
 
 }  // namespace ombre::surface

@@ -29,12 +29,15 @@ struct EdgeKeyHash {
 // Crossings of all edges, those that were found before with what is known of them, and the numbers of the others.
 class CrossingList {
  public:
-  CrossingList(const CellTree& tree, const std::vector<Crossing>& before, const std::vector<uint32_t>& leaves)
+  CrossingList(const CellTree& tree, const std::vector<Crossing>& before, const std::vector<uint32_t>& leaves,
+               int threads)
       : tree_(tree), before_(before), leaves_(leaves) {
     note_before();
+    const std::vector<ListedEdge> listed = crossed_edges(tree, !before.empty(), threads);
+    auto next = listed.begin();
     for (uint32_t n = 0; n < tree.leaves().size(); ++n) {
       take_over(n);
-      if (tree.leaves()[n].is_near_cut || before.empty()) list(n);
+      for (; next != listed.end() && next->leaf == n; ++next) list(next->edge);
     }
   }
   std::vector<Crossing> all;
@@ -64,17 +67,13 @@ class CrossingList {
     }
   }
 
-  void list(uint32_t leaf) {
-    edges_.clear();
-    list_crossed_edges(tree_, leaf, edges_);
-    for (const CrossedEdge& edge : edges_) {
-      const auto found = known_.find(EdgeKey(edge));
-      if (found == known_.end()) {
-        unknown.push_back(static_cast<uint32_t>(all.size()));
-        all.push_back({edge, {}, {}});
-      } else {
-        all.push_back({edge, before_[found->second].at, before_[found->second].normal, found->second});
-      }
+  void list(const CrossedEdge& edge) {
+    const auto found = known_.find(EdgeKey(edge));
+    if (found == known_.end()) {
+      unknown.push_back(static_cast<uint32_t>(all.size()));
+      all.push_back({edge, {}, {}});
+    } else {
+      all.push_back({edge, before_[found->second].at, before_[found->second].normal, found->second});
     }
   }
 
@@ -84,7 +83,6 @@ class CrossingList {
   std::unordered_map<EdgeKey, uint32_t, EdgeKeyHash> known_;
   std::vector<uint32_t> same_;  // numbers before, of crossings with the same leaf
   size_t next_ = 0;
-  std::vector<CrossedEdge> edges_;
 };
 
 // Numbers of crossings, block by block; edges of a block have the same length.
@@ -196,14 +194,14 @@ std::vector<Crossing> find(const Partition& partition, const CellTree& tree, Cro
 
 std::vector<Crossing> find_crossings(const Partition& partition, const CellTree& tree, int threads, Progress* progress,
                                      const StopFlag* stop) {
-  return find(partition, tree, CrossingList(tree, {}, {}), threads, progress, stop);
+  return find(partition, tree, CrossingList(tree, {}, {}, threads), threads, progress, stop);
 }
 
 std::vector<Crossing> find_crossings_after_growth(const Partition& partition, const CellTree& tree,
                                                   const std::vector<Crossing>& before,
                                                   const std::vector<uint32_t>& leaves, int threads,
                                                   const StopFlag* stop) {
-  return find(partition, tree, CrossingList(tree, before, leaves), threads, nullptr, stop);
+  return find(partition, tree, CrossingList(tree, before, leaves, threads), threads, nullptr, stop);
 }
 
 }  // namespace ombre::surface

@@ -1,7 +1,8 @@
 #include "surface/dual_mesh.h"
 
 #include <algorithm>
-#include <unordered_map>
+#include <numeric>
+#include <span>
 
 #include "base/assert.h"
 #include "base/tasks.h"
@@ -28,50 +29,92 @@ class PairsOfParts {
   bool is_empty_ = true, has_many_ = false;
 };
 
-// The crossings around leaves that smaller ones touch.
-std::unordered_map<uint32_t, std::vector<uint32_t>> crossings_of_touched(const CellTree& tree,
-                                                                         const std::vector<Crossing>& crossings) {
-  std::unordered_map<uint32_t, std::vector<uint32_t>> around;
-  const auto& leaves = tree.leaves();
-  for (const Crossing& crossing : crossings)
-    for (const uint32_t leaf : crossing.edge.leaves)
-      if (leaves[leaf].level > crossing.edge.level) around[leaf];
-  if (around.empty()) return around;
-  for (uint32_t n = 0; n < crossings.size(); ++n)
-    for (const uint32_t leaf : crossings[n].edge.leaves) {
-      const auto found = leaves[leaf].is_near_cut ? around.find(leaf) : around.end();
-      if (found != around.end() && (found->second.empty() || found->second.back() != n)) found->second.push_back(n);
-    }
-  return around;
-}
+// The crossings around leaves that smaller ones touch, and the part of the leaf that each belongs to.
+class TouchedLeaves {
+ public:
+  TouchedLeaves(const CellTree& tree, const std::vector<Crossing>& crossings)
+      : is_touched_(tree.leaves().size()), begins_(tree.leaves().size() + 2) {
+    for (const Crossing& crossing : crossings)
+      for (const uint32_t leaf : crossing.edge.leaves)
+        if (tree.leaves()[leaf].level > crossing.edge.level) is_touched_[leaf] = true;
+    for (const Crossing& crossing : crossings) each_touched(crossing, [&](uint32_t leaf) { ++begins_[leaf + 2]; });
+    std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+    crossings_.resize(begins_.back());
+    for (uint32_t n = 0; n < crossings.size(); ++n)
+      each_touched(crossings[n], [&](uint32_t leaf) { crossings_[begins_[leaf + 1]++] = n; });
+    parts_.resize(crossings_.size());
+  }
+
+  bool has(uint32_t leaf) const { return is_touched_[leaf]; }
+  std::span<const uint32_t> around(uint32_t leaf) const {
+    return std::span(crossings_).subspan(begins_[leaf], begins_[leaf + 1] - begins_[leaf]);
+  }
+  void set_parts(uint32_t leaf, const std::vector<uint32_t>& parts) {
+    std::ranges::copy(parts, parts_.begin() + begins_[leaf]);
+  }
+  uint32_t part_of(uint32_t leaf, uint32_t crossing) const {
+    const std::span<const uint32_t> all = around(leaf);
+    return parts_[begins_[leaf] + static_cast<size_t>(std::ranges::lower_bound(all, crossing) - all.begin())];
+  }
+
+ private:
+  // Leaves that are larger than the edge are around it twice.
+  template <class Visit>
+  void each_touched(const Crossing& crossing, const Visit& visit) const {
+    const std::array<uint32_t, 4>& leaves = crossing.edge.leaves;
+    for (auto leaf = leaves.begin(); leaf != leaves.end(); ++leaf)
+      if (is_touched_[*leaf] && std::find(leaves.begin(), leaf, *leaf) == leaf) visit(*leaf);
+  }
+
+  std::vector<bool> is_touched_;
+  std::vector<uint32_t> begins_;  // of each leaf in what follows
+  std::vector<uint32_t> crossings_, parts_;
+};
 
 class DualMeshMaker {
  public:
-  DualMeshMaker(const CellTree& tree, const std::vector<Crossing>& crossings)
+  DualMeshMaker(const CellTree& tree, const std::vector<Crossing>& crossings, int threads)
       : tree_(tree),
         crossings_(crossings),
-        touched_(crossings_of_touched(tree, crossings)),
-        parts_(tree.leaves().size()) {
-    mesh_.vertices.reserve(tree.leaves().size());
-    first_vertex_.reserve(tree.leaves().size());
-  }
+        threads_(threads),
+        touched_(tree, crossings),
+        parts_(tree.leaves().size()),
+        first_vertex_(tree.leaves().size()) {}
 
   DualMesh make() {
-    for (uint32_t n = 0; n < tree_.leaves().size(); ++n) {
-      first_vertex_.push_back(static_cast<uint32_t>(mesh_.vertices.size()));
-      const auto found = tree_.leaves()[n].is_near_cut ? touched_.find(n) : touched_.end();
-      if (found == touched_.end())
-        add_vertices(n);
-      else
-        add_vertices_of_touched(n, found->second);
-    }
+    add_vertices();
     mesh_.quads.reserve(crossings_.size());
     for (uint32_t n = 0; n < crossings_.size(); ++n) add_quad(n);
     return std::move(mesh_);
   }
 
  private:
-  void add_vertices(uint32_t number) {
+  // A vertex for each part of a leaf.
+  struct Part {
+    uint32_t leaf = 0;
+    bool parts_two = false;
+  };
+
+  void add_vertices() {
+    constexpr size_t piece = 4096;
+    const size_t leaves = tree_.leaves().size();
+    std::vector<std::vector<Part>> pieces((leaves + piece - 1) / piece);
+    run_parallel(pieces.size(), threads_, [&](size_t p) {
+      for (size_t n = p * piece; n < std::min((p + 1) * piece, leaves); ++n) {
+        first_vertex_[n] = static_cast<uint32_t>(pieces[p].size());
+        find_parts(static_cast<uint32_t>(n), pieces[p]);
+      }
+    });
+    mesh_.vertices.reserve(leaves);
+    for (size_t p = 0; p < pieces.size(); ++p) {
+      const auto before = static_cast<uint32_t>(mesh_.vertices.size());
+      for (size_t n = p * piece; n < std::min((p + 1) * piece, leaves); ++n) first_vertex_[n] += before;
+      for (const Part& part : pieces[p]) mesh_.vertices.push_back({part.leaf, part.parts_two, {}, {}, {}});
+    }
+  }
+
+  void find_parts(uint32_t number, std::vector<Part>& found) {
+    if (touched_.has(number)) return find_parts_of_touched(number, found);
     const Leaf& leaf = tree_.leaves()[number];
     const CellParts parts = find_cell_parts(leaf.corners);
     std::array<PairsOfParts, 12> pairs;
@@ -79,18 +122,18 @@ class DualMeshMaker {
       if (leaf.crosses(e))
         pairs[parts.part_of_edge[static_cast<size_t>(e)]].note(leaf.corners[first_corner(e)],
                                                                leaf.corners[second_corner(e)]);
-    for (size_t part = 0; part < parts.count; ++part)
-      mesh_.vertices.push_back({number, pairs[part].is_one(), {}, {}, {}});
+    for (size_t part = 0; part < parts.count; ++part) found.push_back({number, pairs[part].is_one()});
     parts_[number] = parts;
   }
 
-  void add_vertices_of_touched(uint32_t number, const std::vector<uint32_t>& around) {
+  void find_parts_of_touched(uint32_t number, std::vector<Part>& found) {
+    const std::span<const uint32_t> around = touched_.around(number);
     const std::vector<uint32_t> parts = find_leaf_parts(tree_, tree_.leaves()[number], crossings_, around);
     std::vector<PairsOfParts> pairs(std::ranges::max(parts) + 1);
     for (size_t n = 0; n < around.size(); ++n)
       pairs[parts[n]].note(crossings_[around[n]].edge.from, crossings_[around[n]].edge.to);
-    for (const PairsOfParts& pair : pairs) mesh_.vertices.push_back({number, pair.is_one(), {}, {}, {}});
-    parts_of_touched_.emplace(number, parts);
+    for (const PairsOfParts& pair : pairs) found.push_back({number, pair.is_one()});
+    touched_.set_parts(number, parts);
   }
 
   void add_quad(uint32_t number) {
@@ -111,19 +154,15 @@ class DualMeshMaker {
   uint32_t part_of(uint32_t number, size_t corner) const {
     const CrossedEdge& edge = crossings_[number].edge;
     const uint32_t leaf = edge.leaves[corner];
-    const auto found = tree_.leaves()[leaf].is_near_cut ? touched_.find(leaf) : touched_.end();
-    if (found != touched_.end()) {
-      const auto at = std::ranges::lower_bound(found->second, number) - found->second.begin();
-      return parts_of_touched_.at(leaf)[static_cast<size_t>(at)];
-    }
+    if (touched_.has(leaf)) return touched_.part_of(leaf, number);
     const int in_leaf = edge_number(edge.axis, quad_offsets[corner][0], quad_offsets[corner][1]);
     return parts_[leaf].part_of_edge[static_cast<size_t>(in_leaf)];
   }
 
   const CellTree& tree_;
   const std::vector<Crossing>& crossings_;
-  const std::unordered_map<uint32_t, std::vector<uint32_t>> touched_;
-  std::unordered_map<uint32_t, std::vector<uint32_t>> parts_of_touched_;
+  int threads_;
+  TouchedLeaves touched_;
   std::vector<CellParts> parts_;  // of the others
   std::vector<uint32_t> first_vertex_;
   DualMesh mesh_;
@@ -153,14 +192,14 @@ void find_places(const CellTree& tree, DualMesh& mesh, int threads, const Which&
 }  // namespace
 
 DualMesh make_dual_mesh(const CellTree& tree, const std::vector<Crossing>& crossings, int threads) {
-  DualMesh mesh = DualMeshMaker(tree, crossings).make();
+  DualMesh mesh = DualMeshMaker(tree, crossings, threads).make();
   find_places(tree, mesh, threads, [](const DualVertex&) { return true; });
   return mesh;
 }
 
 DualMesh make_dual_mesh_after_growth(const CellTree& tree, const std::vector<Crossing>& crossings,
                                      const DualMesh& before, const std::vector<uint32_t>& leaves, int threads) {
-  DualMesh mesh = DualMeshMaker(tree, crossings).make();
+  DualMesh mesh = DualMeshMaker(tree, crossings, threads).make();
   take_over_places(tree, before, leaves, mesh);
   find_places(tree, mesh, threads, [&](const DualVertex& vertex) { return tree.leaves()[vertex.leaf].is_near_cut; });
   return mesh;

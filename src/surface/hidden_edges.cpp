@@ -20,6 +20,7 @@ constexpr uint8_t fine_level = 1;
 constexpr int32_t units = 1 << fine_level;            // from one corner of finer cells to the next
 constexpr int32_t per_cell = units_per_cell / units;  // of the grid, along an axis
 constexpr int64_t slab_layers = int64_t{4} * per_cell;
+constexpr int64_t strip_rows = 64;  // of a slab, whose labels are in memory at a time
 constexpr size_t edges_at_once = size_t{1} << 18;
 
 // Corners of finer cells, the first of which is the first of the grid's.
@@ -121,11 +122,13 @@ void find_hidden_edges(const program::Program& label, const CellTree& tree, int 
       2 * static_cast<size_t>(threads > 0 ? threads : core_count()),
       [&](size_t n) {
         std::vector<CrossedEdge> edges;
-        if (!goes_on) return edges;
-        const int64_t k = static_cast<int64_t>(n) * slab_layers;
-        const TileBox box{{0, 0, k}, {fine.count[0], fine.count[1], std::min(k + slab_layers, fine.count[2])}};
-        for (const FieldTile& tile : evaluator.tiles(box, stop))
-          if (!tile.is_uniform) TileLooker(tile, tree).look(edges);
+        TileBox strip{{0, 0, static_cast<int64_t>(n) * slab_layers}, fine.count};
+        strip.hi[2] = std::min(strip.lo[2] + slab_layers, fine.count[2]);
+        for (; goes_on && strip.lo[1] < fine.count[1]; strip.lo[1] += strip_rows) {
+          strip.hi[1] = std::min(strip.lo[1] + strip_rows, fine.count[1]);
+          for (const FieldTile& tile : evaluator.tiles(strip, stop))
+            if (!tile.is_uniform) TileLooker(tile, tree).look(edges);
+        }
         return edges;
       },
       [&](size_t, std::vector<CrossedEdge>& edges) {

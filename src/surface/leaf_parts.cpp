@@ -16,7 +16,7 @@ struct Step {
 class PartFinder {
  public:
   PartFinder(const CellTree& tree, const Leaf& leaf, const std::vector<Crossing>& crossings,
-             const std::vector<uint32_t>& around)
+             std::span<const uint32_t> around)
       : tree_(tree), leaf_(leaf), crossings_(crossings), around_(around), parents_(around.size()) {
     std::iota(parents_.begin(), parents_.end(), 0U);
   }
@@ -127,7 +127,7 @@ class PartFinder {
   const CellTree& tree_;
   const Leaf& leaf_;
   const std::vector<Crossing>& crossings_;
-  const std::vector<uint32_t>& around_;
+  std::span<const uint32_t> around_;
   std::vector<uint32_t> parents_;
   std::vector<Step> way_;
 };
@@ -135,7 +135,7 @@ class PartFinder {
 }  // namespace
 
 std::vector<uint32_t> find_leaf_parts(const CellTree& tree, const Leaf& leaf, const std::vector<Crossing>& crossings,
-                                      const std::vector<uint32_t>& around) {
+                                      std::span<const uint32_t> around) {
   return PartFinder(tree, leaf, crossings, around).find();
 }
 

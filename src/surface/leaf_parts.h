@@ -1,6 +1,7 @@
 // How the borders of regions go through a leaf that smaller ones touch.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "surface/crossings.h"
@@ -11,6 +12,6 @@ namespace ombre::surface {
 // that the leaf has in common with its neighbours are one part, as in find_cell_parts: where two regions meet, each
 // part is a ring, and both leaves at a face see it alike.
 std::vector<uint32_t> find_leaf_parts(const CellTree& tree, const Leaf& leaf, const std::vector<Crossing>& crossings,
-                                      const std::vector<uint32_t>& around);
+                                      std::span<const uint32_t> around);
 
 }  // namespace ombre::surface

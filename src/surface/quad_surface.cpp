@@ -76,7 +76,7 @@ QuadSurface::QuadSurface(const CellTree& tree, const std::vector<Crossing>& cros
       threads_(options.threads),
       least_calm_cosine_(
           std::cos(std::min(1.0, calm_radians_of_cells * options.tolerance_mm / tree.size_mm(grid_level).x))),
-      clusters_(tree, crossings, mesh, options.join_flat ? options.tolerance_mm : 0),
+      clusters_(tree, crossings, mesh, options.join_flat ? options.tolerance_mm : 0, options.threads),
       triangles_(mesh.quads.size()),
       looks_(mesh.quads.size()) {
   list_quads_of_vertices();

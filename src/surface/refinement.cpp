@@ -42,12 +42,9 @@ Growth growth_within(const CellTree& tree, const std::vector<CrossedEdge>& hidde
   return growth;
 }
 
-Growth growth_around_cuts(const CellTree& tree, bool may_cut) {
+Growth growth_around_cuts(const CellTree& tree, bool may_cut, int threads) {
   Growth growth;
-  std::vector<CrossedEdge> edges;
-  for (uint32_t n = 0; n < tree.leaves().size(); ++n)
-    if (tree.leaves()[n].is_near_cut) list_crossed_edges(tree, n, edges);
-  for (const CrossedEdge& edge : edges)
+  for (const auto& [leaf_of_edge, edge] : crossed_edges(tree, true, threads))
     for (size_t corner = 0; corner < 4; ++corner) {
       const uint32_t number = edge.leaves[corner];
       if (number == CellTree::none) {
@@ -79,9 +76,9 @@ void refine(CellTree& tree, const std::vector<uint32_t>& leaves, const std::vect
   tree.grow(first.cut, first.taken_in, ask);
   for (Growth more = growth_within(tree, hidden); !more.is_empty(); more = growth_within(tree, hidden))
     tree.grow(more.cut, {}, ask);
-  for (Growth more = growth_around_cuts(tree, true); !more.is_empty();) {
+  for (Growth more = growth_around_cuts(tree, true, threads); !more.is_empty();) {
     tree.grow(more.cut, more.taken_in, ask);
-    more = growth_around_cuts(tree, tree.leaves().size() < most_leaves);
+    more = growth_around_cuts(tree, tree.leaves().size() < most_leaves, threads);
   }
 }
 
