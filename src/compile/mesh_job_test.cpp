@@ -345,7 +345,7 @@ TEST(Mesh, OfManyPartsKeepsThem) {
 
 // Boxes whose sides make long decimals.
 TEST(Mesh, OfPartsOfAnySize) {
-  for (const char* side : {"1e-4", "0.0123456789", "1234.56789", "76543.21"}) {
+  for (const char* side : {"7e-13", "1e-4", "0.0123456789", "1234.56789", "76543.21"}) {
     const MeshedDesign made = mesh_text("cube(" + std::string(side) + ");");
     const double volume_of_cube = std::pow(std::stod(side), 3);
     EXPECT_NEAR(volume(made), volume_of_cube, 1e-6 * volume_of_cube) << side;

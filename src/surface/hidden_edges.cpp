@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <optional>
 
-#include "base/assert.h"
 #include "base/error.h"
 #include "base/tasks.h"
 #include "voxel/fields.h"
@@ -23,13 +23,13 @@ constexpr int64_t slab_layers = int64_t{4} * per_cell;
 constexpr int64_t strip_rows = 64;  // of a slab, whose labels are in memory at a time
 constexpr size_t edges_at_once = size_t{1} << 18;
 
-// Corners of finer cells, the first of which is the first of the grid's.
-Lattice finer(const Lattice& corners) {
+// Corners of finer cells, the first of which is the first of the grid's; none if the pitch is too small for that.
+std::optional<Lattice> finer(const Lattice& corners) {
   Lattice finer;
   for (size_t axis = 0; axis < 3; ++axis) {
     const Pitch pitch = corners.pitch[axis];
     const auto smaller = Pitch::from_ratio(pitch.numerator, pitch.denominator * per_cell);
-    ASSERT(smaller);
+    if (!smaller) return std::nullopt;
     finer.pitch[axis] = *smaller;
     finer.count[axis] = (corners.count[axis] - 1) * per_cell + 1;
     finer.origin[static_cast<int>(axis)] = corners.center(axis, 0) - smaller->times(0.5);
@@ -109,7 +109,9 @@ class TileLooker {
 
 void find_hidden_edges(const program::Program& label, const CellTree& tree, int threads, const StopFlag* stop,
                        const std::function<bool(const std::vector<CrossedEdge>&)>& take) {
-  const Lattice fine = finer(tree.lattice());
+  const std::optional<Lattice> lattice = finer(tree.lattice());
+  if (!lattice) return;
+  const Lattice& fine = *lattice;
   const voxel::FieldEvaluator evaluator(label, fine, voxel::best_evaluator(fine));
   std::vector<CrossedEdge> waiting;
   std::atomic<bool> goes_on = true;

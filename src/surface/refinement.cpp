@@ -31,7 +31,7 @@ Growth growth_to_cells_of(const std::vector<CrossedEdge>& hidden) {
   return growth;
 }
 
-// One level of it.
+// One level of the cutting after which hidden edges are edges of leaves.
 Growth growth_within(const CellTree& tree, const std::vector<CrossedEdge>& hidden) {
   Growth growth;
   for (const CrossedEdge& edge : hidden) {
