@@ -362,10 +362,15 @@ def killed_twice_resumes(job):
     resume_and_compare(job, "killed")
 
 
+def wait_until_under_way(job, process, out):
+    while not (job.folder / out / "journal.jsonl").exists() and process.poll() is None:
+        time.sleep(0.01)
+
+
 def interrupted_jobs_resume(job):
-    seconds = whole_long_job(job)
+    job.slice("whole", *LONG)
     process = job.start("interrupted", *LONG)
-    time.sleep(max(0.1, 0.4 * seconds))
+    wait_until_under_way(job, process, "interrupted")
     process.send_signal(signal.SIGINT)
     status = process.wait(timeout=20)
     expect(status == 130, f"status {status} after an interrupt, expected 130")
@@ -378,8 +383,7 @@ def large_layers_stop_and_resume(job):
                            ellipsoid((240, 190, 97), "red"); }""")
     tray = ["--printer", "j750", "--format", "indexed"]
     process = job.start("out", *tray)
-    while not (job.folder / "out" / "journal.jsonl").exists() and process.poll() is None:
-        time.sleep(0.01)
+    wait_until_under_way(job, process, "out")
     process.send_signal(signal.SIGINT)
     status = process.wait(timeout=60)
     expect(status == 130, f"status {status} after an interrupt, expected 130")
