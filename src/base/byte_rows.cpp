@@ -1,6 +1,7 @@
 #include "base/byte_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 
@@ -53,10 +54,37 @@ size_t count_repeats_in_front(const uint8_t* bytes, size_t count, size_t& i) {
                         [&](size_t at) { return hn::Eq(hn::LoadU(d, bytes + at), hn::LoadU(d, bytes + at + 1)); });
 }
 
+// Values that differ in their low four bits, by these, and their numbers.
+struct ByLowBits {
+  HWY_ALIGN std::array<uint8_t, 16> values{}, numbers{};
+  bool is_made = true;
+
+  ByLowBits(const uint8_t* given, size_t count) {
+    // What no byte with these low bits is.
+    for (size_t low = 0; low < values.size(); ++low) values[low] = static_cast<uint8_t>(~low);
+    for (size_t n = 0; n < count && is_made; ++n) {
+      const size_t low = given[n] % values.size();
+      is_made = values[low] % values.size() != low;
+      values[low] = given[n];
+      numbers[low] = static_cast<uint8_t>(n);
+    }
+  }
+};
+
+V low_bits(V bytes) { return hn::And(bytes, hn::Set(D(), 15)); }
+
 // False if all in front are among them.
 bool others_in_front(const uint8_t* bytes, size_t count, const uint8_t* values, size_t value_count, size_t& i) {
   const D d;
   const size_t lanes = hn::Lanes(d);
+  if (const ByLowBits table(values, value_count); table.is_made) {
+    const V known = hn::LoadDup128(d, table.values.data());
+    for (; i + lanes <= count; i += lanes) {
+      const V at = hn::LoadU(d, bytes + i);
+      if (!hn::AllTrue(d, hn::Eq(hn::TableLookupBytes(known, low_bits(at)), at))) return true;
+    }
+    return false;
+  }
   for (; i + lanes <= count; i += lanes) {
     const V at = hn::LoadU(d, bytes + i);
     auto known = hn::Ne(at, at);  // none
@@ -120,6 +148,12 @@ void number_front(const uint8_t* bytes, size_t count, const uint8_t* values, siz
                   size_t& i) {
   const D d;
   const size_t lanes = hn::Lanes(d);
+  if (const ByLowBits table(values, value_count); table.is_made) {
+    const V known = hn::LoadDup128(d, table.numbers.data());
+    for (; i + lanes <= count; i += lanes)
+      hn::StoreU(hn::TableLookupBytes(known, low_bits(hn::LoadU(d, bytes + i))), d, numbers + i);
+    return;
+  }
   for (; i + lanes <= count; i += lanes) {
     const V from = hn::LoadU(d, bytes + i);
     V to = hn::Zero(d);

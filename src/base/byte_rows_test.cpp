@@ -76,12 +76,17 @@ TEST(ByteRows, TellOthers) {
     ASSERT_TRUE(are_among(bytes, all));
     ASSERT_EQ(are_among(bytes, std::span(all).first(4)), std::ranges::count(bytes, uint8_t{2}) == 0);
     ASSERT_EQ(are_among(bytes, {}), bytes.empty());
-    for (uint8_t& byte : bytes) {
-      const uint8_t old = std::exchange(byte, uint8_t{9});
-      ASSERT_FALSE(are_among(bytes, all));
-      byte = old;
-      if (bytes.size() > 300) break;
-    }
+    for (const uint8_t other : Bytes{9, 20, 255})
+      for (uint8_t& byte : bytes) {
+        const uint8_t old = std::exchange(byte, other);
+        ASSERT_FALSE(are_among(bytes, all));
+        byte = old;
+        if (bytes.size() > 300) break;
+      }
+    for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(16 * byte);
+    constexpr uint8_t alike[] = {64, 0, 48, 16, 32};
+    ASSERT_TRUE(are_among(bytes, alike));
+    ASSERT_EQ(are_among(bytes, std::span(alike).first(4)), std::ranges::count(bytes, uint8_t{32}) == 0);
   });
 }
 
@@ -94,6 +99,11 @@ TEST(ByteRows, NumbersAndWhatBelongsToThem) {
     Bytes numbers(bytes.size()), expected;
     for (const uint8_t byte : bytes) expected.push_back(number_of[byte]);
     number_bytes(bytes, values, numbers.data());
+    ASSERT_EQ(numbers, expected);
+    Bytes alike = bytes;
+    for (uint8_t& byte : alike) byte = static_cast<uint8_t>(byte + (byte % 2 == 0 ? 16 : 31));
+    constexpr uint8_t others[] = {34, 16, 20, 18, 32};
+    number_bytes(alike, others, numbers.data());
     ASSERT_EQ(numbers, expected);
 
     for (size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<uint8_t>((numbers[i] + i) % 16);

@@ -11,10 +11,12 @@ namespace ombre::formats {
 // Writes into room made by others. Meant to live in a function, where it stays in registers.
 class BitCursor {
  public:
+  static constexpr unsigned most_bits = 56;
+
   explicit BitCursor(uint8_t* at, uint64_t bits = 0, unsigned bit_count = 0)
       : at_(at), bits_(bits), bit_count_(bit_count) {}
 
-  // At most 56 bits; those above `count` are zero. Eight bytes may be overwritten.
+  // At most so many bits; those above `count` are zero. Eight bytes may be overwritten.
   void put(uint64_t bits, unsigned count) {
     static_assert(std::endian::native == std::endian::little);
     bits_ |= bits << bit_count_;

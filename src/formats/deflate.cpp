@@ -195,16 +195,32 @@ struct DeflateWriter::Codes {
   }
 
   [[gnu::always_inline]] void put_match(BitCursor& out, const Step& step) const {
-    const Bits far = distance(step.far);
-    const auto put = [&](uint32_t length) {
-      const Bits bits = lengths[length];
-      out.put(bits.bits | uint64_t{far.bits} << bits.count, bits.count + far.count);
-    };
-    if (step.length <= longest_match) return put(step.length);
+    if (step.length <= longest_match) return put(out, match(step.length, step.far));
     const Pieces pieces(step.length);
-    for (uint32_t i = 0; i < pieces.longest; ++i) put(longest_match);
-    if (pieces.first > 0) put(pieces.first);
-    if (pieces.last > 0) put(pieces.last);
+    for (uint32_t i = 0; i < pieces.longest; ++i) put(out, match(longest_match, step.far));
+    if (pieces.first > 0) put(out, match(pieces.first, step.far));
+    if (pieces.last > 0) put(out, match(pieces.last, step.far));
+  }
+
+  // Bits that are put wait for those before, so most short matches are put in pairs.
+  [[gnu::always_inline]] void put_short_matches(BitCursor& out, const Step& a, const Step& b) const {
+    const LongBits first = match(a.length, a.far), second = match(b.length, b.far);
+    if (first.count + second.count <= BitCursor::most_bits)
+      return put(out, {first.bits | second.bits << first.count, first.count + second.count});
+    put(out, first);
+    put(out, second);
+  }
+
+ private:
+  struct LongBits {
+    uint64_t bits;
+    uint32_t count;
+  };
+
+  static void put(BitCursor& out, LongBits bits) { out.put(bits.bits, bits.count); }
+  [[gnu::always_inline]] LongBits match(uint32_t length, Symbol symbol) const {
+    const Bits bits = lengths[length], far = distance(symbol);
+    return {bits.bits | uint64_t{far.bits} << bits.count, bits.count + far.count};
   }
 };
 
@@ -251,10 +267,17 @@ void DeflateWriter::end_block(bool is_last) {
 void DeflateWriter::write_steps(const Codes& codes) {
   const uint8_t* literal = literals_.data();
   BitCursor out = out_.begin();
-  for (const Step& step : steps()) {
+  for (std::span<const Step> left = steps(); !left.empty();) {
+    if (left.size() >= 2 && left[0].is_short_match() && left[1].is_short_match()) {
+      codes.put_short_matches(out, left[0], left[1]);
+      left = left.subspan(2);
+      continue;
+    }
+    const Step& step = left[0];
     codes.put_literals(out, literal, literal + step.literals);
     literal += step.literals;
     codes.put_match(out, step);
+    left = left.subspan(1);
   }
   codes.put_literals(out, literal, literals_.data() + literals_.size());
   out_.end(out);

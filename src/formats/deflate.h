@@ -47,6 +47,8 @@ class DeflateWriter {
   struct Step {
     uint32_t literals, length, distance;
     Symbol far;  // of the distance
+
+    bool is_short_match() const { return literals == 0 && length <= longest_match; }
   };
   struct Codes;
 

@@ -24,6 +24,8 @@ class PngChunks {
   void add(std::string_view type, std::string_view data) { add(type, {data}); }
   // The data in parts.
   void add(std::string_view type, std::initializer_list<std::string_view> data);
+  // Room for about so many bytes in all.
+  void reserve(size_t bytes) { file_.reserve(bytes); }
   std::string take() { return std::move(file_); }
 
  private:

@@ -83,8 +83,12 @@ class DataChunks {
  public:
   explicit DataChunks(PngChunks& file) : file_(file) {}
 
-  void take(DeflateWriter& deflate) {
-    if (deflate.size() >= data_chunk_bytes) write(deflate, "");
+  // After so much of the image, above 0.
+  void take(DeflateWriter& deflate, double share_done) {
+    if (deflate.size() < data_chunk_bytes) return;
+    const double expected_bytes = spare * static_cast<double>(deflate.size()) / share_done;
+    if (!begin_.empty()) file_.reserve(static_cast<size_t>(std::min(expected_bytes, most_reserved_bytes)));
+    write(deflate, "");
   }
   void finish(ZlibStream& stream) {
     stream.deflate.finish();
@@ -98,6 +102,8 @@ class DataChunks {
     begin_ = "";
   }
 
+  static constexpr double spare = 1.1, most_reserved_bytes = 1 << 24;
+
   PngChunks& file_;
   std::string_view begin_ = "\x78\x01";  // zlib's header: a window of 32 KiB
 };
@@ -107,7 +113,7 @@ void add_data(PngChunks& file, const RunLayer& layer, bool flip_y, Rows&& rows, 
   DataChunks data(file);
   for (uint32_t i = 0; i < layer.height(); ++i) {
     rows.put(layer.row(flip_y ? i : layer.height() - 1 - i));
-    data.take(stream.deflate);
+    data.take(stream.deflate, (i + 1.0) / layer.height());
   }
   data.finish(stream);
 }
