@@ -77,6 +77,7 @@ V low_bits(V bytes) { return hn::And(bytes, hn::Set(D(), 15)); }
 bool others_in_front(const uint8_t* bytes, size_t count, const uint8_t* values, size_t value_count, size_t& i) {
   const D d;
   const size_t lanes = hn::Lanes(d);
+  if (count < lanes) return false;
   if (const ByLowBits table(values, value_count); table.is_made) {
     const V known = hn::LoadDup128(d, table.values.data());
     for (; i + lanes <= count; i += lanes) {

@@ -197,7 +197,8 @@ struct DeflateWriter::Codes {
   [[gnu::always_inline]] void put_match(BitCursor& out, const Step& step) const {
     if (step.length <= longest_match) return put(out, match(step.length, step.far));
     const Pieces pieces(step.length);
-    for (uint32_t i = 0; i < pieces.longest; ++i) put(out, match(longest_match, step.far));
+    const LongBits longest = match(longest_match, step.far);
+    for (uint32_t i = 0; i < pieces.longest; ++i) put(out, longest);
     if (pieces.first > 0) put(out, match(pieces.first, step.far));
     if (pieces.last > 0) put(out, match(pieces.last, step.far));
   }
