@@ -1,7 +1,6 @@
 #include "render/end_colours.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace ombre::render {
 namespace {
@@ -9,8 +8,11 @@ namespace {
 constexpr TileSize together{64, 32, 32};       // steps, columns, rows
 constexpr int64_t behind = fine_per_step / 2;  // a surface, its colour is taken
 
-auto group_of(const Ray& end) {
-  return std::tuple(end.row / together[2], end.column / together[1], end.first / (together[0] * fine_per_step));
+// By rows, columns, then depth; films and rays are far shorter than the numbers that these bits hold.
+uint64_t group_of(const Ray& end) {
+  const auto depth = static_cast<uint64_t>(end.first / (together[0] * fine_per_step));
+  const auto column = static_cast<uint64_t>(end.column / together[1]), row = static_cast<uint64_t>(end.row / together[2]);
+  return row << 42 | column << 21 | depth;
 }
 
 // In fine steps.
@@ -30,17 +32,30 @@ TileBox around(std::span<const Ray> ends) {
 }  // namespace
 
 void EndColours::take(const voxel::StripSources& sources, const std::function<bool()>& is_stopped) {
-  std::ranges::sort(ends_, {},
-                    [](const Ray& end) { return std::tuple_cat(group_of(end), std::tuple(end.row, end.column)); });
+  const std::vector<size_t> sizes = sort_by_group();
   std::vector<Group> groups;
-  for (auto begin = ends_.begin(); begin != ends_.end();) {
-    const auto end =
-        std::find_if(begin, ends_.end(), [&](const Ray& other) { return group_of(other) != group_of(*begin); });
-    groups.emplace_back(begin, end);
-    begin = end;
+  for (auto begin = ends_.cbegin(); const size_t size : sizes) {
+    groups.emplace_back(begin, size);
+    begin += static_cast<std::ptrdiff_t>(size);
   }
   if (!groups.empty()) take(groups, sources, is_stopped);
   ends_.clear();
+}
+
+// How many ends each group has, in order. Keys are sorted, which is faster than sorting ends.
+std::vector<size_t> EndColours::sort_by_group() {
+  keys_.clear();
+  for (const Ray& end : ends_) keys_.emplace_back(group_of(end), static_cast<uint32_t>(keys_.size()));
+  std::ranges::sort(keys_);
+  asked_.clear();
+  std::vector<size_t> sizes;
+  for (size_t n = 0; n < keys_.size(); ++n) {
+    if (n == 0 || keys_[n].first != keys_[n - 1].first) sizes.push_back(0);
+    ++sizes.back();
+    asked_.push_back(ends_[keys_[n].second]);
+  }
+  ends_.swap(asked_);
+  return sizes;
 }
 
 void EndColours::take(const std::vector<Group>& groups, const voxel::StripSources& sources,

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "render/asked_tiles.h"
@@ -24,6 +25,7 @@ class EndColours {
  private:
   using Group = std::span<const Ray>;
 
+  std::vector<size_t> sort_by_group();
   void take(const std::vector<Group>& groups, const voxel::StripSources& sources,
             const std::function<bool()>& is_stopped);
   const AskedTiles& without_parts(AskedTiles& of, const TileBox& fine, const voxel::StripSources& sources);
@@ -34,6 +36,7 @@ class EndColours {
   RayBatch batch_;
   AskedTiles all_, each_, written_out_;
   std::vector<Ray> ends_, asked_, thin_;
+  std::vector<std::pair<uint64_t, uint32_t>> keys_;  // of groups, and numbers of ends
 };
 
 }  // namespace ombre::render

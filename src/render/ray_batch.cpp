@@ -1,8 +1,19 @@
 #include "render/ray_batch.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 namespace ombre::render {
+namespace {
+
+// Of as many as are sampled together; false also where a zero has a sign.
+bool are_all_zero(const float* values) {
+  static constexpr std::array<float, steps_together> zeros{};
+  return std::memcmp(values, zeros.data(), sizeof zeros) == 0;
+}
+
+}  // namespace
 
 void RayBatch::compile(const program::Program& program, const std::vector<Interval>& ranges, size_t most_samples,
                        const voxel::StripSources& sources) {
@@ -23,14 +34,13 @@ void RayBatch::evaluate(std::span<const Ray> rays, int64_t stride, size_t width,
   stride_ = stride;
   width_ = width;
   for (std::vector<float>* coordinates : {&depths_, &rights_, &downs_}) coordinates->resize(rays.size() * width);
-  for (size_t n = 0; n < rays.size(); ++n) {
-    // Whole numbers of doubles, so as exact as those of steps.
-    const auto first = static_cast<double>(rays[n].first), apart = static_cast<double>(stride);
-    float* const depths = depths_.data() + n * width;
-    for (int i = 0; i < static_cast<int>(width); ++i) depths[i] = steps_.sample(first + apart * i);
-    std::fill_n(rights_.data() + n * width, width, static_cast<float>(steps_.film.right_of(rays[n].column)));
-    std::fill_n(downs_.data() + n * width, width, static_cast<float>(steps_.film.down_of(rays[n].row)));
-  }
+  // Loops of a known length are faster.
+  if (width == steps_together)
+    place<steps_together>();
+  else if (width == 1)
+    place<1>();
+  else
+    place<0>();
   batch_.place({depths_, rights_, downs_});
   batch_.begin_layer(0);
   batch_.begin_row(0);
@@ -38,10 +48,31 @@ void RayBatch::evaluate(std::span<const Ray> rays, int64_t stride, size_t width,
   for (size_t n = 0; n < outputs_.size(); ++n) outputs_[n] = batch_.output(n);
 }
 
+// With 0 for a width that is not known beforehand.
+template <size_t known_width>
+void RayBatch::place() {
+  const size_t width = known_width > 0 ? known_width : width_;
+  const auto apart = static_cast<double>(stride_);
+  for (size_t n = 0; n < rays_.size(); ++n) {
+    const Ray& ray = rays_[n];
+    float* const depths = depths_.data() + n * width;
+    if (known_width > 1 && n > 0 && ray.first == rays_[n - 1].first) {
+      std::copy_n(depths - width, width, depths);
+    } else {
+      // Whole numbers of doubles, so as exact as those of steps.
+      const auto first = static_cast<double>(ray.first);
+      for (int i = 0; i < static_cast<int>(width); ++i) depths[i] = steps_.sample(first + apart * i);
+    }
+    std::fill_n(rights_.data() + n * width, width, static_cast<float>(steps_.film.right_of(ray.column)));
+    std::fill_n(downs_.data() + n * width, width, static_cast<float>(steps_.film.down_of(ray.row)));
+  }
+}
+
 size_t RayBatch::first_set(Scene::Output output, size_t n, size_t from) const {
   const eval::Values values = outputs_[output].from(n * width_);
   const auto is_set = [](float value) { return value > 0 || value < 0; };
   if (values.is_number) return is_set(values[0]) ? from : width_;
+  if (from == 0 && width_ == steps_together && are_all_zero(values.row)) return width_;
   return static_cast<size_t>(std::find_if(values.row + from, values.row + width_, is_set) - values.row);
 }
 

@@ -42,6 +42,8 @@ class RayBatch : private eval::SourceRows {
  private:
   bool has(const program::Read& read) const override { return sources_->has(read.tag); }
   void fill(const program::Read& read, const eval::RowsToFill& to) const override;
+  template <size_t known_width>
+  void place();
   int64_t fine(const Ray& ray, size_t i) const { return ray.first + stride_ * static_cast<int64_t>(i); }
 
   const RaySteps& steps_;
