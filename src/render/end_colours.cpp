@@ -11,7 +11,8 @@ constexpr int64_t behind = fine_per_step / 2;  // a surface, its colour is taken
 // By rows, columns, then depth; films and rays are far shorter than the numbers that these bits hold.
 uint64_t group_of(const Ray& end) {
   const auto depth = static_cast<uint64_t>(end.first / (together[0] * fine_per_step));
-  const auto column = static_cast<uint64_t>(end.column / together[1]), row = static_cast<uint64_t>(end.row / together[2]);
+  const auto column = static_cast<uint64_t>(end.column / together[1]),
+             row = static_cast<uint64_t>(end.row / together[2]);
   return row << 42 | column << 21 | depth;
 }
 
