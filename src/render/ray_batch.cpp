@@ -9,8 +9,9 @@ namespace {
 
 // Of as many as are sampled together; false also where a zero has a sign.
 bool are_all_zero(const float* values) {
-  static constexpr std::array<float, steps_together> zeros{};
-  return std::memcmp(values, zeros.data(), sizeof zeros) == 0;
+  std::array<uint64_t, steps_together * sizeof(float) / sizeof(uint64_t)> words;
+  std::memcpy(words.data(), values, sizeof words);
+  return std::ranges::all_of(words, [](uint64_t word) { return word == 0; });
 }
 
 }  // namespace
