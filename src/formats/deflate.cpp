@@ -22,6 +22,29 @@ struct Bits {
 
 Bits joined(Bits a, Bits b) { return {a.bits | b.bits << a.count, a.count + b.count}; }
 
+// Of a distance without one, to look its symbol up: that takes less time than its bits do.
+constexpr uint32_t distance_slot(uint32_t behind) { return behind < 256 ? behind : 256 + behind / 128; }
+constexpr uint32_t distance_slot_count = distance_slot(DeflateWriter::window - 1) + 1;
+
+struct DistanceSymbols {
+  std::array<uint8_t, distance_slot_count> in_slot{};
+  std::array<uint32_t, distance_symbol_count> first{};  // of its distances, without one
+};
+
+constexpr DistanceSymbols distance_symbols = [] {
+  DistanceSymbols symbols;
+  const auto add = [&](uint32_t behind) {
+    const uint8_t index = distance_symbol(behind + 1).index;
+    symbols.in_slot[distance_slot(behind)] = index;
+    symbols.first[index] = behind;
+  };
+  for (uint32_t behind = DeflateWriter::window; behind > 256;) add(behind -= 128);
+  for (uint32_t behind = 256; behind > 0;) add(--behind);
+  return symbols;
+}();
+
+constexpr uint8_t index_of(uint32_t behind) { return distance_symbols.in_slot[distance_slot(behind)]; }
+
 // Steps of one length are cut into matches: as many of the longest as leave the last one long enough.
 struct Pieces {
   uint32_t longest = 0, first = 0, last = 0;  // how many of the longest, and the lengths of the others, or 0
@@ -40,8 +63,8 @@ struct MatchCounts {
   std::array<uint32_t, longest_match + 1> lengths{};
   std::array<uint32_t, distance_symbol_count> distances{};
 
-  void add(uint32_t length, Symbol distance) {
-    uint32_t& count = distances[distance.index];
+  void add(uint32_t length, uint32_t behind) {
+    uint32_t& count = distances[index_of(behind)];
     if (length <= longest_match) {
       ++lengths[length];
       ++count;
@@ -156,7 +179,6 @@ void write_code_lengths(BitWriter& out, std::span<const uint8_t> literals, std::
 struct DeflateWriter::Codes {
   std::array<Bits, literal_symbol_count> literals{};
   std::array<Bits, longest_match + 1> lengths{};  // with their extra bits
-  std::array<Bits, distance_symbol_count> distances{};
 
   Codes(BitWriter& out, const SymbolCounts& counts) {
     std::array<uint8_t, literal_symbol_count> literal_lengths{};
@@ -170,14 +192,15 @@ struct DeflateWriter::Codes {
     write_code_lengths(out, literal_lengths, distance_lengths);
 
     for (size_t i = 0; i < literals.size(); ++i) literals[i] = {literal_codes[i], literal_lengths[i]};
-    for (size_t i = 0; i < distances.size(); ++i) distances[i] = {distance_codes[i], distance_lengths[i]};
+    for (size_t i = 0; i < distances_.size(); ++i) {
+      const uint32_t first = distance_symbols.first[i], shift = distance_lengths[i];
+      distances_[i] = {distance_codes[i] - (first << shift), shift, shift + distance_symbol(first + 1).extra_count};
+    }
     for (uint32_t length = shortest_match; length <= longest_match; ++length) {
       const Symbol symbol = length_symbol(length);
       lengths[length] = joined(literals[first_length_symbol + symbol.index], {symbol.extra, symbol.extra_count});
     }
   }
-
-  Bits distance(Symbol symbol) const { return joined(distances[symbol.index], {symbol.extra, symbol.extra_count}); }
 
   // Inlined, the cursor stays in registers: that halves the time of streams of short matches.
   [[gnu::always_inline]] void put_literals(BitCursor& out, const uint8_t* at, const uint8_t* end) const {
@@ -195,17 +218,17 @@ struct DeflateWriter::Codes {
   }
 
   [[gnu::always_inline]] void put_match(BitCursor& out, const Step& step) const {
-    if (step.length <= longest_match) return put(out, match(step.length, step.far));
+    if (step.length <= longest_match) return put(out, match(step.length, step.behind));
     const Pieces pieces(step.length);
-    const LongBits longest = match(longest_match, step.far);
+    const LongBits longest = match(longest_match, step.behind);
     for (uint32_t i = 0; i < pieces.longest; ++i) put(out, longest);
-    if (pieces.first > 0) put(out, match(pieces.first, step.far));
-    if (pieces.last > 0) put(out, match(pieces.last, step.far));
+    if (pieces.first > 0) put(out, match(pieces.first, step.behind));
+    if (pieces.last > 0) put(out, match(pieces.last, step.behind));
   }
 
   // Bits that are put wait for those before, so most short matches are put in pairs.
   [[gnu::always_inline]] void put_short_matches(BitCursor& out, const Step& a, const Step& b) const {
-    const LongBits first = match(a.length, a.far), second = match(b.length, b.far);
+    const LongBits first = match(a.length, a.behind), second = match(b.length, b.behind);
     if (first.count + second.count <= BitCursor::most_bits)
       return put(out, {first.bits | second.bits << first.count, first.count + second.count});
     put(out, first);
@@ -219,22 +242,41 @@ struct DeflateWriter::Codes {
   };
 
   static void put(BitCursor& out, LongBits bits) { out.put(bits.bits, bits.count); }
-  [[gnu::always_inline]] LongBits match(uint32_t length, Symbol symbol) const {
-    const Bits bits = lengths[length], far = distance(symbol);
-    return {bits.bits | uint64_t{far.bits} << bits.count, bits.count + far.count};
+  [[gnu::always_inline]] LongBits match(uint32_t length, uint32_t behind) const {
+    const Bits bits = lengths[length];
+    const Distances& distances = distances_[index_of(behind)];
+    const uint32_t far = (behind << distances.shift) + distances.offset;
+    return {bits.bits | uint64_t{far} << bits.count, bits.count + distances.count};
   }
+
+  // Those of a symbol: its code, then how far they are from the first.
+  struct Distances {
+    uint32_t offset, shift, count;
+  };
+  std::array<Distances, distance_symbol_count> distances_{};
 };
 
 DeflateWriter::DeflateWriter() : steps_(most_steps + 1) { literals_.reserve(most_literals); }
 
 void DeflateWriter::literals(const uint8_t* bytes, size_t count) {
   while (count > 0) {
-    make_room();
+    if (literals_.size() == most_literals) end_block(false);
     const size_t now = std::min(count, most_literals - literals_.size());
     literals_.insert(literals_.end(), bytes, bytes + now);
+    literals_behind_ += now;
     bytes += now;
     count -= now;
   }
+}
+
+// Longer than what a symbol stands for, or as far back as the one before, which grows.
+void DeflateWriter::long_match(uint32_t length, uint16_t behind) {
+  if (matched_ >= most_matched) end_block(false);
+  matched_ += length;
+  if (literals_behind_ == 0 && step_count_ > 0 && steps_[step_count_].behind == behind)
+    steps_[step_count_].length += length;
+  else
+    add_step(length, behind);
 }
 
 void DeflateWriter::finish() {
@@ -248,7 +290,7 @@ void DeflateWriter::end_block(bool is_last) {
   counts.add_literals(literals_);
   std::array<MatchCounts, 2> turns;
   size_t turn = 0;
-  for (const Step& step : steps()) turns[turn++ % 2].add(step.length, step.far);
+  for (const Step& step : steps()) turns[turn++ % 2].add(step.length, step.behind);
   for (const MatchCounts& matches : turns) counts.add_matches(matches);
   counts.literals[end_of_block] = 1;
 
@@ -261,7 +303,7 @@ void DeflateWriter::end_block(bool is_last) {
   out_.put(codes.literals[end_of_block].bits, codes.literals[end_of_block].count);
   literals_.clear();
   step_count_ = 0;
-  literals_in_steps_ = 0;
+  literals_behind_ = 0;
   matched_ = 0;
 }
 

@@ -24,17 +24,11 @@ class DeflateWriter {
   // Any length from the shortest match on.
   void match(uint32_t length, uint32_t distance) {
     ASSERT(length >= shortest_match && distance - 1 < window);
-    make_room();
-    matched_ += length;
-    const auto literal_count = static_cast<uint32_t>(literals_.size() - literals_in_steps_);
-    Step* const last = &steps_[step_count_];
-    if (literal_count == 0 && last->distance == distance) {
-      last->length += length;
-      return;
-    }
-    last[1] = {literal_count, length, distance, distance_symbol(distance)};
-    ++step_count_;
-    literals_in_steps_ = literals_.size();
+    if (step_count_ == most_steps) end_block(false);
+    const auto behind = static_cast<uint16_t>(distance - 1);
+    const bool goes_on = literals_behind_ == 0 && steps_[step_count_].behind == behind;
+    if (goes_on || length > longest_match) return long_match(length, behind);
+    add_step(length, behind);
   }
   void finish();
 
@@ -44,33 +38,36 @@ class DeflateWriter {
   void clear() { out_.clear(); }
 
  private:
+  // Some literals, then a match.
   struct Step {
-    uint32_t literals, length, distance;
-    Symbol far;  // of the distance
+    uint32_t length;
+    uint16_t literals, behind;  // the distance without one
 
     bool is_short_match() const { return literals == 0 && length <= longest_match; }
   };
   struct Codes;
 
   // Large enough to make headers cheap, small enough to follow a design from layer region to region.
-  static constexpr size_t most_literals = size_t{1} << 16, most_steps = size_t{1} << 14;
+  static constexpr size_t most_literals = UINT16_MAX, most_steps = size_t{1} << 14;
   static constexpr uint64_t most_matched = uint64_t{1} << 24;  // so that a block's bits stay small too
 
-  // Ahead of what comes next, so that the last block is never an empty one.
-  void make_room() {
-    if (step_count_ == most_steps || literals_.size() == most_literals || matched_ >= most_matched) end_block(false);
+  void long_match(uint32_t length, uint16_t behind);
+  void add_step(uint32_t length, uint16_t behind) {
+    steps_[++step_count_] = {length, static_cast<uint16_t>(literals_behind_), behind};
+    literals_behind_ = 0;
   }
   std::span<const Step> steps() const { return {&steps_[1], step_count_}; }
   void end_block(bool is_last);
   void write_steps(const Codes& codes);
 
   BitWriter out_;
-  // The block so far: each step is some literals, then a match; literals after the last one follow.
+  // The block so far; literals after the last step follow. Ended ahead of what comes next, so that the last one is
+  // never empty.
   std::vector<uint8_t> literals_;
   std::vector<Step> steps_;  // behind one that is not meant
   size_t step_count_ = 0;
-  size_t literals_in_steps_ = 0;
-  uint64_t matched_ = 0;  // bytes
+  size_t literals_behind_ = 0;  // the last step
+  uint64_t matched_ = 0;        // bytes of long matches
 };
 
 }  // namespace ombre::formats

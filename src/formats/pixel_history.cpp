@@ -35,6 +35,12 @@ constexpr uint32_t digits_within(uint32_t base, uint32_t count) {
   return digits;
 }
 
+struct Found {
+  uint32_t distance, pixels;
+
+  bool is_out_of_reach() const { return distance > window; }
+};
+
 uint64_t load(const uint8_t* bytes) {
   static_assert(std::endian::native == std::endian::little);
   uint64_t word;
@@ -42,26 +48,21 @@ uint64_t load(const uint8_t* bytes) {
   return word;
 }
 
-// In how many columns a stretch of pixels can begin.
-uint32_t begin_count(uint32_t width, uint32_t pixels) { return width - std::min(width, pixels - 1); }
-
 }  // namespace
 
 constexpr PixelHistory::KeyShape PixelHistory::shape_for(uint32_t colours) {
-  const uint32_t pixels = digits_within(colours, most_keys), behind_prefix = colours == 2 ? 2 : 1;
-  return {pixels, pixels / 2, pixels - behind_prefix, power(colours, behind_prefix)};
+  const uint32_t pixels = digits_within(colours, most_keys), half = pixels / 2, behind_prefix = colours == 2 ? 2 : 1;
+  return {pixels, pixels - behind_prefix, power(colours, behind_prefix), half, power(colours, pixels - half)};
 }
 
 PixelHistory::PixelHistory(uint32_t width, uint32_t colours)
     : width_(width),
       colours_(std::max(colours, 2U)),
       shape_(shape_for(colours_)),
-      goes_on_mask_(colours_ == 2 ? ~uint64_t{0} : 0xFFFFFFFF),
       numbers_(window / 4 + stored_rows * (size_t{width} + 1) + 2 * word_bytes),
       keys_(size_t{width} + shape_.pixels),
-      half_keys_(keys_.size()),
-      latest_(power(colours_, shape_.pixels)),
-      latest_half_(power(colours_, shape_.half_pixels)) {
+      other_keys_(keys_.size()),
+      latest_(power(colours_, shape_.pixels)) {
   clear();
 }
 
@@ -70,7 +71,6 @@ void PixelHistory::clear() {
   next_row_ = first_position;
   first_ = first_position / 4;
   std::fill(latest_.begin(), latest_.end(), 0);
-  std::fill(latest_half_.begin(), latest_half_.end(), 0);
 }
 
 uint8_t* PixelHistory::begin_row() {
@@ -87,7 +87,7 @@ uint8_t* PixelHistory::begin_row() {
 
 void PixelHistory::end_row(const uint8_t* image, DeflateWriter& out) {
   std::memset(&numbers_[index(row_) + width_], 0, 2 * word_bytes);
-  make_keys(shape_.pixels, keys_, half_keys_);
+  make_keys(shape_.pixels, width_, keys_, other_keys_);
   // Loops of a known length are faster.
   constexpr auto cutters = []<uint32_t... n>(std::integer_sequence<uint32_t, n...>) {
     return std::array{&PixelHistory::cut<0>, &PixelHistory::cut<0>, &PixelHistory::cut<n + 2>...};
@@ -102,87 +102,84 @@ void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
   constexpr KeyShape known = known_colours > 0 ? shape_for(known_colours) : KeyShape{};
   // What no store below can change.
   const KeyShape shape = known_colours > 0 ? known : shape_;
-  const uint32_t row = row_, width = width_;
-  const uint32_t key_pixels = shape.pixels, half_pixels = shape.half_pixels;
-  const uint32_t prefix_pixels = shape.prefix_pixels, prefix_keys = shape.prefix_keys;
-  const uint32_t begins = begin_count(width, key_pixels), half_begins = begin_count(width, half_pixels);
-  const uint64_t goes_on_mask = goes_on_mask_;
-  const uint16_t *const keys = keys_.data(), *const half_keys = half_keys_.data();
-  uint32_t *const latest = latest_.data(), *const latest_half = latest_half_.data();
-  const uint8_t* const numbers = numbers_.data();
-  const size_t first = first_;
+  const uint32_t row = row_, width = width_, begins = begin_count();
+  const uint16_t* const keys = keys_.data();
+  uint32_t* const latest = latest_.data();
+  const auto find_beginning = [&](uint32_t here, uint32_t key, uint32_t key_count, uint32_t pixels) {
+    const uint32_t* const places = latest + (key - key % key_count);
+    uint32_t there = 0;
+    for (uint32_t i = 0; i < key_count; ++i) there = std::max(there, places[i]);
+    return Found{here - there, pixels};
+  };
+  // As many of the next pixels as a key has, or somewhat fewer, or half; at the end of the row what is left.
+  const auto find = [&](uint32_t column, uint32_t here) {
+    const uint32_t key = keys[column];
+    if (column >= begins) {
+      const uint32_t left = width - column;
+      return find_beginning(here, key, power(colours_, shape.pixels - left), left);
+    }
+    Found found{here - latest[key], shape.pixels};
+    if (found.is_out_of_reach()) found = find_beginning(here, key, shape.prefix_keys, shape.prefix_pixels);
+    if (found.is_out_of_reach() && shape.half_pixels < shape.prefix_pixels)
+      found = find_beginning(here, key, shape.half_keys, shape.half_pixels);
+    return found;
+  };
 
+  uint32_t last_distance = 0;
   for (uint32_t column = 0, count = 0; column < width; column += count) {
     const uint32_t here = row + 4 * column;
-    uint32_t there = 0;
-    const auto is_out_of_reach = [&] { return here - there > window; };
-    // As many of the next pixels as a key has, or somewhat fewer.
-    if (column < begins) {
-      const uint32_t key = keys[column];
-      there = latest[key];
-      count = key_pixels;
-      if (is_out_of_reach()) {
-        const uint32_t* const with_prefix = latest + (key - key % prefix_keys);
-        for (uint32_t i = 0; i < prefix_keys; ++i) there = std::max(there, with_prefix[i]);
-        count = prefix_pixels;
-      }
-    }
-    // Or half.
-    if (column < half_begins) {
-      const uint32_t latest_here = std::exchange(latest_half[half_keys[column]], here);
-      if (is_out_of_reach()) {
-        there = latest_here;
-        count = half_pixels;
-      }
-    }
-    if (is_out_of_reach()) {
+    const Found found = find(column, here);
+    count = found.pixels;
+    if (found.is_out_of_reach()) {
       count = 1;
       out.literals(image + size_t{4} * column, 4);
     } else {
-      const uint8_t *const now = numbers + here / 4 - first + count, *const before =
-                                                                         numbers + there / 4 - first + count;
-      if (((load(now) ^ load(before)) & goes_on_mask) == 0) {
-        count = common_pixels(column, there, count);
-        if (count >= very_long && here - there != equal_pixels) enter(column, column + count);
+      if (found.distance == last_distance) {
+        count = common_pixels(column, here - found.distance, count);
+        if (count >= very_long && found.distance != equal_pixels) enter(column, column + count);
       }
-      out.match(4 * count, here - there);
+      last_distance = found.distance;
+      out.match(4 * count, found.distance);
     }
     // The last few columns: behind a short match most of them stand there already, of a longer one they are enough.
-    const uint32_t end = column + count, from = std::max(end, key_pixels) - key_pixels;
-    if (end - from == key_pixels && end <= begins)
-      for (uint32_t i = 0; i < key_pixels; ++i) latest[keys[from + size_t{i}]] = row + 4 * (from + i);
+    const uint32_t end = column + count, from = std::max(end, shape.pixels) - shape.pixels;
+    if (end - from == shape.pixels && end <= begins)
+      for (uint32_t i = 0; i < shape.pixels; ++i) latest[keys[from + size_t{i}]] = row + 4 * (from + i);
     else
       for (uint32_t i = from; i < std::min(end, begins); ++i) latest[keys[i]] = row + 4 * i;
   }
 }
 
+// In how many columns a key can begin.
+uint32_t PixelHistory::begin_count() const { return width_ - std::min(width_, shape_.pixels - 1); }
+
 // Of all columns from one on.
 void PixelHistory::enter(uint32_t column, uint32_t end) {
-  const uint32_t begins = begin_count(width_, shape_.pixels), row = row_;
+  const uint32_t begins = begin_count(), row = row_;
   const uint16_t* const keys = keys_.data();
   uint32_t* const latest = latest_.data();
   for (; column < std::min(end, begins); ++column) latest[keys[column]] = row + 4 * column;
 }
 
-// Two keys of half as many pixels make one, with a digit behind them if need be.
-void PixelHistory::make_keys(uint32_t pixels, std::vector<uint16_t>& keys, std::vector<uint16_t>& half_keys) const {
+// Of the first `count` columns; zeros stand behind the row. Two keys of half as many pixels make one, with a digit
+// behind them if need be.
+void PixelHistory::make_keys(uint32_t pixels, uint32_t count, std::vector<uint16_t>& keys,
+                             std::vector<uint16_t>& halves) const {
   const uint8_t* const digits = &numbers_[index(row_)];
   uint16_t* __restrict const out = keys.data();
   if (pixels == 1) {
-    std::copy(digits, digits + width_, out);
+    std::copy(digits, digits + count, out);
     return;
   }
   const uint32_t half = pixels / 2;
-  make_keys(half, half_keys, keys);
-  const uint16_t* __restrict const first = half_keys.data(), * __restrict const second = first + half;
+  make_keys(half, count + half, halves, keys);
+  const uint16_t* __restrict const first = halves.data(), * __restrict const second = first + half;
   const uint8_t* __restrict const last = digits + size_t{2} * half;
   const auto factor = static_cast<uint16_t>(power(colours_, half)), base = static_cast<uint16_t>(colours_);
-  const size_t begins = begin_count(width_, pixels);
   if (pixels % 2 == 0)
-    for (size_t i = 0; i < begins; ++i) out[i] = static_cast<uint16_t>(first[i] * factor + second[i]);
+    for (size_t i = 0; i < count; ++i) out[i] = static_cast<uint16_t>(first[i] * factor + second[i]);
   else
-    for (size_t i = 0; i < begins; ++i)
-      out[i] = static_cast<uint16_t>((first[i] * factor + second[i]) * base + last[i]);
+    for (size_t i = 0; i < count; ++i) out[i] = static_cast<uint16_t>((first[i] * factor + second[i]) * base + last[i]);
 }
 
 uint32_t PixelHistory::common_pixels(uint32_t column, uint32_t there, uint32_t known) const {

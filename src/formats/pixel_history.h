@@ -13,8 +13,8 @@ namespace ombre::formats {
 // number, and a few of them are the digits of another, their key.
 //
 // A dithered row says nothing new but which of the stretches seen before comes next. So it becomes matches of
-// a fixed number of pixels, each with the latest place where they stood; only those that go on far are followed to
-// their end. Following all would save one byte in a hundred, but cost more time.
+// a fixed number of pixels, each with the latest place where they stood; only one as far back as the match before is
+// followed to its end. Following all would save a byte or two in a hundred, but cost more time.
 class PixelHistory {
  public:
   // Pixels are numbers below `colours`.
@@ -27,14 +27,14 @@ class PixelHistory {
   void end_row(const uint8_t* image, DeflateWriter& out);
 
  private:
-  // How many pixels a key has, half a key, and the most that some keys begin with in common; and how many keys those
-  // are.
+  // How many pixels a key has, and how many keys begin with the same pixels, for two such numbers of pixels.
   struct KeyShape {
-    uint32_t pixels, half_pixels, prefix_pixels, prefix_keys;
+    uint32_t pixels, prefix_pixels, prefix_keys, half_pixels, half_keys;
   };
   static constexpr KeyShape shape_for(uint32_t colours);
 
-  void make_keys(uint32_t pixels, std::vector<uint16_t>& keys, std::vector<uint16_t>& half_keys) const;
+  uint32_t begin_count() const;
+  void make_keys(uint32_t pixels, uint32_t count, std::vector<uint16_t>& keys, std::vector<uint16_t>& halves) const;
   template <uint32_t known_colours>
   void cut(const uint8_t* image, DeflateWriter& out);
   void enter(uint32_t column, uint32_t end);
@@ -44,16 +44,16 @@ class PixelHistory {
 
   uint32_t width_, colours_;
   KeyShape shape_;
-  uint64_t goes_on_mask_;  // of the pixels that follow a match which is followed to its end
   // Positions are bytes of the image data. Rows follow each other here as they do there; the byte before a row
   // takes a quarter of a pixel, rounded.
   std::vector<uint8_t> numbers_;
   size_t first_ = 0;
   uint32_t row_ = 0, next_row_ = 0;
   // Of the newest row: from each column on, the next pixels as a number.
-  std::vector<uint16_t> keys_, half_keys_;
-  // By key: where it stood at last, or 0. Half keys are noted only where matches begin.
-  std::vector<uint32_t> latest_, latest_half_;
+  std::vector<uint16_t> keys_;
+  std::vector<uint16_t> other_keys_;  // from which they are made
+  // By key: where it stood at last, or 0.
+  std::vector<uint32_t> latest_;
 };
 
 }  // namespace ombre::formats
