@@ -5,6 +5,13 @@ if(OMBRE_TESTS)
   include(GoogleTest)
 endif()
 
+# A few sources of it at once, where heavy headers take longer than what includes them; few, so that a change of one
+# costs little.
+function(ombre_few_at_once target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+  target_compile_options(${target} PRIVATE ${OMBRE_UNITY_OPTIONS})
+endfunction()
+
 # ombre_folder(<name> [DEPENDS ombre libraries] [LINKS third-party libraries])
 # Every .cpp here belongs to the library, but for every *_test.cpp, which is its test program's, and every *_module.cpp.
 function(ombre_folder name)
@@ -31,9 +38,7 @@ function(ombre_folder name)
   if(OMBRE_TESTS AND tests)
     add_executable(test_${name} ${tests})
     target_link_libraries(test_${name} PRIVATE ombre_${name} GTest::gtest_main)
-    # GoogleTest's header takes longer than most tests; few at once, so that a change of one costs little.
-    set_target_properties(test_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
-    target_compile_options(test_${name} PRIVATE ${OMBRE_UNITY_OPTIONS})
+    ombre_few_at_once(test_${name})
     target_compile_definitions(test_${name} PRIVATE OMBRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
   endif()
