@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t window = DeflateWriter::window;
 constexpr uint32_t first_position = 2 * window;        // out of reach from there: position 0
-constexpr uint32_t last_position = uint32_t{1} << 31;  // far enough from overflow
+constexpr uint32_t last_position = uint32_t{1} << 30;  // far enough from overflow
 constexpr size_t word_bytes = sizeof(uint64_t);
 constexpr size_t stored_rows = 8;  // more than the window, so that its pixels seldom move
 
@@ -107,9 +107,9 @@ void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
   uint32_t* const latest = latest_.data();
   const auto find_beginning = [&](uint32_t here, uint32_t key, uint32_t key_count, uint32_t pixels) {
     const uint32_t* const places = latest + (key - key % key_count);
-    uint32_t there = 0;
-    for (uint32_t i = 0; i < key_count; ++i) there = std::max(there, places[i]);
-    return Found{here - there, pixels};
+    int32_t there = 0;  // signed, which is what vectors compare
+    for (uint32_t i = 0; i < key_count; ++i) there = std::max(there, static_cast<int32_t>(places[i]));
+    return Found{here - static_cast<uint32_t>(there), pixels};
   };
   // As many of the next pixels as a key has, or somewhat fewer, or half; at the end of the row what is left.
   const auto find = [&](uint32_t column, uint32_t here) {
