@@ -43,7 +43,7 @@ constexpr DistanceSymbols distance_symbols = [] {
   return symbols;
 }();
 
-constexpr uint8_t index_of(uint32_t behind) { return distance_symbols.in_slot[distance_slot(behind)]; }
+constexpr uint8_t distance_index(uint32_t behind) { return distance_symbols.in_slot[distance_slot(behind)]; }
 
 // Steps of one length are cut into matches: as many of the longest as leave the last one long enough.
 struct Pieces {
@@ -64,7 +64,7 @@ struct MatchCounts {
   std::array<uint32_t, distance_symbol_count> distances{};
 
   void add(uint32_t length, uint32_t behind) {
-    uint32_t& count = distances[index_of(behind)];
+    uint32_t& count = distances[distance_index(behind)];
     if (length <= longest_match) {
       ++lengths[length];
       ++count;
@@ -244,7 +244,7 @@ struct DeflateWriter::Codes {
   static void put(BitCursor& out, LongBits bits) { out.put(bits.bits, bits.count); }
   [[gnu::always_inline]] LongBits match(uint32_t length, uint32_t behind) const {
     const Bits bits = lengths[length];
-    const Distances& distances = distances_[index_of(behind)];
+    const Distances& distances = distances_[distance_index(behind)];
     const uint32_t far = (behind << distances.shift) + distances.offset;
     return {bits.bits | uint64_t{far} << bits.count, bits.count + distances.count};
   }
@@ -256,7 +256,10 @@ struct DeflateWriter::Codes {
   std::array<Distances, distance_symbol_count> distances_{};
 };
 
-DeflateWriter::DeflateWriter() : steps_(most_steps + 1) { literals_.reserve(most_literals); }
+DeflateWriter::DeflateWriter() : steps_(most_steps + 1) {
+  literals_.reserve(most_literals);
+  steps_[0].behind = window;
+}
 
 void DeflateWriter::literals(const uint8_t* bytes, size_t count) {
   while (count > 0) {
@@ -269,11 +272,11 @@ void DeflateWriter::literals(const uint8_t* bytes, size_t count) {
   }
 }
 
-// Longer than what a symbol stands for, or as far back as the one before, which grows.
+// Longer than any symbol's, or as far back as the one just before, which grows.
 void DeflateWriter::long_match(uint32_t length, uint16_t behind) {
   if (matched_ >= most_matched) end_block(false);
   matched_ += length;
-  if (literals_behind_ == 0 && step_count_ > 0 && steps_[step_count_].behind == behind)
+  if (goes_on(behind))
     steps_[step_count_].length += length;
   else
     add_step(length, behind);

@@ -26,8 +26,7 @@ class DeflateWriter {
     ASSERT(length >= shortest_match && distance - 1 < window);
     if (step_count_ == most_steps) end_block(false);
     const auto behind = static_cast<uint16_t>(distance - 1);
-    const bool goes_on = literals_behind_ == 0 && steps_[step_count_].behind == behind;
-    if (goes_on || length > longest_match) return long_match(length, behind);
+    if (goes_on(behind) || length > longest_match) return long_match(length, behind);
     add_step(length, behind);
   }
   void finish();
@@ -51,6 +50,8 @@ class DeflateWriter {
   static constexpr size_t most_literals = UINT16_MAX, most_steps = size_t{1} << 14;
   static constexpr uint64_t most_matched = uint64_t{1} << 24;  // so that a block's bits stay small too
 
+  // As far back as the match just before?
+  bool goes_on(uint16_t behind) const { return literals_behind_ == 0 && steps_[step_count_].behind == behind; }
   void long_match(uint32_t length, uint16_t behind);
   void add_step(uint32_t length, uint16_t behind) {
     steps_[++step_count_] = {length, static_cast<uint16_t>(literals_behind_), behind};
@@ -64,7 +65,7 @@ class DeflateWriter {
   // The block so far; literals after the last step follow. Ended ahead of what comes next, so that the last one is
   // never empty.
   std::vector<uint8_t> literals_;
-  std::vector<Step> steps_;  // behind one that is not meant
+  std::vector<Step> steps_;  // behind one that is farther than any
   size_t step_count_ = 0;
   size_t literals_behind_ = 0;  // the last step
   uint64_t matched_ = 0;        // bytes of long matches
