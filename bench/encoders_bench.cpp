@@ -29,6 +29,7 @@ Fractions half_and_half(double, double) { return {0.5, 0.5}; }
 Fractions tenth(double, double) { return {0.1, 0.9}; }
 Fractions four_materials(double, double) { return {0.25, 0.25, 0.25, 0.25}; }
 Fractions eight_materials(double, double) { return Fractions(8, 0.125); }
+Fractions sixteen_materials(double, double) { return Fractions(16, 0.0625); }
 Fractions four_in_disc(double x, double y) {
   return x * x + y * y > 0.95 ? Fractions(4) : Fractions{0.25, 0.25, 0.25, 0.25};
 }
@@ -57,6 +58,7 @@ constexpr Kind kinds[] = {{"half void", half_void, 1},
                           {"four of twenty", four_materials, 20},
                           {"half of four", half_and_half, 4},
                           {"eight materials", eight_materials, 8},
+                          {"sixteen materials", sixteen_materials, 16},
                           {"four in a disc", four_in_disc, 4},
                           {"graded", graded, 2},
                           {"graded disc", graded_disc, 2},

@@ -47,7 +47,7 @@ class DeflateWriter {
   struct Codes;
 
   // Large enough to make headers cheap, small enough to follow a design from layer region to region.
-  static constexpr size_t most_literals = UINT16_MAX, most_steps = size_t{1} << 14;
+  static constexpr size_t most_literals = UINT16_MAX, most_steps = size_t{1} << 15;
   static constexpr uint64_t most_matched = uint64_t{1} << 24;  // so that a block's bits stay small too
 
   // As far back as the match just before?
