@@ -23,7 +23,6 @@ TOO_FINE = {"graded_wing"}
 MOST_CROSSING = 20
 # How far mesh and surface may lie apart, in tolerances, and the share of samples beyond one; a tolerance otherwise.
 FARTHEST = {
-    "voronoi_foam": (1.5, 5e-5),  # the depths of sharp valleys between struts, less than half a tolerance wide
     "graded_wing": (8, 0.15),   # too fine, as above
 }
 # Without large faces along the layers: their voxels are right within 0.05 %, and meshes are to be within 0.1 %.

@@ -7,8 +7,8 @@ namespace ombre::surface {
 namespace {
 
 constexpr int most_cutting_rounds = 8, most_finishing_rounds = 3;
-// That may come from cutting, or as many as the grid has, if that is more.
 constexpr double most_cut_share = 0.3;  // at a time
+// That may come from cutting, or twice as many as the grid has, if that is more.
 constexpr size_t most_more_leaves = size_t{1} << 18;
 
 // The cells of a partition, with what is known of them, cut where one vertex for each is too few.
@@ -20,7 +20,7 @@ class CellRefiner {
         progress_(progress),
         stop_(stop),
         tree_(find_mixed_cells(partition.label, options.corners, options.threads, progress, stop)),
-        most_leaves_(tree_.leaves().size() + std::max(most_more_leaves, tree_.leaves().size())),
+        most_leaves_(tree_.leaves().size() + std::max(most_more_leaves, 2 * tree_.leaves().size())),
         crossings_(find_crossings(partition, tree_, options.threads, progress, stop)),
         mesh_(make_dual_mesh(tree_, crossings_, options.threads)),
         check_(partition, options, stop),

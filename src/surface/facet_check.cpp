@@ -3,17 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <unordered_map>
+#include <utility>
 
 #include "base/evenly_spaced.h"
 #include "surface/border_offsets.h"
+#include "surface/deep_borders.h"
 #include "surface/facet_distance.h"
 #include "surface/hidden_edges.h"
 
 namespace ombre::surface {
 namespace {
 
-constexpr double reach_of_tolerance = 0.88;  // samples see but a part of a facet
+constexpr double reach_of_tolerance = 0.88;         // samples see but a part of a facet
+constexpr double border_reach_of_tolerance = 0.66;  // and less of borders that lie deep
 constexpr double most_tolerances = 16;
+constexpr double sharp_cosine = 0.5;  // between the normals of two facets
+constexpr double least_sum = 1e-6;    // of normals, to have a direction
 constexpr size_t most_measured = 1000;
 constexpr size_t quads_at_once = size_t{1} << 18;  // keeps memory low
 
@@ -60,8 +66,25 @@ class Sampler {
     for (size_t n = 0; n < 3; ++n) {
       if (!has_vertex_[triangle[n]]) add(corners[n]);
       has_vertex_[triangle[n]] = true;
-      if ((triangle[n] < triangle[(n + 1) % 3]) == is_seen_from_less_) add_side(corners[n], corners[(n + 1) % 3]);
+      const uint32_t next = triangle[(n + 1) % 3];
+      if ((triangle[n] < next) == is_seen_from_less_) add_side(corners[n], corners[(n + 1) % 3]);
+      add_crease(std::minmax(triangle[n], next), corners[n], corners[(n + 1) % 3]);
     }
+  }
+
+  // Sharp sides once more, when the second facet comes, with what lies between both normals.
+  void add_crease(std::pair<uint32_t, uint32_t> side, Vec3 from, Vec3 to) {
+    const Vec3 facet_normal = normal_, seen_from_less = is_seen_from_less_ ? normal_ : -1.0 * normal_;
+    const auto [other, is_first] = facets_.try_emplace(side.first | uint64_t{side.second} << 32, seen_from_less);
+    if (is_first || dot(other->second, seen_from_less) > sharp_cosine) return;
+    const Vec3 both = other->second + seen_from_less;
+    const double size = length(both);
+    if (size < least_sum) return;
+    normal_ = (1 / size) * both;
+    add(from);
+    add(to);
+    add_side(from, to);
+    normal_ = facet_normal;
   }
 
   int pieces(double length_mm) const {
@@ -86,6 +109,7 @@ class Sampler {
   const QuadSurface& surface_;
   double spacing_mm_;
   std::vector<bool> has_vertex_;
+  std::unordered_map<uint64_t, Vec3> facets_;  // their normals by a side
   Vec3 normal_;
   uint32_t quad_ = 0;
   bool is_seen_from_less_ = true;
@@ -96,6 +120,21 @@ Vec3 along(const CrossedEdge& edge, const Vec3& lengths) {
   Vec3 way;
   way[edge.axis] = lengths[edge.axis];
   return way;
+}
+
+// Of what belongs to quads and is in their order: with the quads' new numbers, without what is no more.
+template <class T>
+std::vector<T> renumbered(const std::vector<T>& before, const std::vector<Crossing>& crossings) {
+  std::vector<T> now;
+  for (uint32_t n = 0; n < crossings.size(); ++n) {
+    const uint32_t quad = crossings[n].before;
+    if (quad == Crossing::none) continue;
+    for (auto at = std::ranges::lower_bound(before, quad, {}, &T::quad); at != before.end() && at->quad == quad; ++at) {
+      now.push_back(*at);
+      now.back().quad = n;
+    }
+  }
+  return now;
 }
 
 std::vector<Vec3> places_of(const std::vector<uint32_t>& crossings, const QuadSurface& surface) {
@@ -111,6 +150,7 @@ FacetCheck::FacetCheck(const Partition& partition, const ContourOptions& options
     : partition_(partition),
       tolerance_mm_(options.tolerance_mm),
       reach_mm_(reach_of_tolerance * options.tolerance_mm),
+      border_reach_mm_(border_reach_of_tolerance * options.tolerance_mm),
       spacing_mm_(0.5 * options.corners.pitch[0].mm()),
       threads_(options.threads),
       stop_(stop) {}
@@ -122,15 +162,32 @@ void FacetCheck::check(const QuadSurface& surface) {
 }
 
 void FacetCheck::check_facets(const QuadSurface& surface, const std::vector<uint32_t>& quads) {
-  std::erase_if(far_, [&](const Far& far) { return std::ranges::binary_search(quads, far.quad); });
+  const auto is_seen = [&](const auto& far) { return std::ranges::binary_search(quads, far.quad); };
+  std::erase_if(far_, is_seen);
+  std::erase_if(far_borders_, is_seen);
   Sampler sampler(surface, spacing_mm_);
   for (size_t begin = 0; begin < quads.size(); begin += quads_at_once) {
     sampler.clear();
     for (size_t n = begin; n < std::min(begin + quads_at_once, quads.size()); ++n) sampler.add(quads[n]);
-    for (const uint32_t n : find_far_samples(partition_, sampler.samples, reach_mm_, threads_, stop_))
-      far_.push_back({sampler.quads[n], sampler.samples[n]});
+    const FarSamples found = find_far_samples(partition_, sampler.samples, reach_mm_, threads_, stop_);
+    for (const uint32_t n : found.far) far_.push_back({sampler.quads[n], sampler.samples[n]});
+    for (const DeepBorder& deep :
+         find_deep_borders(partition_, sampler.samples, found.beside, border_reach_mm_, threads_, stop_))
+      far_borders_.push_back({sampler.quads[deep.sample], deep.at});
   }
   std::ranges::stable_sort(far_, {}, &Far::quad);
+  keep_far_borders(surface);
+  std::ranges::stable_sort(far_borders_, {}, &FarBorder::quad);
+}
+
+void FacetCheck::keep_far_borders(const QuadSurface& surface) {
+  std::vector<Vec3> places;
+  for (const FarBorder& border : far_borders_) places.push_back(border.at);
+  const std::vector<double> distances = distances_to_facets(places, surface, border_reach_mm_, threads_);
+  std::vector<FarBorder> far;
+  for (size_t n = 0; n < distances.size(); ++n)
+    if (distances[n] > border_reach_mm_) far.push_back(far_borders_[n]);
+  far_borders_ = std::move(far);
 }
 
 void FacetCheck::check_crossings(const QuadSurface& surface, const std::vector<uint32_t>& quads) {
@@ -190,22 +247,19 @@ std::vector<CrossedEdge> FacetCheck::far_among(const std::vector<CrossedEdge>& h
 
 void FacetCheck::renumber(const std::vector<Crossing>& crossings) {
   seen_.renumber(crossings);
-  std::vector<Far> far;
+  far_ = renumbered(far_, crossings);
+  far_borders_ = renumbered(far_borders_, crossings);
   std::vector<uint32_t> far_crossings;
-  for (uint32_t n = 0; n < crossings.size(); ++n) {
-    const uint32_t before = crossings[n].before;
-    if (before == Crossing::none) continue;
-    for (auto f = std::ranges::lower_bound(far_, before, {}, &Far::quad); f != far_.end() && f->quad == before; ++f)
-      far.push_back({n, f->sample});
-    if (std::ranges::binary_search(far_crossings_, before)) far_crossings.push_back(n);
-  }
-  far_ = std::move(far);
+  for (uint32_t n = 0; n < crossings.size(); ++n)
+    if (crossings[n].before != Crossing::none && std::ranges::binary_search(far_crossings_, crossings[n].before))
+      far_crossings.push_back(n);
   far_crossings_ = std::move(far_crossings);
 }
 
 std::vector<uint32_t> FacetCheck::far_quads() const {
   std::vector<uint32_t> quads = far_crossings_;
   for (const Far& far : far_) quads.push_back(far.quad);
+  for (const FarBorder& border : far_borders_) quads.push_back(border.quad);
   std::ranges::sort(quads);
   quads.erase(std::unique(quads.begin(), quads.end()), quads.end());
   return quads;
@@ -217,7 +271,9 @@ double FacetCheck::farthest_in_tolerances(const QuadSurface& surface) const {
   samples = evenly_spaced(samples, most_measured);
   const double most = most_tolerances * tolerance_mm_;
   double farthest = tolerance_mm_;
-  for (const double mm : distances_to_facets(places_of(far_crossings_, surface), surface, most, threads_))
+  std::vector<Vec3> borders = places_of(far_crossings_, surface);
+  for (const FarBorder& border : far_borders_) borders.push_back(border.at);
+  for (const double mm : distances_to_facets(borders, surface, most, threads_))
     farthest = std::max(farthest, std::min(mm, most));
   return std::max(farthest, farthest_mm(partition_, samples, tolerance_mm_, threads_, stop_)) / tolerance_mm_;
 }

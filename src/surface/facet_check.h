@@ -13,7 +13,8 @@ class FacetCheck {
  public:
   FacetCheck(const Partition& partition, const ContourOptions& options, const StopFlag* stop);
 
-  // Looks at samples of facets and at crossings, but for those that were near already. Throws Cancelled.
+  // Looks at samples of facets, at borders beside them and at crossings, but for those that were near already. Throws
+  // Cancelled.
   void check(const QuadSurface& surface);
   // Crossings, and the quads around them, have other numbers.
   void renumber(const std::vector<Crossing>& crossings);
@@ -30,18 +31,26 @@ class FacetCheck {
     uint32_t quad = 0;
     SurfaceSample sample;
   };
+  // A border that the quad's triangles pass by.
+  struct FarBorder {
+    uint32_t quad = 0;
+    Vec3 at;
+  };
 
   std::vector<CrossedEdge> far_among(const std::vector<CrossedEdge>& hidden, const QuadSurface& surface,
                                      const CellTree& tree) const;
   void check_facets(const QuadSurface& surface, const std::vector<uint32_t>& quads);
+  // Of those that were found, the ones that no facet is near.
+  void keep_far_borders(const QuadSurface& surface);
   void check_crossings(const QuadSurface& surface, const std::vector<uint32_t>& quads);
 
   const Partition& partition_;
-  double tolerance_mm_, reach_mm_, spacing_mm_;
+  double tolerance_mm_, reach_mm_, border_reach_mm_, spacing_mm_;
   int threads_;
   const StopFlag* stop_;
   SeenQuads seen_;
-  std::vector<Far> far_;  // in order of quads
+  std::vector<Far> far_;                // in order of quads
+  std::vector<FarBorder> far_borders_;  // in order of quads
   std::vector<uint32_t> far_crossings_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numeric>
 
 #include "surface/label_asker.h"
@@ -30,12 +31,16 @@ class FarFinder {
     std::iota(open_.begin(), open_.end(), 0U);
   }
 
-  std::vector<uint32_t> find(double reach_mm, const Ways& ways) {
+  FarSamples find(double reach_mm, const Ways& ways) {
+    look_along_normals(reach_mm);
+    const std::vector<uint32_t> across = open_;
     // Thin walls are found by short ways.
-    for (const double share : {1.0, 0.3, 0.1, 0.02}) look_along_normals(share * reach_mm);
+    for (const double share : {0.3, 0.1, 0.02}) look_along_normals(share * reach_mm);
     for (const double share : ways.shares)
       if (share > 0) look_around(share * reach_mm, ways.count);
-    return open_;
+    std::vector<uint32_t> near;
+    std::ranges::set_difference(across, open_, std::back_inserter(near));
+    return {open_, near};
   }
 
  private:
@@ -72,8 +77,8 @@ class FarFinder {
 
 }  // namespace
 
-std::vector<uint32_t> find_far_samples(const Partition& partition, const std::vector<SurfaceSample>& samples,
-                                       double reach_mm, int threads, const StopFlag* stop) {
+FarSamples find_far_samples(const Partition& partition, const std::vector<SurfaceSample>& samples, double reach_mm,
+                            int threads, const StopFlag* stop) {
   return FarFinder(partition, samples, threads, stop).find(reach_mm, few_ways);
 }
 
@@ -82,7 +87,7 @@ double farthest_mm(const Partition& partition, std::vector<SurfaceSample> sample
   constexpr double most_reaches = 16, growth = 1.25;
   const auto keep_far = [&](double reach) {
     std::vector<SurfaceSample> far;
-    for (const uint32_t n : FarFinder(partition, samples, threads, stop).find(reach, many_ways))
+    for (const uint32_t n : FarFinder(partition, samples, threads, stop).find(reach, many_ways).far)
       far.push_back(samples[n]);
     samples = std::move(far);
   };

@@ -15,10 +15,15 @@ struct SurfaceSample {
   Vec3 at, normal;
 };
 
-// The numbers of samples from which no other region was found within reach: along the normal first, then all around.
+// Numbers of samples, in order.
+struct FarSamples {
+  std::vector<uint32_t> far;     // from which no other region was found within reach, along the normal and all around
+  std::vector<uint32_t> beside;  // others, with the same region a reach before and behind them
+};
+
 // Throws Cancelled.
-std::vector<uint32_t> find_far_samples(const Partition& partition, const std::vector<SurfaceSample>& samples,
-                                       double reach_mm, int threads, const StopFlag* stop = nullptr);
+FarSamples find_far_samples(const Partition& partition, const std::vector<SurfaceSample>& samples, double reach_mm,
+                            int threads, const StopFlag* stop = nullptr);
 
 // How far the farthest is, or a quarter more; no less than the reach, no more than 16 times it. Throws Cancelled.
 double farthest_mm(const Partition& partition, std::vector<SurfaceSample> samples, double reach_mm, int threads,
