@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "program/field.h"
 
 namespace ombre::surface {
@@ -14,7 +12,7 @@ using program::Field;
 
 constexpr double slope = 0.05;  // of the walls, from the middle of the valley
 
-// The solid stands below a valley along y, whose ground is at height 0; its fin is what is left with `is_fin`.
+// A solid with a valley along y, whose ground is at height 0; or the fin that fills it.
 Partition wedge(bool is_fin) {
   Builder builder;
   const Field is_wedge = less(abs(builder.input(0)), builder.input(2) * slope);
@@ -30,7 +28,7 @@ TEST(DeepBorders, AreTheGroundsOfValleysAndTheEdgesOfFins) {
   constexpr double reach = 0.1;
   for (const bool is_fin : {false, true}) {
     const Partition partition = wedge(is_fin);
-    // At the ground's depth above it; the last ones are too high, or within a reach.
+    // Above the ground; the last two are too high for it to be found, and near enough to need no search.
     const std::vector<double> heights = {0.11, 0.25, 0.39, 0.6, 0.05};
     std::vector<SurfaceSample> samples;
     for (const double height : heights) samples.push_back({{0, 1, height}, {0, 0, 1}});
