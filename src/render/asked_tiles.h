@@ -25,10 +25,12 @@ struct AskedTiles {
     intervals.values(tiles, values);
     shortener.shorten(values, left, kept);
   }
+  // Of what is left nothing is known then, until it is asked again.
   void write_out_parts() {
     const bool are_turned = has_turned_parts();
     left = program::expand_parts(left, kept, program::Precision::batch, &reach);
     if (are_turned) left = program::compose_affine(left);
+    kept.assign(left.code.size(), Interval::everything());
   }
   // Are there parts that are not asked at the inputs themselves? Those that are have composed what is affine already.
   bool has_turned_parts() const {

@@ -68,24 +68,18 @@ void EndColours::take(const std::vector<Group>& groups, const voxel::StripSource
   each_.ask(all_.left, boxes, sources);
   for (size_t n = 0; n < groups.size() && !is_stopped(); ++n) {
     each_.shorten(n);
-    take(each_.left.has_parts() ? without_parts(each_, boxes[n], sources) : each_, groups[n], sources);
+    if (each_.left.has_parts()) each_.write_out_parts();
+    take(groups[n], sources);
   }
-}
-
-const AskedTiles& EndColours::without_parts(AskedTiles& of, const TileBox& fine, const voxel::StripSources& sources) {
-  of.write_out_parts();
-  written_out_.ask(of.left, {fine}, sources);
-  written_out_.shorten(size_t{0});
-  return written_out_;
 }
 
 // A little behind the surface, if the solid is thick enough: where surfaces of two materials coincide, rounding
 // decides which is met first.
-void EndColours::take(const AskedTiles& asked, Group group, const voxel::StripSources& sources) {
+void EndColours::take(Group group, const voxel::StripSources& sources) {
   thin_.clear();
   asked_.assign(group.begin(), group.end());
   for (Ray& ray : asked_) ray.first += behind;
-  batch_.compile(asked.left, asked.kept, group.size(), sources);
+  batch_.compile(each_.left, each_.kept, group.size(), sources);
   batch_.evaluate(asked_, 1, 1, true);
   for (size_t n = 0; n < group.size(); ++n) {
     if (batch_.value(Scene::opaque, n, 0) != 0)

@@ -15,7 +15,7 @@ class EndColours {
  public:
   // `whole` says colours; all outlive this.
   EndColours(const program::Program& whole, const RaySteps& steps, RayBand& hits)
-      : whole_(whole), hits_(hits), batch_(steps), all_(steps), each_(steps), written_out_(steps) {}
+      : whole_(whole), hits_(hits), batch_(steps), all_(steps), each_(steps) {}
 
   // It begins where it ends.
   void note(const Ray& end) { ends_.push_back(end); }
@@ -28,13 +28,13 @@ class EndColours {
   std::vector<size_t> sort_by_group();
   void take(const std::vector<Group>& groups, const voxel::StripSources& sources,
             const std::function<bool()>& is_stopped);
-  const AskedTiles& without_parts(AskedTiles& of, const TileBox& fine, const voxel::StripSources& sources);
-  void take(const AskedTiles& asked, Group group, const voxel::StripSources& sources);
+  // By what is left of the program in each_.
+  void take(Group group, const voxel::StripSources& sources);
 
   const program::Program& whole_;
   RayBand& hits_;
   RayBatch batch_;
-  AskedTiles all_, each_, written_out_;
+  AskedTiles all_, each_;
   std::vector<Ray> ends_, asked_, thin_;
   std::vector<std::pair<uint64_t, uint32_t>> keys_;  // of groups, and numbers of ends
 };

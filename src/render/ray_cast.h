@@ -3,9 +3,9 @@
 
 #include <functional>
 #include <limits>
-#include <memory>
 #include <span>
 
+#include "base/large_array.h"
 #include "base/tasks.h"
 #include "render/scene.h"
 
@@ -38,10 +38,9 @@ struct Film {
 class RayBand {
  public:
   RayBand() = default;
-  // Rows [begin, end). Memory is asked for, but not touched: that takes long enough to be shared by the threads that
-  // fill it.
+  // Rows [begin, end). Memory is asked for, but not touched: that is shared by the threads that fill it.
   RayBand(int64_t begin, int64_t end, int64_t width)
-      : begin_(begin), end_(end), width_(width), hits_(std::make_unique_for_overwrite<RayHit[]>(size())) {}
+      : begin_(begin), end_(end), width_(width), hits_(unset_large_array<RayHit>(size())) {}
 
   bool has(int64_t column, int64_t row) const { return column >= 0 && column < width_ && row >= begin_ && row < end_; }
   RayHit& at(int64_t column, int64_t row) { return hits_[static_cast<size_t>((row - begin_) * width_ + column)]; }
@@ -59,7 +58,7 @@ class RayBand {
   size_t size() const { return static_cast<size_t>(width_ * (end_ - begin_)); }
 
   int64_t begin_ = 0, end_ = 0, width_ = 0;  // rows, columns
-  std::unique_ptr<RayHit[]> hits_;
+  LargeArray<RayHit> hits_;
 };
 
 // Of rows [begin, end), which may lie beyond the film. The same whatever the band, but for sums over translucent

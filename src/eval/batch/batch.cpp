@@ -212,17 +212,21 @@ size_t BatchEvaluator::row_length(uint8_t mask) const {
   }
 }
 
-// Room for the case that no row is used twice.
+// Room for the case that no row is used twice, so most of it stays untouched.
 void BatchEvaluator::reserve() {
   size_t floats = 2 * batch_lanes;
   for (const Fact& fact : facts_) {
     const bool each_row = fact.mask == (axis_x | axis_y) && fact.outlives;
     floats += (each_row ? shape_.most[1] : 1) * row_length(fact.mask) + batch_lanes;
   }
-  if (memory_.size() < floats) memory_.resize(floats);
-  const auto address = reinterpret_cast<uintptr_t>(memory_.data());
+  if (memory_floats_ < floats) {
+    memory_floats_ = std::max(floats, 2 * memory_floats_);
+    memory_.reset();
+    memory_ = unset_large_array<float>(memory_floats_);
+  }
+  const auto address = reinterpret_cast<uintptr_t>(memory_.get());
   constexpr uintptr_t alignment = batch_lanes * sizeof(float);
-  next_ = memory_.data() + (alignment - address % alignment) % alignment / sizeof(float);
+  next_ = memory_.get() + (alignment - address % alignment) % alignment / sizeof(float);
   for (auto& rows : free_) rows.clear();
   for (auto& steps : steps_) steps.clear();
   layer_numbers_.clear();

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "base/large_array.h"
 #include "eval/batch/kernels.h"
 #include "program/program.h"
 
@@ -155,7 +156,8 @@ class BatchEvaluator {
   std::array<std::vector<float*>, 8> free_;               // rows by mask
   std::array<std::vector<Step>, 9> steps_;                // by mask; [8]: all axes, and not needed by output 0
   std::vector<std::pair<float*, float*>> layer_numbers_;  // from where values of z lie to where rows read them
-  std::vector<float> memory_;
+  LargeArray<float> memory_;
+  size_t memory_floats_ = 0;
   float* next_ = nullptr;
 };
 

@@ -1,0 +1,29 @@
+// Large arrays whose values are not set: memory that threads touch as they fill it.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <type_traits>
+
+namespace ombre {
+
+struct FreeLargeArray {
+  void operator()(void* memory) const;
+};
+
+template <class T>
+using LargeArray = std::unique_ptr<T[], FreeLargeArray>;
+
+// In large pages where the system has them to give: asking for small ones takes longer than filling them does. Throws
+// std::bad_alloc.
+void* large_memory(size_t bytes);
+
+template <class T>
+LargeArray<T> unset_large_array(size_t count) {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+  if (count > static_cast<size_t>(-1) / sizeof(T)) throw std::bad_alloc();
+  return LargeArray<T>(static_cast<T*>(large_memory(count * sizeof(T))));
+}
+
+}  // namespace ombre
