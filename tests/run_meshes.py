@@ -17,7 +17,8 @@ import zipfile
 import program
 
 EXAMPLES = sorted((program.SOURCE / "examples").glob("*.vcad"))
-# Its waves along x shrink to 0.006 mm, far finer than any mesh of the whole wing; ombre mesh says so.
+# Its waves along x shrink to 0.006 mm, far finer than any mesh of the whole wing; ombre mesh says so. The part where cells
+# can follow them has a check of its own.
 TOO_FINE = {"graded_wing"}
 # Pairs of facets that lie in a line, and cross once files round their corners to floats.
 MOST_CROSSING = 20
@@ -29,7 +30,7 @@ FARTHEST = {
 CURVED = {"bcc_ball", "conformal_ring", "tetrahedron", "unit_cells", "voronoi_foam"}
 # Too many facets for CGAL at the tolerance that is usual for their sizes; mm.
 COARSE = {"bcc_ball": 0.02, "conformal_ring": 0.05, "grading_strategies": 0.05, "gyroid_block": 0.03, "unit_cells": 0.05,
-          "organic_lattice": 0.1, "voronoi_foam": 0.05}
+          "organic_lattice": 0.1, "voronoi_foam": 0.05, "part_of_wing": 0.03}
 BAR = 'fgrade(["x/20 + 0.5", "0.5 - x/20"], ["red", "blue"]) { rectprism(20, 10, 5); }'
 
 
@@ -113,6 +114,17 @@ def is_closed_and_as_large_as_its_voxels(design, meshes):
     error = 1.5e-3 * voxels if design.stem in CURVED else body["area_mm2"] * pitch / 4 + 1e-3 * voxels
     if design.stem not in TOO_FINE:
         expect(abs(voxels - body["volume_mm3"]) < error, f"{body}, {voxels} mm3 of voxels of {pitch} mm")
+
+
+def wing_is_right_where_cells_can_follow_it(meshes):
+    """Up to x = 6 mm of 23, where its waves are 0.88 mm long."""
+    wing = (program.SOURCE / "examples/graded_wing.vcad").read_text(encoding="utf-8")
+    for before, after in [("(23, 5, 3)", "(6, 5, 3)"), ("models/", f"{program.SOURCE}/examples/models/")]:
+        expect(wing.count(before) == 1, before)
+        wing = wing.replace(before, after)
+    part = meshes.folder / "part_of_wing.vcad"
+    part.write_text(wing, encoding="utf-8")
+    is_closed_and_as_large_as_its_voxels(part, meshes)
 
 
 def bands_fill_the_whole(meshes):
@@ -210,8 +222,9 @@ def interrupts_leave_nothing(meshes):
     expect(meshes.names() == ["bar.vcad"], str(meshes.names()))
 
 
-CHECKS = [bands_fill_the_whole, materials_get_a_body_each, steps_have_borders, materials_come_back,
-          slicers_get_settings_of_each_band, slips_get_remedies, files_are_kept, interrupts_leave_nothing]
+CHECKS = [wing_is_right_where_cells_can_follow_it, bands_fill_the_whole, materials_get_a_body_each, steps_have_borders,
+          materials_come_back, slicers_get_settings_of_each_band, slips_get_remedies, files_are_kept,
+          interrupts_leave_nothing]
 
 
 def in_a_folder(ombre, checker, comparer, check):

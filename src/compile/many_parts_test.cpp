@@ -1,7 +1,11 @@
 // Unions of many parts are tables; their voxels are those of the same parts written out.
+#include <algorithm>
 #include <random>
+#include <span>
 
+#include "compile/build.h"
 #include "compile/test_designs.h"
+#include "program/parts.h"
 
 namespace ombre::compile {
 namespace {
@@ -47,15 +51,12 @@ std::string flat(const std::vector<std::string>& parts, const std::string& optio
   return text + "}";
 }
 
-// In groups that are too small for tables; of no use where inputs of a union count as one.
-std::string balanced(const std::vector<std::string>& parts, const std::string& options) {
-  std::string text = "union(" + options + ") {";
-  for (size_t n = 0; n < parts.size(); n += 20) {
-    text += "union(" + options + ") {";
-    for (size_t m = n; m < std::min(n + 20, parts.size()); ++m) text += parts[m] + "\n";
-    text += "}";
-  }
-  return text + "}";
+// Two by two, too few for tables; of no use where inputs of a union count as one.
+std::string in_pairs(std::span<const std::string> parts, const std::string& options) {
+  if (parts.size() == 1) return parts[0] + "\n";
+  const size_t half = parts.size() / 2;
+  return "union(" + options + ") {" + in_pairs(parts.first(half), options) + in_pairs(parts.subspan(half), options) +
+         "}";
 }
 
 size_t differences(const Voxels& a, const Voxels& b) {
@@ -85,7 +86,44 @@ void expect_one_result(const std::string& body) {
   EXPECT_LT(differences(batch, slice_as(body, reference)), batch.ids.size() / 100'000) << body;
 }
 
+// How many parts the tables of a design hold, by table.
+std::vector<size_t> tables_of(const std::string& body, const std::string& where = box) {
+  Diagnostics diagnostics;
+  const auto built = build_flat_program(load_text(where + "{" + body + "}", diagnostics)->design, diagnostics);
+  EXPECT_TRUE(built) << to_text(diagnostics);
+  std::vector<size_t> sizes;
+  std::vector<const program::PartSet*> seen;
+  for (const auto& set : built->materials.program.part_sets) {
+    if (std::ranges::find(seen, set.get()) != seen.end()) continue;
+    seen.push_back(set.get());
+    sizes.push_back(set->batch.size());
+  }
+  return sizes;
+}
+
 }  // namespace
+
+TEST(ManyParts, AreATableWhereItPays) {
+  const std::string struts =
+      "strut((-3, -3, -3), (3, 2, 3), 0.12, \"red\"); strut((-3, 3, -3), (2, -3, 1), 0.12, \"blue\");";
+  const std::string third = "strut((3, 3, -3), (2, -2, 3), 0.12, \"red\");";
+  EXPECT_EQ(tables_of("union() {" + struts + third + "}"), std::vector<size_t>{3});
+  EXPECT_EQ(tables_of("union() {" + struts + "}"), std::vector<size_t>{});
+  // Close together; dozens are one all the same.
+  EXPECT_EQ(tables_of(flat(std::vector<std::string>(31, "sphere(3, \"red\");"))), std::vector<size_t>{});
+  EXPECT_EQ(tables_of(flat(std::vector<std::string>(32, "sphere(3, \"red\");"))), std::vector<size_t>{32});
+  // Parts of long programs.
+  const std::string hull = "hull([for (n = [0:99]) let (p = rands(-1, 1, 3, n)) p / norm(p) * 0.5]);";
+  EXPECT_EQ(tables_of("union() {" + struts + "translate(3, -3, -3) " + hull + "}"), std::vector<size_t>{});
+  // Lattices keep their own.
+  const std::string lattice =
+      "lattice(edges=[for (n = [0:299]) let (p = rands(-3, -2, 6, n)) [[p[0], p[1], p[2]], [p[3], p[4], p[5]]]], "
+      "radius=0.01);";
+  EXPECT_EQ(tables_of("union() {" + struts + third + lattice + "}"), (std::vector<size_t>{3, 300}));
+  for (const std::string options : {"", "materials=\"first\"", "materials=\"last\"", "blend=0.3"})
+    expect_one_result("union(" + options + ") {" + struts + third + "}");
+  expect_one_result("difference() { cube(7); union() {" + struts + third + lattice + "} }");
+}
 
 TEST(ManyParts, AreTheSameInTablesAndWrittenOut) {
   const auto parts = some_parts(200);
@@ -121,8 +159,9 @@ TEST(ManyParts, OfALatticeAreRowsToo) {
 
 TEST(ManyParts, FirstAndLastDoNotDependOnGroups) {
   const auto parts = some_parts(200);
+  EXPECT_EQ(tables_of(in_pairs(parts, "")), std::vector<size_t>{});
   for (const std::string rule : {"materials=\"first\"", "materials=\"last\""})
-    EXPECT_EQ(differences(slice_as(flat(parts, rule), {}), slice_as(balanced(parts, rule), {})), 0u) << rule;
+    EXPECT_EQ(differences(slice_as(flat(parts, rule), {}), slice_as(in_pairs(parts, rule), {})), 0u) << rule;
 }
 
 // A mesh before, after or amid the parts of the table.
@@ -132,7 +171,7 @@ TEST(ManyParts, FirstAndLastKeepTheOrderBesideMeshes) {
     std::vector<std::string> parts = some_parts(70);
     parts.insert(parts.begin() + static_cast<std::ptrdiff_t>(at), mesh);
     for (const std::string rule : {"materials=\"first\"", "materials=\"last\""})
-      EXPECT_EQ(differences(slice_as(flat(parts, rule), {}), slice_as(balanced(parts, rule), {})), 0u) << rule << at;
+      EXPECT_EQ(differences(slice_as(flat(parts, rule), {}), slice_as(in_pairs(parts, rule), {})), 0u) << rule << at;
   }
 }
 
@@ -170,7 +209,7 @@ constexpr const char* coarse = "root((-4, -4, -4), (4, 4, 4), (0.1, 0.12, 0.14))
 TEST(ManyParts, OfSeveralTasksAreOneTable) {
   const auto parts = parts_of_several_tasks();
   for (const std::string rule : {"materials=\"first\"", "materials=\"last\""})
-    EXPECT_EQ(differences(slice_as(flat(parts, rule), {}, coarse), slice_as(balanced(parts, rule), {}, coarse)), 0u);
+    EXPECT_EQ(differences(slice_as(flat(parts, rule), {}, coarse), slice_as(in_pairs(parts, rule), {}, coarse)), 0u);
   voxel::EvaluatorOptions written_out;
   written_out.write_parts_out = true;
   for (const std::string options : {"", "blend=0.2"}) {

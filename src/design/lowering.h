@@ -37,8 +37,8 @@ class LoweringContext {
   uint32_t register_check(const Node& node, const std::string& message);
   // As the node has them, where transforms above shrink or stretch it; where there are several ways to it, the least.
   std::optional<Vec3> voxel_mm(const Node& node);
-  // Parts of the node as a table, placed in the frame of the program that will hold it; null if they are
-  // few, or most do not go into one.
+  // Parts of the node as a table, placed in the frame of the program that will hold it; null where
+  // it does not pay.
   const ManyParts* many_parts(const Node& node, const PartList& list, PartQuery query, const Affine& node_from_program,
                               const Falloff* falloff);
   // Writes the code of the bodies into their programs; call it when nothing more will be lowered.

@@ -9,8 +9,11 @@
 namespace ombre::design {
 namespace {
 
-// With fewer inputs, writing them out costs less than looking them up.
-constexpr size_t least_parts = 32;
+// A few parts are worth a table where they are short and leave most of the space between them empty. Else less is to be
+// computed when they are written out and shortened tile by tile; of many the index in space spares more.
+constexpr size_t least_parts = 3, many_parts = 32;
+constexpr double most_filling_of_few = 0.25;
+constexpr size_t longest_of_few = 100;  // instructions
 constexpr size_t parts_per_task = 256;
 
 // Half the distance from part to part, about.
@@ -33,6 +36,15 @@ ManyParts make_parts(const PartsQuestion& question, int threads) {
   const size_t window = 4 * static_cast<size_t>(threads > 0 ? threads : core_count());
   run_ordered<std::unique_ptr<PartRows>>(tasks, threads, window, produce, consume);
   return std::move(all).finish();
+}
+
+bool pays(const ManyParts& made, size_t count) {
+  const size_t in_table = count - made.others.size();
+  if (in_table < least_parts || in_table >= many_parts) return in_table >= many_parts;
+  const program::PartTable& table = made.set->batch;
+  for (uint32_t body = 0; body < table.body_count(); ++body)
+    if (table.body(body).code.code.size() > longest_of_few) return false;
+  return made.set->index.filling() <= most_filling_of_few;
 }
 
 }  // namespace
@@ -67,10 +79,12 @@ const ManyParts* LoweringContext::many_parts(const Node& node, const PartList& l
                      {rows[0].x, rows[0].y, rows[0].z, rows[1].x, rows[1].y, rows[1].z,  //
                       rows[2].x, rows[2].y, rows[2].z, offset.x, offset.y, offset.z}};
   const auto [it, is_new] = many_parts_.try_emplace(key);
-  if (is_new)
-    it->second = std::make_unique<ManyParts>(make_parts(
+  if (is_new) {
+    auto made = std::make_unique<ManyParts>(make_parts(
         {*this, node, list, query, falloff, node_from_program, finest_piece(node, list, node_from_program)}, threads_));
-  return it->second->others.size() + least_parts > list.count() ? nullptr : it->second.get();
+    if (pays(*made, list.count())) it->second = std::move(made);
+  }
+  return it->second.get();
 }
 
 }  // namespace ombre::design

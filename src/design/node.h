@@ -134,6 +134,8 @@ class Node {
   virtual std::optional<Vec3> pitch() const = 0;
   // At how many points it may ask an input, for one that is asked of itself.
   virtual double repetitions() const = 0;
+  // Of how many solids that are not its inputs it is made, if it may keep them in a table; else 1.
+  virtual size_t own_parts() const = 0;
   // Field nodes give this.
   virtual Field value(const Inputs& in, const Point& p) const = 0;
 

@@ -17,24 +17,23 @@ namespace {
 
 // Pieces of a part, and of all parts together.
 constexpr size_t most_pieces = 8, most_pieces_together = 2'000'000;
-// Parts are written out in full, with all that they repeat.
+// Parts are written out in full, with all that they repeat, and without tables of their own.
 constexpr double most_repetitions = 64;
-constexpr int most_visits = 10'000;
+constexpr size_t most_solids = 256;
 
-// How often the innermost nodes are asked; infinite for parts that are too large to tell.
-double repetitions(const Node& node, int& visits) {
-  if (++visits > most_visits) return std::numeric_limits<double>::infinity();
+// How often the innermost nodes are asked; infinite for parts of too many solids.
+double repetitions(const Node& node, size_t& solids) {
+  solids += node.own_parts();
+  if (solids > most_solids) return std::numeric_limits<double>::infinity();
   double most = 1;
-  for (const NodePtr& input : node.inputs()) most = std::max(most, repetitions(*input, visits));
+  for (const NodePtr& input : node.inputs()) most = std::max(most, repetitions(*input, solids));
   return most * node.repetitions();
 }
 
 bool repeats_much(std::span<const NodePtr> inputs, size_t part) {
-  int visits = 0;
-  return part < inputs.size() && repetitions(*inputs[part], visits) > most_repetitions;
+  size_t solids = 0;
+  return part < inputs.size() && repetitions(*inputs[part], solids) > most_repetitions;
 }
-
-double volume_of_box(const Box& box) { return box.size().x * box.size().y * box.size().z; }
 
 static int longest_axis(const Box& box) {
   const Vec3 size = box.size();
@@ -165,13 +164,13 @@ void PartRows::set_ranges() {
 // Pieces of a part's box that share no inside. A strut that lies across its box fills little of it.
 void PartRows::add_pieces(size_t part, const Box& whole) {
   find_slices(part, whole);
-  if (volume(whole) > 0.5 * volume_of_box(whole)) find_halves(whole);
+  if (volume(whole) > 0.5 * program::volume(whole)) find_halves(whole);
   set_->index.add(whole, pieces_);
 }
 
 double PartRows::volume(const Box& whole) const {
   double sum = 0;
-  for (const Cells& piece : pieces_) sum += volume_of_box(piece.in(whole));
+  for (const Cells& piece : pieces_) sum += program::volume(piece.in(whole));
   return sum;
 }
 

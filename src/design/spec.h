@@ -9,7 +9,7 @@
 // and where the defaults do not fit
 //   Metric metric([Inputs]) const             default: exact for leaves with constant numbers
 //   inside, interior, composition, attribute, declares, value, complete, along, pitch,
-//   nearest_copy_is_enough, repetitions
+//   nearest_copy_is_enough, repetitions, own_parts
 #pragma once
 
 #include <algorithm>
@@ -199,6 +199,13 @@ class NodeOf final : public Node {
   double repetitions() const override {
     if constexpr (requires { data.repetitions(); })
       return data.repetitions();
+    else
+      return 1;
+  }
+
+  size_t own_parts() const override {
+    if constexpr (requires { data.own_parts(); })
+      return data.own_parts();
     else
       return 1;
   }

@@ -59,6 +59,8 @@ struct Lattice {
     return {steps.x >= size.x, steps.y >= size.y, steps.z >= size.z};
   }
 
+  size_t own_parts() const { return segments_.size(); }
+
   std::optional<Vec3> pitch() const { return cell == "none" ? std::nullopt : std::optional(size); }
 
   Box bounds(const Box& where) const {

@@ -290,6 +290,19 @@ uint32_t PartIndex::build(uint32_t begin, uint32_t end) {
   return number;
 }
 
+double volume(const Box& box) { return box.size().x * box.size().y * box.size().z; }
+
+double PartIndex::filling() const {
+  if (knots_.empty()) return 0;
+  double pieces = 0;
+  for (const Part& part : parts_)
+    visit_pieces(part, part.bounds.box(), [&](uint32_t, const Box& piece) {
+      pieces += volume(piece);
+      return true;
+    });
+  return pieces / volume(knots_[0].bounds.box());
+}
+
 template <class Visit>
 void PartIndex::visit(const Box& region, Visit visit) const {
   std::array<uint32_t, 64> open;  // deeper than any tree of 32-bit numbers

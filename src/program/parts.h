@@ -140,6 +140,8 @@ class PartIndex {
   void add(const Box& box, const std::vector<Cells>& pieces);  // the next part
   void append(const PartIndex& later);                         // its parts, before either is built
   void build();                                                // when all are added
+  // Once built: the volume of all pieces, as a share of that of the box around them. Above 1 where many lie in others.
+  double filling() const;
   // The parts whose pieces meet the region, in ascending order.
   void find(const Box& region, std::vector<uint32_t>& parts) const;
   // Their pieces, by part.
@@ -191,6 +193,8 @@ struct PartSet {
   bool is_backwards() const { return std::find(slots.begin(), slots.end(), SlotKind::first) != slots.end(); }
   const PartTable& table(Precision precision) const { return precision == Precision::batch ? batch : reference; }
 };
+
+double volume(const Box& box);
 
 // The box of a part, grown by what rounding in single precision can move its surface.
 Box grown_for_rounding(const Box& box);
