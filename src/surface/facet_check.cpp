@@ -21,7 +21,7 @@ constexpr double most_tolerances = 16;
 constexpr double sharp_cosine = 0.5;  // between the normals of two facets
 constexpr double least_sum = 1e-6;    // of normals, to have a direction
 constexpr size_t most_measured = 1000;
-constexpr size_t quads_at_once = size_t{1} << 18;  // keeps memory low
+constexpr size_t quads_at_once = size_t{1} << 16;  // keeps memory low
 
 Vec3 middle_of(const std::array<Vec3, 3>& corners) { return (1.0 / 3) * (corners[0] + corners[1] + corners[2]); }
 
