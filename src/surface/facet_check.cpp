@@ -137,6 +137,26 @@ std::vector<T> renumbered(const std::vector<T>& before, const std::vector<Crossi
   return now;
 }
 
+// Of the places, in steps: far ones have many facets within a long reach. At most `most_mm`.
+double farthest_from_facets(std::vector<Vec3> places, const QuadSurface& surface, double reach_mm, double most_mm,
+                            int threads) {
+  double farthest = 0;
+  while (!places.empty()) {
+    std::vector<Vec3> beyond;
+    const std::vector<double> distances = distances_to_facets(places, surface, reach_mm, threads);
+    for (size_t n = 0; n < places.size(); ++n) {
+      if (distances[n] <= reach_mm)
+        farthest = std::max(farthest, distances[n]);
+      else
+        beyond.push_back(places[n]);
+    }
+    if (!beyond.empty() && reach_mm >= most_mm) return most_mm;
+    reach_mm = std::min(2 * reach_mm, most_mm);
+    places = std::move(beyond);
+  }
+  return farthest;
+}
+
 std::vector<Vec3> places_of(const std::vector<uint32_t>& crossings, const QuadSurface& surface) {
   std::vector<Vec3> places;
   places.reserve(crossings.size());
@@ -273,8 +293,7 @@ double FacetCheck::farthest_in_tolerances(const QuadSurface& surface) const {
   double farthest = tolerance_mm_;
   std::vector<Vec3> borders = places_of(far_crossings_, surface);
   for (const FarBorder& border : far_borders_) borders.push_back(border.at);
-  for (const double mm : distances_to_facets(borders, surface, most, threads_))
-    farthest = std::max(farthest, std::min(mm, most));
+  farthest = std::max(farthest, farthest_from_facets(std::move(borders), surface, tolerance_mm_, most, threads_));
   return std::max(farthest, farthest_mm(partition_, samples, tolerance_mm_, threads_, stop_)) / tolerance_mm_;
 }
 
