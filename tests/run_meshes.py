@@ -161,7 +161,8 @@ def materials_come_back(meshes):
     for name, rule in [("ball.3mf", "names"), ("ball.amf", "names"), ("ball.obj", "names"), ("ball.3mf", "colours"),
                        ("prusa.3mf", "names"), ("bambu.3mf", "colours")]:
         flavour = ["--flavour", name[:5]] if name in ("prusa.3mf", "bambu.3mf") else []
-        told = meshes.bodies("-o", name, "--by", "materials", "--force", *flavour, design="ball.vcad")
+        told = meshes.bodies("-o", name, "--by", "materials", "--force", "--tolerance", "0.05", *flavour,
+                             design="ball.vcad")
         again = meshes.folder / "again.vcad"
         again.write_text(f'mesh("{name}", "gray", materials="{rule}");', encoding="utf-8")
         found = meshes.events("probe", again, *points)
