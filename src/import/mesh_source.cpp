@@ -60,15 +60,18 @@ class MeshSource final : public program::FieldSource {
     return contains(p) ? -distance : distance;
   }
 
-  // A distance changes by no more than the way from the last point.
+  // A distance changes by no more than the way from the last point, and its sign only on a way to the surface.
   void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const override {
     if (channel != distance_channel) return FieldSource::sample_all(channel, points, values);
+    const double sure = has_reliable_sign() ? 1 - mesh_rounding : 0;  // of the way to the surface: no sign changes
     double distance = std::numeric_limits<double>::infinity();
+    bool is_inside = false;
     for (size_t n = 0; n < points.size(); ++n) {
       const double way = n > 0 ? length(points[n] - points[n - 1]) : 0;
       const bool is_known = std::isfinite(distance) && std::isfinite(way);
+      if (!is_known || way >= sure * distance) is_inside = contains(points[n]);
       distance = closest().distance(points[n], is_known ? distance + way : std::numeric_limits<double>::infinity());
-      values[n] = contains(points[n]) ? -distance : distance;
+      values[n] = is_inside ? -distance : distance;
     }
   }
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/box.h"
@@ -13,6 +15,14 @@ namespace ombre::surface {
 inline bool meet(const Box& a, const Box& b) {
   return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
          b.lo.z <= a.hi.z;
+}
+
+// 0 within.
+inline double squared_distance(Vec3 point, const Box& box) {
+  Vec3 off;
+  for (int axis = 0; axis < 3; ++axis)
+    off[axis] = std::max({box.lo[axis] - point[axis], point[axis] - box.hi[axis], 0.0});
+  return dot(off, off);
 }
 
 inline Box box_of(const std::array<Vec3, 3>& corners) {
@@ -30,6 +40,17 @@ class BoxTree {
   template <class Visit>
   void each_that_meets(const Box& box, const Visit& visit) const {
     if (!order_.empty()) ask(levels_.size() - 1, 0, box, 0, [&](size_t n) { visit(order_[n]); });
+  }
+
+  bool meets_any(const Box& box) const { return !order_.empty() && is_met(levels_.size() - 1, 0, box); }
+
+  // The least distance(number), or any that is `enough` or less; infinite where all are more than `reach`. No distance
+  // may be less than the one to its box.
+  template <class Distance>
+  double nearest(Vec3 point, double reach, double enough, const Distance& distance) const {
+    Search search{point, reach, enough};
+    if (!order_.empty()) look(levels_.size() - 1, 0, search, distance);
+    return search.found;
   }
 
   size_t groups() const { return levels_.size() > 1 ? levels_[1].size() : 0; }
@@ -53,6 +74,39 @@ class BoxTree {
     if (level == 0) return visit(node);
     const size_t begin = node * width, end = std::min(begin + width, levels_[level - 1].size());
     for (size_t n = std::max(begin, first >> (2 * (level - 1))); n < end; ++n) ask(level - 1, n, box, first, visit);
+  }
+
+  bool is_met(size_t level, size_t node, const Box& box) const {
+    if (!meet(levels_[level][node], box)) return false;
+    if (level == 0) return true;
+    const size_t begin = node * width, end = std::min(begin + width, levels_[level - 1].size());
+    for (size_t n = begin; n < end; ++n)
+      if (is_met(level - 1, n, box)) return true;
+    return false;
+  }
+
+  struct Search {
+    Vec3 point;
+    double most, enough, found = HUGE_VAL;
+  };
+
+  // Near boxes first.
+  template <class Distance>
+  void look(size_t level, size_t node, Search& search, const Distance& distance) const {
+    if (level == 0) {
+      const double here = distance(order_[node]);
+      if (here <= search.most) search.most = search.found = here;
+      return;
+    }
+    const size_t begin = node * width, count = std::min(width, levels_[level - 1].size() - begin);
+    std::array<std::pair<double, size_t>, width> below;
+    for (size_t n = 0; n < count; ++n)
+      below[n] = {squared_distance(search.point, levels_[level - 1][begin + n]), begin + n};
+    std::sort(below.begin(), below.begin() + count);
+    for (size_t n = 0; n < count; ++n) {
+      if (search.found <= search.enough || below[n].first > search.most * search.most) return;
+      look(level - 1, below[n].second, search, distance);
+    }
   }
 
   std::vector<std::vector<Box>> levels_;  // the boxes themselves first

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <set>
 #include <utility>
@@ -32,6 +33,24 @@ TEST(BoxTree, FindsWhatMeetsABox) {
     for (uint32_t n = 0; n < boxes.size(); ++n)
       if (meet(asked, boxes[n])) expected.insert(n);
     EXPECT_EQ(found, expected) << count;
+    EXPECT_EQ(tree.meets_any(asked), !expected.empty()) << count;
+  }
+}
+
+TEST(BoxTree, FindsTheNearest) {
+  for (const size_t count : {0, 1, 4, 5, 17, 300}) {
+    const std::vector<Box> boxes = scattered_boxes(count);
+    const BoxTree tree(boxes);
+    for (const Vec3 point : {Vec3{3, 4, 0.5}, Vec3{-2, 5, 1}, Vec3{20, 20, 20}})
+      for (const double reach : {0.2, 3.0, 30.0}) {
+        const auto distance = [&](uint32_t n) { return length(boxes[n].center() - point); };
+        double expected = HUGE_VAL;
+        for (uint32_t n = 0; n < boxes.size(); ++n)
+          if (distance(n) <= reach) expected = std::min(expected, distance(n));
+        EXPECT_EQ(tree.nearest(point, reach, 0, distance), expected) << count;
+        const double any = tree.nearest(point, reach, reach, distance);
+        EXPECT_EQ(any <= reach, expected <= reach) << count;
+      }
   }
 }
 

@@ -203,10 +203,10 @@ void FacetCheck::check_facets(const QuadSurface& surface, const std::vector<uint
 void FacetCheck::keep_far_borders(const QuadSurface& surface) {
   std::vector<Vec3> places;
   for (const FarBorder& border : far_borders_) places.push_back(border.at);
-  const std::vector<double> distances = distances_to_facets(places, surface, border_reach_mm_, threads_);
+  const std::vector<bool> near = are_near_facets(places, surface, border_reach_mm_, threads_);
   std::vector<FarBorder> far;
-  for (size_t n = 0; n < distances.size(); ++n)
-    if (distances[n] > border_reach_mm_) far.push_back(far_borders_[n]);
+  for (size_t n = 0; n < near.size(); ++n)
+    if (!near[n]) far.push_back(far_borders_[n]);
   far_borders_ = std::move(far);
 }
 
@@ -218,10 +218,10 @@ void FacetCheck::check_crossings(const QuadSurface& surface, const std::vector<u
       return distance_to_triangle(surface.crossing(quad).at, surface.corners(triangle)) <= reach_mm_;
     });
   });
-  const std::vector<double> near = distances_to_facets(places_of(off, surface), surface, reach_mm_, threads_);
+  const std::vector<bool> near = are_near_facets(places_of(off, surface), surface, reach_mm_, threads_);
   far_crossings_.clear();
   for (size_t n = 0; n < off.size(); ++n)
-    if (near[n] > reach_mm_) far_crossings_.push_back(off[n]);
+    if (!near[n]) far_crossings_.push_back(off[n]);
 }
 
 std::vector<CrossedEdge> FacetCheck::far_hidden_edges(const QuadSurface& surface, const CellTree& tree,
@@ -246,11 +246,11 @@ std::vector<CrossedEdge> FacetCheck::far_among(const std::vector<CrossedEdge>& h
     half_mm = std::max(half_mm, 0.5 * length(edge_mm));
     middles.push_back(tree.point(edge.start) + 0.5 * edge_mm);
   }
-  const std::vector<double> about = distances_to_facets(middles, surface, reach_mm_, threads_);
+  const std::vector<bool> near = are_near_facets(middles, surface, reach_mm_ - half_mm, threads_);
   std::vector<CrossedEdge> left;
   std::vector<BorderSample> samples;
   for (size_t n = 0; n < hidden.size(); ++n) {
-    if (about[n] <= reach_mm_ - half_mm) continue;
+    if (near[n]) continue;
     left.push_back(hidden[n]);
     samples.push_back({middles[n], along(hidden[n], {1, 1, 1}), hidden[n].from, hidden[n].to});
   }
@@ -258,10 +258,10 @@ std::vector<CrossedEdge> FacetCheck::far_among(const std::vector<CrossedEdge>& h
   std::vector<Vec3> borders;
   for (size_t n = 0; n < samples.size(); ++n)
     borders.push_back(samples[n].at + offsets[n].value_or(0) * samples[n].normal);
-  const std::vector<double> distances = distances_to_facets(borders, surface, reach_mm_, threads_);
+  const std::vector<bool> are_near = are_near_facets(borders, surface, reach_mm_, threads_);
   std::vector<CrossedEdge> far;
   for (size_t n = 0; n < left.size(); ++n)
-    if (distances[n] > reach_mm_) far.push_back(left[n]);
+    if (!are_near[n]) far.push_back(left[n]);
   return far;
 }
 

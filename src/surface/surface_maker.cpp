@@ -50,7 +50,7 @@ std::vector<uint32_t> SurfaceMaker::coarse_leaves() {
   for (const auto& [a, b] : intersections_.find(surface_))
     for (const uint32_t quad : {a, b})
       for (const uint32_t vertex : surface_.mesh().quads[quad].corners)
-        if (surface_.clusters().of(vertex) == vertex) note_leaf(vertex, leaves);
+        if (surface_.clusters().of(vertex) == vertex && is_wide(vertex)) note_leaf(vertex, leaves);
   sort_once(leaves);
   return leaves;
 }
@@ -58,6 +58,11 @@ std::vector<uint32_t> SurfaceMaker::coarse_leaves() {
 void SurfaceMaker::note_leaf(uint32_t vertex, std::vector<uint32_t>& leaves) const {
   const uint32_t leaf = surface_.mesh().vertices[vertex].leaf;
   if (tree_.leaves()[leaf].level > 0) leaves.push_back(leaf);
+}
+
+bool SurfaceMaker::is_wide(uint32_t vertex) const {
+  const Leaf& leaf = tree_.leaves()[surface_.mesh().vertices[vertex].leaf];
+  return length(tree_.size_mm(leaf.level)) > options_.tolerance_mm;
 }
 
 void SurfaceMaker::finish(const Partition& partition, const StopFlag* stop) {

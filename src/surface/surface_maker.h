@@ -32,6 +32,9 @@ class SurfaceMaker {
 
  private:
   void note_leaf(uint32_t vertex, std::vector<uint32_t>& leaves) const;
+  // Whether the vertex's cell is wider than the tolerance, corner to corner. In others nothing is far, and cuts would
+  // only find finer waves to mend.
+  bool is_wide(uint32_t vertex) const;
   void fit_volumes(const Partition& partition, const StopFlag* stop);
   void mend_intersections();
   void mend_folds();
