@@ -130,7 +130,7 @@ int write(const ContoursArguments& a, OutlineFormat format, const compile::Conto
   Totals totals(plan.regions.size());
   const auto files = exporting::begin_outline_files(
       {a.output, format, static_cast<uint64_t>(plan.layers()), plan.face_mm(0)}, document);
-  ProgressLine progress(session.console);
+  ProgressLine progress(session.console, Counted::steps);
   compile::draw_contours(
       plan, a.threads,
       [&](int64_t layer, const compile::LayerRegions& regions) {

@@ -166,7 +166,7 @@ int mesh(const MeshArguments& a, Session& session) {
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
   std::optional<compile::MeshedDesign> made;
   if (loaded) {
-    ProgressLine progress(session.console);
+    ProgressLine progress(session.console, Counted::steps);
     made = compile::mesh_design(*loaded, request, diagnostics, &progress, &session.stop);
   }
   session.console.diagnose(diagnostics);

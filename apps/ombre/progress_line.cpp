@@ -70,13 +70,22 @@ void ProgressLine::update(const HowFar& how_far) {
   if (!is_due()) return;
   Pace pace = pace_of(how_far);
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  if (elapsed > 0) pace.voxels_per_second = static_cast<double>(how_far.done - done_at_start_) / elapsed;
+  if (elapsed > 0 && counted_ == Counted::voxels)
+    pace.voxels_per_second = static_cast<double>(how_far.done - done_at_start_) / elapsed;
   show(pace);
-  if (console_.voice() == Voice::programs)
-    console_.event("progress", {{"voxels_done", static_cast<double>(how_far.done)},
-                                {"voxels_total", static_cast<double>(how_far.total)},
-                                {"voxels_per_second", std::round(pace.voxels_per_second)},
-                                {"seconds_left", std::round(pace.seconds_left)}});
+  if (console_.voice() == Voice::programs) tell_programs(how_far, pace);
+}
+
+void ProgressLine::tell_programs(const HowFar& how_far, const Pace& pace) const {
+  const auto done = static_cast<double>(how_far.done), total = static_cast<double>(how_far.total);
+  const double seconds_left = std::round(pace.seconds_left);
+  if (counted_ == Counted::steps)
+    return console_.event("progress",
+                          {{"steps_done", done}, {"steps_total", total}, {"seconds_left", seconds_left}});
+  console_.event("progress", {{"voxels_done", done},
+                              {"voxels_total", total},
+                              {"voxels_per_second", std::round(pace.voxels_per_second)},
+                              {"seconds_left", seconds_left}});
 }
 
 void ProgressLine::checking(const HowFar& how_far) {

@@ -24,9 +24,13 @@ std::string progress_text(const Pace& pace);  // the same without the bar
 std::string duration_text(double seconds);    // "0:34", "1:02:03"
 std::string rate_text(double voxels_per_second);
 
+// What a job counts: of steps, which may take unequal times, no rate is said.
+enum class Counted { voxels, steps };
+
 class ProgressLine : public Progress {
  public:
-  explicit ProgressLine(const Console& console) : console_(console) {}
+  explicit ProgressLine(const Console& console, Counted counted = Counted::voxels)
+      : console_(console), counted_(counted) {}
   ~ProgressLine() override { finish(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -41,8 +45,10 @@ class ProgressLine : public Progress {
 
   bool is_due();
   void show(const Pace& pace);
+  void tell_programs(const HowFar& how_far, const Pace& pace) const;
 
   const Console& console_;
+  Counted counted_;
   std::mutex mutex_;
   bool started_ = false, has_checked_ = false, bar_shown_ = false;
   uint64_t done_at_start_ = 0;

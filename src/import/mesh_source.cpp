@@ -1,6 +1,7 @@
 // Triangle meshes as field sources.
 #include "import/mesh_source.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -67,10 +68,10 @@ class MeshSource final : public program::FieldSource {
     double distance = std::numeric_limits<double>::infinity();
     bool is_inside = false;
     for (size_t n = 0; n < points.size(); ++n) {
-      const double way = n > 0 ? length(points[n] - points[n - 1]) : 0;
-      const bool is_known = std::isfinite(distance) && std::isfinite(way);
-      if (!is_known || way >= sure * distance) is_inside = contains(points[n]);
-      distance = closest().distance(points[n], is_known ? distance + way : std::numeric_limits<double>::infinity());
+      const double way = n > 0 ? length(points[n] - points[n - 1]) : 0, before = distance;
+      const bool is_known = std::isfinite(before) && std::isfinite(way);
+      distance = closest().distance(points[n], is_known ? before + way : std::numeric_limits<double>::infinity());
+      if (!is_known || !(way < sure * std::max(before, distance))) is_inside = contains(points[n]);
       values[n] = is_inside ? -distance : distance;
     }
   }

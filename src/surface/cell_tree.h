@@ -11,7 +11,7 @@
 namespace ombre::surface {
 
 // Places in a tree count in units, sides of its finest cells. A cell of level n has sides of 2^n units.
-constexpr int grid_level = 3;
+constexpr int grid_level = 5;
 constexpr int32_t units_per_cell = 1 << grid_level;
 
 CellPlace grid_cell_of(const CellPlace& unit);

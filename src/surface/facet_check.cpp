@@ -17,20 +17,26 @@ namespace {
 
 constexpr double reach_of_tolerance = 0.88;         // samples see but a part of a facet
 constexpr double border_reach_of_tolerance = 0.66;  // and less of borders that lie deep
+constexpr double small_of_reach = 0.5;  // sides of facets that need few samples
 constexpr double most_tolerances = 16;
 constexpr double sharp_cosine = 0.5;  // between the normals of two facets
 constexpr double least_sum = 1e-6;    // of normals, to have a direction
 constexpr size_t most_measured = 1000;
 constexpr size_t quads_at_once = size_t{1} << 16;  // keeps memory low
 
+double longest_side(const std::array<Vec3, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  return std::max({length(b - a), length(c - b), length(a - c)});
+}
+
 Vec3 middle_of(const std::array<Vec3, 3>& corners) { return (1.0 / 3) * (corners[0] + corners[1] + corners[2]); }
 
 class Sampler {
  public:
-  Sampler(const QuadSurface& surface, double spacing_mm)
-      : surface_(surface), spacing_mm_(spacing_mm), has_vertex_(surface.clusters().size()) {}
+  Sampler(const QuadSurface& surface, double spacing_mm, double small_mm)
+      : surface_(surface), spacing_mm_(spacing_mm), small_mm_(small_mm), has_vertex_(surface.clusters().size()) {}
 
-  // Little can be wrong in calm quads: they get a sample, others many.
+  // Little can be wrong in calm quads: they get a sample, others many, if they are not small.
   void add(uint32_t quad) {
     quad_ = quad;
     is_seen_from_less_ = surface_.crossing(quad).edge.from < surface_.crossing(quad).edge.to;
@@ -42,7 +48,9 @@ class Sampler {
       normal_ = twice_area > 0 ? (1 / twice_area) * across : Vec3{0, 0, 1};
       add(middle_of(corners));
       if (is_calm) return;
-      add_corners(triangle, corners);
+      add_vertices(triangle, corners);
+      if (longest_side(corners) <= small_mm_) continue;
+      add_sides(triangle, corners);
       add_inside(corners, twice_area);
     }
   }
@@ -61,11 +69,17 @@ class Sampler {
     samples.push_back({at, normal_});
   }
 
-  // Vertices once, sides once where two facets, as seen from the same region, go along them in opposite directions.
-  void add_corners(const Triangle& triangle, const std::array<Vec3, 3>& corners) {
+  // Once.
+  void add_vertices(const Triangle& triangle, const std::array<Vec3, 3>& corners) {
     for (size_t n = 0; n < 3; ++n) {
       if (!has_vertex_[triangle[n]]) add(corners[n]);
       has_vertex_[triangle[n]] = true;
+    }
+  }
+
+  // Once where two facets, as seen from the same region, go along them in opposite directions.
+  void add_sides(const Triangle& triangle, const std::array<Vec3, 3>& corners) {
+    for (size_t n = 0; n < 3; ++n) {
       const uint32_t next = triangle[(n + 1) % 3];
       if ((triangle[n] < next) == is_seen_from_less_) add_side(corners[n], corners[(n + 1) % 3]);
       add_crease(std::minmax(triangle[n], next), corners[n], corners[(n + 1) % 3]);
@@ -99,15 +113,14 @@ class Sampler {
 
   void add_inside(const std::array<Vec3, 3>& corners, double twice_area) {
     const auto& [a, b, c] = corners;
-    const double longest = std::max({length(b - a), length(c - b), length(a - c)});
-    const int count = pieces(std::min(longest, std::sqrt(twice_area)));
+    const int count = pieces(std::min(longest_side(corners), std::sqrt(twice_area)));
     for (int i = 1; i < count; ++i)
       for (int j = 1; i + j < count; ++j)
         add(a + (static_cast<double>(i) / count) * (b - a) + (static_cast<double>(j) / count) * (c - a));
   }
 
   const QuadSurface& surface_;
-  double spacing_mm_;
+  double spacing_mm_, small_mm_;
   std::vector<bool> has_vertex_;
   std::unordered_map<uint64_t, Vec3> facets_;  // their normals by a side
   Vec3 normal_;
@@ -185,7 +198,7 @@ void FacetCheck::check_facets(const QuadSurface& surface, const std::vector<uint
   const auto is_seen = [&](const auto& far) { return std::ranges::binary_search(quads, far.quad); };
   std::erase_if(far_, is_seen);
   std::erase_if(far_borders_, is_seen);
-  Sampler sampler(surface, spacing_mm_);
+  Sampler sampler(surface, spacing_mm_, small_of_reach * reach_mm_);
   for (size_t begin = 0; begin < quads.size(); begin += quads_at_once) {
     sampler.clear();
     for (size_t n = begin; n < std::min(begin + quads_at_once, quads.size()); ++n) sampler.add(quads[n]);

@@ -16,7 +16,7 @@ using voxel::FieldTile;
 using voxel::Lattice;
 using voxel::TileBox;
 
-constexpr uint8_t fine_level = 1;
+constexpr uint8_t fine_level = grid_level - 2;
 constexpr int32_t units = 1 << fine_level;            // from one corner of finer cells to the next
 constexpr int32_t per_cell = units_per_cell / units;  // of the grid, along an axis
 constexpr int64_t slab_layers = int64_t{4} * per_cell;

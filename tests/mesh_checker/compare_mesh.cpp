@@ -118,6 +118,8 @@ class Search {
   Side run() {
     // Most lie on the surface nearly, and the shortest ways tell how nearly.
     for (const double share : {0.01, 0.1, 0.3, 0.5, 1.0}) go(share * tolerance_mm_, 2);
+    // Small flecks are passed by longer ones.
+    for (const double share : {0.001, 0.003, 0.01, 0.03, 0.1, 0.3}) go(share * tolerance_mm_, most_ways);
     for (double reach = tolerance_mm_; reach <= farthest_in_tolerances * tolerance_mm_; reach *= growth)
       go(reach, most_ways);
     const std::vector<Vec3> beginnings = from_;
