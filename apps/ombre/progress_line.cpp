@@ -80,8 +80,7 @@ void ProgressLine::tell_programs(const HowFar& how_far, const Pace& pace) const 
   const auto done = static_cast<double>(how_far.done), total = static_cast<double>(how_far.total);
   const double seconds_left = std::round(pace.seconds_left);
   if (counted_ == Counted::steps)
-    return console_.event("progress",
-                          {{"steps_done", done}, {"steps_total", total}, {"seconds_left", seconds_left}});
+    return console_.event("progress", {{"steps_done", done}, {"steps_total", total}, {"seconds_left", seconds_left}});
   console_.event("progress", {{"voxels_done", done},
                               {"voxels_total", total},
                               {"voxels_per_second", std::round(pace.voxels_per_second)},

@@ -100,8 +100,8 @@ TEST(MeshSource, ManyPointsAtOnceGetTheSameBits) {
   std::mt19937 random(8);
   Mesh open = torus(7, 2, 60, 30);
   open.triangles.resize(open.triangles.size() - 400);
-  for (const auto& source : {make_mesh_source("m", torus(7, 2, 60, 30), {}),
-                             make_mesh_source("m", open, {}, {InsideRule::generalized})}) {
+  for (const auto& source :
+       {make_mesh_source("m", torus(7, 2, 60, 30), {}), make_mesh_source("m", open, {}, {InsideRule::generalized})}) {
     const std::vector<Vec3> points = walks(random);
     std::vector<double> values(points.size());
     for (int channel = 0; channel < (has_mesh_distance() ? 2 : 1); ++channel) {

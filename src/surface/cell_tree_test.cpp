@@ -26,13 +26,16 @@ CellTree cells_around_a_corner() {
   return CellTree(MixedCells(corners, std::move(cells)));
 }
 
-// The middle corner lies at 16 units; inside is what is nearer to it than five units.
+// Along each axis.
+constexpr int32_t middle = 2 * units_per_cell;
+
+// Inside is what is nearer to the middle corner than five eighths of a cell.
 std::vector<Label> ball(const std::vector<CellPlace>& corners) {
   std::vector<Label> labels;
   for (const CellPlace& at : corners) {
     int32_t square = 0;
-    for (const int32_t index : at) square += (index - 16) * (index - 16);
-    labels.push_back(square < 25 ? 1 : 0);
+    for (const int32_t index : at) square += (index - middle) * (index - middle);
+    labels.push_back(64 * square < 25 * units_per_cell * units_per_cell ? 1 : 0);
   }
   return labels;
 }
@@ -65,9 +68,10 @@ void expect_closed(const CellTree& tree) {
 TEST(CellTree, FindsItsLeaves) {
   CellTree tree = cells_around_a_corner();
   ASSERT_EQ(tree.leaves().size(), 8u);
-  EXPECT_EQ(tree.find({8, 8, 8}), 0u);
-  EXPECT_EQ(tree.find({23, 15, 15}), 1u);
-  EXPECT_EQ(tree.find({7, 8, 8}), CellTree::none);
+  constexpr int32_t first = units_per_cell;
+  EXPECT_EQ(tree.find({first, first, first}), 0u);
+  EXPECT_EQ(tree.find({3 * units_per_cell - 1, middle - 1, middle - 1}), 1u);
+  EXPECT_EQ(tree.find({first - 1, first, first}), CellTree::none);
   tree.grow({0}, {}, ball);
   EXPECT_EQ(tree.leaves().size(), 15u);
   for (uint32_t n = 0; n < tree.leaves().size(); ++n) EXPECT_EQ(tree.find(tree.leaves()[n].at), n);
@@ -88,10 +92,11 @@ TEST(CellTree, OfManySizesIsClosed) {
       if (which >> n & 1) cut.push_back(n);
     tree.grow(cut, {}, ball);
     expect_closed(tree);
-    tree.grow({tree.find({15, 15, 15})}, {}, ball);
-    expect_closed(tree);
-    if (tree.leaves()[tree.find({15, 15, 15})].level > 0) tree.grow({tree.find({15, 15, 15})}, {}, ball);
-    expect_closed(tree);
+    const auto beside_middle = [&] { return tree.find({middle - 1, middle - 1, middle - 1}); };
+    while (tree.leaves()[beside_middle()].level > 0) {
+      tree.grow({beside_middle()}, {}, ball);
+      expect_closed(tree);
+    }
   }
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double reach_of_tolerance = 0.88;         // samples see but a part of a facet
 constexpr double border_reach_of_tolerance = 0.66;  // and less of borders that lie deep
-constexpr double small_of_reach = 0.5;  // sides of facets that need few samples
+constexpr double small_of_reach = 0.5;              // sides of facets that need few samples
 constexpr double most_tolerances = 16;
 constexpr double sharp_cosine = 0.5;  // between the normals of two facets
 constexpr double least_sum = 1e-6;    // of normals, to have a direction
