@@ -364,6 +364,37 @@ def test_progress_is_told(tmp_path, monkeypatch):
             part.slice("slow", progress=fail, voxel=0.011, threads=1, force=True)
 
 
+class Bar:
+    """What tqdm's bar is told, and what of it is used."""
+
+    def __init__(self, unit, unit_scale):
+        bars.append(self)
+        self.unit, self.n, self.total = unit, 0, None
+
+    def update(self, more):
+        self.n += more
+
+    def close(self):
+        pass
+
+
+bars = []
+
+
+@pytest.mark.parametrize("job, unit", [("slice", " voxels"), ("mesh", " steps"), ("contours", " steps")])
+def test_progress_of_each_job(job, unit, tmp_path, monkeypatch):
+    from ombre import _commands
+    bars.clear()
+    monkeypatch.setattr(_commands._Progress, "_find_tqdm", staticmethod(lambda: Bar))
+    part = ombre.function("sin(x)*cos(y) + sin(y)*cos(z) + sin(z)*cos(x)", min=(-9, -9, -9), max=(9, 9, 9))
+    options = {"slice": {"voxel": 0.006, "layers": ":600"}, "mesh": {"cell": 0.12},
+               "contours": {"layer_height": 0.08, "cell": 0.03, "tolerance": 0.1}}[job]
+    path = tmp_path / {"slice": "layers", "mesh": "part.stl", "contours": "part.cli"}[job]
+    getattr(part, job)(path, progress=True, threads=1, **options)
+    assert [bar.unit for bar in bars] == [unit], "the job was over before there was anything to tell"
+    assert bars[0].n == bars[0].total > 0
+
+
 def test_interrupts_stop_jobs(tmp_path):
     script = tmp_path / "long.py"
     script.write_text("import ombre, sys\n"

@@ -80,21 +80,27 @@ class _Progress:
 
     def __init__(self, progress):
         self._tell = progress if callable(progress) else None
-        self._bar = self._new_bar() if progress is True else None
-        self._is_plain = progress is True and self._bar is None
+        self._tqdm = self._find_tqdm() if progress is True else None
+        self._bar = None
+        self._is_plain = progress is True and self._tqdm is None
 
     @staticmethod
-    def _new_bar():
+    def _find_tqdm():
         try:
             from tqdm.auto import tqdm
         except ImportError:
             return None
-        return tqdm(unit=" voxels", unit_scale=True)
+        return tqdm
 
-    def update(self, done, total):
+    def update(self, event):
+        """Shows a progress event, which counts voxels or steps."""
+        unit = "steps" if "steps_done" in event else "voxels"
+        done, total = event[unit + "_done"], event[unit + "_total"]
         if self._tell:
             self._tell(done / max(total, 1))
-        elif self._bar is not None:
+        elif self._tqdm is not None:
+            if self._bar is None:
+                self._bar = self._tqdm(unit=" " + unit, unit_scale=True)
             self._bar.total = total
             self._bar.update(done - self._bar.n)
         elif self._is_plain:
@@ -121,7 +127,7 @@ def run(command, arguments, options, design=None, progress=None):
         if event["event"] != "progress":
             events.append(event)
         else:
-            shown.update(event["voxels_done"], event["voxels_total"])
+            shown.update(event)
     words = [command, *([] if design is None else ["design"]), *arguments, *_arguments(command, options)]
     code = None
     try:
