@@ -11,6 +11,7 @@
 #include "import/closest_point.h"
 #include "import/point_winding.h"
 #include "import/solid_angle.h"
+#include "import/winding_cells.h"
 
 namespace ombre::importing {
 namespace {
@@ -99,8 +100,10 @@ class MeshSource final : public program::FieldSource {
  private:
   bool contains(Vec3 p) const {
     if (!bounds_.contains(p)) return false;
-    if (rule_ != InsideRule::generalized) return is_inside(windings().at(p), rule_);
-    return std::abs(angles().winding(p)) > 0.5;
+    if (rule_ == InsideRule::generalized) return std::abs(angles().winding(p)) > 0.5;
+    if (has_reliable_sign())
+      if (const auto winding = cells().at(p)) return is_inside(*winding, rule_);
+    return is_inside(windings().at(p), rule_);
   }
 
   // A distance changes by no more than the way to the box's corners.
@@ -129,6 +132,12 @@ class MeshSource final : public program::FieldSource {
   const PointWinding& windings() const {
     return windings_.get([&](std::optional<PointWinding>& value) { value.emplace(surface_); });
   }
+  // Of a closed mesh.
+  const WindingCells& cells() const {
+    return cells_.get([&](std::optional<WindingCells>& value) {
+      value.emplace(*surface_, [&](Vec3 p) { return windings().at(p); });
+    });
+  }
   const SolidAngle& angles() const {
     return angles_.get([&](std::optional<SolidAngle>& value) { value.emplace(surface_); });
   }
@@ -142,6 +151,7 @@ class MeshSource final : public program::FieldSource {
   SurfacePtr surface_;
   Box bounds_;
   Lazy<PointWinding> windings_;
+  Lazy<WindingCells> cells_;
   Lazy<SolidAngle> angles_;
   Lazy<ClosestPoint> closest_;
   Lazy<bool> is_closed_;

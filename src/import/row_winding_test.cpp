@@ -14,8 +14,6 @@ namespace {
 using namespace test;
 using program::Span;
 
-SurfacePtr surface_of(const Mesh& mesh) { return std::make_shared<Surface>(Surface{mesh.vertices, mesh.triangles}); }
-
 struct Lattice {
   int64_t x, y, z;
 };

@@ -2,16 +2,22 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <utility>
 
 #include "formats/mesh.h"
 #include "formats/vertex_merger.h"
+#include "import/surface.h"
 
 namespace ombre::importing::test {
 
 using formats::Mesh;
+
+inline SurfacePtr surface_of(const Mesh& mesh) {
+  return std::make_shared<Surface>(Surface{mesh.vertices, mesh.triangles});
+}
 
 inline void add_quad(Mesh& mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
   mesh.triangles.push_back({a, b, c});
