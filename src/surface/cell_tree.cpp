@@ -89,10 +89,24 @@ uint32_t CellTree::find(const CellPlace& unit) const {
   }
 }
 
-void CellTree::grow(const std::vector<uint32_t>& cut_leaves, const std::vector<CellPlace>& taken_in,
-                    const AskLabels& ask) {
+void CellTree::grow(const Growth& growth, const AskLabels& ask) {
+  grow_at_end(growth, ask);
+  list_leaves();
+}
+
+void CellTree::grow_on(Growth growth, const AskLabels& ask, const MoreGrowth& more) {
+  while (!growth.is_empty()) {
+    std::vector<CellPlace> grown = growth.taken_in;
+    for (const uint32_t number : growth.cut) grown.push_back(grid_cell_of(leaves_[number].at));
+    grow_at_end(growth, ask);
+    growth = more(leaves_around(grown));
+  }
+  list_leaves();
+}
+
+void CellTree::grow_at_end(const Growth& growth, const AskLabels& ask) {
   std::vector<CellPlace> corners;
-  for (const uint32_t number : cut_leaves) {
+  for (const uint32_t number : growth.cut) {
     const Leaf& leaf = leaves_[number];
     ASSERT(leaf.level > 0);
     learn_corners(leaf);
@@ -100,13 +114,45 @@ void CellTree::grow(const std::vector<uint32_t>& cut_leaves, const std::vector<C
       for (size_t corner = 0; corner < 8; ++corner)
         corners.push_back(moved(moved(leaf.at, child, 1 << (leaf.level - 1)), corner, 1 << (leaf.level - 1)));
   }
-  for (const CellPlace& place : taken_in)
+  for (const CellPlace& place : growth.taken_in)
     for (size_t corner = 0; corner < 8; ++corner)
       corners.push_back(moved(first_unit_of(place), corner, units_per_cell));
   ask_unknown(std::move(corners), ask);
-  for (const uint32_t number : cut_leaves) cut(leaves_[number]);
-  take_in(taken_in);
-  list_leaves();
+  for (const uint32_t number : growth.cut) cut(Leaf(leaves_[number]));
+  take_in(growth.taken_in);
+}
+
+// In order; near cuts all of them.
+std::vector<uint32_t> CellTree::leaves_around(const std::vector<CellPlace>& grid_cells) {
+  std::vector<uint32_t> cells;
+  for (const CellPlace& cell : grid_cells)
+    each_around(cell, [&](const CellPlace& place) {
+      const uint32_t number = grid_.find(place);
+      if (number != MixedCells::none) cells.push_back(number);
+    });
+  std::ranges::sort(cells);
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  std::vector<uint32_t> leaves;
+  for (const uint32_t cell : cells) each_leaf_below(roots_[cell], [&](uint32_t leaf) { leaves.push_back(leaf); });
+  std::ranges::sort(leaves);
+  for (const uint32_t leaf : leaves) leaves_[leaf].is_near_cut = true;
+  return leaves;
+}
+
+template <class Visit>
+void CellTree::each_leaf_below(const Root& root, const Visit& visit) const {
+  if (root.children == none) return visit(root.leaf);
+  std::vector<uint32_t> waiting{root.children};
+  while (!waiting.empty()) {
+    const uint32_t children = waiting.back();
+    waiting.pop_back();
+    for (uint32_t n = children; n < children + 8; ++n) {
+      if (children_[n].children == none)
+        visit(children_[n].leaf);
+      else
+        waiting.push_back(children_[n].children);
+    }
+  }
 }
 
 void CellTree::learn_corners(const Leaf& leaf) {
@@ -147,6 +193,8 @@ void CellTree::cut(const Leaf& leaf) {
     Child child;
     for (size_t corner = 0; corner < 8; ++corner)
       child.corners[corner] = labels_.at(moved(moved(leaf.at, n, 1 << level), corner, 1 << level));
+    child.leaf = static_cast<uint32_t>(leaves_.size());
+    leaves_.push_back({{moved(leaf.at, n, 1 << level), child.corners}, static_cast<uint8_t>(level), true});
     children_.push_back(child);
   }
   uint32_t* above = &roots_[grid_.find(grid_cell_of(leaf.at))].children;
@@ -171,7 +219,8 @@ void CellTree::take_in(const std::vector<CellPlace>& places) {
   const auto take_before = [&](const auto& is_before) {
     for (; next != more.end() && is_before(*next); ++next) {
       cells.push_back(*next);
-      roots.emplace_back();
+      roots.emplace_back().leaf = static_cast<uint32_t>(leaves_.size());
+      leaves_.push_back({{first_unit_of(next->at), next->corners}, grid_level, false});
     }
   };
   for (size_t n = 0; n < roots_.size(); ++n) {

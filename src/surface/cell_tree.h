@@ -28,6 +28,15 @@ struct Leaf : MixedCell {
   bool is_mixed() const;
 };
 
+// Leaves above level 0 that are cut into eight, and cells of the grid that are not mixed and are taken in, by their
+// places in the grid.
+struct Growth {
+  std::vector<uint32_t> cut;
+  std::vector<CellPlace> taken_in;
+
+  bool is_empty() const { return cut.empty() && taken_in.empty(); }
+};
+
 class CellTree {
  public:
   static constexpr uint32_t none = ~uint32_t{0};
@@ -47,9 +56,12 @@ class CellTree {
   // The number of the leaf that holds a unit; none in cells of the grid that the tree does not have.
   uint32_t find(const CellPlace& unit) const;
 
-  // Cuts leaves above level 0 into eight, and takes in cells of the grid that are not mixed, given by their places in
-  // the grid. Leaves get new numbers.
-  void grow(const std::vector<uint32_t>& cut, const std::vector<CellPlace>& taken_in, const AskLabels& ask);
+  // Leaves get new numbers.
+  void grow(const Growth& growth, const AskLabels& ask);
+  // Grows again and again by what `more` asks for. It gets the leaves in and around the cells of the grid that grew
+  // last; what was cut is still among all leaves() until the end, but is not found.
+  using MoreGrowth = std::function<Growth(const std::vector<uint32_t>& leaves)>;
+  void grow_on(Growth growth, const AskLabels& ask, const MoreGrowth& more);
 
  private:
   struct Child {
@@ -67,7 +79,12 @@ class CellTree {
   std::optional<Label> known_label(const CellPlace& corner) const;
   void ask_unknown(std::vector<CellPlace> corners, const AskLabels& ask);
   void take_in(const std::vector<CellPlace>& places);
+  // Leaves that come are numbered after the others.
+  void grow_at_end(const Growth& growth, const AskLabels& ask);
   void cut(const Leaf& leaf);
+  std::vector<uint32_t> leaves_around(const std::vector<CellPlace>& grid_cells);
+  template <class Visit>
+  void each_leaf_below(const Root& root, const Visit& visit) const;
   void mark_around_cuts(std::vector<bool>& is_near) const;
   void list_leaves();
   void list_below(const CellPlace& at, int level, uint32_t children);

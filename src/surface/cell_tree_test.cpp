@@ -72,7 +72,7 @@ TEST(CellTree, FindsItsLeaves) {
   EXPECT_EQ(tree.find({first, first, first}), 0u);
   EXPECT_EQ(tree.find({3 * units_per_cell - 1, middle - 1, middle - 1}), 1u);
   EXPECT_EQ(tree.find({first - 1, first, first}), CellTree::none);
-  tree.grow({0}, {}, ball);
+  tree.grow({{0}, {}}, ball);
   EXPECT_EQ(tree.leaves().size(), 15u);
   for (uint32_t n = 0; n < tree.leaves().size(); ++n) EXPECT_EQ(tree.find(tree.leaves()[n].at), n);
 }
@@ -90,13 +90,32 @@ TEST(CellTree, OfManySizesIsClosed) {
     std::vector<uint32_t> cut;
     for (uint32_t n = 0; n < 8; ++n)
       if (which >> n & 1) cut.push_back(n);
-    tree.grow(cut, {}, ball);
+    tree.grow({cut, {}}, ball);
     expect_closed(tree);
     const auto beside_middle = [&] { return tree.find({middle - 1, middle - 1, middle - 1}); };
     while (tree.leaves()[beside_middle()].level > 0) {
-      tree.grow({beside_middle()}, {}, ball);
+      tree.grow({{beside_middle()}, {}}, ball);
       expect_closed(tree);
     }
+  }
+}
+
+TEST(CellTree, GrowsOnAsItGrowsStepByStep) {
+  CellTree at_once = cells_around_a_corner(), by_steps = cells_around_a_corner();
+  const auto beside_middle = [](const CellTree& tree) { return tree.find({middle - 1, middle - 1, middle - 1}); };
+  while (by_steps.leaves()[beside_middle(by_steps)].level > 0) by_steps.grow({{beside_middle(by_steps)}, {}}, ball);
+  at_once.grow_on({{beside_middle(at_once)}, {}}, ball, [&](const std::vector<uint32_t>& leaves) {
+    const uint32_t next = beside_middle(at_once);
+    EXPECT_TRUE(std::ranges::binary_search(leaves, next));
+    for (const uint32_t leaf : leaves) EXPECT_EQ(at_once.find(at_once.leaves()[leaf].at), leaf);
+    return at_once.leaves()[next].level > 0 ? Growth{{next}, {}} : Growth{};
+  });
+  ASSERT_EQ(at_once.leaves().size(), by_steps.leaves().size());
+  for (size_t n = 0; n < by_steps.leaves().size(); ++n) {
+    EXPECT_EQ(at_once.leaves()[n].at, by_steps.leaves()[n].at);
+    EXPECT_EQ(at_once.leaves()[n].level, by_steps.leaves()[n].level);
+    EXPECT_EQ(at_once.leaves()[n].corners, by_steps.leaves()[n].corners);
+    EXPECT_EQ(at_once.leaves()[n].is_near_cut, by_steps.leaves()[n].is_near_cut);
   }
 }
 

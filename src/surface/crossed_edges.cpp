@@ -58,13 +58,19 @@ CellPlace unit_beside(const CrossedEdge& edge, size_t corner) {
 }
 
 std::vector<ListedEdge> crossed_edges(const CellTree& tree, bool only_near_cuts, int threads) {
+  std::vector<uint32_t> leaves;
+  leaves.reserve(tree.leaves().size());
+  for (uint32_t n = 0; n < tree.leaves().size(); ++n)
+    if (tree.leaves()[n].is_near_cut || !only_near_cuts) leaves.push_back(n);
+  return crossed_edges(tree, leaves, threads);
+}
+
+std::vector<ListedEdge> crossed_edges(const CellTree& tree, const std::vector<uint32_t>& leaves, int threads) {
   constexpr size_t piece = 4096;
-  const std::vector<Leaf>& leaves = tree.leaves();
   std::vector<std::vector<ListedEdge>> pieces((leaves.size() + piece - 1) / piece);
   run_parallel(pieces.size(), threads, [&](size_t p) {
     const Lister lister(tree);
-    for (size_t n = p * piece; n < std::min((p + 1) * piece, leaves.size()); ++n)
-      if (leaves[n].is_near_cut || !only_near_cuts) lister.list(static_cast<uint32_t>(n), pieces[p]);
+    for (size_t n = p * piece; n < std::min((p + 1) * piece, leaves.size()); ++n) lister.list(leaves[n], pieces[p]);
   });
   std::vector<ListedEdge> all;
   for (const auto& part : pieces) all.insert(all.end(), part.begin(), part.end());

@@ -170,7 +170,22 @@ double farthest_from_facets(std::vector<Vec3> places, const QuadSurface& surface
   return farthest;
 }
 
-std::vector<Vec3> places_of(const std::vector<uint32_t>& crossings, const QuadSurface& surface) {
+std::vector<Ball> balls_around(const std::vector<Vec3>& places, double radius_mm) {
+  std::vector<Ball> balls;
+  balls.reserve(places.size());
+  for (const Vec3& place : places) balls.push_back({place, radius_mm});
+  return balls;
+}
+
+template <class T>
+void remove_where(const std::vector<bool>& marks, std::vector<T>& values) {
+  size_t kept = 0;
+  for (size_t n = 0; n < values.size(); ++n)
+    if (!marks[n]) values[kept++] = values[n];
+  values.resize(kept);
+}
+
+std::vector<Vec3> crossings_of(const std::vector<uint32_t>& crossings, const QuadSurface& surface) {
   std::vector<Vec3> places;
   places.reserve(crossings.size());
   for (const uint32_t n : crossings) places.push_back(surface.crossing(n).at);
@@ -198,6 +213,8 @@ void FacetCheck::check_facets(const QuadSurface& surface, const std::vector<uint
   const auto is_seen = [&](const auto& far) { return std::ranges::binary_search(quads, far.quad); };
   std::erase_if(far_, is_seen);
   std::erase_if(far_borders_, is_seen);
+  keep_far_borders(surface, quads);
+  std::vector<FarBorder> found_borders;
   Sampler sampler(surface, spacing_mm_, small_of_reach * reach_mm_);
   for (size_t begin = 0; begin < quads.size(); begin += quads_at_once) {
     sampler.clear();
@@ -206,35 +223,47 @@ void FacetCheck::check_facets(const QuadSurface& surface, const std::vector<uint
     for (const uint32_t n : found.far) far_.push_back({sampler.quads[n], sampler.samples[n]});
     for (const DeepBorder& deep :
          find_deep_borders(partition_, sampler.samples, found.beside, border_reach_mm_, threads_, stop_))
-      far_borders_.push_back({sampler.quads[deep.sample], deep.at});
+      found_borders.push_back({sampler.quads[deep.sample], deep.at});
   }
+  add_far_borders(surface, std::move(found_borders));
   std::ranges::stable_sort(far_, {}, &Far::quad);
-  keep_far_borders(surface);
   std::ranges::stable_sort(far_borders_, {}, &FarBorder::quad);
 }
 
-void FacetCheck::keep_far_borders(const QuadSurface& surface) {
+std::vector<Vec3> FacetCheck::places_of(const std::vector<FarBorder>& borders) {
   std::vector<Vec3> places;
-  for (const FarBorder& border : far_borders_) places.push_back(border.at);
-  const std::vector<bool> near = are_near_facets(places, surface, border_reach_mm_, threads_);
-  std::vector<FarBorder> far;
-  for (size_t n = 0; n < near.size(); ++n)
-    if (!near[n]) far.push_back(far_borders_[n]);
-  far_borders_ = std::move(far);
+  places.reserve(borders.size());
+  for (const FarBorder& border : borders) places.push_back(border.at);
+  return places;
 }
 
-void FacetCheck::check_crossings(const QuadSurface& surface, const std::vector<uint32_t>& quads) {
-  std::vector<uint32_t> off;
-  std::ranges::set_union(quads, far_crossings_, std::back_inserter(off));
-  std::erase_if(off, [&](uint32_t quad) {
-    return std::ranges::any_of(surface.triangles(quad), [&](const Triangle& triangle) {
+// No other quads can have come near.
+void FacetCheck::keep_far_borders(const QuadSurface& surface, const std::vector<uint32_t>& changed) {
+  const std::vector<bool> near =
+      meet_facets(balls_around(places_of(far_borders_), border_reach_mm_), surface, changed, threads_);
+  remove_where(near, far_borders_);
+}
+
+void FacetCheck::add_far_borders(const QuadSurface& surface, std::vector<FarBorder> found) {
+  remove_where(meet_facets(balls_around(places_of(found), border_reach_mm_), surface, threads_), found);
+  far_borders_.insert(far_borders_.end(), found.begin(), found.end());
+  std::ranges::stable_sort(far_borders_, {}, &FarBorder::quad);
+}
+
+void FacetCheck::check_crossings(const QuadSurface& surface, const std::vector<uint32_t>& changed) {
+  const std::vector<uint32_t>& before = far_crossings_;
+  std::vector<uint32_t> still, off;
+  std::ranges::set_difference(before, changed, std::back_inserter(still));
+  std::ranges::copy_if(changed, std::back_inserter(off), [&](uint32_t quad) {
+    return std::ranges::none_of(surface.triangles(quad), [&](const Triangle& triangle) {
       return distance_to_triangle(surface.crossing(quad).at, surface.corners(triangle)) <= reach_mm_;
     });
   });
-  const std::vector<bool> near = are_near_facets(places_of(off, surface), surface, reach_mm_, threads_);
+  // No other quads can have come near to those that were far before.
+  remove_where(meet_facets(balls_around(crossings_of(still, surface), reach_mm_), surface, changed, threads_), still);
+  remove_where(meet_facets(balls_around(crossings_of(off, surface), reach_mm_), surface, threads_), off);
   far_crossings_.clear();
-  for (size_t n = 0; n < off.size(); ++n)
-    if (!near[n]) far_crossings_.push_back(off[n]);
+  std::ranges::merge(still, off, std::back_inserter(far_crossings_));
 }
 
 std::vector<CrossedEdge> FacetCheck::far_hidden_edges(const QuadSurface& surface, const CellTree& tree,
@@ -259,7 +288,7 @@ std::vector<CrossedEdge> FacetCheck::far_among(const std::vector<CrossedEdge>& h
     half_mm = std::max(half_mm, 0.5 * length(edge_mm));
     middles.push_back(tree.point(edge.start) + 0.5 * edge_mm);
   }
-  const std::vector<bool> near = are_near_facets(middles, surface, reach_mm_ - half_mm, threads_);
+  const std::vector<bool> near = meet_facets(balls_around(middles, reach_mm_ - half_mm), surface, threads_);
   std::vector<CrossedEdge> left;
   std::vector<BorderSample> samples;
   for (size_t n = 0; n < hidden.size(); ++n) {
@@ -271,11 +300,8 @@ std::vector<CrossedEdge> FacetCheck::far_among(const std::vector<CrossedEdge>& h
   std::vector<Vec3> borders;
   for (size_t n = 0; n < samples.size(); ++n)
     borders.push_back(samples[n].at + offsets[n].value_or(0) * samples[n].normal);
-  const std::vector<bool> are_near = are_near_facets(borders, surface, reach_mm_, threads_);
-  std::vector<CrossedEdge> far;
-  for (size_t n = 0; n < left.size(); ++n)
-    if (!are_near[n]) far.push_back(left[n]);
-  return far;
+  remove_where(meet_facets(balls_around(borders, reach_mm_), surface, threads_), left);
+  return left;
 }
 
 void FacetCheck::renumber(const std::vector<Crossing>& crossings) {
@@ -304,7 +330,7 @@ double FacetCheck::farthest_in_tolerances(const QuadSurface& surface) const {
   samples = evenly_spaced(samples, most_measured);
   const double most = most_tolerances * tolerance_mm_;
   double farthest = tolerance_mm_;
-  std::vector<Vec3> borders = places_of(far_crossings_, surface);
+  std::vector<Vec3> borders = crossings_of(far_crossings_, surface);
   for (const FarBorder& border : far_borders_) borders.push_back(border.at);
   farthest = std::max(farthest, farthest_from_facets(std::move(borders), surface, tolerance_mm_, most, threads_));
   return std::max(farthest, farthest_mm(partition_, samples, tolerance_mm_, threads_, stop_)) / tolerance_mm_;

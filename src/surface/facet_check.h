@@ -40,9 +40,11 @@ class FacetCheck {
   std::vector<CrossedEdge> far_among(const std::vector<CrossedEdge>& hidden, const QuadSurface& surface,
                                      const CellTree& tree) const;
   void check_facets(const QuadSurface& surface, const std::vector<uint32_t>& quads);
+  static std::vector<Vec3> places_of(const std::vector<FarBorder>& borders);
+  void keep_far_borders(const QuadSurface& surface, const std::vector<uint32_t>& changed);
   // Of those that were found, the ones that no facet is near.
-  void keep_far_borders(const QuadSurface& surface);
-  void check_crossings(const QuadSurface& surface, const std::vector<uint32_t>& quads);
+  void add_far_borders(const QuadSurface& surface, std::vector<FarBorder> found);
+  void check_crossings(const QuadSurface& surface, const std::vector<uint32_t>& changed);
 
   const Partition& partition_;
   double tolerance_mm_, reach_mm_, border_reach_mm_, spacing_mm_;

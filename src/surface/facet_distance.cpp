@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/tasks.h"
 #include "surface/box_tree.h"
@@ -18,40 +19,47 @@ void in_pieces(size_t count, int threads, const Work& work) {
                [&](size_t p) { work(p * piece, std::min((p + 1) * piece, count)); });
 }
 
-BoxTree tree_around(const std::vector<Vec3>& points, double reach_mm) {
+std::vector<uint32_t> all_quads(const QuadSurface& surface) {
+  std::vector<uint32_t> quads(surface.quads());
+  std::iota(quads.begin(), quads.end(), 0U);
+  return quads;
+}
+
+BoxTree tree_around(const std::vector<Ball>& balls) {
   std::vector<Box> boxes;
-  boxes.reserve(points.size());
-  for (const Vec3& point : points) boxes.push_back(Box{point, point}.expanded(reach_mm));
+  boxes.reserve(balls.size());
+  for (const Ball& ball : balls) boxes.push_back(Box{ball.center, ball.center}.expanded(ball.radius_mm));
   return BoxTree(boxes);
 }
 
-// Quads that may have facets within reach of a point, with their boxes.
+// Those of the quads that may meet a ball, with their boxes.
 class NearQuads {
  public:
-  NearQuads(const std::vector<Vec3>& points, const QuadSurface& surface, double reach_mm, int threads)
+  NearQuads(const std::vector<Ball>& balls, const QuadSurface& surface, const std::vector<uint32_t>& quads, int threads)
       : surface_(surface) {
-    const BoxTree around = tree_around(points, reach_mm);
-    std::vector<Box> boxes(surface.quads());
+    const BoxTree around = tree_around(balls);
+    std::vector<Box> boxes(quads.size());
     in_pieces(boxes.size(), threads, [&](size_t begin, size_t end) {
-      for (size_t quad = begin; quad < end; ++quad) {
-        const Box box = box_of_quad(static_cast<uint32_t>(quad));
-        if (!box.is_empty() && around.meets_any(box)) boxes[quad] = box;
+      for (size_t n = begin; n < end; ++n) {
+        const Box box = box_of_quad(quads[n]);
+        if (!box.is_empty() && around.meets_any(box)) boxes[n] = box;
       }
     });
     std::vector<Box> kept;
-    for (uint32_t quad = 0; quad < boxes.size(); ++quad) {
-      if (boxes[quad].is_empty()) continue;
-      quads_.push_back(quad);
-      kept.push_back(boxes[quad]);
+    for (size_t n = 0; n < boxes.size(); ++n) {
+      if (boxes[n].is_empty()) continue;
+      quads_.push_back(quads[n]);
+      kept.push_back(boxes[n]);
     }
     tree_ = BoxTree(kept);
   }
 
-  double distance(Vec3 point, double reach_mm, double enough_mm) const {
-    return tree_.nearest(point, reach_mm, enough_mm, [&](uint32_t n) {
+  // Within the ball; any that is `enough_mm` or less.
+  double distance(const Ball& ball, double enough_mm) const {
+    return tree_.nearest(ball.center, ball.radius_mm, enough_mm, [&](uint32_t n) {
       double nearest = HUGE_VAL;
       for (const Triangle& triangle : surface_.triangles(quads_[n]))
-        nearest = std::min(nearest, distance_to_triangle(point, surface_.corners(triangle)));
+        nearest = std::min(nearest, distance_to_triangle(ball.center, surface_.corners(triangle)));
       return nearest;
     });
   }
@@ -68,13 +76,14 @@ class NearQuads {
   BoxTree tree_;
 };
 
-std::vector<double> distances(const std::vector<Vec3>& points, const QuadSurface& surface, double reach_mm,
-                              double enough_mm, int threads) {
-  if (points.empty()) return {};
-  const NearQuads near(points, surface, reach_mm, threads);
-  std::vector<double> distances(points.size());
-  in_pieces(points.size(), threads, [&](size_t begin, size_t end) {
-    for (size_t n = begin; n < end; ++n) distances[n] = near.distance(points[n], reach_mm, enough_mm);
+// In each ball; any that is no more than this share of the radius is enough.
+std::vector<double> distances(const std::vector<Ball>& balls, const QuadSurface& surface,
+                              const std::vector<uint32_t>& quads, double enough, int threads) {
+  if (balls.empty() || quads.empty()) return std::vector<double>(balls.size(), HUGE_VAL);
+  const NearQuads near(balls, surface, quads, threads);
+  std::vector<double> distances(balls.size());
+  in_pieces(balls.size(), threads, [&](size_t begin, size_t end) {
+    for (size_t n = begin; n < end; ++n) distances[n] = near.distance(balls[n], enough * balls[n].radius_mm);
   });
   return distances;
 }
@@ -83,16 +92,23 @@ std::vector<double> distances(const std::vector<Vec3>& points, const QuadSurface
 
 std::vector<double> distances_to_facets(const std::vector<Vec3>& points, const QuadSurface& surface, double reach_mm,
                                         int threads) {
-  return distances(points, surface, reach_mm, 0, threads);
+  std::vector<Ball> balls;
+  balls.reserve(points.size());
+  for (const Vec3& point : points) balls.push_back({point, reach_mm});
+  return distances(balls, surface, all_quads(surface), 0, threads);
 }
 
-std::vector<bool> are_near_facets(const std::vector<Vec3>& points, const QuadSurface& surface, double reach_mm,
-                                  int threads) {
-  const std::vector<double> found = distances(points, surface, reach_mm, reach_mm, threads);
-  std::vector<bool> near;
-  near.reserve(points.size());
-  for (const double distance : found) near.push_back(distance <= reach_mm);
-  return near;
+std::vector<bool> meet_facets(const std::vector<Ball>& balls, const QuadSurface& surface, int threads) {
+  return meet_facets(balls, surface, all_quads(surface), threads);
+}
+
+std::vector<bool> meet_facets(const std::vector<Ball>& balls, const QuadSurface& surface,
+                              const std::vector<uint32_t>& quads, int threads) {
+  const std::vector<double> found = distances(balls, surface, quads, 1, threads);
+  std::vector<bool> meet;
+  meet.reserve(balls.size());
+  for (size_t n = 0; n < balls.size(); ++n) meet.push_back(found[n] <= balls[n].radius_mm);
+  return meet;
 }
 
 }  // namespace ombre::surface

@@ -10,24 +10,17 @@ namespace {
 // Between leaves around a crossed edge.
 constexpr int most_level_difference = 1;
 
-// What is cut and taken in so that leaves around crossed edges are mixed, and not far larger than the edges are long.
-struct Growth {
-  std::vector<uint32_t> cut;
-  std::vector<CellPlace> taken_in;
-
-  bool is_empty() const { return cut.empty() && taken_in.empty(); }
-  void sort() {
-    std::ranges::sort(cut);
-    cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
-    std::ranges::sort(taken_in);
-    taken_in.erase(std::unique(taken_in.begin(), taken_in.end()), taken_in.end());
-  }
-};
+void sort_once(Growth& growth) {
+  std::ranges::sort(growth.cut);
+  growth.cut.erase(std::unique(growth.cut.begin(), growth.cut.end()), growth.cut.end());
+  std::ranges::sort(growth.taken_in);
+  growth.taken_in.erase(std::unique(growth.taken_in.begin(), growth.taken_in.end()), growth.taken_in.end());
+}
 
 Growth growth_to_cells_of(const std::vector<CrossedEdge>& hidden) {
   Growth growth;
   for (const CrossedEdge& edge : hidden) growth.taken_in.push_back(grid_cell_of(edge.start));
-  growth.sort();
+  sort_once(growth);
   return growth;
 }
 
@@ -38,13 +31,14 @@ Growth growth_within(const CellTree& tree, const std::vector<CrossedEdge>& hidde
     const uint32_t leaf = tree.find(edge.start);
     if (tree.leaves()[leaf].level > edge.level) growth.cut.push_back(leaf);
   }
-  growth.sort();
+  sort_once(growth);
   return growth;
 }
 
-Growth growth_around_cuts(const CellTree& tree, bool may_cut, int threads) {
+// What is cut and taken in so that leaves around crossed edges are mixed, and not far larger than the edges are long.
+Growth growth_around(const CellTree& tree, const std::vector<ListedEdge>& edges, bool may_cut) {
   Growth growth;
-  for (const auto& [leaf_of_edge, edge] : crossed_edges(tree, true, threads))
+  for (const auto& [leaf_of_edge, edge] : edges)
     for (size_t corner = 0; corner < 4; ++corner) {
       const uint32_t number = edge.leaves[corner];
       if (number == CellTree::none) {
@@ -55,7 +49,7 @@ Growth growth_around_cuts(const CellTree& tree, bool may_cut, int threads) {
       const bool is_too_large = leaf.level > edge.level + most_level_difference || !leaf.is_mixed();
       if (may_cut && is_too_large) growth.cut.push_back(number);
     }
-  growth.sort();
+  sort_once(growth);
   return growth;
 }
 
@@ -73,13 +67,14 @@ void refine(CellTree& tree, const std::vector<uint32_t>& leaves, const std::vect
   };
   Growth first = growth_to_cells_of(hidden);
   first.cut = leaves;
-  tree.grow(first.cut, first.taken_in, ask);
+  tree.grow(first, ask);
   for (Growth more = growth_within(tree, hidden); !more.is_empty(); more = growth_within(tree, hidden))
-    tree.grow(more.cut, {}, ask);
-  for (Growth more = growth_around_cuts(tree, true, threads); !more.is_empty();) {
-    tree.grow(more.cut, more.taken_in, ask);
-    more = growth_around_cuts(tree, tree.leaves().size() < most_leaves, threads);
-  }
+    tree.grow(more, ask);
+  tree.grow_on(growth_around(tree, crossed_edges(tree, true, threads), true), ask,
+               [&](const std::vector<uint32_t>& grown) {
+                 const bool may_cut = tree.leaves().size() < most_leaves;
+                 return growth_around(tree, crossed_edges(tree, grown, threads), may_cut);
+               });
 }
 
 }  // namespace ombre::surface
