@@ -10,6 +10,7 @@
 #include "compile/build.h"
 #include "compile/node_registry.h"
 #include "design/design.h"
+#include "program/passes/passes.h"
 
 namespace {
 
@@ -46,6 +47,14 @@ void check_printing(const design::Design& design) {
   (void)design::to_tree(design);
 }
 
+// With the code of those of many parts that reach the point.
+program::Program parts_written_out(const program::Program& program, Vec3 p) {
+  if (!program.has_parts()) return program;
+  std::vector<Interval> ranges;
+  program::evaluate_intervals(program, Box{p, p}, ranges);
+  return program::expand_parts(program, ranges, program::Precision::reference);
+}
+
 void check_lowering(const design::Design& design) {
   Diagnostics diagnostics;
   const auto box = compile::design_box(design, diagnostics);
@@ -58,8 +67,9 @@ void check_lowering(const design::Design& design) {
   std::vector<double> values;
   const program::Program& program = built->materials.program;
   const auto inside = [&](Vec3 p) {
-    program::evaluate_point(program, p, values);
-    return values[program.outputs[0]];
+    const program::Program at_point = parts_written_out(program, p);
+    program::evaluate_point(at_point, p, values);
+    return values[at_point.outputs[0]];
   };
   for (const Vec3 p : {Vec3{0, 0, 0}, Vec3{1, 2, -3}, Vec3{1e5, 1, -1}}) {
     const double is_inside = inside(p);
