@@ -243,6 +243,27 @@ TEST(Mesh, HasPocketsThatNoCornerOfACellSees) {
       EXPECT_LE(distance(middle + radius * way, body), tolerance) << middle.x;
 }
 
+// Most of them lie between the corners of cells, and all cells have to be cut.
+TEST(Mesh, OfSheetsThinnerThanCellsHasThemAll) {
+  const MeshedDesign made = mesh_text("intersection() { cube(2); function(\"sin(4*pi*x)\"); }", cells_of(0.4, 0.02));
+  EXPECT_EQ(made.report.farthest_in_tolerances, 1);
+  ASSERT_EQ(made.bodies.size(), 1u);
+  expect_manifold(made.bodies[0].body);
+  EXPECT_NEAR(made.bodies[0].volume_mm3, 4, 1e-3 * 4);
+  EXPECT_NEAR(made.bodies[0].area_mm2, 4 * 2 * (2 * 2 + 0.25 * 2 + 0.25 * 2), 1e-3 * 40);
+}
+
+// What is inside becomes what is outside when all turns about the middle.
+TEST(Mesh, OfAGyroidFinerThanCellsIsHalfTheCube) {
+  const MeshedDesign made = mesh_text(
+      "intersection() { cube(3); function(\"sin(12*x)*cos(12*y) + sin(12*y)*cos(12*z) + sin(12*z)*cos(12*x)\"); }",
+      cells_of(0.3, 0.02));
+  EXPECT_EQ(made.report.farthest_in_tolerances, 1);
+  EXPECT_EQ(made.report.intersections, 0u);
+  expect_manifold(made.bodies.at(0).body);
+  EXPECT_NEAR(made.bodies[0].volume_mm3, 13.5, 1e-3 * 13.5);
+}
+
 TEST(Mesh, OfAGyroidHalvesItsCells) {
   const MeshedDesign made = mesh_text(
       "intersection() { cube(8); function(\"sin(pi/2*x)*cos(pi/2*y) + sin(pi/2*y)*cos(pi/2*z) + "

@@ -1,6 +1,7 @@
 #include "surface/cell_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "base/assert.h"
@@ -66,8 +67,23 @@ Vec3 CellTree::point(const CellPlace& units) const {
   return point;
 }
 
+CellPlace CellTree::unit_at(Vec3 point) const {
+  CellPlace unit{};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double from_origin = point[static_cast<int>(axis)] - lattice().origin[static_cast<int>(axis)];
+    unit[axis] = static_cast<int32_t>(std::floor((from_origin / lattice().pitch[axis].mm() - 0.5) * units_per_cell));
+  }
+  return unit;
+}
+
 Vec3 CellTree::size_mm(int level) const {
   return (static_cast<double>(1 << level) / units_per_cell) * lattice().voxel_mm();
+}
+
+bool CellTree::is_within(const CellPlace& unit) const {
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (unit[axis] < 0 || unit[axis] >= (lattice().count[axis] - 1) * units_per_cell) return false;
+  return true;
 }
 
 bool CellTree::is_outermost(const CellPlace& units) const {
@@ -96,10 +112,9 @@ void CellTree::grow(const Growth& growth, const AskLabels& ask) {
 
 void CellTree::grow_on(Growth growth, const AskLabels& ask, const MoreGrowth& more) {
   while (!growth.is_empty()) {
-    std::vector<CellPlace> grown = growth.taken_in;
-    for (const uint32_t number : growth.cut) grown.push_back(grid_cell_of(leaves_[number].at));
+    const size_t grown_before = grown_.size();
     grow_at_end(growth, ask);
-    growth = more(leaves_around(grown));
+    growth = more(leaves_around({grown_.begin() + static_cast<ptrdiff_t>(grown_before), grown_.end()}));
   }
   list_leaves();
 }
@@ -118,6 +133,8 @@ void CellTree::grow_at_end(const Growth& growth, const AskLabels& ask) {
     for (size_t corner = 0; corner < 8; ++corner)
       corners.push_back(moved(first_unit_of(place), corner, units_per_cell));
   ask_unknown(std::move(corners), ask);
+  grown_.insert(grown_.end(), growth.taken_in.begin(), growth.taken_in.end());
+  for (const uint32_t number : growth.cut) grown_.push_back(grid_cell_of(leaves_[number].at));
   for (const uint32_t number : growth.cut) cut(Leaf(leaves_[number]));
   take_in(growth.taken_in);
 }
@@ -194,7 +211,7 @@ void CellTree::cut(const Leaf& leaf) {
     for (size_t corner = 0; corner < 8; ++corner)
       child.corners[corner] = labels_.at(moved(moved(leaf.at, n, 1 << level), corner, 1 << level));
     child.leaf = static_cast<uint32_t>(leaves_.size());
-    leaves_.push_back({{moved(leaf.at, n, 1 << level), child.corners}, static_cast<uint8_t>(level), true});
+    leaves_.push_back({{moved(leaf.at, n, 1 << level), child.corners}, static_cast<uint8_t>(level), true, true});
     children_.push_back(child);
   }
   uint32_t* above = &roots_[grid_.find(grid_cell_of(leaf.at))].children;
@@ -220,7 +237,7 @@ void CellTree::take_in(const std::vector<CellPlace>& places) {
     for (; next != more.end() && is_before(*next); ++next) {
       cells.push_back(*next);
       roots.emplace_back().leaf = static_cast<uint32_t>(leaves_.size());
-      leaves_.push_back({{first_unit_of(next->at), next->corners}, grid_level, false});
+      leaves_.push_back({{first_unit_of(next->at), next->corners}, grid_level, false, true});
     }
   };
   for (size_t n = 0; n < roots_.size(); ++n) {
@@ -234,42 +251,54 @@ void CellTree::take_in(const std::vector<CellPlace>& places) {
   grid_ = MixedCells(lattice(), std::move(cells));
 }
 
-void CellTree::mark_around_cuts(std::vector<bool>& is_near) const {
-  is_near.assign(roots_.size(), false);
+void CellTree::mark_around(const CellPlace& grid_cell, std::vector<bool>& marks) const {
+  each_around(grid_cell, [&](const CellPlace& place) {
+    const uint32_t cell = grid_.find(place);
+    if (cell != MixedCells::none) marks[cell] = true;
+  });
+}
+
+std::vector<bool> CellTree::cells_around_cuts() const {
+  std::vector<bool> marks(roots_.size());
   for (size_t n = 0; n < roots_.size(); ++n)
-    if (roots_[n].children != none)
-      each_around(grid_.cells()[n].at, [&](const CellPlace& place) {
-        const uint32_t cell = grid_.find(place);
-        if (cell != MixedCells::none) is_near[cell] = true;
-      });
+    if (roots_[n].children != none) mark_around(grid_.cells()[n].at, marks);
+  return marks;
+}
+
+std::vector<bool> CellTree::cells_around_growth() const {
+  std::vector<bool> marks(roots_.size());
+  std::vector<CellPlace> cells = grown_;
+  std::ranges::sort(cells);
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  for (const CellPlace& cell : cells) mark_around(cell, marks);
+  return marks;
 }
 
 void CellTree::list_leaves() {
-  std::vector<bool> is_near;
-  mark_around_cuts(is_near);
+  const std::vector<bool> is_near_cut = cells_around_cuts(), is_near_growth = cells_around_growth();
   leaves_.clear();
   for (size_t n = 0; n < roots_.size(); ++n) {
     const MixedCell& cell = grid_.cells()[n];
     const CellPlace at = first_unit_of(cell.at);
     if (roots_[n].children != none) {
-      list_below(at, grid_level - 1, roots_[n].children);
+      list_below(at, grid_level - 1, roots_[n].children, is_near_growth[n]);
       continue;
     }
     roots_[n].leaf = static_cast<uint32_t>(leaves_.size());
-    leaves_.push_back({{at, cell.corners}, grid_level, is_near[n]});
+    leaves_.push_back({{at, cell.corners}, grid_level, is_near_cut[n], is_near_growth[n]});
   }
 }
 
-void CellTree::list_below(const CellPlace& at, int level, uint32_t children) {
+void CellTree::list_below(const CellPlace& at, int level, uint32_t children, bool is_near_growth) {
   for (size_t n = 0; n < 8; ++n) {
     Child& child = children_[children + n];
     const CellPlace place = moved(at, n, 1 << level);
     if (child.children != none) {
-      list_below(place, level - 1, child.children);
+      list_below(place, level - 1, child.children, is_near_growth);
       continue;
     }
     child.leaf = static_cast<uint32_t>(leaves_.size());
-    leaves_.push_back({{place, child.corners}, static_cast<uint8_t>(level), true});
+    leaves_.push_back({{place, child.corners}, static_cast<uint8_t>(level), true, is_near_growth});
   }
 }
 

@@ -23,7 +23,8 @@ struct PlaceHash {
 // A cell that is not cut.
 struct Leaf : MixedCell {
   uint8_t level = grid_level;
-  bool is_near_cut = false;  // a cell of the grid around it is cut, or its own
+  bool is_near_cut = false;     // a cell of the grid around it is cut, or its own
+  bool is_near_growth = false;  // the same since growth was forgotten, or one was taken in
 
   bool is_mixed() const;
 };
@@ -47,7 +48,10 @@ class CellTree {
 
   const voxel::Lattice& lattice() const { return grid_.lattice(); }
   Vec3 point(const CellPlace& units) const;
+  CellPlace unit_at(Vec3 point) const;  // the unit that holds it
   Vec3 size_mm(int level) const;
+  // Whether the grid, of which the tree has but some cells, holds a unit.
+  bool is_within(const CellPlace& unit) const;
   // Whether a corner lies on the border of the grid, where all is void.
   bool is_outermost(const CellPlace& units) const;
 
@@ -56,6 +60,7 @@ class CellTree {
   // The number of the leaf that holds a unit; none in cells of the grid that the tree does not have.
   uint32_t find(const CellPlace& unit) const;
 
+  void forget_growth() { grown_.clear(); }
   // Leaves get new numbers.
   void grow(const Growth& growth, const AskLabels& ask);
   // Grows again and again by what `more` asks for. It gets the leaves in and around the cells of the grid that grew
@@ -85,14 +90,17 @@ class CellTree {
   std::vector<uint32_t> leaves_around(const std::vector<CellPlace>& grid_cells);
   template <class Visit>
   void each_leaf_below(const Root& root, const Visit& visit) const;
-  void mark_around_cuts(std::vector<bool>& is_near) const;
+  std::vector<bool> cells_around_cuts() const;
+  std::vector<bool> cells_around_growth() const;
+  void mark_around(const CellPlace& grid_cell, std::vector<bool>& marks) const;
   void list_leaves();
-  void list_below(const CellPlace& at, int level, uint32_t children);
+  void list_below(const CellPlace& at, int level, uint32_t children, bool is_near_growth);
 
   MixedCells grid_;
   std::vector<Root> roots_;  // of the grid's mixed cells
   std::vector<Child> children_;
   std::vector<Leaf> leaves_;
+  std::vector<CellPlace> grown_;                            // cells of the grid, since growth was forgotten
   std::unordered_map<CellPlace, Label, PlaceHash> labels_;  // at corners of cells that were cut
 };
 

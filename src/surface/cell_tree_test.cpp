@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <tuple>
 
 #include "surface/dual_mesh.h"
 
@@ -37,6 +38,23 @@ std::vector<Label> ball(const std::vector<CellPlace>& corners) {
     for (const int32_t index : at) square += (index - middle) * (index - middle);
     labels.push_back(64 * square < 25 * units_per_cell * units_per_cell ? 1 : 0);
   }
+  return labels;
+}
+
+// A row of eight cells, two wide.
+CellTree cells_along_a_plane() {
+  voxel::Lattice corners;
+  corners.pitch = {Pitch{1, 1}, Pitch{1, 1}, Pitch{1, 1}};
+  corners.count = {11, 5, 4};
+  std::vector<MixedCell> cells;
+  for (int32_t j = 1; j <= 2; ++j)
+    for (int32_t i = 1; i <= 8; ++i) cells.push_back({{i, j, 1}, {1, 1, 1, 1, 0, 0, 0, 0}});
+  return CellTree(MixedCells(corners, std::move(cells)));
+}
+
+std::vector<Label> below_plane(const std::vector<CellPlace>& corners) {
+  std::vector<Label> labels;
+  for (const CellPlace& at : corners) labels.push_back(2 * at[2] < 3 * units_per_cell ? 1 : 0);
   return labels;
 }
 
@@ -98,6 +116,37 @@ TEST(CellTree, OfManySizesIsClosed) {
       expect_closed(tree);
     }
   }
+}
+
+TEST(CellTree, FindsTheUnitAtAPoint) {
+  const CellTree tree = cells_around_a_corner();
+  const CellPlace unit{37, 2, 4 * units_per_cell - 1};
+  EXPECT_EQ(tree.unit_at(tree.point(unit) + 0.5 * tree.size_mm(0)), unit);
+  EXPECT_TRUE(tree.is_within(unit));
+  EXPECT_FALSE(tree.is_within({37, -1, 4}));
+  EXPECT_FALSE(tree.is_within({4 * units_per_cell, 2, 4}));
+}
+
+TEST(CellTree, ListsTheSameEdgesFarFromWhatGrew) {
+  CellTree tree = cells_along_a_plane();
+  tree.grow({{0}, {}}, below_plane);
+  const std::vector<ListedEdge> before = crossed_edges(tree, false, 1);
+  const std::vector<Leaf> leaves_before = tree.leaves();
+  tree.forget_growth();
+  tree.grow({{static_cast<uint32_t>(tree.leaves().size()) - 1}, {}}, below_plane);
+  const std::vector<uint32_t> numbers = numbers_after_growth(leaves_before, tree.leaves());
+  const auto far_edges = [&](const std::vector<ListedEdge>& all, const auto& number_of) {
+    std::vector<std::tuple<uint32_t, CellPlace, int, int>> far;
+    for (const auto& [leaf, edge] : all)
+      if (const uint32_t now = number_of(leaf); now != CellTree::none && !tree.leaves()[now].is_near_growth)
+        far.emplace_back(now, edge.start, edge.axis, edge.level);
+    return far;
+  };
+  const auto same = far_edges(before, [&](uint32_t leaf) { return numbers[leaf]; });
+  EXPECT_EQ(same, far_edges(crossed_edges(tree, false, 1), [](uint32_t leaf) { return leaf; }));
+  EXPECT_GT(same.size(), 8u);
+  for (const Leaf& leaf : tree.leaves()) EXPECT_EQ(leaf.is_near_growth, leaf.at[0] >= 7 * units_per_cell) << leaf.at[0];
+  EXPECT_TRUE(tree.leaves()[0].is_near_cut);
 }
 
 TEST(CellTree, GrowsOnAsItGrowsStepByStep) {

@@ -6,10 +6,11 @@
 namespace ombre::surface {
 namespace {
 
-constexpr int most_cutting_rounds = 8, most_finishing_rounds = 3;
-constexpr double most_cut_share = 0.3;  // at a time
+constexpr int most_cutting_rounds = 16, most_finishing_rounds = 3;
 // That may come from cutting, or twice as many as the grid has, if that is more.
-constexpr size_t most_more_leaves = size_t{1} << 18;
+constexpr size_t most_more_leaves = size_t{1} << 22;
+constexpr size_t leaves_of_hidden_edge = 8;                // about, where it is to be seen
+constexpr size_t most_leaves_of_rounds = size_t{1} << 20;  // larger trees are finished once
 
 // The cells of a partition, with what is known of them, cut where one vertex for each is too few.
 class CellRefiner {
@@ -32,31 +33,31 @@ class CellRefiner {
       SurfaceMaker maker(tree_, crossings_, mesh_, options_, check_, intersections_);
       maker.bring_near();
       if (round < most_cutting_rounds) {
-        const std::vector<uint32_t> coarse = maker.coarse_leaves();
-        if (cut(coarse, round == 0 ? hidden_edges(maker, coarse.size()) : std::vector<CrossedEdge>())) continue;
+        const Growth coarse = maker.coarse_cells();
+        if (cut(coarse, round == 0 ? hidden_edges(maker) : std::vector<CrossedEdge>())) continue;
       }
       maker.finish(partition_, stop_);
       // What was mended may lie too far off.
-      if (++finished < most_finishing_rounds && cut(maker.far_leaves(), {})) continue;
+      if (++finished < rounds_of_finishing() && cut(maker.far_cells(), {})) continue;
+      maker.undo_far_moves();
       return maker.build();
     }
   }
 
  private:
-  size_t most_cut() const { return static_cast<size_t>(most_cut_share * static_cast<double>(tree_.leaves().size())); }
+  int rounds_of_finishing() const { return tree_.leaves().size() < most_leaves_of_rounds ? most_finishing_rounds : 1; }
 
-  // As many as may be cut besides.
-  std::vector<CrossedEdge> hidden_edges(const SurfaceMaker& maker, size_t to_cut) const {
-    if (to_cut >= most_cut() || options_.tolerance_mm == 0) return {};
-    return maker.far_hidden_edges(most_cut() - to_cut);
+  std::vector<CrossedEdge> hidden_edges(SurfaceMaker& maker) const {
+    if (options_.tolerance_mm == 0) return {};
+    return maker.far_hidden_edges((most_leaves_ - tree_.leaves().size()) / leaves_of_hidden_edge);
   }
 
-  // False when there is nothing to cut, or so much that the whole grid is too coarse.
-  bool cut(const std::vector<uint32_t>& leaves, const std::vector<CrossedEdge>& hidden) {
-    if (leaves.empty() && hidden.empty()) return false;
-    if (leaves.size() + hidden.size() > most_cut() || tree_.leaves().size() >= most_leaves_) return false;
+  // False when there is nothing to cut, or the tree is large enough.
+  bool cut(const Growth& cells, const std::vector<CrossedEdge>& hidden) {
+    if (cells.is_empty() && hidden.empty()) return false;
+    if (tree_.leaves().size() >= most_leaves_) return false;
     const std::vector<Leaf> before = tree_.leaves();
-    refine(tree_, leaves, hidden, most_leaves_, partition_, options_.threads, stop_);
+    refine(tree_, cells, hidden, most_leaves_, partition_, options_.threads, stop_);
     const std::vector<uint32_t> numbers = numbers_after_growth(before, tree_.leaves());
     crossings_ = find_crossings_after_growth(partition_, tree_, crossings_, numbers, options_.threads, stop_);
     mesh_ = make_dual_mesh_after_growth(tree_, crossings_, mesh_, numbers, options_.threads);

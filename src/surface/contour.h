@@ -40,7 +40,7 @@ struct ContourOptions {
 
 // Dual contouring (Ju et al., 2002) with a vertex for each part of a cell (Nielson, 2004), and cells joined in an
 // octree as Schaefer et al. (2007) do. Cells are cut up to grid_level times where the surface is too far off at
-// samples, or where a look at finer cells finds borders that they do not see, as long as there are not too many.
+// samples, or where a look at finer cells finds borders that they do not see, until there are millions more.
 // Regions of more than two meet in shared vertices. What is thinner than a quarter of a cell may be lost. Throws
 // Cancelled.
 RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress = nullptr,

@@ -57,11 +57,11 @@ CellPlace unit_beside(const CrossedEdge& edge, size_t corner) {
   return unit;
 }
 
-std::vector<ListedEdge> crossed_edges(const CellTree& tree, bool only_near_cuts, int threads) {
+std::vector<ListedEdge> crossed_edges(const CellTree& tree, bool only_near_growth, int threads) {
   std::vector<uint32_t> leaves;
   leaves.reserve(tree.leaves().size());
   for (uint32_t n = 0; n < tree.leaves().size(); ++n)
-    if (tree.leaves()[n].is_near_cut || !only_near_cuts) leaves.push_back(n);
+    if (tree.leaves()[n].is_near_growth || !only_near_growth) leaves.push_back(n);
   return crossed_edges(tree, leaves, threads);
 }
 

@@ -27,9 +27,9 @@ struct ListedEdge {
   CrossedEdge edge;
 };
 
-// The edges that all leaves list, or those near cuts, in order of the leaves, then axes. Leaves around them are
+// The edges that all leaves list, or those near growth, in order of the leaves, then axes. Leaves around them are
 // CellTree::none where the tree has no cell of the grid.
-std::vector<ListedEdge> crossed_edges(const CellTree& tree, bool only_near_cuts, int threads);
+std::vector<ListedEdge> crossed_edges(const CellTree& tree, bool only_near_growth, int threads);
 // Those of these leaves.
 std::vector<ListedEdge> crossed_edges(const CellTree& tree, const std::vector<uint32_t>& leaves, int threads);
 

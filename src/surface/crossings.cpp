@@ -44,10 +44,16 @@ class CrossingList {
   std::vector<uint32_t> unknown;
 
  private:
-  // The leaf that listed an edge before, and has now, far from cuts, just the same edges; or none.
+  // The leaf that listed an edge before, the first that has all of it, if it lists just the same edges now, far from
+  // what grew; or none.
   uint32_t same_leaf(const Crossing& crossing) const {
-    const uint32_t first = crossing.edge.leaves[0], now = first == CellTree::none ? first : leaves_[first];
-    return now == CellTree::none || tree_.leaves()[now].is_near_cut ? CellTree::none : now;
+    for (const uint32_t before : crossing.edge.leaves) {
+      const uint32_t now = before == CellTree::none ? CellTree::none : leaves_[before];
+      if (now == CellTree::none) return CellTree::none;
+      const Leaf& leaf = tree_.leaves()[now];
+      if (leaf.level == crossing.edge.level) return leaf.is_near_growth ? CellTree::none : now;
+    }
+    return CellTree::none;
   }
 
   void note_before() {

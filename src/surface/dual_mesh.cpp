@@ -168,13 +168,13 @@ class DualMeshMaker {
   DualMesh mesh_;
 };
 
-// A leaf far from cuts has the vertices that it had.
+// A leaf far from what grew has the vertices that it had.
 void take_over_places(const CellTree& tree, const DualMesh& before, const std::vector<uint32_t>& leaves,
                       DualMesh& mesh) {
   size_t next = 0;
   for (const DualVertex& vertex : before.vertices) {
     const uint32_t leaf = leaves[vertex.leaf];
-    if (leaf == CellTree::none || tree.leaves()[leaf].is_near_cut) continue;
+    if (leaf == CellTree::none || tree.leaves()[leaf].is_near_growth) continue;
     while (mesh.vertices[next].leaf != leaf) ++next;
     mesh.vertices[next++].at = vertex.at;
   }
@@ -201,7 +201,7 @@ DualMesh make_dual_mesh_after_growth(const CellTree& tree, const std::vector<Cro
                                      const DualMesh& before, const std::vector<uint32_t>& leaves, int threads) {
   DualMesh mesh = DualMeshMaker(tree, crossings, threads).make();
   take_over_places(tree, before, leaves, mesh);
-  find_places(tree, mesh, threads, [&](const DualVertex& vertex) { return tree.leaves()[vertex.leaf].is_near_cut; });
+  find_places(tree, mesh, threads, [&](const DualVertex& vertex) { return tree.leaves()[vertex.leaf].is_near_growth; });
   return mesh;
 }
 

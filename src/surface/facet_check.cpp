@@ -9,14 +9,13 @@
 #include "base/evenly_spaced.h"
 #include "surface/border_offsets.h"
 #include "surface/deep_borders.h"
-#include "surface/facet_distance.h"
 #include "surface/hidden_edges.h"
 
 namespace ombre::surface {
 namespace {
 
 constexpr double reach_of_tolerance = 0.88;         // samples see but a part of a facet
-constexpr double border_reach_of_tolerance = 0.66;  // and less of borders that lie deep
+constexpr double border_reach_of_tolerance = 0.66;  // and less of borders that lie deep, if cells are wide
 constexpr double small_of_reach = 0.5;              // sides of facets that need few samples
 constexpr double most_tolerances = 16;
 constexpr double sharp_cosine = 0.5;  // between the normals of two facets
@@ -170,7 +169,14 @@ double farthest_from_facets(std::vector<Vec3> places, const QuadSurface& surface
   return farthest;
 }
 
-std::vector<Ball> balls_around(const std::vector<Vec3>& places, double radius_mm) {
+// The greatest level of cells no wider than this; -1: there are none.
+int level_within(double width_mm, double grid_cell_mm) {
+  int level = grid_level;
+  for (double cell_mm = grid_cell_mm; level >= 0 && cell_mm > width_mm; cell_mm /= 2) --level;
+  return level;
+}
+
+std::vector<Ball> balls_at(const std::vector<Vec3>& places, double radius_mm) {
   std::vector<Ball> balls;
   balls.reserve(places.size());
   for (const Vec3& place : places) balls.push_back({place, radius_mm});
@@ -200,6 +206,7 @@ FacetCheck::FacetCheck(const Partition& partition, const ContourOptions& options
       reach_mm_(reach_of_tolerance * options.tolerance_mm),
       border_reach_mm_(border_reach_of_tolerance * options.tolerance_mm),
       spacing_mm_(0.5 * options.corners.pitch[0].mm()),
+      fine_level_(level_within(options.tolerance_mm, options.corners.pitch[0].mm())),
       threads_(options.threads),
       stop_(stop) {}
 
@@ -230,22 +237,24 @@ void FacetCheck::check_facets(const QuadSurface& surface, const std::vector<uint
   std::ranges::stable_sort(far_borders_, {}, &FarBorder::quad);
 }
 
-std::vector<Vec3> FacetCheck::places_of(const std::vector<FarBorder>& borders) {
-  std::vector<Vec3> places;
-  places.reserve(borders.size());
-  for (const FarBorder& border : borders) places.push_back(border.at);
-  return places;
+std::vector<Ball> FacetCheck::balls_around(const std::vector<FarBorder>& borders, const QuadSurface& surface) const {
+  std::vector<Ball> balls;
+  balls.reserve(borders.size());
+  for (const FarBorder& border : borders) {
+    const bool is_fine = surface.crossing(border.quad).edge.level <= fine_level_;
+    balls.push_back({border.at, is_fine ? reach_mm_ : border_reach_mm_});
+  }
+  return balls;
 }
 
 // No other quads can have come near.
 void FacetCheck::keep_far_borders(const QuadSurface& surface, const std::vector<uint32_t>& changed) {
-  const std::vector<bool> near =
-      meet_facets(balls_around(places_of(far_borders_), border_reach_mm_), surface, changed, threads_);
+  const std::vector<bool> near = meet_facets(balls_around(far_borders_, surface), surface, changed, threads_);
   remove_where(near, far_borders_);
 }
 
 void FacetCheck::add_far_borders(const QuadSurface& surface, std::vector<FarBorder> found) {
-  remove_where(meet_facets(balls_around(places_of(found), border_reach_mm_), surface, threads_), found);
+  remove_where(meet_facets(balls_around(found, surface), surface, threads_), found);
   far_borders_.insert(far_borders_.end(), found.begin(), found.end());
   std::ranges::stable_sort(far_borders_, {}, &FarBorder::quad);
 }
@@ -260,27 +269,27 @@ void FacetCheck::check_crossings(const QuadSurface& surface, const std::vector<u
     });
   });
   // No other quads can have come near to those that were far before.
-  remove_where(meet_facets(balls_around(crossings_of(still, surface), reach_mm_), surface, changed, threads_), still);
-  remove_where(meet_facets(balls_around(crossings_of(off, surface), reach_mm_), surface, threads_), off);
+  remove_where(meet_facets(balls_at(crossings_of(still, surface), reach_mm_), surface, changed, threads_), still);
+  remove_where(meet_facets(balls_at(crossings_of(off, surface), reach_mm_), surface, threads_), off);
   far_crossings_.clear();
   std::ranges::merge(still, off, std::back_inserter(far_crossings_));
 }
 
-std::vector<CrossedEdge> FacetCheck::far_hidden_edges(const QuadSurface& surface, const CellTree& tree,
-                                                      size_t most) const {
+std::vector<CrossedEdge> FacetCheck::far_hidden_edges(const QuadSurface& surface, const CellTree& tree, size_t most) {
   std::vector<CrossedEdge> far;
+  std::vector<Vec3> places;
   find_hidden_edges(partition_.label, tree, threads_, stop_, [&](const std::vector<CrossedEdge>& hidden) {
-    const std::vector<CrossedEdge> more = far_among(hidden, surface, tree);
-    far.insert(far.end(), more.begin(), more.end());
+    add_far_among(hidden, surface, tree, far, places);
     return far.size() <= most;
   });
-  if (far.size() > most) far.clear();
-  return far;
+  if (far.size() <= most) return far;
+  left_hidden_ = evenly_spaced(places, most_measured);
+  return {};
 }
 
 // By their middles first: most are humps of a face that is near.
-std::vector<CrossedEdge> FacetCheck::far_among(const std::vector<CrossedEdge>& hidden, const QuadSurface& surface,
-                                               const CellTree& tree) const {
+void FacetCheck::add_far_among(const std::vector<CrossedEdge>& hidden, const QuadSurface& surface, const CellTree& tree,
+                               std::vector<CrossedEdge>& far, std::vector<Vec3>& places) const {
   double half_mm = 0;  // at most
   std::vector<Vec3> middles;
   for (const CrossedEdge& edge : hidden) {
@@ -288,7 +297,7 @@ std::vector<CrossedEdge> FacetCheck::far_among(const std::vector<CrossedEdge>& h
     half_mm = std::max(half_mm, 0.5 * length(edge_mm));
     middles.push_back(tree.point(edge.start) + 0.5 * edge_mm);
   }
-  const std::vector<bool> near = meet_facets(balls_around(middles, reach_mm_ - half_mm), surface, threads_);
+  const std::vector<bool> near = meet_facets(balls_at(middles, reach_mm_ - half_mm), surface, threads_);
   std::vector<CrossedEdge> left;
   std::vector<BorderSample> samples;
   for (size_t n = 0; n < hidden.size(); ++n) {
@@ -300,8 +309,11 @@ std::vector<CrossedEdge> FacetCheck::far_among(const std::vector<CrossedEdge>& h
   std::vector<Vec3> borders;
   for (size_t n = 0; n < samples.size(); ++n)
     borders.push_back(samples[n].at + offsets[n].value_or(0) * samples[n].normal);
-  remove_where(meet_facets(balls_around(borders, reach_mm_), surface, threads_), left);
-  return left;
+  const std::vector<bool> near_borders = meet_facets(balls_at(borders, reach_mm_), surface, threads_);
+  remove_where(near_borders, left);
+  remove_where(near_borders, borders);
+  far.insert(far.end(), left.begin(), left.end());
+  places.insert(places.end(), borders.begin(), borders.end());
 }
 
 void FacetCheck::renumber(const std::vector<Crossing>& crossings) {
@@ -324,6 +336,13 @@ std::vector<uint32_t> FacetCheck::far_quads() const {
   return quads;
 }
 
+std::vector<Vec3> FacetCheck::missed_borders() const {
+  std::vector<Vec3> places;
+  places.reserve(far_borders_.size());
+  for (const FarBorder& border : far_borders_) places.push_back(border.at);
+  return places;
+}
+
 double FacetCheck::farthest_in_tolerances(const QuadSurface& surface) const {
   std::vector<SurfaceSample> samples;
   for (const Far& far : far_) samples.push_back(far.sample);
@@ -332,6 +351,7 @@ double FacetCheck::farthest_in_tolerances(const QuadSurface& surface) const {
   double farthest = tolerance_mm_;
   std::vector<Vec3> borders = crossings_of(far_crossings_, surface);
   for (const FarBorder& border : far_borders_) borders.push_back(border.at);
+  borders.insert(borders.end(), left_hidden_.begin(), left_hidden_.end());
   farthest = std::max(farthest, farthest_from_facets(std::move(borders), surface, tolerance_mm_, most, threads_));
   return std::max(farthest, farthest_mm(partition_, samples, tolerance_mm_, threads_, stop_)) / tolerance_mm_;
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "surface/facet_distance.h"
 #include "surface/quad_surface.h"
 #include "surface/seen_quads.h"
 #include "surface/surface_distance.h"
@@ -20,10 +21,13 @@ class FacetCheck {
   void renumber(const std::vector<Crossing>& crossings);
   // As the last look said; in order.
   std::vector<uint32_t> far_quads() const;
-  // Borders that no corner of the grid's cells sees and no facet is near; none if they are more than `most`. Nothing of
-  // the tree is cut. Throws Cancelled.
-  std::vector<CrossedEdge> far_hidden_edges(const QuadSurface& surface, const CellTree& tree, size_t most) const;
-  // At the samples, or a thousand of the far ones, and at crossings; 1 when all are near. Throws Cancelled.
+  // Places on borders that quads among them pass by.
+  std::vector<Vec3> missed_borders() const;
+  // Borders that no corner of the grid's cells sees and no facet is near. If they are more than `most`, none; they
+  // count as far then. Nothing of the tree is cut. Throws Cancelled.
+  std::vector<CrossedEdge> far_hidden_edges(const QuadSurface& surface, const CellTree& tree, size_t most);
+  // At the samples, or a thousand of the far ones, at crossings and at hidden borders that count as far; 1 when all are
+  // near. Throws Cancelled.
   double farthest_in_tolerances(const QuadSurface& surface) const;
 
  private:
@@ -37,10 +41,12 @@ class FacetCheck {
     Vec3 at;
   };
 
-  std::vector<CrossedEdge> far_among(const std::vector<CrossedEdge>& hidden, const QuadSurface& surface,
-                                     const CellTree& tree) const;
+  // Of hidden borders, those that no facet is near, and where they are.
+  void add_far_among(const std::vector<CrossedEdge>& hidden, const QuadSurface& surface, const CellTree& tree,
+                     std::vector<CrossedEdge>& far, std::vector<Vec3>& places) const;
   void check_facets(const QuadSurface& surface, const std::vector<uint32_t>& quads);
-  static std::vector<Vec3> places_of(const std::vector<FarBorder>& borders);
+  // As far as facets have to be near.
+  std::vector<Ball> balls_around(const std::vector<FarBorder>& borders, const QuadSurface& surface) const;
   void keep_far_borders(const QuadSurface& surface, const std::vector<uint32_t>& changed);
   // Of those that were found, the ones that no facet is near.
   void add_far_borders(const QuadSurface& surface, std::vector<FarBorder> found);
@@ -48,12 +54,14 @@ class FacetCheck {
 
   const Partition& partition_;
   double tolerance_mm_, reach_mm_, border_reach_mm_, spacing_mm_;
+  int fine_level_;  // of cells no wider than the tolerance; -1: none
   int threads_;
   const StopFlag* stop_;
   SeenQuads seen_;
   std::vector<Far> far_;                // in order of quads
   std::vector<FarBorder> far_borders_;  // in order of quads
   std::vector<uint32_t> far_crossings_;
+  std::vector<Vec3> left_hidden_;  // some of them, if there are too many
 };
 
 }  // namespace ombre::surface

@@ -17,13 +17,6 @@ void sort_once(Growth& growth) {
   growth.taken_in.erase(std::unique(growth.taken_in.begin(), growth.taken_in.end()), growth.taken_in.end());
 }
 
-Growth growth_to_cells_of(const std::vector<CrossedEdge>& hidden) {
-  Growth growth;
-  for (const CrossedEdge& edge : hidden) growth.taken_in.push_back(grid_cell_of(edge.start));
-  sort_once(growth);
-  return growth;
-}
-
 // One level of the cutting after which hidden edges are edges of leaves.
 Growth growth_within(const CellTree& tree, const std::vector<CrossedEdge>& hidden) {
   Growth growth;
@@ -55,8 +48,8 @@ Growth growth_around(const CellTree& tree, const std::vector<ListedEdge>& edges,
 
 }  // namespace
 
-void refine(CellTree& tree, const std::vector<uint32_t>& leaves, const std::vector<CrossedEdge>& hidden,
-            size_t most_leaves, const Partition& partition, int threads, const StopFlag* stop) {
+void refine(CellTree& tree, Growth first, const std::vector<CrossedEdge>& hidden, size_t most_leaves,
+            const Partition& partition, int threads, const StopFlag* stop) {
   const auto ask = [&](const std::vector<CellPlace>& corners) {
     std::vector<Vec3> points;
     for (const CellPlace& corner : corners) points.push_back(tree.point(corner));
@@ -65,8 +58,9 @@ void refine(CellTree& tree, const std::vector<uint32_t>& leaves, const std::vect
       if (tree.is_outermost(corners[n])) labels[n] = 0;
     return labels;
   };
-  Growth first = growth_to_cells_of(hidden);
-  first.cut = leaves;
+  for (const CrossedEdge& edge : hidden) first.taken_in.push_back(grid_cell_of(edge.start));
+  sort_once(first);
+  tree.forget_growth();
   tree.grow(first, ask);
   for (Growth more = growth_within(tree, hidden); !more.is_empty(); more = growth_within(tree, hidden))
     tree.grow(more, ask);

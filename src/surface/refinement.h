@@ -8,9 +8,10 @@
 
 namespace ombre::surface {
 
-// Cuts leaves, and until they show them those in which hidden edges are; then those around them that are not mixed,
-// though the surface goes into them, or far larger, as long as the tree has fewer than `most_leaves`. Throws Cancelled.
-void refine(CellTree& tree, const std::vector<uint32_t>& leaves, const std::vector<CrossedEdge>& hidden,
-            size_t most_leaves, const Partition& partition, int threads, const StopFlag* stop);
+// Lets a tree grow, and cuts leaves in which hidden edges are until they show them; then those around them that are not
+// mixed, though the surface goes into them, or far larger, as long as the tree has fewer than `most_leaves`. Throws
+// Cancelled.
+void refine(CellTree& tree, Growth first, const std::vector<CrossedEdge>& hidden, size_t most_leaves,
+            const Partition& partition, int threads, const StopFlag* stop);
 
 }  // namespace ombre::surface

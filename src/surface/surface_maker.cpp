@@ -10,13 +10,15 @@
 namespace ombre::surface {
 namespace {
 
-constexpr int most_rounds = 40, most_crossing_rounds = 6, most_far_rounds = 12, most_fitting_rounds = 6;
+constexpr int most_rounds = 40, most_crossing_rounds = 6, most_far_rounds = 12, most_fitting_rounds = 6,
+              most_undoing_rounds = 6;
 // Clusters of the highest level are taken apart first, vertices never.
 constexpr int vertex_rank = -1;
 
-void sort_once(std::vector<uint32_t>& numbers) {
-  std::ranges::sort(numbers);
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+template <class T>
+void sort_once(std::vector<T>& values) {
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 }  // namespace
@@ -37,26 +39,35 @@ void SurfaceMaker::bring_near() {
   } while (++round < most_far_rounds && split_far());
 }
 
-std::vector<uint32_t> SurfaceMaker::far_leaves() const {
-  std::vector<uint32_t> leaves;
+Growth SurfaceMaker::far_cells() const {
+  Growth far;
   for (const uint32_t quad : check_.far_quads())
-    for (const uint32_t vertex : surface_.mesh().quads[quad].corners) note_leaf(vertex, leaves);
-  sort_once(leaves);
-  return leaves;
+    for (const uint32_t vertex : surface_.mesh().quads[quad].corners)
+      note_leaf(surface_.mesh().vertices[vertex].leaf, far.cut);
+  for (const Vec3& border : check_.missed_borders()) {
+    const CellPlace unit = tree_.unit_at(border);
+    if (const uint32_t leaf = tree_.find(unit); leaf != CellTree::none)
+      note_leaf(leaf, far.cut);
+    else if (tree_.is_within(unit))
+      far.taken_in.push_back(grid_cell_of(unit));
+  }
+  sort_once(far.cut);
+  sort_once(far.taken_in);
+  return far;
 }
 
-std::vector<uint32_t> SurfaceMaker::coarse_leaves() {
-  std::vector<uint32_t> leaves = far_leaves();
+Growth SurfaceMaker::coarse_cells() {
+  Growth coarse = far_cells();
   for (const auto& [a, b] : intersections_.find(surface_))
     for (const uint32_t quad : {a, b})
       for (const uint32_t vertex : surface_.mesh().quads[quad].corners)
-        if (surface_.clusters().of(vertex) == vertex && is_wide(vertex)) note_leaf(vertex, leaves);
-  sort_once(leaves);
-  return leaves;
+        if (surface_.clusters().of(vertex) == vertex && is_wide(vertex))
+          note_leaf(surface_.mesh().vertices[vertex].leaf, coarse.cut);
+  sort_once(coarse.cut);
+  return coarse;
 }
 
-void SurfaceMaker::note_leaf(uint32_t vertex, std::vector<uint32_t>& leaves) const {
-  const uint32_t leaf = surface_.mesh().vertices[vertex].leaf;
+void SurfaceMaker::note_leaf(uint32_t leaf, std::vector<uint32_t>& leaves) const {
   if (tree_.leaves()[leaf].level > 0) leaves.push_back(leaf);
 }
 
@@ -66,6 +77,7 @@ bool SurfaceMaker::is_wide(uint32_t vertex) const {
 }
 
 void SurfaceMaker::finish(const Partition& partition, const StopFlag* stop) {
+  unfinished_ = surface_.clusters().places();
   fit_volumes(partition, stop);
   mend_intersections();
 }
@@ -93,6 +105,32 @@ void SurfaceMaker::mend_intersections() {
   }
   pairs_left_ = pairs.size();
   check_.check(surface_);
+}
+
+void SurfaceMaker::undo_far_moves() {
+  bool is_undone = false;
+  for (int round = 0; round < most_undoing_rounds && check_.farthest_in_tolerances(surface_) > 1; ++round) {
+    const std::vector<uint32_t> moved = moved_around_far();
+    if (moved.empty()) break;
+    for (const uint32_t cluster : moved) surface_.place(cluster, unfinished_[cluster]);
+    surface_.refresh();
+    check_.check(surface_);
+    is_undone = true;
+  }
+  if (is_undone) pairs_left_ = intersections_.find(surface_).size();
+}
+
+// Clusters around what lies too far off that finishing moved.
+std::vector<uint32_t> SurfaceMaker::moved_around_far() const {
+  std::vector<uint32_t> moved;
+  for (const uint32_t quad : check_.far_quads())
+    for (const uint32_t corner : surface_.mesh().quads[quad].corners)
+      for (const uint32_t around : surface_.quads_around(corner))
+        for (const uint32_t vertex : surface_.mesh().quads[around].corners) {
+          const uint32_t cluster = surface_.clusters().of(vertex);
+          if (surface_.clusters().places()[cluster] != unfinished_[cluster]) moved.push_back(cluster);
+        }
+  return moved;
 }
 
 RegionSurface SurfaceMaker::build() const {

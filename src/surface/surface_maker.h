@@ -17,16 +17,16 @@ class SurfaceMaker {
 
   // As near as clusters that are taken apart bring it.
   void bring_near();
-  // Leaves above level 0 around what lies too far off, and the same with those around facets that go through others;
-  // in order.
-  std::vector<uint32_t> far_leaves() const;
-  std::vector<uint32_t> coarse_leaves();
+  // Leaves above level 0 around what lies too far off, also those in which facets pass borders by, and the same with
+  // those around facets that go through others.
+  Growth far_cells() const;
+  Growth coarse_cells();
   // What the grid does not see; nothing of the tree is cut.
-  std::vector<CrossedEdge> far_hidden_edges(size_t most) const {
-    return check_.far_hidden_edges(surface_, tree_, most);
-  }
+  std::vector<CrossedEdge> far_hidden_edges(size_t most) { return check_.far_hidden_edges(surface_, tree_, most); }
   // Fits volumes and mends intersections. Throws Cancelled.
   void finish(const Partition& partition, const StopFlag* stop);
+  // If that moved anything too far off, it goes back, and triangles may cross there. Throws Cancelled.
+  void undo_far_moves();
 
   RegionSurface build() const;
 
@@ -37,6 +37,7 @@ class SurfaceMaker {
   bool is_wide(uint32_t vertex) const;
   void fit_volumes(const Partition& partition, const StopFlag* stop);
   void mend_intersections();
+  std::vector<uint32_t> moved_around_far() const;
   void mend_folds();
   bool mend(const std::vector<uint32_t>& quads);
   bool mend(const QuadPairs& pairs);
@@ -50,6 +51,7 @@ class SurfaceMaker {
   FacetCheck& check_;
   IntersectionFinder& intersections_;
   QuadSurface surface_;
+  std::vector<Vec3> unfinished_;  // places, by cluster
   uint64_t at_mean_points_ = 0;
   size_t pairs_left_ = 0;
 };
