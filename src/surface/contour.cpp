@@ -9,8 +9,9 @@ namespace {
 constexpr int most_cutting_rounds = 16, most_finishing_rounds = 3;
 // That may come from cutting, or twice as many as the grid has, if that is more.
 constexpr size_t most_more_leaves = size_t{1} << 22;
-constexpr size_t leaves_of_hidden_edge = 8;                // about, where it is to be seen
-constexpr size_t most_leaves_of_rounds = size_t{1} << 20;  // larger trees are finished once
+constexpr size_t leaves_of_hidden_edge = 8;  // about, where it is to be seen
+// Larger trees are finished once if triangles still cross: they would after further rounds.
+constexpr size_t most_leaves_of_rounds = size_t{1} << 21;
 
 // The cells of a partition, with what is known of them, cut where one vertex for each is too few.
 class CellRefiner {
@@ -38,14 +39,17 @@ class CellRefiner {
       }
       maker.finish(partition_, stop_);
       // What was mended may lie too far off.
-      if (++finished < rounds_of_finishing() && cut(maker.far_cells(), {})) continue;
+      if (++finished < rounds_of_finishing(maker) && cut(maker.far_cells(), {})) continue;
       maker.undo_far_moves();
       return maker.build();
     }
   }
 
  private:
-  int rounds_of_finishing() const { return tree_.leaves().size() < most_leaves_of_rounds ? most_finishing_rounds : 1; }
+  int rounds_of_finishing(const SurfaceMaker& maker) const {
+    const bool may_settle = maker.crosses_nowhere() || tree_.leaves().size() < most_leaves_of_rounds;
+    return may_settle ? most_finishing_rounds : 1;
+  }
 
   std::vector<CrossedEdge> hidden_edges(SurfaceMaker& maker) const {
     if (options_.tolerance_mm == 0) return {};

@@ -25,7 +25,8 @@ class SurfaceMaker {
   std::vector<CrossedEdge> far_hidden_edges(size_t most) { return check_.far_hidden_edges(surface_, tree_, most); }
   // Fits volumes and mends intersections. Throws Cancelled.
   void finish(const Partition& partition, const StopFlag* stop);
-  // If that moved anything too far off, it goes back, and triangles may cross there. Throws Cancelled.
+  bool crosses_nowhere() const { return pairs_left_ == 0; }  // when finished
+  // If finishing moved anything too far off, it goes back, and triangles may cross there. Throws Cancelled.
   void undo_far_moves();
 
   RegionSurface build() const;
