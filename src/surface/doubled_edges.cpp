@@ -1,6 +1,7 @@
 #include "surface/doubled_edges.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 namespace ombre::surface {
@@ -28,6 +29,45 @@ std::vector<FacetSide> sides_of(const RegionSurface& surface) {
   }
   std::ranges::sort(sides, {}, [](const FacetSide& s) { return std::tuple(s.key(), s.facet, s.side); });
   return sides;
+}
+
+// A facet by its corners in ascending order.
+struct SortedFacet {
+  std::array<uint32_t, 3> corners{};
+  Label less = 0, greater = 0;
+  bool is_forward = true;  // seen from the lesser region they are counter-clockwise
+  uint32_t facet = 0;
+
+  auto key() const { return std::tie(corners, less, greater); }
+};
+
+SortedFacet sorted(const Facet& facet, uint32_t number) {
+  SortedFacet made{facet.corners, std::min(facet.back, facet.front), std::max(facet.back, facet.front), true, number};
+  std::ranges::rotate(made.corners, std::ranges::min_element(made.corners));
+  const bool ascends = made.corners[1] < made.corners[2];
+  if (!ascends) std::swap(made.corners[1], made.corners[2]);
+  made.is_forward = ascends == (facet.back > facet.front);
+  return made;
+}
+
+// Facets with the same corners that look opposite ways enclose nothing, and no vertex on a side could part them.
+void leave_out_facing_pairs(RegionSurface& surface) {
+  std::vector<SortedFacet> all;
+  all.reserve(surface.facets.size());
+  for (uint32_t n = 0; n < surface.facets.size(); ++n) all.push_back(sorted(surface.facets[n], n));
+  std::ranges::sort(all, {}, [](const SortedFacet& f) { return std::tuple(f.key(), f.facet); });
+  std::vector<bool> is_out(surface.facets.size());
+  for (size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    std::array<std::vector<uint32_t>, 2> ways;
+    for (end = begin; end < all.size() && all[end].key() == all[begin].key(); ++end)
+      ways[all[end].is_forward].push_back(all[end].facet);
+    for (size_t n = 0; n < std::min(ways[0].size(), ways[1].size()); ++n)
+      is_out[ways[0][n]] = is_out[ways[1][n]] = true;
+  }
+  size_t kept = 0;
+  for (size_t n = 0; n < surface.facets.size(); ++n)
+    if (!is_out[n]) surface.facets[kept++] = surface.facets[n];
+  surface.facets.resize(kept);
 }
 
 class Cutter {
@@ -101,6 +141,7 @@ class Cutter {
 }  // namespace
 
 void cut_doubled_edges(RegionSurface& surface) {
+  leave_out_facing_pairs(surface);
   const size_t vertices = surface.vertices.size();
   while (Cutter(surface, vertices).cut()) {
   }
