@@ -11,11 +11,16 @@
 namespace ombre::surface {
 namespace {
 
-// Eight cells around the middle corner, of which only that one is inside.
-CellTree cells_around_a_corner() {
+// A millimetre apart.
+voxel::Lattice corners_of(const std::array<int64_t, 3>& count) {
   voxel::Lattice corners;
   corners.pitch = {Pitch{1, 1}, Pitch{1, 1}, Pitch{1, 1}};
-  corners.count = {5, 5, 5};
+  corners.count = count;
+  return corners;
+}
+
+// Eight cells around the middle corner, of which only that one is inside.
+CellTree cells_around_a_corner() {
   std::vector<MixedCell> cells;
   for (int32_t k = 1; k <= 2; ++k)
     for (int32_t j = 1; j <= 2; ++j)
@@ -24,7 +29,7 @@ CellTree cells_around_a_corner() {
         cell.corners[corner_number({2 - i, 2 - j, 2 - k})] = 1;
         cells.push_back(cell);
       }
-  return CellTree(MixedCells(corners, std::move(cells)));
+  return CellTree(MixedCells(corners_of({5, 5, 5}), std::move(cells)));
 }
 
 // Along each axis.
@@ -43,13 +48,10 @@ std::vector<Label> ball(const std::vector<CellPlace>& corners) {
 
 // A row of eight cells, two wide.
 CellTree cells_along_a_plane() {
-  voxel::Lattice corners;
-  corners.pitch = {Pitch{1, 1}, Pitch{1, 1}, Pitch{1, 1}};
-  corners.count = {11, 5, 4};
   std::vector<MixedCell> cells;
   for (int32_t j = 1; j <= 2; ++j)
     for (int32_t i = 1; i <= 8; ++i) cells.push_back({{i, j, 1}, {1, 1, 1, 1, 0, 0, 0, 0}});
-  return CellTree(MixedCells(corners, std::move(cells)));
+  return CellTree(MixedCells(corners_of({11, 5, 4}), std::move(cells)));
 }
 
 std::vector<Label> below_plane(const std::vector<CellPlace>& corners) {

@@ -349,8 +349,8 @@ double FacetCheck::farthest_in_tolerances(const QuadSurface& surface) const {
   samples = evenly_spaced(samples, most_measured);
   const double most = most_tolerances * tolerance_mm_;
   double farthest = tolerance_mm_;
-  std::vector<Vec3> borders = crossings_of(far_crossings_, surface);
-  for (const FarBorder& border : far_borders_) borders.push_back(border.at);
+  std::vector<Vec3> borders = missed_borders();
+  for (const uint32_t n : far_crossings_) borders.push_back(surface.crossing(n).at);
   borders.insert(borders.end(), left_hidden_.begin(), left_hidden_.end());
   farthest = std::max(farthest, farthest_from_facets(std::move(borders), surface, tolerance_mm_, most, threads_));
   return std::max(farthest, farthest_mm(partition_, samples, tolerance_mm_, threads_, stop_)) / tolerance_mm_;

@@ -15,12 +15,6 @@ constexpr int most_rounds = 40, most_crossing_rounds = 6, most_far_rounds = 12, 
 // Clusters of the highest level are taken apart first, vertices never.
 constexpr int vertex_rank = -1;
 
-template <class T>
-void sort_once(std::vector<T>& values) {
-  std::ranges::sort(values);
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 }  // namespace
 
 SurfaceMaker::SurfaceMaker(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh,
@@ -51,8 +45,6 @@ Growth SurfaceMaker::far_cells() const {
     else if (tree_.is_within(unit))
       far.taken_in.push_back(grid_cell_of(unit));
   }
-  sort_once(far.cut);
-  sort_once(far.taken_in);
   return far;
 }
 
@@ -63,7 +55,6 @@ Growth SurfaceMaker::coarse_cells() {
       for (const uint32_t vertex : surface_.mesh().quads[quad].corners)
         if (surface_.clusters().of(vertex) == vertex && is_wide(vertex))
           note_leaf(surface_.mesh().vertices[vertex].leaf, coarse.cut);
-  sort_once(coarse.cut);
   return coarse;
 }
 

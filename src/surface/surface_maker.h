@@ -17,8 +17,8 @@ class SurfaceMaker {
 
   // As near as clusters that are taken apart bring it.
   void bring_near();
-  // Leaves above level 0 around what lies too far off, also those in which facets pass borders by, and the same with
-  // those around facets that go through others.
+  // Leaves above level 0 around what lies too far off, and cells in which borders lie that facets pass by; the same
+  // with leaves around facets that go through others. In any order, some more than once.
   Growth far_cells() const;
   Growth coarse_cells();
   // What the grid does not see; nothing of the tree is cut.
