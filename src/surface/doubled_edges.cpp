@@ -43,7 +43,7 @@ struct SortedFacet {
 
 SortedFacet sorted(const Facet& facet, uint32_t number) {
   SortedFacet made{facet.corners, std::min(facet.back, facet.front), std::max(facet.back, facet.front), true, number};
-  std::ranges::rotate(made.corners, std::ranges::min_element(made.corners));
+  std::rotate(made.corners.begin(), std::ranges::min_element(made.corners), made.corners.end());
   const bool ascends = made.corners[1] < made.corners[2];
   if (!ascends) std::swap(made.corners[1], made.corners[2]);
   made.is_forward = ascends == (facet.back > facet.front);
