@@ -9,8 +9,8 @@
 
 #include "import/channels.h"
 #include "import/closest_point.h"
+#include "import/generalized_rows.h"
 #include "import/point_winding.h"
-#include "import/solid_angle.h"
 #include "import/winding_cells.h"
 
 namespace ombre::importing {
@@ -83,9 +83,10 @@ class MeshSource final : public program::FieldSource {
   }
 
   std::unique_ptr<program::RowSampler> rows(int channel, const Affine& source_from_index) const override {
-    if (channel != inside_channel || rule_ == InsideRule::generalized) return nullptr;
+    if (channel != inside_channel) return nullptr;
     const double volume = determinant(source_from_index);
     if (volume == 0 || !std::isfinite(volume)) return nullptr;
+    if (rule_ == InsideRule::generalized) return std::make_unique<GeneralizedRows>(generalized(), source_from_index);
     return std::make_unique<RowWinding>(surface_, source_from_index, rule_);
   }
 
@@ -100,7 +101,7 @@ class MeshSource final : public program::FieldSource {
  private:
   bool contains(Vec3 p) const {
     if (!bounds_.contains(p)) return false;
-    if (rule_ == InsideRule::generalized) return std::abs(angles().winding(p)) > 0.5;
+    if (rule_ == InsideRule::generalized) return generalized()->contains(p);
     if (has_reliable_sign())
       if (const auto winding = cells().at(p)) return is_inside(*winding, rule_);
     return is_inside(windings().at(p), rule_);
@@ -138,8 +139,10 @@ class MeshSource final : public program::FieldSource {
       value.emplace(*surface_, [&](Vec3 p) { return windings().at(p); });
     });
   }
-  const SolidAngle& angles() const {
-    return angles_.get([&](std::optional<SolidAngle>& value) { value.emplace(surface_); });
+  const std::shared_ptr<const GeneralizedWinding>& generalized() const {
+    return generalized_.get([&](std::optional<std::shared_ptr<const GeneralizedWinding>>& value) {
+      value = std::make_shared<GeneralizedWinding>(*surface_);
+    });
   }
   const ClosestPoint& closest() const {
     return closest_.get([&](std::optional<ClosestPoint>& value) { value.emplace(surface_); });
@@ -152,7 +155,7 @@ class MeshSource final : public program::FieldSource {
   Box bounds_;
   Lazy<PointWinding> windings_;
   Lazy<WindingCells> cells_;
-  Lazy<SolidAngle> angles_;
+  Lazy<std::shared_ptr<const GeneralizedWinding>> generalized_;
   Lazy<ClosestPoint> closest_;
   Lazy<bool> is_closed_;
 };

@@ -16,8 +16,8 @@ struct MeshOptions {
 };
 
 // Channels:
-//   "inside"    1 inside, 0 outside. Its rows are exact under the rules nonzero and parity, which need a
-//               closed mesh (see inspect) to mean anything; the rule generalized has no rows.
+//   "inside"    1 inside, 0 outside. Its rows are exact. The rules nonzero and parity need a closed mesh
+//               (see inspect) to mean anything.
 //   "distance"  mm to the nearest triangle, negative inside. Absent without OMBRE_MESH_DISTANCE.
 // A point on a triangle counts as lying a trifle further along +x, +y and +z, so meshes that share a
 // face share out the points on it. `content` is the hash of the file's bytes.
