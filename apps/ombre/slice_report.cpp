@@ -59,12 +59,17 @@ void tell_plan(const Console& console, const compile::SliceRequest& request, con
 
 void tell_estimate(const Console& console, const compile::SliceRequest& request,
                    const compile::SliceEstimate& estimate) {
-  console.say("about " + duration_text(estimate.seconds) + ", " + bytes_text(static_cast<double>(estimate.bytes)) +
-              " of images (" + voxel::to_text(request.format) + "), at most " +
-              bytes_text(static_cast<double>(estimate.memory_bytes)) +
-              " of memory for layers in flight; nothing was written");
+  const std::string memory = "at most " + bytes_text(static_cast<double>(estimate.memory_bytes)) +
+                             " of memory for layers in flight; nothing was written";
+  if (estimate.is_least)
+    console.say("more than " + duration_text(estimate.seconds) +
+                ": a few layers alone take longer than this look at them; " + memory);
+  else
+    console.say("about " + duration_text(estimate.seconds) + ", " + bytes_text(static_cast<double>(estimate.bytes)) +
+                " of images (" + voxel::to_text(request.format) + "), " + memory);
   console.event("estimate", {{"seconds", estimate.seconds},
                              {"bytes", number(estimate.bytes)},
+                             {"is_least", estimate.is_least},
                              {"memory_bytes", number(estimate.memory_bytes)}});
 }
 

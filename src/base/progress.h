@@ -3,6 +3,9 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
+
+#include "base/stopwatch.h"
 
 namespace ombre {
 
@@ -24,11 +27,21 @@ class Progress {
 // Set from a signal handler or another thread; work looks at it every tenth of a second or so and throws Cancelled.
 class StopFlag {
  public:
+  StopFlag() = default;
+  // Also set once `outer` is, which may be null, or when the time is over.
+  StopFlag(const StopFlag* outer, double seconds) : outer_(outer), seconds_(seconds) {}
+
   void request() { flag_.store(true, std::memory_order_relaxed); }
-  bool requested() const { return flag_.load(std::memory_order_relaxed); }
+  bool requested() const {
+    if (flag_.load(std::memory_order_relaxed)) return true;
+    return (outer_ && outer_->requested()) || (seconds_ && watch_.seconds() > *seconds_);
+  }
 
  private:
   std::atomic<bool> flag_{false};
+  const StopFlag* outer_ = nullptr;
+  std::optional<double> seconds_;
+  Stopwatch watch_;
 };
 
 }  // namespace ombre

@@ -104,12 +104,13 @@ SliceReport slice(const SliceRequest& request, const LayerProducer& producer, co
 struct SliceEstimate {
   double seconds = 0;
   uint64_t bytes = 0;               // of image files
+  bool is_least = false;            // no layer was done in time: it takes this long at least, and bytes are unknown
   size_t memory_bytes = 0;          // most that layers in flight can take
   std::vector<CheckReport> checks;  // that failed in the layers looked at
 };
 
-// Evaluates and encodes layers here and there, for two seconds or so and as many at once as slicing does, and
-// extrapolates. Writes nothing: the time to write files is a guess for a disk that is not busy.
+// Evaluates and encodes layers here and there, for two seconds or so, four at most, and as many at once as slicing
+// does, and extrapolates. Writes nothing: the time to write files is a guess for a disk that is not busy.
 SliceEstimate estimate_slice(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options,
                              const StopFlag* stop = nullptr);
 

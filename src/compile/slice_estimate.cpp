@@ -12,7 +12,7 @@ namespace ombre::compile {
 namespace {
 
 constexpr size_t most_samples = 64;
-constexpr double most_seconds = 2;
+constexpr double most_seconds = 2, deadline_seconds = 4;  // no slab is begun, none goes on
 // Of a disk that is not busy.
 constexpr double seconds_for_a_file = 50e-6, seconds_for_a_byte = 1 / 1.5e9;
 
@@ -70,9 +70,15 @@ SliceEstimate estimate_slice(const SliceRequest& request, const LayerProducer& p
   CostProfile profile;
   SampledChecks checks;
   const Stopwatch watch;
+  const StopFlag deadline(stop, deadline_seconds);
   const auto produce = [&](size_t i) -> std::optional<Sample> {
     if (i > 0 && watch.seconds() > most_seconds) return std::nullopt;
-    return take_sample(request, producer, stack, slabs[i], stop);
+    try {
+      Sample sample = take_sample(request, producer, stack, slabs[i], &deadline);
+      if (!deadline.requested()) return sample;
+    } catch (const Cancelled&) {
+    }
+    return std::nullopt;
   };
   const auto consume = [&](size_t, const std::optional<Sample>& sample) {
     if (!sample) return;
@@ -82,8 +88,10 @@ SliceEstimate estimate_slice(const SliceRequest& request, const LayerProducer& p
   run_ordered<std::optional<Sample>>(slabs.size(), size.threads, size.window, produce, consume);
   if (stop && stop->requested()) throw Cancelled();
 
-  const LayerCost cost = profile.of(range);
   SliceEstimate estimate;
+  estimate.is_least = profile.is_empty() && !slabs.empty();
+  if (estimate.is_least) profile.add(slabs[0], {watch.seconds(), 0});
+  const LayerCost cost = profile.of(range);
   estimate.seconds = wall_seconds(cost.seconds, guess_writing_seconds(request, range, cost.bytes), size.threads);
   estimate.bytes = static_cast<uint64_t>(cost.bytes);
   estimate.memory_bytes = size.memory_bytes;

@@ -1,3 +1,6 @@
+#include <chrono>
+#include <thread>
+
 #include "compile/test_slices.h"
 
 #include "compile/job_sheet.h"
@@ -139,6 +142,24 @@ TEST_F(Slice, EstimatesWriteNothing) {
   EXPECT_GT(estimate.bytes, 4000U * 60);
   EXPECT_GT(estimate.seconds, 0);
   EXPECT_FALSE(fs::exists(folder()));
+}
+
+// A layer that would take forever is left when the time is over.
+TEST_F(Slice, EstimatesEndInTime) {
+  SliceRequest request = ball_request();
+  request.lattice.count[2] = 4000;
+  const LayerProducer slow = [](int64_t, int64_t, const StopFlag* stop) -> std::vector<voxel::LayerResult> {
+    while (!stop->requested()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    throw Cancelled();
+  };
+  SliceOptions one = options();
+  one.threads = 1;
+  const SliceEstimate estimate = estimate_slice(request, slow, one);
+  EXPECT_TRUE(estimate.is_least);
+  EXPECT_GE(estimate.seconds, 4000 / 8 * 4);  // slabs of 8 layers, four seconds each
+  StopFlag stop;
+  stop.request();
+  EXPECT_THROW(estimate_slice(request, slow, one, &stop), Cancelled);
 }
 
 TEST_F(Slice, EstimatesFollowTheShape) {
