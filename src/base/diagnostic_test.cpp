@@ -1,6 +1,8 @@
 // What a designer reads: place, message, source line, caret.
 #include "base/diagnostic.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "base/text.h"

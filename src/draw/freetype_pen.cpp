@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "base/error.h"
 #include "base/utf8.h"
@@ -134,11 +135,14 @@ void Pen::fill(const Canvas& canvas, std::span<const Spot> corners, Rgb colour) 
   std::vector<FT_Vector> points;
   for (const Spot spot : corners)
     points.push_back({to_units(spot.right), to_units(static_cast<double>(canvas.height) - spot.down)});
-  std::vector<char> tags(points.size(), FT_CURVE_TAG_ON);
-  auto last = static_cast<short>(points.size() - 1);
   FT_Outline outline{};
+  // FreeType 2.13 made the numbers below unsigned.
+  using Tag = std::remove_reference_t<decltype(*outline.tags)>;
+  using Index = std::remove_reference_t<decltype(*outline.contours)>;
+  std::vector<Tag> tags(points.size(), FT_CURVE_TAG_ON);
+  auto last = static_cast<Index>(points.size() - 1);
   outline.n_contours = 1;
-  outline.n_points = static_cast<short>(points.size());
+  outline.n_points = static_cast<Index>(points.size());
   outline.points = points.data();
   outline.tags = tags.data();
   outline.contours = &last;

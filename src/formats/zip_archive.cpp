@@ -153,12 +153,10 @@ ZipReader::ZipReader(const std::string& name, std::string_view bytes, Diagnostic
   libzip().error_init(&error);
   zip_source_t* const source = libzip().source_buffer_create(bytes.data(), bytes.size(), 0, &error);
   if (source) archive_ = libzip().open_from_source(source, ZIP_RDONLY, &error);
-  const std::string problem = libzip().error_strerror(&error);
   libzip().error_fini(&error);
   if (!archive_) {
     if (source) libzip().source_free(source);
-    fail(diagnostics, name, "this zip archive is damaged or cut short (libzip: " + to_lower(problem) + ")",
-         "save or copy it again");
+    fail(diagnostics, name, "this zip archive is damaged or cut short", "save or copy it again");
   }
   const zip_int64_t count = libzip().get_num_entries(archive_, 0);
   for (zip_int64_t i = 0; i < std::min<zip_int64_t>(count, most_entries); ++i)

@@ -1,7 +1,11 @@
 // Embree's functions as its module hands them over.
 #pragma once
 
+#if OMBRE_EMBREE_VERSION == 3
 #include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
 
 namespace ombre::importing {
 

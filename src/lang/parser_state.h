@@ -1,6 +1,7 @@
 // The parser's insides, shared by its two halves: statements and expressions.
 #pragma once
 
+#include <algorithm>
 #include <initializer_list>
 #include <string>
 #include <string_view>

@@ -100,9 +100,12 @@ class BoxTree {
     }
     const size_t begin = node * width, count = std::min(width, levels_[level - 1].size() - begin);
     std::array<std::pair<double, size_t>, width> below;
-    for (size_t n = 0; n < count; ++n)
-      below[n] = {squared_distance(search.point, levels_[level - 1][begin + n]), begin + n};
-    std::sort(below.begin(), below.begin() + count);
+    for (size_t n = 0; n < count; ++n) {
+      const std::pair<double, size_t> next{squared_distance(search.point, levels_[level - 1][begin + n]), begin + n};
+      size_t place = n;
+      for (; place > 0 && next < below[place - 1]; --place) below[place] = below[place - 1];
+      below[place] = next;
+    }
     for (size_t n = 0; n < count; ++n) {
       if (search.found <= search.enough || below[n].first > search.most * search.most) return;
       look(level - 1, below[n].second, search, distance);

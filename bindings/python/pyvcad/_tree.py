@@ -147,11 +147,11 @@ class Node:
 
     def gradient(self, *point: Any) -> Vec3:
         """Gradient of the distance at (x, y, z) or a Vec3."""
-        return Vec3(*self._design().gradient(_point("gradient", point)).tolist())
+        return Vec3(*map(float, self._design().gradient(_point("gradient", point))))
 
     def snap(self, point: Any) -> Vec3:
         """The nearest point of the surface, mm."""
-        return Vec3(*self._design().nearest(_point("snap", (point,))).tolist())
+        return Vec3(*map(float, self._design().nearest(_point("snap", (point,)))))
 
     def distribution(self, x: float, y: float, z: float) -> dict[int, float]:
         """{material's id: volume fraction} at a point; empty outside."""
@@ -168,7 +168,7 @@ class Node:
         design = self._design()
         fractions = design.material(numpy.concatenate([(x, y, z) + step, (x, y, z) - step]))
         names = design.materials.names
-        return {names.index(name): Vec3(*((values[:3] - values[3:]) / (2 * delta)).tolist())
+        return {names.index(name): Vec3(*map(float, (values[:3] - values[3:]) / (2 * delta)))
                 for name, values in fractions.items() if values.any()}
 
     def heterogeneity(self, x: float, y: float, z: float) -> float:
