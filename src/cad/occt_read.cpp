@@ -161,12 +161,13 @@ std::vector<NamedShape> sewn(const std::vector<NamedShape>& faces) {
     BRepLib::OrientClosedSolid(solid);
     TopTools_IndexedMapOfShape own;
     TopExp::MapShapes(e.Current(), TopAbs_FACE, own);
-    const auto first = std::find_if(faces.begin(), faces.end(),
-                                    [&](const NamedShape& f) { return own.Contains(sewing.Modified(f.shape)); });
-    if (first == faces.end())
-      solids.push_back({"", {}, solid});
-    else
-      solids.push_back({first->name, first->colour, solid});
+    solids.push_back({"", {}, solid});
+    // Open CASCADE 7.8 does not know the colours of all faces of an IGES file.
+    for (const NamedShape& face : faces) {
+      if (!own.Contains(sewing.Modified(face.shape))) continue;
+      if (solids.back().name.empty()) solids.back().name = face.name;
+      if (!solids.back().colour) solids.back().colour = face.colour;
+    }
   }
   return solids;
 }
