@@ -123,7 +123,8 @@ Archive create(const std::string& path) {
 void add(zip_t* archive, const std::string& name, EntrySource& bytes) {
   zip_source_t* const source = libzip().source_function(archive, &EntrySource::call, &bytes);
   if (!source) throw_failure(libzip().get_error(archive));
-  const zip_int64_t index = libzip().file_add(archive, name.c_str(), source, ZIP_FL_ENC_UTF_8);
+  // Names are ASCII. With ZIP_FL_ENC_UTF_8 the bytes would depend on the version of libzip.
+  const zip_int64_t index = libzip().file_add(archive, name.c_str(), source, ZIP_FL_ENC_GUESS);
   if (index < 0) {
     libzip().source_free(source);
     throw_failure(libzip().get_error(archive));
