@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
@@ -23,12 +24,24 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
+// With its compiled part: a build folder links the rest before that is built.
+bool holds_package(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::directory_iterator files(folder / "ombre", ignored);
+  return std::any_of(begin(files), end(files),
+                     [](const auto& file) { return file.path().filename().string().starts_with("_core."); });
+}
+
 // The package that was built or installed with this program; empty when it is Python's own.
 std::string package_folder() {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const fs::path& folder : {program / "../../python", program / "../lib/ombre/python"})
-    if (fs::is_directory(folder / "ombre", ignored)) return folder.lexically_normal().string();
+  if (const fs::path built = program / "../../python"; holds_package(built)) return built.lexically_normal();
+  for (const fs::path& python : fs::directory_iterator(program / "../lib", ignored)) {
+    if (!python.filename().string().starts_with("python3")) continue;
+    for (const char* packages : {"site-packages", "dist-packages"})
+      if (holds_package(python / packages)) return (python / packages).lexically_normal();
+  }
   return "";
 }
 
@@ -47,6 +60,7 @@ void put_first_on_path(const std::string& folder) {
 
 bool needs_python(int argc, const char* const* argv) {
   if (argc > 1 && std::string_view(argv[1]) == "run") return true;
+  if (argc > 1 && std::string_view(argv[1]) == "completion") return false;
   for (int n = 2; n < argc; ++n)
     if (const std::string_view word = argv[n]; word.ends_with(".py") && !word.starts_with("-")) return true;
   return false;
@@ -63,8 +77,7 @@ int become_python(int argc, char** argv) {
       "    import ombre\n"
       "except ImportError as error:\n"
       "    sys.exit(f'ombre: error: designs in Python need the Python package ombre ({error}); install it with '\n"
-      "             'pip install --no-build-isolation . in the sources of Ombre, or name another Python by "
-      "OMBRE_PYTHON')\n"
+      "             './dev install or pip install . in the sources of Ombre, or name another Python by OMBRE_PYTHON')\n"
       "from ombre.__main__ import main\n"
       "sys.exit(main(sys.argv[1:]))\n";
   std::string option = "-c";

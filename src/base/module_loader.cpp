@@ -5,20 +5,25 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/own_folders.h"
 
 namespace ombre {
 namespace {
 
-std::string found(const std::filesystem::path& built) {
+namespace fs = std::filesystem;
+
+// A wheel has it beside the library, an installed program in lib/ombre of a folder above, a build where CMake put it.
+std::string found(const fs::path& built) {
   std::error_code ignored;
-  Dl_info here{};
-  if (dladdr(reinterpret_cast<void*>(&found), &here) != 0) {  // NOLINT
-    const auto beside = std::filesystem::path(here.dli_fname).parent_path() / built.filename();
-    if (std::filesystem::exists(beside, ignored)) return beside.string();
+  const std::vector<fs::path> folders = own_folders();
+  if (!folders.empty() && fs::exists(folders.front() / built.filename(), ignored))
+    return folders.front() / built.filename();
+  for (const fs::path& folder : folders) {
+    if (fs::exists(folder / "CMakeCache.txt", ignored)) return built;
+    if (const fs::path installed = folder / "lib/ombre" / built.filename(); fs::exists(installed, ignored))
+      return installed;
   }
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const auto installed = program.parent_path().parent_path() / "lib" / "ombre" / built.filename();
-  return std::filesystem::exists(installed, ignored) ? installed.string() : built.string();
+  return built;
 }
 
 }  // namespace

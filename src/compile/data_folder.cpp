@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/own_folders.h"
 
 namespace ombre::compile {
 namespace {
@@ -24,12 +25,9 @@ std::string data_folder() {
     throw Error(std::string("OMBRE_DATA names ") + given +
                 ", which has no folders printers and materials; correct or unset it");
   }
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  const fs::path installed = (program.parent_path().parent_path() / "share" / "ombre").lexically_normal();
-  if (holds_data(installed)) return installed.string();
-  for (fs::path folder = program.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
-    if (holds_data(folder)) return folder.string();
+  for (const fs::path& folder : own_folders())
+    for (const fs::path& data : {folder / "share/ombre", folder})
+      if (holds_data(data)) return data;
   throw Error("cannot find Ombre's printers and materials; set OMBRE_DATA to the folder that holds them");
 }
 

@@ -5,9 +5,8 @@
 
 namespace ombre::compile {
 
-// The folder that holds printers/ and materials/: $OMBRE_DATA where it is set, else ../share/ombre
-// beside the program, else the source tree that the program was built in. Throws Error when there
-// is none.
+// The folder that holds printers/ and materials/: $OMBRE_DATA where it is set, else share/ombre in a folder above the
+// program or the Python package, else the source tree that they were built in. Throws Error when there is none.
 std::string data_folder();
 
 }  // namespace ombre::compile

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "compile/data_folder.h"
 #include "data.h"
 #include "designs.h"
 
@@ -12,6 +13,7 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "The compiled part of ombre; use the package.";
   module.attr("version") = OMBRE_VERSION;
   module.def("set_package_folder", &set_package_folder);
+  module.def("data_folder", &compile::data_folder);
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) std::rethrow_exception(pointer);

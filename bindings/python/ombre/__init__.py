@@ -15,12 +15,6 @@ from builtins import __dict__ as _builtin_names
 from . import _core
 
 _core.set_package_folder(_os.path.dirname(_os.path.abspath(__file__)))
-if "OMBRE_DATA" not in _os.environ:
-    for _folder in ("data", "../../../..", "../../../../.."):  # a wheel's own, or the sources above a build folder
-        _data = _os.path.normpath(_os.path.join(_os.path.dirname(_os.path.abspath(__file__)), _folder))
-        if _os.path.isdir(_os.path.join(_data, "printers")) and _os.path.isdir(_os.path.join(_data, "materials")):
-            _os.environ["OMBRE_DATA"] = _data
-            break
 
 from ._design import Design, Voxels, _document_jobs, load
 from ._errors import CheckError, DesignError, DesignWarning, FunctionError, MachineError

@@ -89,3 +89,8 @@ def setting(variable, value):
 def using(factory):
     """Within, solids name the materials of the factory."""
     return setting(_current, factory)
+
+
+def data_folder():
+    """The folder that holds the printers and materials that come with Ombre."""
+    return _core.data_folder()

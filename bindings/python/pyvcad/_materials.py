@@ -7,7 +7,7 @@ import tempfile
 from typing import Any
 
 import ombre
-from ombre._materials import current_factory
+from ombre._materials import current_factory, data_folder
 
 from ._vectors import Vec4
 
@@ -153,7 +153,7 @@ def numbered(count: int) -> ombre.Materials:
 
 def resources_path() -> str:
     """The folder that holds materials and printers."""
-    return os.environ.get("OMBRE_DATA", "")
+    return str(data_folder())
 
 
 default_materials = _DefaultMaterials()
