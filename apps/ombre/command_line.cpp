@@ -6,11 +6,13 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <new>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
 #include "compile/load.h"
 #include "ombre/commands.h"
+#include "ombre/completion.h"
 #include "ombre/interrupt.h"
 #include "ombre/suggest.h"
 
@@ -42,10 +44,13 @@ class CommandLine {
     program_.footer(program_footer);
     program_.set_version_flag("--version", "ombre " OMBRE_VERSION);
     program_.require_subcommand(0, 1);
-    commands_ = {add_slice(program_, output_),    add_layer(program_, output_),    add_render(program_, output_),
-                 add_voxels(program_, output_),   add_mesh(program_, output_),     add_contours(program_, output_),
-                 add_sheet(program_, output_),    add_probe(program_, output_),    add_nodes(program_, output_),
-                 add_printers(program_, output_), add_materials(program_, output_)};
+    commands_ = {add_slice(program_, output_),    add_layer(program_, output_),     add_render(program_, output_),
+                 add_voxels(program_, output_),   add_mesh(program_, output_),      add_contours(program_, output_),
+                 add_sheet(program_, output_),    add_probe(program_, output_),     add_nodes(program_, output_),
+                 add_printers(program_, output_), add_materials(program_, output_), add_completion(program_)};
+    // Only for those who ask what there is: Python runs it before it comes here (python_designs.h).
+    program_.add_subcommand("run",
+                            "Run a Python script; with --, its root is the design of a command (see: ombre run -h)");
   }
 
   Data describe() const {
@@ -58,6 +63,8 @@ class CommandLine {
   }
 
   int run(int argc, const char* const* argv) {
+    if (argc > 2 && std::string_view(argv[1]) == "completion" && std::string_view(argv[2]) == "words")
+      return complete({argv + 3, argv + argc});
     if (argc > 1)
       if (const std::string problem = unknown_command(program_, argv[1]); !problem.empty()) return wrong(problem);
     try {
@@ -98,6 +105,15 @@ class CommandLine {
       console_.error("not enough memory; try fewer --threads, or a smaller --memory");
       return failed;
     }
+  }
+
+  // For the scripts of `ombre completion`: a word and what it is on each line.
+  int complete(const std::vector<std::string>& words) const {
+    std::string text;
+    for (const Completion& c : completions(program_, words))
+      text += c.word + (c.description.empty() ? "" : '\t' + c.description) + '\n';
+    console_.print(text);
+    return done;
   }
 
   int wrong(const std::string& problem) {

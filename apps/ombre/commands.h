@@ -49,5 +49,6 @@ Command add_sheet(CLI::App& program, OutputOptions& output);
 Command add_nodes(CLI::App& program, OutputOptions& output);
 Command add_printers(CLI::App& program, OutputOptions& output);
 Command add_materials(CLI::App& program, OutputOptions& output);
+Command add_completion(CLI::App& program);
 
 }  // namespace ombre::cli

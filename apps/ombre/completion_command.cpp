@@ -1,0 +1,28 @@
+// ombre completion: scripts for shells, which complete commands, options and their values by them.
+#include <memory>
+
+#include "base/text.h"
+#include "ombre/checks.h"
+#include "ombre/commands.h"
+#include "ombre/completion.h"
+
+namespace ombre::cli {
+
+Command add_completion(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("completion", "Print a script that completes what is typed in a shell");
+  auto shell = std::make_shared<std::string>();
+  app->add_option("shell", *shell, "The shell: " + join(completion_shells(), ", "))
+      ->required()
+      ->check(one_of(completion_shells()))
+      ->type_name("SHELL");
+  app->footer(
+      "Examples:\n  source <(ombre completion bash)    in ~/.bashrc\n"
+      "  source <(ombre completion zsh)     in ~/.zshrc, after compinit\n"
+      "  ombre completion fish | source     in ~/.config/fish/config.fish\n");
+  return {app, [shell](Session& session) {
+            session.console.print(completion_script(*shell));
+            return done;
+          }};
+}
+
+}  // namespace ombre::cli
