@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Meshes, made as a user would and judged by CGAL.
 
-    python3 tests/run_meshes.py build/dev/apps/ombre/ombre [build/dev/tests/mesh_checker/{check_mesh,compare_mesh}]
+    python3 tests/run_meshes.py build/dev/apps/ombre/ombre [--checkers build/dev/tests/mesh_checker] [NAME...]
+
+A NAME is that of an example, or of one of the checks below; "checks" are all of these.
 """
 import argparse
 import functools
@@ -232,14 +234,17 @@ def in_a_folder(ombre, checker, comparer, check):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("ombre", type=pathlib.Path)
-    parser.add_argument("checker", type=pathlib.Path, nargs="?")
-    parser.add_argument("comparer", type=pathlib.Path, nargs="?")
-    given = parser.parse_args()
-    programs = [path and path.resolve() for path in (given.ombre, given.checker, given.comparer)]
-    run = functools.partial(in_a_folder, *programs)
-    checks = [(design.stem, functools.partial(run, functools.partial(is_closed_and_as_large_as_its_voxels, design)))
-              for design in EXAMPLES]
-    return program.check_all(checks + [(check.__name__, functools.partial(run, check)) for check in CHECKS])
+    parser.add_argument("names", nargs="*", help="only these")
+    parser.add_argument("--checkers", type=pathlib.Path, help="the folder of check_mesh and compare_mesh")
+    given = parser.parse_intermixed_args()
+    checkers = [given.checkers and given.checkers.resolve() / name for name in ("check_mesh", "compare_mesh")]
+    run = functools.partial(in_a_folder, given.ombre.resolve(), *checkers)
+    checks = {design.stem: functools.partial(is_closed_and_as_large_as_its_voxels, design) for design in EXAMPLES}
+    checks |= {check.__name__: check for check in CHECKS}
+    names = given.names or list(checks)
+    if "checks" in names:
+        names = [check.__name__ for check in CHECKS]
+    return program.check_all([(name, functools.partial(run, checks[name])) for name in names])
 
 
 if __name__ == "__main__":

@@ -1,7 +1,10 @@
 // Every example in float batches, beside the reference.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <string>
+#include <tuple>
 
 #include "compile/test_designs.h"
 
@@ -32,31 +35,37 @@ std::vector<MaterialId> slice_example(const LoadedPtr& loaded, voxel::Evaluator 
   return plan ? unpack(plan->producer(0, plan->request.lattice.count[2], nullptr)) : std::vector<MaterialId>();
 }
 
-class EveryExample : public testing::TestWithParam<std::string> {};
+class EveryExample : public testing::TestWithParam<std::tuple<std::string, voxel::Dither>> {};
 
 }  // namespace
 
 TEST_P(EveryExample, IsTheSameInBatchesAndByTheReference) {
+  const auto& [example, dither] = GetParam();
   Diagnostics diagnostics;
   use_source_data();
-  const LoadedPtr loaded = load_design(OMBRE_SOURCE_DIR "/examples/" + GetParam() + ".vcad", {}, diagnostics);
+  const LoadedPtr loaded = load_design(OMBRE_SOURCE_DIR "/examples/" + example + ".vcad", {}, diagnostics);
   if (to_text(diagnostics).find("built without Open CASCADE") != std::string::npos) GTEST_SKIP();
   ASSERT_TRUE(loaded) << to_text(diagnostics);
-  for (const auto dither : {voxel::Dither::stochastic, voxel::Dither::blue_noise, voxel::Dither::threshold}) {
-    const auto exact = slice_example(loaded, voxel::Evaluator::reference, dither);
-    const auto fast = slice_example(loaded, voxel::Evaluator::batch, dither);
-    ASSERT_EQ(exact.size(), fast.size());
-    ASSERT_FALSE(exact.empty());
-    size_t different = 0;
-    for (size_t n = 0; n < exact.size(); ++n) different += exact[n] != fast[n];
-    std::cout << GetParam() << ", " << name(dither) << ": " << different << " of " << exact.size()
-              << " voxels lie within rounding of a boundary\n";
-    // A float is off by some 10^-7 of the part's size, and a voxel is a hundredth of it.
-    EXPECT_LE(static_cast<double>(different), 3e-5 * static_cast<double>(exact.size()));
-  }
+  const auto exact = slice_example(loaded, voxel::Evaluator::reference, dither);
+  const auto fast = slice_example(loaded, voxel::Evaluator::batch, dither);
+  ASSERT_EQ(exact.size(), fast.size());
+  ASSERT_FALSE(exact.empty());
+  size_t different = 0;
+  for (size_t n = 0; n < exact.size(); ++n) different += exact[n] != fast[n];
+  std::cout << different << " of " << exact.size() << " voxels lie within rounding of a boundary\n";
+  // A float is off by some 10^-7 of the part's size, and a voxel is a hundredth of it.
+  EXPECT_LE(static_cast<double>(different), 3e-5 * static_cast<double>(exact.size()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Examples, EveryExample, testing::ValuesIn(examples()),
-                         [](const auto& example) { return example.param; });
+INSTANTIATE_TEST_SUITE_P(Examples, EveryExample,
+                         testing::Combine(testing::ValuesIn(examples()),
+                                          testing::Values(voxel::Dither::stochastic, voxel::Dither::blue_noise,
+                                                          voxel::Dither::threshold)),
+                         [](const auto& test) {
+                           std::string title =
+                               std::get<0>(test.param) + "_" + std::string(name(std::get<1>(test.param)));
+                           std::ranges::replace(title, '-', '_');
+                           return title;
+                         });
 
 }  // namespace ombre::compile
