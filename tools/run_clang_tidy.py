@@ -1,21 +1,28 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy on what a build folder compiles together (CMake's unity builds): headers are read once for eight files.
+"""Runs clang-tidy on sources that changed, or on all.
 
-    run_clang_tidy.py build/lint/UnifiedSource
+    run_clang_tidy.py build/lint/UnifiedSource [--since REF | --all]
 
-The folder's name matters: by it the static analyser knows that the sources included are no headers.
-Status 1 where it found something, which it prints.
+Changed is what differs from REF; without it, from where the branch left its upstream branch, or, where that is HEAD, from
+the last commit that is older than a day; with what is not committed yet. A changed header stands for the sources that
+include it. Where most of what the build folder compiles together (CMake's unity builds) has changed, headers are read once
+for all of it. The folder's name matters: by it the static analyser knows that the sources included are no headers.
+Status 1 where something was found, which is printed.
 """
 
+import argparse
 import json
 import os
+import re
 import subprocess
 import sys
+import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-SOURCES = ("src", "apps", "bindings")
+FOLDERS = ("src", "apps", "bindings")
+INCLUDE = re.compile(r'^\s*#include "([^"]+)"', re.M)
 
 
 def folder_of(build, source):
@@ -35,27 +42,98 @@ def checks_of(parts):
     return ",".join(checks)
 
 
+def git(*arguments):
+    done = subprocess.run(["git", "-C", str(ROOT), *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                          text=True, check=False)
+    return done.stdout.strip() if done.returncode == 0 else ""
+
+
+def base_of_branch():
+    base = git("merge-base", "HEAD", "@{upstream}") or git("merge-base", "HEAD", "origin/HEAD")
+    if base and base != git("rev-parse", "HEAD"):
+        return base
+    return git("rev-list", "-1", "--before=1 day ago", "HEAD") or git("hash-object", "-t", "tree", "/dev/null")
+
+
+def changed_files(since):
+    base = git("rev-parse", "--verify", "--quiet", f"{since}^{{commit}}") if since else base_of_branch()
+    if not base:
+        sys.exit(f"there is no commit {since}")
+    names = git("diff", "--name-only", base) + "\n" + git("ls-files", "--others", "--exclude-standard")
+    return {ROOT / name for name in names.split("\n") if name.startswith(tuple(f"{folder}/" for folder in FOLDERS))}
+
+
+def with_includers(changed, sources):
+    """The changed sources, and those that include a changed header, which is known by the end of its path."""
+    headers = {path for path in changed if path.suffix == ".h"}
+    found = {path for path in sources if path in changed}
+    for source in sources:
+        for name in INCLUDE.findall(source.read_text(encoding="utf-8")):
+            if any(header.match(name) for header in headers):
+                found.add(source)
+    return found
+
+
+def together(file):
+    """The sources that a file of a unity build includes; of another, itself."""
+    if file.name.startswith("unity_") and file.is_file():
+        return [Path(name) for name in INCLUDE.findall(file.read_text(encoding="utf-8"))]
+    return [file]
+
+
+def alone(entry, source):
+    """The entry of one of the sources that are compiled together."""
+    command = entry["command"].replace(entry["file"], str(source))
+    return {"directory": entry["directory"], "file": str(source), "command": command}
+
+
+def chosen_entries(entries, build, arguments):
+    """What to check, as entries of compile_commands.json, and the folder of each."""
+    ours = []
+    for entry in entries:
+        parts = folder_of(build, Path(entry["file"]))
+        if parts and parts[0] in FOLDERS:
+            ours.append((entry, parts, together(Path(entry["file"]))))
+    if not ours:
+        sys.exit(f"{build}/compile_commands.json names no source of {', '.join(FOLDERS)}")
+    if arguments.all:
+        return [(entry, parts) for entry, parts, _ in ours]
+    wanted = with_includers(changed_files(arguments.since), {source for _, _, sources in ours for source in sources
+                                                             if source.is_relative_to(ROOT) and source.is_file()})
+    chosen = []
+    for entry, parts, sources in ours:
+        here = [source for source in sources if source in wanted]
+        if len(sources) > 1 and 2 * len(here) > len(sources):
+            chosen.append((entry, parts))
+        else:
+            chosen += [(alone(entry, source), parts) for source in here]
+            wanted -= set(here)  # another target may have the source, too
+    return chosen
+
+
 def main():
-    build = (ROOT / sys.argv[1]).resolve()
-    jobs = []
-    for entry in json.loads((build / "compile_commands.json").read_text()):
-        source = Path(entry["file"])
-        parts = folder_of(build, source)
-        if parts and parts[0] in SOURCES:
-            jobs.append(["clang-tidy", "-p", str(build), "--quiet", f"--config-file={ROOT / '.clang-tidy'}",
-                         f"--checks={checks_of(parts)}", str(source)])
-    if not jobs:
-        sys.exit(f"{build}/compile_commands.json names no source of {', '.join(SOURCES)}")
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("build", type=Path)
+    parser.add_argument("--since", metavar="REF", help="check what differs from this commit")
+    parser.add_argument("--all", action="store_true", help="check all sources")
+    arguments = parser.parse_args()
+    build = (ROOT / arguments.build).resolve()
+    chosen = chosen_entries(json.loads((build / "compile_commands.json").read_text()), build, arguments)
 
-    def run(job):
-        return subprocess.run(job, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False)
+    with tempfile.TemporaryDirectory() as commands:
+        (Path(commands) / "compile_commands.json").write_text(json.dumps([entry for entry, _ in chosen]))
+        jobs = [["clang-tidy", "-p", commands, "--quiet", f"--config-file={ROOT / '.clang-tidy'}",
+                 f"--checks={checks_of(parts)}", entry["file"]] for entry, parts in chosen]
 
-    failed = 0
-    with ThreadPoolExecutor(os.cpu_count()) as threads:
-        for job, result in zip(jobs, threads.map(run, jobs)):
-            if result.returncode:
-                failed += 1
-                print(result.stdout.strip() or f"clang-tidy failed: {' '.join(job)}", flush=True)
+        def run(job):
+            return subprocess.run(job, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False)
+
+        failed = 0
+        with ThreadPoolExecutor(os.cpu_count()) as threads:
+            for job, result in zip(jobs, threads.map(run, jobs)):
+                if result.returncode:
+                    failed += 1
+                    print(result.stdout.strip() or f"clang-tidy failed: {' '.join(job)}", flush=True)
     print(f"clang-tidy: {len(jobs)} sources, {failed} with findings")
     sys.exit(1 if failed else 0)
 
