@@ -17,7 +17,7 @@ constexpr int most_kept_bytes = 32 << 20;
 }  // namespace
 
 // Sanitizers have their own.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef OMBRE_SANITIZED
 // Those come in large pages, too: meshes of millions of triangles take up to a quarter less time.
 void* operator new(std::size_t bytes) {
   if (bytes >= most_kept_bytes) return ombre::large_memory(bytes);
