@@ -39,6 +39,7 @@ if [ ! -f "$base" ]; then
 else
   tar -C "$root" -xzf "$base"
 fi
+chmod 755 "$root" # apt downloads as another user
 git -c safe.directory="*" -C "$sources" diff --quiet HEAD || say "the working tree has changes, which HEAD has not"
 git -c safe.directory="*" clone --quiet --no-local "$sources" "$root/root/ombre"
 cp /etc/resolv.conf /etc/hosts "$root/etc/"
