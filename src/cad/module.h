@@ -4,4 +4,5 @@
 #include "cad/solids.h"
 
 // What the module exports.
-extern "C" void ombre_read_cad(const std::string* path, std::vector<ombre::cad::SolidPtr>* solids);
+extern "C" void ombre_read_cad(const std::string* path, const ombre::StopFlag* stop,
+                               std::vector<ombre::cad::SolidPtr>* solids);

@@ -3,24 +3,60 @@
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
 
+#include <filesystem>
 #include <mutex>
 
+#include "base/helper_process.h"
 #include "cad/module.h"
-#include "cad/occt_crash.h"
 #include "cad/occt_guard.h"
 #include "cad/occt_shapes.h"
 
-void ombre_read_cad(const std::string* path, std::vector<ombre::cad::SolidPtr>* solids) {
+namespace ombre::cad {
+namespace {
+
+// Good files take a second or two for each megabyte, and some tens of times their size.
+constexpr double least_seconds = 10, seconds_for_a_byte = 10e-6;
+constexpr size_t least_memory = size_t{2} << 30, memory_for_a_byte = 200;
+
+HelperLimits limits_for(const std::string& path) {
+  std::error_code failed;
+  const uintmax_t size = std::filesystem::file_size(path, failed);
+  if (failed) return {least_seconds, least_memory};
+  return {least_seconds + seconds_for_a_byte * static_cast<double>(size),
+          least_memory + memory_for_a_byte * static_cast<size_t>(size)};
+}
+
+std::string read_and_pack(const std::string& path, const std::string& what) {
+  return guarded(what, [&] {
+    std::vector<MeasuredShape> shapes;
+    for (NamedShape& shape : read_shapes(path)) shapes.push_back(measured(std::move(shape)));
+    return pack_shapes(shapes);
+  });
+}
+
+}  // namespace
+}  // namespace ombre::cad
+
+// In a helper process, since broken files make the library crash, or go on for ever.
+void ombre_read_cad(const std::string* path, const ombre::StopFlag* stop, std::vector<ombre::cad::SolidPtr>* solids) {
+  using namespace ombre;
+  using namespace ombre::cad;
   // The library's readers share settings.
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
   // It would tell of its progress on the console.
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
   const std::string what = "cannot read " + *path;
-  const auto read = [&] {
-    for (const ombre::cad::NamedShape& shape : ombre::cad::read_shapes(*path))
-      solids->push_back(ombre::cad::make_solid(shape));
+  const HelperLimits limits = limits_for(*path);
+  const auto explain = [&](HelperFailure failure) {
+    const std::string seconds = std::to_string(static_cast<int>(limits.seconds));
+    const std::string reason = failure == HelperFailure::crashed
+                                   ? ": it is broken"
+                                   : ": it takes longer than " + seconds + " s, so it is probably broken";
+    return what + reason + "; export it again, as STEP AP214 or AP242";
   };
-  if (!ombre::cad::survives([&] { ombre::cad::guarded(what, read); }))
-    throw ombre::Error(what + ": it is broken; export it again, as STEP AP214 or AP242");
+  const std::string bytes = run_in_helper([&] { return read_and_pack(*path, what); }, limits, explain, stop);
+  guarded(what, [&] {
+    for (const MeasuredShape& shape : unpack_shapes(bytes)) solids->push_back(make_solid(shape));
+  });
 }

@@ -16,6 +16,8 @@
 #include <cmath>
 #include <mutex>
 
+#include "base/byte_pack.h"
+#include "base/helper_process.h"
 #include "cad/occt_guard.h"
 #include "cad/occt_shapes.h"
 #include "cad/occt_triangles.h"
@@ -27,6 +29,8 @@ namespace {
 constexpr double facet_angle = 0.5;
 // Points so close to the surface lie on it; mm.
 constexpr double surface_tolerance = 1e-9;
+// Cutting a solid into triangles may take so long.
+constexpr double seconds_to_cut = 20, seconds_to_cut_a_face = 0.2;
 
 TopoDS_Shape copy_of(const TopoDS_Shape& shape, bool with_geometry) {
   return BRepBuilderAPI_Copy(shape, with_geometry, false).Shape();
@@ -70,28 +74,74 @@ class OcctQuery final : public Query {
   BRepExtrema_DistShapeShape distance_;
 };
 
+double volume_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  return properties.Mass();
+}
+
+// Splines get a margin of a ten-millionth of a mm, for which a job would need a layer more.
+double without_noise(double mm) {
+  const double even = std::round(mm * 1e6) / 1e6;
+  return std::abs(mm - even) < 2e-7 ? even : mm;
+}
+
+Box bounds_of(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  box.SetGap(0);
+  BRepBndLib::AddOptimal(shape, box, false, false);
+  Box bounds;
+  box.Get(bounds.lo.x, bounds.lo.y, bounds.lo.z, bounds.hi.x, bounds.hi.y, bounds.hi.z);
+  for (int axis = 0; axis < 3; ++axis) {
+    bounds.lo[axis] = without_noise(bounds.lo[axis]);
+    bounds.hi[axis] = without_noise(bounds.hi[axis]);
+  }
+  return bounds;
+}
+
+size_t face_count(const TopoDS_Shape& shape) {
+  size_t count = 0;
+  for (TopExp_Explorer e(shape, TopAbs_FACE); e.More(); e.Next()) ++count;
+  return count;
+}
+
 class OcctSolid final : public Solid {
  public:
-  explicit OcctSolid(const NamedShape& named) : shape_(named.shape) {
-    name = named.name;
-    colour = named.colour;
-    volume_mm3 = volume();
-    // Of mirrored instances, too, the faces turn inwards.
-    if (volume_mm3 < 0) {
-      shape_.Reverse();
-      volume_mm3 = -volume_mm3;
-    }
-    find_bounds();
+  explicit OcctSolid(const MeasuredShape& shape) : shape_(shape.named.shape) {
+    name = shape.named.name;
+    colour = shape.named.colour;
+    volume_mm3 = shape.volume_mm3;
+    bounds = shape.bounds;
   }
 
   // On a copy: a mesh that is there would be kept where it is fine enough.
   Triangles triangulate(double deflection_mm) const override {
     const std::lock_guard lock(mutex_);
-    return guarded(what(), [&] {
-      const TopoDS_Shape copy = copy_of(shape_, false);
-      const BRepMesh_IncrementalMesh mesh(copy, deflection_mm, false, facet_angle, false);
-      return triangles_of(copy, what());
-    });
+    const auto cut = [&] {
+      return guarded(what(), [&] {
+        const TopoDS_Shape copy = copy_of(shape_, false);
+        const BRepMesh_IncrementalMesh mesh(copy, deflection_mm, false, facet_angle, false);
+        const Triangles made = triangles_of(copy, what());
+        BytePacker packer;
+        packer.add_list(made.vertices);
+        packer.add_list(made.triangles);
+        return packer.take();
+      });
+    };
+    const HelperLimits limits{seconds_to_cut + seconds_to_cut_a_face * static_cast<double>(face_count(shape_))};
+    const auto explain = [&](HelperFailure failure) {
+      return what() +
+             (failure == HelperFailure::crashed
+                  ? " makes Open CASCADE crash; repair it where it was drawn"
+                  : " takes longer than " + std::to_string(static_cast<int>(limits.seconds)) +
+                        " s to cut into triangles; give cad a larger tolerance, or repair it where it was drawn");
+    };
+    const std::string bytes = run_in_helper(cut, limits, explain, nullptr);
+    ByteUnpacker unpacker(bytes);
+    Triangles triangles;
+    triangles.vertices = unpacker.get_list<Vec3>();
+    triangles.triangles = unpacker.get_list<std::array<uint32_t, 3>>();
+    return triangles;
   }
 
   // With geometry of its own: the library's surfaces remember what they were asked last.
@@ -103,36 +153,26 @@ class OcctSolid final : public Solid {
  private:
   std::string what() const { return name.empty() ? "the CAD solid" : "the CAD solid \"" + name + '"'; }
 
-  double volume() const {
-    GProp_GProps properties;
-    BRepGProp::VolumeProperties(shape_, properties);
-    return properties.Mass();
-  }
-
-  void find_bounds() {
-    Bnd_Box box;
-    box.SetGap(0);
-    BRepBndLib::AddOptimal(shape_, box, false, false);
-    box.Get(bounds.lo.x, bounds.lo.y, bounds.lo.z, bounds.hi.x, bounds.hi.y, bounds.hi.z);
-    for (int axis = 0; axis < 3; ++axis) {
-      bounds.lo[axis] = without_noise(bounds.lo[axis]);
-      bounds.hi[axis] = without_noise(bounds.hi[axis]);
-    }
-  }
-
-  // Splines get a margin of a ten-millionth of a mm, for which a job would need a layer more.
-  static double without_noise(double mm) {
-    const double even = std::round(mm * 1e6) / 1e6;
-    return std::abs(mm - even) < 2e-7 ? even : mm;
-  }
-
   TopoDS_Shape shape_;
   mutable std::mutex mutex_;
 };
 
 }  // namespace
 
-SolidPtr make_solid(const NamedShape& named) { return std::make_shared<OcctSolid>(named); }
+MeasuredShape measured(NamedShape named) {
+  MeasuredShape shape;
+  shape.named = std::move(named);
+  shape.volume_mm3 = volume_of(shape.named.shape);
+  // Faces of mirrored instances, too, turn inwards.
+  if (shape.volume_mm3 < 0) {
+    shape.named.shape.Reverse();
+    shape.volume_mm3 = -shape.volume_mm3;
+  }
+  shape.bounds = bounds_of(shape.named.shape);
+  return shape;
+}
+
+SolidPtr make_solid(const MeasuredShape& shape) { return std::make_shared<OcctSolid>(shape); }
 
 }  // namespace ombre::cad
 

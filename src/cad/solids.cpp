@@ -36,10 +36,10 @@ bool is_cad_file(const std::string& path) {
   return std::any_of(std::begin(endings), std::end(endings), [&](const char* e) { return name.ends_with(e); });
 }
 
-std::vector<SolidPtr> read_solids(const std::string& path) {
+std::vector<SolidPtr> read_solids(const std::string& path, const StopFlag* stop) {
   static const ReadCad read = load_module();
   std::vector<SolidPtr> solids;
-  read(&path, &solids);
+  read(&path, stop, &solids);
   return solids;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/box.h"
+#include "base/progress.h"
 
 namespace ombre::cad {
 
@@ -44,7 +45,8 @@ using SolidPtr = std::shared_ptr<const Solid>;
 bool is_cad_file(const std::string& path);
 
 // At least one, in the order of the file; closed shells without a solid become some. Throws Error when the file holds
-// none, or is broken, and when this was built without the library.
-std::vector<SolidPtr> read_solids(const std::string& path);
+// none, or is broken, or takes far longer than good files of its size, and when this was built without the library;
+// Cancelled once `stop`, which may be null, is set.
+std::vector<SolidPtr> read_solids(const std::string& path, const StopFlag* stop = nullptr);
 
 }  // namespace ombre::cad

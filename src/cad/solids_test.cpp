@@ -190,6 +190,19 @@ TEST_F(Cad, WhatIsNoSolidIsToldOf) {
   EXPECT_EQ(read("cylinder.step").size(), 1u);
 }
 
+// A direction of infinite length makes the library look for a point on a line without end.
+TEST(CadFiles, AreStoppedWhileTheyAreRead) {
+  std::string bytes = bytes_of("cylinder.step");
+  const std::string direction = "#40 = DIRECTION('',(1.,0.));";
+  ASSERT_NE(bytes.find(direction), std::string::npos);
+  bytes.replace(bytes.find(direction), direction.size(), "#40 = DIRECTION('',(1E999,0.));");
+  const std::string path = testing::TempDir() + "endless" + std::to_string(getpid()) + ".step";
+  std::ofstream(path, std::ios::binary) << bytes;
+  const StopFlag soon(nullptr, 0.5);
+  EXPECT_THROW(read_solids(path, &soon), Cancelled);
+  std::remove(path.c_str());
+}
+
 TEST(CadFiles, AreKnownByTheirEndings) {
   EXPECT_TRUE(is_cad_file("a/part.STEP"));
   EXPECT_TRUE(is_cad_file("part.igs"));

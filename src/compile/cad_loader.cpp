@@ -142,7 +142,7 @@ const CadFiles::File* CadFiles::file(const std::string& path, const design::Read
     return nullptr;
   }
   try {
-    File file{hash_bytes(formats::read_file(path)), cad::read_solids(path)};
+    File file{hash_bytes(formats::read_file(path)), cad::read_solids(path, stop_)};
     return &files_.emplace(path, std::move(file)).first->second;
   } catch (const Error& error) {
     reader.diagnostics.error(reader.where, error.what());

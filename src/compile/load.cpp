@@ -47,7 +47,7 @@ std::optional<design::Design> run_script(const SourcePtr& source, const LoadOpti
   for (const std::string& text : options.definitions)
     if (auto definition = parse_definition(text, diagnostics)) run.definitions.push_back(std::move(*definition));
   if (!materials || diagnostics.has_errors()) return std::nullopt;
-  MeshLoader loader;
+  MeshLoader loader(options.stop);
   lang::VcadVocabulary vocabulary(nodes::registry(), *materials, &loader);
   const auto top_level = lang::run(source, vocabulary, run, diagnostics);
   return vocabulary.finish(top_level, {source, 0, 0}, diagnostics);
@@ -62,7 +62,7 @@ std::optional<design::Design> read_json_design(const SourcePtr& source, const Lo
   }
   const auto data = parse_json(source, diagnostics);
   if (!data) return std::nullopt;
-  MeshLoader loader;
+  MeshLoader loader(options.stop);
   return design::read_design(*data, nodes::registry(), &loader, diagnostics);
 }
 

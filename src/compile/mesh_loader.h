@@ -15,6 +15,8 @@ namespace ombre::compile {
 
 class MeshLoader : public design::SourceLoader {
  public:
+  explicit MeshLoader(const StopFlag* stop = nullptr) : cad_files_(stop) {}
+
   // A relative path is looked for beside the file that names it, then in the working directory.
   // Each file is read once for each way in which it is used. Open or inconsistent meshes are errors unless the rule
   // can do without.

@@ -1,0 +1,85 @@
+#include "base/helper_process.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <thread>
+
+#include "base/error.h"
+
+namespace ombre {
+namespace {
+
+std::string explain(HelperFailure failure) { return failure == HelperFailure::crashed ? "it crashed" : "it is slow"; }
+
+std::string run(const std::function<std::string()>& work, double seconds = 20, const StopFlag* stop = nullptr) {
+  try {
+    return run_in_helper(work, {seconds, size_t{1} << 30}, explain, stop);
+  } catch (const Error& error) {
+    return std::string("error: ") + error.what();
+  }
+}
+
+std::string wait_forever() {
+  for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+}
+
+TEST(HelperProcess, GivesWhatTheWorkReturns) {
+  EXPECT_EQ(run([] { return std::string(); }), "");
+  const std::string large(5'000'000, 'x');
+  EXPECT_EQ(run([&] { return large; }), large);
+  EXPECT_NE(run([] { return std::to_string(getpid()); }), std::to_string(getpid()));
+}
+
+TEST(HelperProcess, TellsErrorsCrashesAndHangs) {
+  EXPECT_EQ(run([]() -> std::string { throw Error("no such shape"); }), "error: no such shape");
+  EXPECT_EQ(run([]() -> std::string {
+              std::raise(SIGKILL);
+              return "";
+            }),
+            "error: it crashed");
+  EXPECT_EQ(run([]() -> std::string { _exit(0); }), "error: it crashed");
+  EXPECT_EQ(run(wait_forever, 0.2), "error: it is slow");
+}
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define OMBRE_SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define OMBRE_SANITIZED
+#endif
+
+TEST(HelperProcess, KeepsItsMemory) {
+#ifdef OMBRE_SANITIZED
+  GTEST_SKIP() << "the sanitizer ends programs that run out of memory";
+#endif
+  const auto greedy = [] {
+    const std::unique_ptr<char[]> all(new char[size_t{3} << 30]);
+    return std::string(1, all[1]);
+  };
+  EXPECT_EQ(run(greedy), "error: std::bad_alloc");
+}
+
+TEST(HelperProcess, IsStopped) {
+  StopFlag stop;
+  std::thread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    stop.request();
+  });
+  EXPECT_THROW(run(wait_forever, 20, &stop), Cancelled);
+  other.join();
+  EXPECT_THROW(run([]() -> std::string {
+                 std::raise(SIGINT);
+                 return "";
+               }),
+               Cancelled);
+}
+
+}  // namespace
+}  // namespace ombre
