@@ -125,7 +125,8 @@ void tell_bodies(const Console& console, const compile::MeshedDesign& made) {
                            {"cell_mm", made.cell_mm},
                            {"intersections", static_cast<double>(made.report.intersections)},
                            {"folded", static_cast<double>(made.report.folded)},
-                           {"farthest_in_tolerances", made.report.farthest_in_tolerances}});
+                           {"farthest_in_tolerances", made.report.farthest_in_tolerances},
+                           {"lost_places", static_cast<double>(made.report.lost.places)}});
 }
 
 void warn_of_folds(const Console& console, const compile::MeshedDesign& made) {
@@ -146,6 +147,15 @@ void warn_of_distance(const Console& console, const compile::MeshedDesign& made)
   console.warn("the triangles lie up to " + format_rounded(farthest, 2) + " tolerances, " +
                format_rounded(farthest * made.tolerance_mm, 2) +
                " mm, from the design in places; choose a smaller --cell");
+}
+
+void warn_of_lost_parts(const Console& console, const compile::MeshedDesign& made) {
+  const surface::LostParts& lost = made.report.lost;
+  if (lost.places == 0) return;
+  console.warn("a part or a gap thinner than the cells of " + format_rounded(made.cell_mm, 3) +
+               " mm is missing, for example near (" + format_rounded(lost.first.x, 4) + ", " +
+               format_rounded(lost.first.y, 4) + ", " + format_rounded(lost.first.z, 4) +
+               "); choose a --cell no larger than it is thick");
 }
 
 int mesh(const MeshArguments& a, Session& session) {
@@ -178,6 +188,7 @@ int mesh(const MeshArguments& a, Session& session) {
   tell_bodies(session.console, *made);
   warn_of_folds(session.console, *made);
   warn_of_distance(session.console, *made);
+  warn_of_lost_parts(session.console, *made);
   exporting::write_mesh_file(output, document_of(*made, stem, settings), *format, flavour_of(a.flavour));
   session.console.say(output + " written in " + format_rounded(watch.seconds(), 3) + " s");
   session.console.event("done", {{"file", output}, {"seconds", watch.seconds()}});

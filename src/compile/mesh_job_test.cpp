@@ -244,6 +244,21 @@ TEST(Mesh, HasPocketsThatNoCornerOfACellSees) {
 }
 
 // Most of them lie between the corners of cells, and all cells have to be cut.
+// A plate that no corner of a cell lies in is missing beside a cube, and so is a slit of that width in a block.
+TEST(Mesh, TellsWhatIsTooThinForItsCells) {
+  const MeshRequest request = cells_of(0.8, 0.2);
+  const std::string cube = "translate(0, 0, 20) cube(10);";
+  const MeshedDesign plate = mesh_text("translate(0, 0, 0.013) rectprism((100, 100, 0.05));" + cube, request);
+  EXPECT_GT(plate.report.lost.places, 100 * 100 / (0.8 * 0.8) / 2);
+  EXPECT_NEAR(plate.report.lost.first.z, 0.013, 0.026);
+  EXPECT_NEAR(volume(plate), 1000, 1e-6);
+  const MeshedDesign block =
+      mesh_text("difference() { cube(20); translate(0, 0, 0.13) rectprism((10, 10, 0.05)); }", request);
+  EXPECT_GT(block.report.lost.places, 0);
+  EXPECT_NEAR(block.report.lost.first.z, 0.13, 0.026);
+  EXPECT_EQ(mesh_text(cube + "sphere(5); translate(30, 0, 0) cylinder(0.5, 10);", request).report.lost.places, 0);
+}
+
 TEST(Mesh, OfSheetsThinnerThanCellsHasThemAll) {
   const MeshedDesign made = mesh_text("intersection() { cube(2); function(\"sin(4*pi*x)\"); }", cells_of(0.4, 0.02));
   EXPECT_EQ(made.report.farthest_in_tolerances, 1);

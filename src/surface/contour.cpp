@@ -1,5 +1,6 @@
 #include "surface/contour.h"
 
+#include "surface/lost_parts.h"
 #include "surface/refinement.h"
 #include "surface/surface_maker.h"
 
@@ -86,7 +87,9 @@ class CellRefiner {
 
 RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress,
                       const StopFlag* stop) {
-  return CellRefiner(partition, options, progress, stop).make();
+  RegionSurface surface = CellRefiner(partition, options, progress, stop).make();
+  surface.report.lost = find_lost_parts(partition, surface, options.corners, options.threads, stop);
+  return surface;
 }
 
 }  // namespace ombre::surface

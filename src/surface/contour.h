@@ -17,11 +17,18 @@ struct Facet {
   Label back = 0, front = 0;
 };
 
+// What is thinner than the cells and missing from a surface.
+struct LostParts {
+  uint64_t places = 0;  // corners of cells that have it beside them
+  Vec3 first;           // mm, one of the places
+};
+
 struct ContourReport {
   uint64_t at_mean_points = 0;        // vertices that would have folded the surface
   uint64_t folded = 0;                // triangles that still look against the surface there
   uint64_t intersections = 0;         // pairs of triangles that still go through each other
   double farthest_in_tolerances = 1;  // from the borders, or these from the triangles, at samples; at least 1
+  LostParts lost;
 };
 
 // Facets between any two regions; those around one region enclose it without a gap.
@@ -41,8 +48,8 @@ struct ContourOptions {
 // Dual contouring (Ju et al., 2002) with a vertex for each part of a cell (Nielson, 2004), and cells joined in an
 // octree as Schaefer et al. (2007) do. Cells are cut up to grid_level times where the surface is too far off at
 // samples, or where a look at finer cells finds borders that they do not see, until there are millions more.
-// Regions of more than two meet in shared vertices. What is thinner than a quarter of a cell may be lost. Throws
-// Cancelled.
+// Regions of more than two meet in shared vertices. What is thinner than a quarter of a cell may be lost; the report
+// says where. Throws Cancelled.
 RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress = nullptr,
                       const StopFlag* stop = nullptr);
 
