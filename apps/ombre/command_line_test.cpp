@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/text.h"
 #include "ombre/arguments.h"
 #include "ombre/commands.h"
 #include "ombre/progress_line.h"
@@ -129,7 +130,7 @@ TEST(ProgressLine, SaysShareRateAndTimeLeft) {
   EXPECT_EQ(progress_bar({0.5, 0, -1}), "[===============>              ]  50%");
   EXPECT_EQ(duration_text(3723.4), "1:02:03");
   EXPECT_EQ(rate_text(2.5e9), "2.5 G voxels/s");
-  EXPECT_EQ(bytes_text(1536), "1.5 KiB");
+  EXPECT_EQ(format_bytes(1536), "1.5 KiB");
 }
 
 }  // namespace ombre::cli

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "base/text.h"
 #include "ombre/slice_report.h"
 
 namespace ombre::cli {
@@ -21,8 +22,8 @@ std::optional<double> free_bytes(const std::string& folder) {
 std::string space_warning(const std::string& folder, double bytes) {
   const std::optional<double> free = free_bytes(folder);
   if (!free || bytes <= *free) return "";
-  return "the layers to come take about " + bytes_text(bytes) + ", and the disk of " + folder + " has " +
-         bytes_text(*free) + " left; free some space there, or choose another folder";
+  return "the layers to come take about " + format_bytes(bytes) + ", and the disk of " + folder + " has " +
+         format_bytes(*free) + " left; free some space there, or choose another folder";
 }
 
 }  // namespace ombre::cli

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "compile/mesh_job.h"
 #include "export/mesh_file.h"
+#include "ombre/arguments.h"
 #include "ombre/checks.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
@@ -25,6 +26,7 @@ struct MeshArguments {
   RegionArguments regions;
   std::string output, flavour = "generic";
   std::vector<std::string> settings;
+  std::string memory = "4G";
   int threads = 0;
   bool keep_all = false, force = false;
 };
@@ -60,6 +62,7 @@ void add_arguments(CLI::App& app, MeshArguments& a) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   add_threads(app, a.threads);
+  app.add_option("--memory", a.memory, "Most memory for the cells at the surface (default 4G)")->type_name("SIZE");
   app.add_flag("--force", a.force, "Replace the file if it is there");
 }
 
@@ -67,6 +70,7 @@ compile::MeshRequest mesh_request(const MeshArguments& a) {
   compile::MeshRequest request{region_request(a.regions)};
   request.join_flat = !a.keep_all;
   request.threads = a.threads;
+  request.memory_bytes = parse_memory(a.memory);
   return request;
 }
 
@@ -158,8 +162,19 @@ void warn_of_lost_parts(const Console& console, const compile::MeshedDesign& mad
                "); choose a --cell no larger than it is thick");
 }
 
+void tell_plan(const Console& console, const compile::MeshPlan& plan) {
+  console.say("cells of " + format_rounded(plan.cell_mm, 3) + " mm, about " +
+              format_count(static_cast<unsigned long long>(plan.cells)) + " at the surface, which take about " +
+              format_bytes(plan.memory_bytes) + " of memory, more where they are cut finer");
+  console.event("plan", {{"cell_mm", plan.cell_mm},
+                         {"tolerance_mm", plan.tolerance_mm},
+                         {"cells", plan.cells},
+                         {"memory_bytes", plan.memory_bytes}});
+}
+
 int mesh(const MeshArguments& a, Session& session) {
-  const compile::MeshRequest request = mesh_request(a);
+  compile::MeshRequest request = mesh_request(a);
+  request.announce = [&](const compile::MeshPlan& plan) { tell_plan(session.console, plan); };
   const std::vector<SlicerSetting> settings(a.settings.begin(), a.settings.end());
   const std::string stem = std::filesystem::path(a.design.design).stem().string();
   const std::string output = a.output.empty() ? stem + ".3mf" : a.output;

@@ -14,6 +14,7 @@
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
 #include "ombre/overwrite.h"
+#include "ombre/progress_line.h"
 
 namespace ombre::cli {
 namespace {
@@ -203,16 +204,19 @@ int render_design(const RenderArguments& a, Session& session) {
 
   Diagnostics diagnostics;
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
+  ProgressLine progress(session.console, Counted::steps);
   const auto take = [&](int frame, const compile::Picture& picture) {
     const std::string bytes =
         formats::encode_png(static_cast<uint32_t>(request.width), static_cast<uint32_t>(request.height), picture.rgba);
     if (to_stdout) return session.console.print(bytes);
     const std::string& file = files[static_cast<size_t>(frame)];
     exporting::write_file(file, bytes);
+    progress.finish();
     session.console.say("written to " + file + ", " + format_rounded(picture.pixel_mm, 3) + " mm a pixel");
     session.console.event("picture", {{"file", file}, {"pixel_mm", picture.pixel_mm}});
   };
-  const bool is_done = loaded && compile::take_pictures(*loaded, request, session.stop, take, diagnostics);
+  const bool is_done = loaded && compile::take_pictures(*loaded, request, session.stop, take, diagnostics, &progress);
+  progress.finish();
   session.console.diagnose(diagnostics);
   return is_done && !diagnostics.has_errors() ? done : wrong_input;
 }

@@ -24,13 +24,6 @@ double voxel_mm3(const compile::SliceRequest& request) {
 
 std::string mm_text(double mm) { return format_rounded(mm, 6); }
 
-std::string bytes_text(double bytes) {
-  for (const auto& [unit, name] : {std::pair{1099511627776.0, " TiB"}, std::pair{1073741824.0, " GiB"},
-                                   std::pair{1048576.0, " MiB"}, std::pair{1024.0, " KiB"}})
-    if (bytes >= unit) return format_rounded(bytes / unit, 3) + name;
-  return format_rounded(bytes, 4) + " bytes";
-}
-
 void tell_plan(const Console& console, const compile::SliceRequest& request, const compile::SliceOptions& options) {
   const auto& [nx, ny, nz] = request.lattice.count;
   const auto& pitch = request.lattice.pitch;
@@ -59,13 +52,13 @@ void tell_plan(const Console& console, const compile::SliceRequest& request, con
 
 void tell_estimate(const Console& console, const compile::SliceRequest& request,
                    const compile::SliceEstimate& estimate) {
-  const std::string memory = "at most " + bytes_text(static_cast<double>(estimate.memory_bytes)) +
+  const std::string memory = "at most " + format_bytes(static_cast<double>(estimate.memory_bytes)) +
                              " of memory for layers in flight; nothing was written";
   if (estimate.is_least)
     console.say("more than " + duration_text(estimate.seconds) +
                 ": a few layers alone take longer than this look at them; " + memory);
   else
-    console.say("about " + duration_text(estimate.seconds) + ", " + bytes_text(static_cast<double>(estimate.bytes)) +
+    console.say("about " + duration_text(estimate.seconds) + ", " + format_bytes(static_cast<double>(estimate.bytes)) +
                 " of images (" + voxel::to_text(request.format) + "), " + memory);
   console.event("estimate", {{"seconds", estimate.seconds},
                              {"bytes", number(estimate.bytes)},
@@ -80,8 +73,8 @@ void tell_report(const Console& console, const compile::SliceRequest& request, c
   if (report.layers_dropped > 0) text += ", " + counted(report.layers_dropped, "empty layer") + " left out";
   const double voxels = static_cast<double>(report.layers_written + report.layers_dropped) *
                         static_cast<double>(request.lattice.count[0]) * static_cast<double>(request.lattice.count[1]);
-  text +=
-      "; " + bytes_text(static_cast<double>(report.bytes_written)) + " in " + format_rounded(report.seconds, 3) + " s";
+  text += "; " + format_bytes(static_cast<double>(report.bytes_written)) + " in " + format_rounded(report.seconds, 3) +
+          " s";
   if (report.seconds > 0 && voxels > 0) text += ", " + rate_text(voxels / report.seconds);
   console.say(text);
 

@@ -18,7 +18,5 @@ void tell_checks(const Console& console, const std::vector<compile::CheckReport>
 
 // Up to six decimals.
 std::string mm_text(double mm);
-// "1.5 GiB"
-std::string bytes_text(double bytes);
 
 }  // namespace ombre::cli

@@ -130,8 +130,8 @@ void tell_plan(const Console& console, const compile::GridJob& job, const std::v
 }
 
 void tell_report(const Console& console, const compile::GridReport& report) {
-  console.say(join(report.files, ", ") + " written, " + bytes_text(static_cast<double>(report.bytes_written)) + " in " +
-              format_rounded(report.seconds, 3) + " s");
+  console.say(join(report.files, ", ") + " written, " + format_bytes(static_cast<double>(report.bytes_written)) +
+              " in " + format_rounded(report.seconds, 3) + " s");
   if (!report.has_inside) console.warn("no voxel's centre is inside the design: the grid is empty");
   DataList files;
   for (const std::string& path : report.files) files.emplace_back(path);
@@ -160,8 +160,8 @@ void refuse_small_disk(const std::string& path, uint64_t bytes) {
   const std::string folder = std::filesystem::absolute(path).parent_path().string();
   const std::optional<double> free = free_bytes(folder);
   if (!free || static_cast<double>(bytes) <= *free) return;
-  throw Error("the grid takes " + bytes_text(static_cast<double>(bytes)) + ", and the disk of " + folder + " has " +
-              bytes_text(*free) + " left; free some space there, choose larger voxels with --voxel, or write all " +
+  throw Error("the grid takes " + format_bytes(static_cast<double>(bytes)) + ", and the disk of " + folder + " has " +
+              format_bytes(*free) + " left; free some space there, choose larger voxels with --voxel, or write all " +
               "the same with --force");
 }
 
@@ -172,7 +172,7 @@ int write_dense(const VoxelsArguments& a, const compile::GridJob& job, exporting
   const uint64_t bytes = compile::volume_bytes(job);
   const bool is_compressed = format == exporting::VolumeFormat::nrrd_gzip;
   if (!a.force && !is_compressed) refuse_small_disk(a.output, bytes);
-  tell_plan(session.console, job, paths, (is_compressed ? "at most " : "") + bytes_text(static_cast<double>(bytes)));
+  tell_plan(session.console, job, paths, (is_compressed ? "at most " : "") + format_bytes(static_cast<double>(bytes)));
   ProgressLine progress(session.console);
   const compile::GridReport report = compile::write_volumes(job, paths, format, a.threads, &progress, &stop);
   progress.finish();

@@ -27,6 +27,13 @@ std::string format_rounded(double value, int digits) {
   return buffer.data();
 }
 
+std::string format_bytes(double bytes) {
+  for (const auto& [unit, name] : {std::pair{1099511627776.0, " TiB"}, std::pair{1073741824.0, " GiB"},
+                                   std::pair{1048576.0, " MiB"}, std::pair{1024.0, " KiB"}})
+    if (bytes >= unit) return format_rounded(bytes / unit, 3) + name;
+  return format_rounded(bytes, 4) + " bytes";
+}
+
 std::string format_count(unsigned long long count) {
   std::string text = std::to_string(count);
   for (auto i = static_cast<std::ptrdiff_t>(text.size()) - 3; i > 0; i -= 3) text.insert(i, ",");

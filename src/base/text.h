@@ -15,6 +15,8 @@ std::string format_number(double value);
 std::string format_rounded(double value, int digits = 4);
 // 1234567 -> "1,234,567"
 std::string format_count(unsigned long long count);
+// "1.5 GiB"
+std::string format_bytes(double bytes);
 // The whole text must be one finite decimal number.
 std::optional<double> parse_number(std::string_view text);
 

@@ -1,6 +1,7 @@
 // From a design to closed surfaces: of the whole, or of its regions.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -11,9 +12,18 @@
 
 namespace ombre::compile {
 
+// What a mesh will take, about: its surface is known from a coarse grid.
+struct MeshPlan {
+  double tolerance_mm = 0, cell_mm = 0;
+  double cells = 0;  // at borders, before any are cut
+  double memory_bytes = 0;
+};
+
 struct MeshRequest : RegionRequest {
   bool join_flat = true;  // cells are joined where the surface is flat
   int threads = 0;
+  size_t memory_bytes = 0;                                       // most that cells may take; 0: no limit
+  std::function<void(const MeshPlan& plan)> announce = nullptr;  // called before the work; may be empty
 };
 
 struct RegionBody {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/steady_pace.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
 #include "compile/build.h"
 #include "compile/picture_labels.h"
@@ -48,8 +50,9 @@ struct Shot {
 
 class Studio {
  public:
-  Studio(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop, Diagnostics& diagnostics)
-      : loaded_(loaded), request_(request), stop_(stop), diagnostics_(diagnostics) {}
+  Studio(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop, Diagnostics& diagnostics,
+         Progress* progress)
+      : loaded_(loaded), request_(request), stop_(stop), diagnostics_(diagnostics), progress_(progress) {}
 
   bool take_all(const std::function<void(int, const Picture&)>& take) {
     if (!prepare()) return false;
@@ -193,7 +196,7 @@ class Studio {
 
   // Some rows after the other, so that large pictures fit into memory.
   std::vector<uint8_t> expose(const Shot& shot) {
-    constexpr int64_t most_rays = 4'000'000;
+    constexpr int64_t most_rays = 2'000'000;
     const int64_t samples = request_.samples, rows = std::max<int64_t>(1, most_rays / (shot.film.width * samples));
     std::vector<uint8_t> pixels;
     pixels.reserve(static_cast<size_t>(width_ * height_ * 4));
@@ -206,9 +209,13 @@ class Studio {
                   });
       render::shade(band, shot.film, shot.camera, {shot.lighting, samples, request_.background}, begin, end,
                     request_.threads, pixels);
+      rows_done_ += static_cast<uint64_t>(end - begin);
+      if (progress_) progress_->update(at_steady_pace(rows_done_, rows_in_all(), watch_.seconds()));
     }
     return pixels;
   }
+
+  uint64_t rows_in_all() const { return static_cast<uint64_t>(request_.frames) * static_cast<uint64_t>(height_); }
 
   const Loaded& loaded_;
   const PictureRequest& request_;
@@ -219,6 +226,9 @@ class Studio {
   int64_t width_ = 0, height_ = 0;  // of what is shown, pixels
   std::optional<PictureLabels> labels_;
   bool is_empty_ = true;  // the frame at work
+  Progress* progress_;
+  Stopwatch watch_;
+  uint64_t rows_done_ = 0;
 };
 
 }  // namespace
@@ -239,8 +249,8 @@ std::optional<SliceView> parse_slice(std::string_view text) {
 }
 
 bool take_pictures(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop,
-                   const std::function<void(int, const Picture&)>& take, Diagnostics& diagnostics) {
-  return Studio(loaded, request, stop, diagnostics).take_all(take);
+                   const std::function<void(int, const Picture&)>& take, Diagnostics& diagnostics, Progress* progress) {
+  return Studio(loaded, request, stop, diagnostics, progress).take_all(take);
 }
 
 }  // namespace ombre::compile

@@ -57,9 +57,10 @@ struct Picture {
   double pixel_mm = 0;        // at the part's middle
 };
 
-// Calls `take` with each frame. False, and diagnostics, when there is nothing to see. Throws Cancelled, and Error where
-// annotations cannot be drawn.
+// Calls `take` with each frame; progress counts rows of all frames. False, and diagnostics, when there is nothing to
+// see. Throws Cancelled, and Error where annotations cannot be drawn.
 bool take_pictures(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop,
-                   const std::function<void(int frame, const Picture&)>& take, Diagnostics& diagnostics);
+                   const std::function<void(int frame, const Picture&)>& take, Diagnostics& diagnostics,
+                   Progress* progress = nullptr);
 
 }  // namespace ombre::compile

@@ -1,5 +1,9 @@
 #include "surface/contour.h"
 
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/text.h"
 #include "surface/lost_parts.h"
 #include "surface/refinement.h"
 #include "surface/surface_maker.h"
@@ -15,6 +19,18 @@ constexpr size_t leaves_of_hidden_edge = 8;  // about, where it is to be seen
 constexpr size_t most_leaves_of_rounds = size_t{1} << 21;
 
 // The cells of a partition, with what is known of them, cut where one vertex for each is too few.
+size_t most_leaves(size_t grid_leaves, size_t memory_bytes) {
+  const size_t wanted = grid_leaves + std::max(most_more_leaves, 2 * grid_leaves);
+  if (memory_bytes == 0) return wanted;
+  const double allowed = static_cast<double>(memory_bytes) / bytes_per_mixed_cell;
+  if (static_cast<double>(grid_leaves) > allowed)
+    throw Error(format_count(grid_leaves) + " cells at the surface take about " +
+                format_bytes(static_cast<double>(grid_leaves) * bytes_per_mixed_cell) + " of memory, more than the " +
+                format_bytes(static_cast<double>(memory_bytes)) +
+                " allowed; choose a larger --cell or --tolerance, or more --memory");
+  return std::min(wanted, static_cast<size_t>(allowed));
+}
+
 class CellRefiner {
  public:
   CellRefiner(const Partition& partition, const ContourOptions& options, Progress* progress, const StopFlag* stop)
@@ -23,7 +39,7 @@ class CellRefiner {
         progress_(progress),
         stop_(stop),
         tree_(find_mixed_cells(partition.label, options.corners, options.threads, progress, stop)),
-        most_leaves_(tree_.leaves().size() + std::max(most_more_leaves, 2 * tree_.leaves().size())),
+        most_leaves_(most_leaves(tree_.leaves().size(), options.memory_bytes)),
         crossings_(find_crossings(partition, tree_, options.threads, progress, stop)),
         mesh_(make_dual_mesh(tree_, crossings_, options.threads)),
         check_(partition, options, stop),
