@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
+#include <span>
 
 #include "base/text.h"
 #include "formats/assembly.h"
+#include "formats/slicer_volumes.h"
 #include "formats/text_scanner.h"
 #include "formats/xml_file.h"
 #include "formats/zip_archive.h"
@@ -21,11 +24,42 @@ struct Material {
   std::optional<Rgba> colour;
 };
 
-std::string name_of(xml_node node) {
+std::string metadata(xml_node node, std::string_view type) {
   for (const xml_node child : node.children("metadata"))
-    if (std::string_view(child.attribute("type").value()) == "name") return child.text().get();
+    if (child.attribute("type").value() == type) return child.text().get();
   return "";
 }
+
+std::string name_of(xml_node node) { return metadata(node, "name"); }
+
+// Slic3r and the slicers that came from it write angles in radians, against the standard.
+bool has_radians(xml_node amf) {
+  const std::string program = to_lower(metadata(amf, "cad"));
+  for (const char* name : {"slic3r", "prusaslicer", "superslicer"})
+    if (program.find(name) != std::string::npos) return true;
+  return !metadata(amf, "slic3rpe_amf_version").empty();
+}
+
+// A quarter turn has no end in radians. These are written with six digits.
+double degrees_of_radians(double radians) {
+  constexpr double written_exactly = 1e-6, quarter = std::numbers::pi / 2;
+  const double quarters = std::round(radians / quarter);
+  if (std::abs(radians - quarters * quarter) <= written_exactly) return 90 * quarters;
+  return radians * 180 / std::numbers::pi;
+}
+
+// The elements that are read, or that have no bearing on shapes and materials.
+constexpr std::string_view of_amf[]{"object", "material", "constellation", "metadata", "texture"};
+constexpr std::string_view of_material[]{"metadata", "color"};
+constexpr std::string_view of_object[]{"metadata", "color", "mesh", "layer_config_ranges"};
+constexpr std::string_view of_mesh[]{"vertices", "volume"};
+constexpr std::string_view of_vertices[]{"vertex"};
+constexpr std::string_view of_vertex[]{"coordinates", "color", "metadata"};
+constexpr std::string_view of_volume[]{"metadata", "color", "triangle"};
+constexpr std::string_view of_triangle[]{"v1", "v2", "v3", "texmap", "map"};
+constexpr std::string_view of_constellation[]{"instance", "metadata"};
+constexpr std::string_view of_instance[]{"deltax", "deltay", "deltaz", "rx",      "ry",      "rz",      "scale",
+                                         "scalex", "scaley", "scalez", "mirrorx", "mirrory", "mirrorz", "printable"};
 
 // Colours may be formulas of the place, which are not read.
 std::optional<Rgba> colour_of(xml_node node) {
@@ -50,8 +84,12 @@ class AmfReader {
   void read() {
     const xml_node amf = file_.root("amf");
     read_unit(amf);
-    for (const xml_node material : amf.children("material"))
+    has_radians_ = has_radians(amf);
+    warn_of_others(amf, of_amf);
+    for (const xml_node material : amf.children("material")) {
+      warn_of_others(material, of_material);
       materials_[material.attribute("id").value()] = {name_of(material), colour_of(material)};
+    }
     for (const xml_node object : amf.children("object")) add(object, read_object(object));
     for (const xml_node constellation : amf.children("constellation"))
       add(constellation, read_instances(constellation));
@@ -70,6 +108,16 @@ class AmfReader {
     assembly_.mm_per_unit = *mm;
   }
 
+  // Of the children that are not in the list.
+  void warn_of_others(xml_node node, std::span<const std::string_view> known) {
+    for (const xml_node child : node.children()) {
+      const std::string_view name = child.name();
+      if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) continue;
+      const std::string element = '<' + std::string(name) + "> of <" + node.name() + '>';
+      assembly_.warnings.add("an element " + element + " is not read", "elements " + element + " are not read");
+    }
+  }
+
   void add(xml_node node, AssemblyObject object) {
     const std::string id(file_.required(node, "id"));
     if (!assembly_.objects.emplace(id, std::move(object)).second)
@@ -81,13 +129,17 @@ class AmfReader {
     object.name = name_of(node);
     if (object.name.empty()) object.name = "object " + std::string(file_.required(node, "id"));
     const xml_node mesh = node.child("mesh");
+    warn_of_others(node, of_object);
+    warn_of_others(mesh, of_mesh);
+    warn_of_others(mesh.child("vertices"), of_vertices);
     for (const xml_node vertex : mesh.child("vertices").children("vertex"))
       object.mesh.vertices.push_back(point(vertex));
     for (const xml_node volume : mesh.children("volume")) read_volume(volume, colour_of(node), object.mesh);
     return object;
   }
 
-  Vec3 point(xml_node vertex) const {
+  Vec3 point(xml_node vertex) {
+    warn_of_others(vertex, of_vertex);
     const xml_node coordinates = vertex.child("coordinates");
     const auto coordinate = [&](const char* axis) {
       return file_.coordinate(vertex, coordinates.child(axis).text().get(), "a coordinate of a vertex");
@@ -95,7 +147,18 @@ class AmfReader {
     return {coordinate("x"), coordinate("y"), coordinate("z")};
   }
 
-  void read_volume(xml_node volume, std::optional<Rgba> object_colour, Mesh& mesh) const {
+  bool is_solid(xml_node volume) {
+    const std::string type = metadata(volume, "slic3r.volume_type");
+    if (type == negative_volume)
+      assembly_.warnings.add("a negative volume is left out, not taken away from the others",
+                             "negative volumes are left out, not taken away from the others");
+    return is_solid_volume(type, metadata(volume, "slic3r.modifier")) &&
+           std::string_view(volume.attribute("type").value()) != "support";
+  }
+
+  void read_volume(xml_node volume, std::optional<Rgba> object_colour, Mesh& mesh) {
+    if (!is_solid(volume)) return;
+    warn_of_others(volume, of_volume);
     MeshGroup group{name_of(volume), static_cast<uint32_t>(mesh.triangles.size()), 0};
     for (const xml_node triangle : volume.children("triangle")) {
       mesh.triangles.push_back(corners(triangle, mesh.vertices.size()));
@@ -110,7 +173,8 @@ class AmfReader {
     mesh.groups.push_back(std::move(group));
   }
 
-  std::array<uint32_t, 3> corners(xml_node triangle, size_t vertices) const {
+  std::array<uint32_t, 3> corners(xml_node triangle, size_t vertices) {
+    warn_of_others(triangle, of_triangle);
     const auto corner = [&](const char* element) {
       const uint64_t index = file_.count(triangle, triangle.child(element).text().get(), "the number of a vertex");
       if (index >= vertices)
@@ -125,28 +189,52 @@ class AmfReader {
     AssemblyObject object;
     object.name = name_of(constellation);
     if (object.name.empty()) object.name = "constellation " + std::string(file_.required(constellation, "id"));
+    warn_of_others(constellation, of_constellation);
     for (const xml_node instance : constellation.children("instance")) {
-      object.components.push_back({std::string(file_.required(instance, "objectid")), transform(instance)});
-      placed_.insert(object.components.back().object);
+      warn_of_others(instance, of_instance);
+      const std::string id(file_.required(instance, "objectid"));
+      placed_.insert(id);
+      if (value(instance, "printable", 1) != 0)
+        object.components.push_back({id, transform(instance)});
+      else
+        assembly_.warnings.add("an instance of object " + id + " is marked as not printable and is left out",
+                               "instances are marked as not printable and are left out");
     }
     return object;
   }
 
-  // Turned about x, then y, then z, then moved.
+  double value(xml_node instance, const std::string& element, double usual) const {
+    const xml_node child = instance.child(element.c_str());
+    return child ? file_.coordinate(instance, child.text().get(), "a number in <" + element + '>') : usual;
+  }
+
+  Affine turned(xml_node instance, Vec3 axis, const std::string& element) const {
+    const double angle = value(instance, element, 0);
+    return Affine::rotation(axis, has_radians_ ? degrees_of_radians(angle) : angle);
+  }
+
+  // Of one axis; negative where it is mirrored.
+  double scale(xml_node instance, const std::string& axis) const {
+    const double scale = value(instance, "scale" + axis, value(instance, "scale", 1));
+    return value(instance, "mirror" + axis, 1) < 0 ? -scale : scale;
+  }
+
+  // Mirrored and scaled, turned about x, then y, then z, then moved.
   Affine transform(xml_node instance) const {
-    const auto value = [&](const char* element) {
-      const xml_node child = instance.child(element);
-      return child ? file_.coordinate(instance, child.text().get(), std::string("a number in <") + element + '>') : 0;
-    };
-    return Affine::translation({value("deltax"), value("deltay"), value("deltaz")}) *
-           Affine::rotation({0, 0, 1}, value("rz")) * Affine::rotation({0, 1, 0}, value("ry")) *
-           Affine::rotation({1, 0, 0}, value("rx"));
+    const auto delta = [&](const char* element) { return value(instance, element, 0); };
+    const Affine map = Affine::translation({delta("deltax"), delta("deltay"), delta("deltaz")}) *
+                       turned(instance, {0, 0, 1}, "rz") * turned(instance, {0, 1, 0}, "ry") *
+                       turned(instance, {1, 0, 0}, "rx") *
+                       Affine::scaling({scale(instance, "x"), scale(instance, "y"), scale(instance, "z")});
+    if (determinant(map) == 0) file_.fail_at(instance, "this squeezes its object flat: it is scaled by 0");
+    return map;
   }
 
   const XmlFile& file_;
   Assembly& assembly_;
   std::map<std::string, Material> materials_;
   std::set<std::string> placed_;
+  bool has_radians_ = false;
 };
 
 // The text of a zipped file: its first entry that is called so.

@@ -89,6 +89,86 @@ TEST(Amf, ConstellationsPlaceObjects) {
   EXPECT_EQ(mesh.groups[0].object, "constellation c");
 }
 
+// One object, in one place.
+std::string placed(const std::string& inner, const std::string& beside = "") {
+  return amf(beside + object() + "<constellation id=\"c\"><instance objectid=\"1\">" + inner +
+             "</instance></constellation>");
+}
+
+std::string warnings(const std::string& bytes) {
+  Diagnostics diagnostics;
+  EXPECT_TRUE(read_amf("a.amf", bytes, diagnostics));
+  return to_text(diagnostics);
+}
+
+// Mirrored and scaled first, as in PrusaSlicer: x goes to -2, 3 times y to x after the turn.
+TEST(Amf, InstancesAreScaledAndMirrored) {
+  const Mesh mesh =
+      read(placed("<scalex>2</scalex><scaley>3</scaley><scalez>0.5</scalez><mirrorx>-1</mirrorx>"
+                  "<mirrory>1</mirrory><deltax>1</deltax><rz>90</rz>"));
+  EXPECT_EQ(mesh.vertices[1], (Vec3{1, -2, 0}));
+  EXPECT_EQ(mesh.vertices[2], (Vec3{-5, 0, 0}));
+  EXPECT_EQ(mesh.vertices[3], (Vec3{1, 0, 2}));
+  EXPECT_NEAR(volume(mesh), 3 * tetrahedron_mm3, 1e-12);
+  EXPECT_NEAR(volume(read(placed("<scale>2</scale>"))), 8 * tetrahedron_mm3, 1e-12);
+  expect_message(placed("<scalez>0</scalez>"), "this squeezes its object flat: it is scaled by 0");
+}
+
+TEST(Amf, SlicersFromSlic3rTurnByRadians) {
+  for (const char* program : {"Slic3r 1.2.9", "PrusaSlicer-2.7", "SuperSlicer 2.5"}) {
+    const std::string by = std::string("<metadata type=\"cad\">") + program + "</metadata>";
+    const Mesh mesh = read(placed("<rz>1.570796</rz>", by));
+    EXPECT_EQ(mesh.vertices[1], (Vec3{0, 1, 0})) << program;
+    const Mesh sixth = read(placed("<rz>0.523599</rz>", by));
+    EXPECT_NEAR(sixth.vertices[1].y, 0.5, 1e-6) << program;
+  }
+  const Mesh degrees = read(placed("<rz>90</rz>", "<metadata type=\"cad\">FreeCAD</metadata>"));
+  EXPECT_EQ(degrees.vertices[1], (Vec3{0, 1, 0}));
+}
+
+TEST(Amf, VolumesThatAreNoSolidAreLeftOut) {
+  const std::string whole_object = object();
+  const auto with_second = [&](const std::string& begin) {
+    std::string text = whole_object;
+    const size_t end = text.find("</volume>") + std::string("</volume>").size();
+    const size_t triangle = text.find("<triangle>");
+    text.insert(end, begin + text.substr(triangle, end - triangle));
+    return amf(text);
+  };
+  for (const char* begin :
+       {"<volume><metadata type=\"slic3r.modifier\">1</metadata>", "<volume type=\"support\">",
+        "<volume><metadata type=\"slic3r.volume_type\">ParameterModifier</metadata>",
+        "<volume><metadata type=\"slic3r.volume_type\">SupportBlocker</metadata>",
+        "<volume><metadata type=\"slic3r.modifier\">0</metadata><metadata type=\"slic3r.volume_type\">"
+        "SupportEnforcer</metadata>"})
+    EXPECT_EQ(read(with_second(begin)).triangles.size(), 4u) << begin;
+  EXPECT_EQ(read(with_second("<volume><metadata type=\"slic3r.volume_type\">ModelPart</metadata>")).triangles.size(),
+            8u);
+  EXPECT_NE(warnings(with_second("<volume><metadata type=\"slic3r.volume_type\">NegativeVolume</metadata>"))
+                .find("a.amf: a negative volume is left out, not taken away from the others"),
+            std::string::npos);
+}
+
+TEST(Amf, WhatIsNotUnderstoodIsCounted) {
+  std::string curved = object();
+  for (size_t at = curved.find("</coordinates>"); at != std::string::npos; at = curved.find("</coordinates>", at + 20))
+    curved.insert(at + 14, "<normal/>");
+  EXPECT_EQ(warnings(amf(curved)), "warning: a.amf: 4 elements <normal> of <vertex> are not read\n");
+  EXPECT_EQ(warnings(placed("<skew>1</skew>")), "warning: a.amf: an element <skew> of <instance> is not read\n");
+  EXPECT_EQ(warnings(amf("<material id=\"5\"><composite materialid=\"6\">x</composite></material>" + object())),
+            "warning: a.amf: an element <composite> of <material> is not read\n");
+  std::string many;
+  for (int i = 0; i < 30; ++i) many += "<new" + std::to_string(i) + "/>";
+  EXPECT_NE(warnings(amf(many + object())).find("a.amf: 10 things of other kinds are not read"), std::string::npos);
+}
+
+TEST(Amf, InstancesThatAreNotPrintedAreLeftOut) {
+  const std::string bytes = amf(object() +
+                                "<constellation id=\"c\"><instance objectid=\"1\"/>"
+                                "<instance objectid=\"1\"><printable>0</printable></instance></constellation>");
+  EXPECT_EQ(warnings(bytes), "warning: a.amf: an instance of object 1 is marked as not printable and is left out\n");
+}
+
 TEST(Amf, WrongFilesAreExplained) {
   expect_message("", "the file is empty");
   expect_message("<amf><object", "a.amf:1:");

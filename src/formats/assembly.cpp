@@ -35,10 +35,12 @@ struct Amount {
 class Assembler {
  public:
   Assembler(const Assembly& assembly, const std::string& file, Diagnostics& diagnostics)
-      : assembly_(assembly), file_(file), diagnostics_(diagnostics) {}
+      : assembly_(assembly), file_(file), diagnostics_(diagnostics), warnings_(assembly.warnings) {}
 
   Mesh assemble() {
     const Amount amount = measure_build();
+    warnings_.report(file_, diagnostics_);
+    check(amount);
     mesh_.vertices.reserve(amount.vertices);
     mesh_.triangles.reserve(amount.triangles);
     const double mm = assembly_.mm_per_unit;
@@ -66,6 +68,10 @@ class Assembler {
   Amount measure_build() {
     Amount amount;
     for (const Placement& item : assembly_.build) amount.add(measure(item.object, 1));
+    return amount;
+  }
+
+  void check(const Amount& amount) const {
     const Amount once = listed();
     if (amount.instances > std::max(most_instances, once.instances) ||
         amount.groups > std::max(most_groups, once.groups) ||
@@ -79,7 +85,6 @@ class Assembler {
       fail(diagnostics_, file_, "nothing that is built has triangles", "save it with at least one mesh");
     if (amount.triangles > UINT32_MAX || amount.vertices > UINT32_MAX)
       fail(diagnostics_, file_, "there are too many triangles or vertices: more than 4,294,967,295");
-    return amount;
   }
 
   // What an object comes to; each is looked at once.
@@ -91,6 +96,9 @@ class Assembler {
     if (level > most_levels) fail_deep();
     const AssemblyObject& object = find(key);
     amounts_[key] = {};  // on the way
+    if (!object.no_solid.empty())
+      warnings_.add("an object " + object.no_solid + " is no part of the solid and is left out",
+                    "objects " + object.no_solid + " are no part of the solid and are left out");
     Amount amount = Amount::of(object.mesh);
     for (const Placement& component : object.components) amount.add(measure(component.object, level + 1));
     // What was measured before may stand deeper here.
@@ -136,6 +144,7 @@ class Assembler {
   const Assembly& assembly_;
   const std::string& file_;
   Diagnostics& diagnostics_;
+  CountedWarnings warnings_;
   std::map<std::string, Amount> amounts_;  // 0 instances: on the way
   Mesh mesh_;
 };

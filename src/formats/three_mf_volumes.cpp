@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "formats/slicer_volumes.h"
 #include "formats/text_scanner.h"
 #include "formats/three_mf_model.h"
 
@@ -60,9 +61,8 @@ std::vector<Volume> read_volumes(const XmlFile& file, xml_node object, size_t tr
                              " of its object are numbered from 0, and volumes follow each other");
     volumes.push_back({metadata(node, "name"), static_cast<uint32_t>(first), static_cast<uint32_t>(last + 1)});
     const std::string type = metadata(node, "volume_type");
-    const bool is_solid = (type.empty() || type == "ModelPart") && metadata(node, "modifier") != "1";
-    if (!is_solid) volumes.back().begin = volumes.back().end;
-    if (type == "NegativeVolume") negatives.add(volumes.back().name);
+    if (!is_solid_volume(type, metadata(node, "modifier"))) volumes.back().begin = volumes.back().end;
+    if (type == negative_volume) negatives.add(volumes.back().name);
   }
   return volumes;
 }
