@@ -9,6 +9,7 @@
 
 #include "base/text.h"
 #include "formats/assembly.h"
+#include "formats/extruder_colours.h"
 #include "formats/slicer_volumes.h"
 #include "formats/text_scanner.h"
 #include "formats/xml_file.h"
@@ -85,6 +86,7 @@ class AmfReader {
     const xml_node amf = file_.root("amf");
     read_unit(amf);
     has_radians_ = has_radians(amf);
+    extruders_ = ExtruderColours::of_prusa(metadata(amf, "slic3rpe_config"));
     warn_of_others(amf, of_amf);
     for (const xml_node material : amf.children("material")) {
       warn_of_others(material, of_material);
@@ -170,7 +172,9 @@ class AmfReader {
     group.colour = colour_of(volume);
     if (!group.colour && material != materials_.end()) group.colour = material->second.colour;
     if (!group.colour) group.colour = object_colour;
+    const std::string extruder = metadata(volume.parent().parent(), "slic3r.extruder");
     mesh.groups.push_back(std::move(group));
+    extruders_.paint(mesh.groups, extruder_of(metadata(volume, "slic3r.extruder"), extruder));
   }
 
   std::array<uint32_t, 3> corners(xml_node triangle, size_t vertices) {
@@ -235,6 +239,7 @@ class AmfReader {
   std::map<std::string, Material> materials_;
   std::set<std::string> placed_;
   bool has_radians_ = false;
+  ExtruderColours extruders_;
 };
 
 // The text of a zipped file: its first entry that is called so.

@@ -149,6 +149,14 @@ TEST(Amf, VolumesThatAreNoSolidAreLeftOut) {
             std::string::npos);
 }
 
+TEST(Amf, VolumesWithoutColoursGetThoseOfTheirExtruders) {
+  std::string text = object();
+  text.insert(text.find("<triangle>"), "<metadata type=\"slic3r.extruder\">2</metadata>");
+  const Mesh mesh =
+      read(amf("<metadata type=\"slic3rpe_config\">\n; filament_colour = #FF0000;#0000FF\n</metadata>" + text));
+  EXPECT_EQ(mesh.groups[0].colour, (Rgba{0, 0, 255, 255}));
+}
+
 TEST(Amf, WhatIsNotUnderstoodIsCounted) {
   std::string curved = object();
   for (size_t at = curved.find("</coordinates>"); at != std::string::npos; at = curved.find("</coordinates>", at + 20))

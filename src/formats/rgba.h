@@ -3,9 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 namespace ombre::formats {
 
 using Rgba = std::array<uint8_t, 4>;  // red, green, blue in sRGB, alpha; not premultiplied
+
+// "#RRGGBB" or "#RRGGBBAA".
+std::optional<Rgba> parse_colour(std::string_view text);
 
 }  // namespace ombre::formats

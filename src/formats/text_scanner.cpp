@@ -14,7 +14,6 @@ namespace {
 
 // Above this, a copy of the text for the sake of one message costs too much.
 constexpr size_t most_quotable_bytes = size_t{64} << 20;
-constexpr size_t longest_quoted_word = 40;
 
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
@@ -33,11 +32,11 @@ void fail(Diagnostics& diagnostics, const std::string& name, const std::string& 
   throw DesignError();
 }
 
-std::string quoted(std::string_view word) {
+std::string quoted(std::string_view word, size_t longest) {
   std::string text = "\"";
-  for (const char c : word.substr(0, longest_quoted_word))
+  for (const char c : word.substr(0, longest))
     text += static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7f ? '?' : c;
-  if (word.size() > longest_quoted_word) text += "...";
+  if (word.size() > longest) text += "...";
   return text + '"';
 }
 

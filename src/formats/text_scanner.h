@@ -15,7 +15,7 @@ namespace ombre::formats {
                        std::string hint = "");
 
 // A word as a message shows it: in quotes, shortened, printable.
-std::string quoted(std::string_view word);
+std::string quoted(std::string_view word, size_t longest = 40);
 
 // Failures are reported and end the reading by DesignError; each reader catches it at its entrance.
 class TextScanner {

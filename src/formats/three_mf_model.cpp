@@ -4,10 +4,10 @@
 #include "formats/three_mf_model.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "base/text.h"
 #include "formats/text_scanner.h"
+#include "formats/three_mf_extensions.h"
 
 namespace ombre::formats {
 namespace {
@@ -20,30 +20,10 @@ struct Property {
 };
 using PropertyGroups = std::map<uint64_t, std::vector<Property>>;
 
-// "#RRGGBB" or "#RRGGBBAA".
-std::optional<Rgba> parse_colour(std::string_view text) {
-  Rgba colour{0, 0, 0, 255};
-  if ((text.size() != 7 && text.size() != 9) || text[0] != '#') return std::nullopt;
-  for (size_t i = 0; 2 * i + 1 < text.size(); ++i) {
-    const char* const digits = text.data() + 1 + 2 * i;
-    if (std::from_chars(digits, digits + 2, colour[i], 16).ptr != digits + 2) return std::nullopt;
-  }
-  return colour;
-}
-
 xml_node child_of(xml_node node, std::string_view name) {
   for (const xml_node child : node.children())
     if (local_name(child) == name) return child;
   return {};
-}
-
-// Takes the next word off the text; empty at the end.
-std::string_view next_word(std::string_view& text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
-  const std::string_view word = text.substr(0, text.find_first_of(blanks));
-  text.remove_prefix(word.size());
-  return word;
 }
 
 // Twelve numbers, column by column of our matrices: 3MF multiplies rows by matrices.
@@ -70,6 +50,8 @@ class ObjectReader {
       const std::string_view kind = local_name(node);
       if (kind == "basematerials") read_properties(node, "base", "displaycolor");
       if (kind == "colorgroup") read_properties(node, "color", "color");
+      if (kind == "texture2dgroup" || kind == "compositematerials" || kind == "multiproperties")
+        mixtures_[id_of(node, "id")] = kind;
     }
     for (const xml_node node : resources.children())
       if (local_name(node) == "object") read_object(node);
@@ -85,6 +67,12 @@ class ObjectReader {
   }
 
  private:
+  // Where a triangle's property stands: a group and an index in it.
+  struct Source {
+    std::optional<uint64_t> group, index;
+    bool operator==(const Source&) const = default;
+  };
+
   uint64_t id_of(xml_node node, std::string_view attribute) const {
     return file_.count(node, file_.required(node, attribute), "the number of an object or a resource");
   }
@@ -103,14 +91,37 @@ class ObjectReader {
     AssemblyObject object;
     object.name = file_.attribute(node, "name").value_or("");
     if (object.name.empty()) object.name = "object " + std::to_string(id);
-    // Supports are not part of the solid.
-    if (file_.attribute(node, "type").value_or("model") != "support") {
+    if (is_solid(node, object)) {
       if (const xml_node mesh = child_of(node, "mesh")) read_mesh(mesh, node, object);
       for (const xml_node component : child_of(node, "components").children())
         if (local_name(component) == "component") object.components.push_back(read_placement(component));
     }
     if (!assembly_.objects.emplace(object_key(part_, id), std::move(object)).second)
       file_.fail_at(node, "there are two objects with the number " + std::to_string(id));
+  }
+
+  // Supports are not part of the solid, nor are meshes that only change settings where they are.
+  bool is_solid(xml_node node, AssemblyObject& object) const {
+    const std::string_view type = file_.attribute(node, "type").value_or("model");
+    const bool is_model = type.empty() || type == "model";
+    if (!is_model && type != "support" && type != "solidsupport")
+      object.no_solid = "of type " + quoted(type);
+    else if (has_cura_mark(node, "cutting_mesh"))
+      object.no_solid = "that Cura cuts others by";
+    return is_model && object.no_solid.empty() && !has_cura_mark(node, "support_mesh") &&
+           !has_cura_mark(node, "anti_overhang_mesh") && !has_cura_mark(node, "infill_mesh");
+  }
+
+  // Cura keeps its settings of an object as metadata; older versions had an element of their own.
+  bool has_cura_mark(xml_node node, std::string_view key) const {
+    const auto is_set = [&](xml_node list, std::string_view element, std::string_view attribute) {
+      for (const xml_node child : list.children())
+        if (local_name(child) == element && local_name(child.attribute(std::string(attribute).c_str()).value()) == key)
+          return to_lower(trim(child.text().get())) == "true" || trim(child.text().get()) == "1";
+      return false;
+    };
+    return is_set(child_of(node, "metadatagroup"), "metadata", "name") ||
+           is_set(child_of(node, "settings"), "setting", "key");
   }
 
   void read_mesh(xml_node mesh, xml_node object_node, AssemblyObject& object) {
@@ -122,9 +133,17 @@ class ObjectReader {
       const Source source = source_of_triangle(triangle, usual);
       if (object.mesh.groups.empty() || source != last) start_group(object.mesh, source, triangle);
       last = source;
+      count_mixture(source);
       object.mesh.triangles.push_back(corners(triangle, object.mesh.vertices.size()));
       ++object.mesh.groups.back().triangle_count;
     }
+  }
+
+  void count_mixture(const Source& source) {
+    const auto mixture = source.group ? mixtures_.find(*source.group) : mixtures_.end();
+    if (mixture == mixtures_.end()) return;
+    const std::string rest = " by <" + mixture->second + ">, which is not read";
+    assembly_.warnings.add("a triangle has its material" + rest, "triangles have their materials" + rest);
   }
 
   Vec3 point(xml_node vertex) const {
@@ -144,12 +163,6 @@ class ObjectReader {
     };
     return {corner("v1"), corner("v2"), corner("v3")};
   }
-
-  // Where a triangle's property stands: a group and an index in it.
-  struct Source {
-    std::optional<uint64_t> group, index;
-    bool operator==(const Source&) const = default;
-  };
 
   Source source_of(xml_node node, std::string_view index, Source usual) const {
     if (const auto group = file_.attribute(node, "pid"))
@@ -188,7 +201,17 @@ class ObjectReader {
   Assembly& assembly_;
   std::set<std::string>& further_;
   PropertyGroups properties_;
+  std::map<uint64_t, std::string> mixtures_;  // the kinds of resources that mix others
 };
+
+// Slicers' ways to give parts of a surface to other extruders.
+void warn_of_paint(const XmlFile& file, CountedWarnings& warnings) {
+  for (const std::string_view attribute : {" paint_color=\"", "mmu_segmentation=\""})
+    for (size_t at = file.text().find(attribute); at != std::string_view::npos;
+         at = file.text().find(attribute, at + attribute.size()))
+      warnings.add("a triangle is painted with another extruder, which is not read",
+                   "triangles are painted with other extruders, which is not read");
+}
 
 void read_unit(const XmlFile& file, xml_node model, Assembly& assembly) {
   const auto unit = file.attribute(model, "unit");
@@ -200,20 +223,6 @@ void read_unit(const XmlFile& file, xml_node model, Assembly& assembly) {
   assembly.mm_per_unit = *mm;
 }
 
-// Names the first extension whose absence changes the shape.
-void warn_of_extensions(const XmlFile& file, xml_node model) {
-  std::string_view prefixes = file.attribute(model, "requiredextensions").value_or("");
-  for (std::string_view prefix = next_word(prefixes); !prefix.empty(); prefix = next_word(prefixes)) {
-    const std::string_view space = model.attribute(("xmlns:" + std::string(prefix)).c_str()).value();
-    const bool is_known =
-        space.find("/material/") != std::string_view::npos || space.find("/production/") != std::string_view::npos;
-    if (is_known) continue;
-    file.diagnostics().warning({}, file.name() + ": what the 3MF extension " + quoted(prefix) + " adds is not read" +
-                                       (space.empty() ? "" : ": " + quoted(space)));
-    return;
-  }
-}
-
 }  // namespace
 
 std::string object_key(std::string_view part, uint64_t id) { return std::to_string(id) + " of " + std::string(part); }
@@ -223,6 +232,7 @@ std::string id_of_key(const std::string& key) { return key.substr(0, key.find(' 
 void add_objects(const XmlFile& file, const std::string& part, Assembly& assembly, std::set<std::string>& further) {
   const xml_node model = file.root("model");
   warn_of_extensions(file, model);
+  warn_of_paint(file, assembly.warnings);
   ObjectReader(file, part, assembly, further).read(child_of(model, "resources"));
 }
 
@@ -230,8 +240,18 @@ void add_build(const XmlFile& file, const std::string& part, Assembly& assembly,
   const xml_node model = file.root("model");
   read_unit(file, model, assembly);
   ObjectReader reader(file, part, assembly, further);
-  for (const xml_node item : child_of(model, "build").children())
-    if (local_name(item) == "item") assembly.build.push_back(reader.read_placement(item));
+  size_t number = 0;
+  for (const xml_node item : child_of(model, "build").children()) {
+    if (local_name(item) != "item") continue;
+    ++number;
+    const std::string_view printable = file.attribute(item, "printable").value_or("1");
+    if (printable != "0" && printable != "false")
+      assembly.build.push_back(reader.read_placement(item));
+    else
+      assembly.warnings.add(
+          "item " + std::to_string(number) + " of the build is marked printable=\"0\" and is left out",
+          "items of the build are marked printable=\"0\" and are left out");
+  }
 }
 
 }  // namespace ombre::formats

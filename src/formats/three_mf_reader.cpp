@@ -26,8 +26,8 @@ class ThreeMfReader {
       further_.erase(further_.begin());
       if (!read_.contains(part)) read_part(part, false);
     }
-    apply(prusa_settings_path, apply_prusa_volumes, root);
-    apply(bambu_settings_path, apply_bambu_parts, root);
+    apply(prusa_settings_path, apply_prusa_volumes, ExtruderColours::of_prusa(text_of(prusa_project_path)), root);
+    apply(bambu_settings_path, apply_bambu_parts, ExtruderColours::of_bambu(text_of(bambu_project_path)), root);
     return assemble(assembly_, name_, diagnostics_);
   }
 
@@ -58,12 +58,15 @@ class ThreeMfReader {
     if (is_root) add_build(file, part, assembly_, further_);
   }
 
+  // Empty if the archive lacks it.
+  std::string text_of(const char* entry) { return archive_.has(entry) ? archive_.read(entry) : ""; }
+
   // What a slicer's file says, if the archive has it.
-  void apply(const char* entry, void (*settings)(const XmlFile&, const std::string&, Assembly&),
-             const std::string& root) {
+  void apply(const char* entry, void (*settings)(const XmlFile&, const std::string&, const ExtruderColours&, Assembly&),
+             const ExtruderColours& extruders, const std::string& root) {
     if (!archive_.has(entry)) return;
     const std::string text = archive_.read(entry);
-    settings(XmlFile(name_ + '/' + entry, text, diagnostics_), root, assembly_);
+    settings(XmlFile(name_ + '/' + entry, text, diagnostics_), root, extruders, assembly_);
   }
 
   const std::string& name_;

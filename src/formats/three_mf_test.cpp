@@ -211,9 +211,127 @@ TEST(ThreeMf, PartsOfBambuStudioHaveNames) {
   EXPECT_EQ(mesh.groups[0].object, "all");
 }
 
+// What has colours of its own keeps them; extruder 0 stands for the object's.
+TEST(ThreeMf, PartsWithoutColoursGetThoseOfTheirExtruders) {
+  const std::string config =
+      "<config><object id=\"3\"><metadata key=\"extruder\" value=\"2\"/>"
+      "<part id=\"1\" subtype=\"normal_part\"><metadata key=\"extruder\" value=\"1\"/></part>"
+      "<part id=\"2\" subtype=\"normal_part\"><metadata key=\"extruder\" value=\"0\"/></part></object></config>";
+  const std::string resources =
+      object(1) + object(2) + components(3, "<component objectid=\"1\"/><component objectid=\"2\"/>");
+  const auto with = [&](const std::string& project) {
+    return zipped({relationships(),
+                   {"3D/a.model", model(resources, "<item objectid=\"3\"/>")},
+                   {"Metadata/model_settings.config", config},
+                   {"Metadata/project_settings.config", project}});
+  };
+  const Mesh mesh = read(with("{\"filament_colour\": [\"#FF0000\", \"#0000FF80\"]}"));
+  ASSERT_EQ(mesh.groups.size(), 2u);
+  EXPECT_EQ(mesh.groups[0].colour, (Rgba{255, 0, 0, 255}));
+  EXPECT_EQ(mesh.groups[1].colour, (Rgba{0, 0, 255, 128}));
+  for (const char* project : {"", "[", "{\"filament_colour\": 3}", "{\"filament_colour\": [null, \"red\"]}"})
+    EXPECT_FALSE(read(with(project)).groups[0].colour) << project;
+}
+
+TEST(ThreeMf, VolumesOfPrusaSlicerHaveColoursOfExtruders) {
+  const auto with = [](const std::string& project) {
+    return read(zipped({relationships(),
+                        {"3D/a.model", model(object(1))},
+                        {"Metadata/Slic3r_PE.config", project},
+                        {"Metadata/Slic3r_PE_model.config",
+                         prusa_config("<metadata type=\"object\" key=\"extruder\" value=\"2\"/>"
+                                      "<volume firstid=\"0\" lastid=\"1\"/><volume firstid=\"2\" lastid=\"3\">"
+                                      "<metadata type=\"volume\" key=\"extruder\" value=\"1\"/></volume>")}}));
+  };
+  const Mesh mesh = with("; generated\n; extruder_colour = \"\";#00ff00\n; filament_colour = #FF0000;#0000FF\n");
+  ASSERT_EQ(mesh.groups.size(), 2u);
+  EXPECT_EQ(mesh.groups[0].colour, (Rgba{0, 255, 0, 255}));
+  EXPECT_EQ(mesh.groups[1].colour, (Rgba{255, 0, 0, 255}));
+  EXPECT_FALSE(with("; filament_colour = ;\n").groups[0].colour);
+}
+
 TEST(ThreeMf, SupportsAreNoPart) {
   const std::string resources = object(1) + object(2, "type=\"support\"");
   EXPECT_EQ(read(archive(model(resources, "<item objectid=\"1\"/><item objectid=\"2\"/>"))).triangles.size(), 4u);
+}
+
+std::string warnings(const std::string& bytes) {
+  Diagnostics diagnostics;
+  EXPECT_TRUE(read_3mf("a.3mf", bytes, diagnostics));
+  return to_text(diagnostics);
+}
+
+const std::string two_items = "<item objectid=\"1\"/><item objectid=\"2\"/>";
+
+TEST(ThreeMf, SolidSupportsAreNoPart) {
+  EXPECT_EQ(read(archive(model(object(1) + object(2, "type=\"solidsupport\""), two_items))).triangles.size(), 4u);
+  EXPECT_EQ(read(archive(model(object(1) + object(2, "type=\"model\""), two_items))).triangles.size(), 8u);
+}
+
+TEST(ThreeMf, ObjectsOfOtherTypesAreCounted) {
+  const std::string resources = object(1) + object(2, "type=\"other\"") + object(3, "type=\"other\"") +
+                                object(4, "type=\"surface\"") + object(5, "type=\"other\"");
+  EXPECT_EQ(warnings(archive(model(resources, two_items + "<item objectid=\"3\"/><item objectid=\"4\"/>"))),
+            "warning: a.3mf: 2 objects of type \"other\" are no part of the solid and are left out\n"
+            "warning: a.3mf: an object of type \"surface\" is no part of the solid and is left out\n");
+}
+
+TEST(ThreeMf, ItemsThatAreNotPrintedAreLeftOut) {
+  const std::string resources = object(1) + object(2);
+  const std::string first = "<item objectid=\"1\" printable=\"1\"/>";
+  EXPECT_EQ(warnings(archive(model(resources, first + "<item objectid=\"2\" printable=\"0\"/>"))),
+            "warning: a.3mf: item 2 of the build is marked printable=\"0\" and is left out\n");
+  Diagnostics diagnostics;
+  const auto mesh =
+      read_3mf("a.3mf", archive(model(resources, first + "<item objectid=\"2\" p:printable=\"false\"/>")), diagnostics);
+  ASSERT_TRUE(mesh);
+  EXPECT_EQ(mesh->triangles.size(), 4u);
+}
+
+TEST(ThreeMf, MeshesOfCuraThatChangeSettingsAreNoPart) {
+  const auto with = [](const std::string& mark) {
+    std::string second = object(2);
+    second.insert(second.find("<mesh>"), mark);
+    return archive(model(object(1) + second, two_items));
+  };
+  for (const std::string key : {"support_mesh", "anti_overhang_mesh", "infill_mesh"}) {
+    const std::string name = "<metadatagroup><metadata name=\"cura:" + key + "\" type=\"xs:boolean\">";
+    EXPECT_EQ(read(with(name + "True</metadata></metadatagroup>")).triangles.size(), 4u) << key;
+    EXPECT_EQ(read(with(name + "False</metadata></metadatagroup>")).triangles.size(), 8u) << key;
+    EXPECT_EQ(read(with("<settings xmlns=\"http://software.ultimaker.com/xml/cura/3mf/2015/10\"><setting key=\"" + key +
+                        "\">True</setting></settings>"))
+                  .triangles.size(),
+              4u)
+        << key;
+  }
+  EXPECT_EQ(warnings(with("<metadatagroup><metadata name=\"cura:cutting_mesh\">1</metadata></metadatagroup>")),
+            "warning: a.3mf: an object that Cura cuts others by is no part of the solid and is left out\n");
+}
+
+TEST(ThreeMf, ExtensionsThatAreUsedAreTold) {
+  std::string beams = object(1);
+  const std::string lattice = "beamlattice radius=\"1\"><b:beams><b:beam v1=\"0\" v2=\"3\"/></b:beams></b:beamlattice>";
+  beams.insert(beams.find("</mesh>"), "<b:" + lattice);
+  const std::string space = "http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02";
+  const std::string told =
+      "warning: a.3mf/3D/a.model: what the 3MF extension \"b\" adds is not read: \"" + space + "\" (1 <beamlattice>)\n";
+  const std::string declared = "xmlns:b=\"" + space + '"';
+  EXPECT_EQ(warnings(archive(model(beams, "<item objectid=\"1\"/>", declared))), told);
+  EXPECT_EQ(warnings(archive(model(beams, "<item objectid=\"1\"/>", declared + " requiredextensions=\"b\""))), told);
+  std::string own = object(1);
+  own.insert(own.find("</mesh>"), "<beamlattice xmlns=\"" + space + "\"/>");
+  EXPECT_NE(warnings(archive(model(own))).find("what a 3MF extension adds is not read: \"" + space), std::string::npos);
+  EXPECT_EQ(warnings(archive(model("<stack/>" + object(1) + "<stack/>"))),
+            "warning: a.3mf/3D/a.model: elements of unknown names are not read: 2 <stack>\n");
+}
+
+TEST(ThreeMf, MixturesAndPaintAreCounted) {
+  const std::string mixed = "<m:compositematerials id=\"7\"/>" + object(1, "pid=\"7\" pindex=\"0\"");
+  EXPECT_EQ(warnings(archive(model(mixed))),
+            "warning: a.3mf: 4 triangles have their materials by <compositematerials>, which is not read\n");
+  for (const char* paint : {"paint_color=\"4\"", "slic3rpe:mmu_segmentation=\"4\""})
+    EXPECT_EQ(warnings(archive(model(object(1, "", paint)))),
+              "warning: a.3mf: a triangle is painted with another extruder, which is not read\n");
 }
 
 TEST(ThreeMf, UnknownExtensionsAreTold) {

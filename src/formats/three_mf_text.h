@@ -10,6 +10,8 @@ namespace ombre::formats {
 inline constexpr const char* three_mf_model_path = "3D/3dmodel.model";
 inline constexpr const char* prusa_settings_path = "Metadata/Slic3r_PE_model.config";
 inline constexpr const char* bambu_settings_path = "Metadata/model_settings.config";
+inline constexpr const char* prusa_project_path = "Metadata/Slic3r_PE.config";
+inline constexpr const char* bambu_project_path = "Metadata/project_settings.config";
 
 // Objects are numbered from 1: one for each body that has triangles, and the next for the part that they make up.
 // For PrusaSlicer all bodies are object 1.

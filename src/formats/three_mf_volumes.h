@@ -2,15 +2,18 @@
 #pragma once
 
 #include "formats/assembly.h"
+#include "formats/extruder_colours.h"
 #include "formats/xml_file.h"
 
 namespace ombre::formats {
 
 // PrusaSlicer keeps several volumes in one mesh: they get their names, and those that are no solid (modifiers, places
-// for supports) go. `part` is the package's main model file.
-void apply_prusa_volumes(const XmlFile& settings, const std::string& part, Assembly& assembly);
+// for supports) go. What has no colour gets that of its extruder. `part` is the package's main model file.
+void apply_prusa_volumes(const XmlFile& settings, const std::string& part, const ExtruderColours& extruders,
+                         Assembly& assembly);
 
 // Bambu Studio and OrcaSlicer: the same of the components of an object.
-void apply_bambu_parts(const XmlFile& settings, const std::string& part, Assembly& assembly);
+void apply_bambu_parts(const XmlFile& settings, const std::string& part, const ExtruderColours& extruders,
+                       Assembly& assembly);
 
 }  // namespace ombre::formats

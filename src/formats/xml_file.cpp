@@ -27,6 +27,14 @@ std::string_view local_name(const char* name) {
   return colon == std::string_view::npos ? whole : whole.substr(colon + 1);
 }
 
+std::string_view next_word(std::string_view& text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(blanks));
+  text.remove_prefix(word.size());
+  return word;
+}
+
 XmlFile::XmlFile(std::string name, std::string_view text, Diagnostics& diagnostics)
     : name_(std::move(name)), text_(text), diagnostics_(diagnostics) {
   check_size();

@@ -15,6 +15,9 @@ namespace ombre::formats {
 std::string_view local_name(const char* name);
 inline std::string_view local_name(pugi::xml_node node) { return local_name(node.name()); }
 
+// Takes the next word off a list of them; empty at the end.
+std::string_view next_word(std::string_view& text);
+
 // Entities of a file's own stay as they are written, nothing else is read. Failures are reported and end the reading
 // by DesignError.
 class XmlFile {
@@ -42,6 +45,7 @@ class XmlFile {
   [[noreturn]] void fail_at(pugi::xml_node node, const std::string& message, const std::string& hint = "") const;
   Diagnostics& diagnostics() const { return diagnostics_; }
   const std::string& name() const { return name_; }
+  std::string_view text() const { return text_; }
 
  private:
   [[noreturn]] void fail_at(size_t begin, size_t end, const std::string& message, const std::string& hint) const;

@@ -46,8 +46,8 @@ std::optional<ombre::formats::Mesh> read_settings(std::string_view bytes, ombre:
   try {
     const XmlFile file("fuzz.config", bytes, diagnostics);
     Assembly assembly = small_assembly();
-    apply_prusa_volumes(file, "", assembly);
-    apply_bambu_parts(file, "", assembly);
+    apply_prusa_volumes(file, "", ExtruderColours::of_prusa(bytes), assembly);
+    apply_bambu_parts(file, "", ExtruderColours::of_bambu("{\"filament_colour\": [\"#FF0000\"]}"), assembly);
     return assemble(assembly, "fuzz.3mf", diagnostics);
   } catch (const ombre::DesignError&) {
     return std::nullopt;
