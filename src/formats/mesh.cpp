@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "formats/file.h"
+#include "formats/file_kinds.h"
 #include "formats/zip_archive.h"
 
 namespace ombre::formats {
@@ -40,6 +41,10 @@ std::optional<Mesh> read_mesh(const std::string& name, std::string_view bytes, D
   if (is_zip(bytes)) return ending == ".amf" ? read_amf(name, bytes, diagnostics) : read_3mf(name, bytes, diagnostics);
   if (is_amf(bytes)) return read_amf(name, bytes, diagnostics);
   if (is_stl(bytes)) return read_stl(name, bytes, diagnostics);
+  if (const auto foreign = foreign_file(bytes)) {
+    diagnostics.error({make_source(name, ""), 0, 0}, "this is no mesh file but " + foreign->what, foreign->hint);
+    return std::nullopt;
+  }
 
   if (ending == ".obj") return read_obj(name, bytes, diagnostics);
   if (ending == ".stl") return read_stl(name, bytes, diagnostics);

@@ -246,6 +246,95 @@ TEST(Stl, TextMistakesPointAtTheWord) {
   expect_message("a.stl", "solid a\nsolid b\n", "expected \"facet\" or \"endsolid\", found \"solid\"");
 }
 
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+std::vector<std::array<Vec3, 3>> expected_shape() {
+  Mesh expected;
+  expected.vertices = corners;
+  expected.triangles = faces;
+  return shape(expected);
+}
+
+// What is read, with a warning.
+void expect_warning(const std::string& name, const std::string& bytes, const std::string& warning) {
+  Diagnostics diagnostics;
+  const auto mesh = read_mesh(name, bytes, diagnostics);
+  ASSERT_TRUE(mesh) << to_text(diagnostics);
+  EXPECT_EQ(shape(*mesh), expected_shape());
+  EXPECT_EQ(to_text(diagnostics), "warning: " + name + ": " + warning + "\n");
+}
+
+TEST(Stl, TextsOfManyProgramsAreRead) {
+  const std::string text = text_solid("t", 0, 4);
+  const std::vector<std::string> texts{"\xEF\xBB\xBF" + text,
+                                       replaced(text, "endloop", "end loop"),
+                                       replaced(text, "endfacet", "END FACET"),
+                                       replaced(text, "endsolid", "end solid"),
+                                       replaced(text, "outer loop", "outerloop"),
+                                       replaced(text, "facet normal nan nan nan", "facet"),
+                                       replaced(text, "nan nan nan", ""),
+                                       replaced(text, "\n", " "),
+                                       replaced(text, "\n", "\r"),
+                                       replaced(text, "0.000000", ".0D+00"),
+                                       replaced(text, "1.500000", "0.15+001"),
+                                       text + "\x1A",
+                                       text + std::string(100, '\0'),
+                                       text.substr(text.find("facet"))};
+  for (const std::string& file : texts) {
+    SCOPED_TRACE(file);
+    EXPECT_EQ(shape(read("a.stl", file)), expected_shape());
+  }
+  expect_warning("a.stl", replaced(text, "1.500000", "1,500000"),
+                 "\"1,500000\" is taken for a number with a decimal comma, as are others");
+}
+
+TEST(Stl, SolidsWithoutAnEndAreWarnedOf) {
+  const std::string text = text_solid("t", 0, 4);
+  expect_warning("a.stl", text.substr(0, text.find("endsolid")),
+                 "a solid ends without \"endsolid\"; its facets are read");
+  const std::string first = text_solid("s", 0, 2), second = text_solid("t", 2, 4);
+  expect_warning("a.stl", first.substr(0, first.find("endsolid")) + second.substr(0, second.find("endsolid")),
+                 "2 solids end without \"endsolid\"; their facets are read");
+  expect_message("a.stl", text.substr(0, text.rfind("endfacet")), "this STL is cut short");
+}
+
+TEST(Stl, FacetsWithMoreCornersAreCut) {
+  const Mesh mesh = read("a.stl",
+                         "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\n"
+                         "vertex 0 1 0\nendloop\nendfacet\nendsolid\n");
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(Stl, WrongCountsGiveWayToTheSize) {
+  for (const auto& [count, text] :
+       {std::pair<uint32_t, std::string>{0, "0"}, {3, "3"}, {1000, "1,000"}, {UINT32_MAX, "4,294,967,295"}})
+    expect_warning("a.stl", binary_stl("made by hand", count),
+                   "the header promises " + text + " triangles, but the file has 4, which are read");
+}
+
+TEST(Mesh, FilesThatAreNoMeshAreNamed) {
+  for (const auto& [bytes, told] : std::vector<std::pair<std::string, std::string>>{
+           {"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12\n",
+            "this is no mesh file but a pointer of Git LFS, not the file itself; fetch the file: git lfs pull"},
+           {"<!DOCTYPE html>\n<html><body>404</body></html>\n", "an HTML page"},
+           {"\r\n  <HTML>", "an HTML page"},
+           {"\x1F\x8B\x08 packed", "packed by gzip; unpack it"},
+           {"\x89PNG\r\n\x1A\n", "a PNG picture"},
+           {"ISO-10303-21;\nHEADER;\n", "a STEP file; write cad in place of mesh"},
+           {std::string("\xFF\xFEs\0o\0l\0i\0d\0", 12), "text in UTF-16; save it as UTF-8"},
+           {"{\"a\": 1}", "this is no mesh file but JSON"}})
+    for (const std::string ending : {"stl", "obj", "ply", "off", "3mf", "amf"})
+      expect_message("a." + ending, bytes, told);
+  expect_message("a.stl", "Dear all,\nhere is the part.\n" + std::string(100, '.'),
+                 "a.stl: error: this is not an STL file: it is text that begins with \"Dear\" in place of \"solid\"");
+  expect_message("a.stl", " \n\n", "it holds nothing but blanks");
+  expect_message("a.stl", "3", "it is text that begins with \"3\"");
+}
+
 TEST(Obj, AllFormsOfCornersAndStatements) {
   const Mesh mesh =
       read("a.obj",

@@ -1,11 +1,12 @@
-// STL: binary (an 80-byte header, a count, 50 bytes for each triangle) and text.
+// STL: binary (an 80-byte header, a count, 50 bytes for each triangle); tells it from text.
 #include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "base/text.h"
+#include "formats/file_kinds.h"
 #include "formats/mesh.h"
-#include "formats/mesh_builder.h"
+#include "formats/stl_text.h"
 #include "formats/text_scanner.h"
 #include "formats/vertex_merger.h"
 
@@ -31,34 +32,50 @@ bool has_binary_size(std::string_view bytes) {
          bytes.size() == bytes_before_triangles + triangle_bytes * promised_triangles(bytes);
 }
 
-// Binary files may begin with "solid" as well, but text has no zero bytes.
+// Binary files may begin with "solid" as well, but text has no zero bytes. Some writers leave out the first line.
 bool looks_like_text(std::string_view bytes) {
-  const size_t first = bytes.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos || to_lower(bytes.substr(first, 5)) != "solid") return false;
-  return bytes.substr(0, sniffed_bytes).find('\0') == std::string_view::npos;
+  const size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+  if (first == std::string_view::npos) return false;
+  const std::string word = to_lower(bytes.substr(first, 5));
+  return (word == "solid" || word == "facet") && !has_zeros(bytes.substr(0, sniffed_bytes));
 }
 
-// Checks that the triangles which the header promises are there.
-void check_size(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  if (bytes.size() < bytes_before_triangles)
+[[noreturn]] void fail_not_stl(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
+  const std::string_view word = TextScanner(name, bytes, diagnostics).word();
+  if (word.empty()) fail(diagnostics, name, "this is not an STL file: it holds nothing but blanks");
+  if (is_plain_text(bytes.substr(0, sniffed_bytes)))
     fail(diagnostics, name,
-         "this is not an STL file: it has " + format_count(bytes.size()) +
-             " bytes, does not begin with \"solid\", and a binary STL has at least 84");
-  const uint64_t triangles = promised_triangles(bytes);
-  const uint64_t needed = bytes_before_triangles + triangle_bytes * triangles;
+         "this is not an STL file: it is text that begins with " + quoted(word) + " in place of \"solid\"");
+  fail(diagnostics, name,
+       "this is not an STL file: it has " + format_count(bytes.size()) +
+           " bytes, does not begin with \"solid\", and a binary STL has at least 84");
+}
+
+// How many triangles there are. Where the header's count is wrong, the size of the file says it.
+uint64_t count_triangles(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
+  if (bytes.size() < bytes_before_triangles || is_plain_text(bytes.substr(0, sniffed_bytes)))
+    fail_not_stl(name, bytes, diagnostics);
+  const uint64_t promised = promised_triangles(bytes);
+  const uint64_t needed = bytes_before_triangles + triangle_bytes * promised;
+  if (bytes.size() == needed && promised > 0) return promised;
+  const uint64_t present = (bytes.size() - bytes_before_triangles) / triangle_bytes;
+  if (present > 0 && present <= UINT32_MAX && (bytes.size() - bytes_before_triangles) % triangle_bytes == 0) {
+    diagnostics.warning({}, name + ": the header promises " + format_count(promised) + " triangles, but the file has " +
+                                format_count(present) + ", which are read");
+    return present;
+  }
   if (bytes.size() < needed)
     fail(diagnostics, name,
-         "this binary STL is cut short: its header promises " + format_count(triangles) + " triangles (" +
+         "this binary STL is cut short: its header promises " + format_count(promised) + " triangles (" +
              format_count(needed) + " bytes), the file has " + format_count(bytes.size()) + " bytes");
-  if (triangles == 0) fail(diagnostics, name, "this binary STL has no triangles");
-  if (bytes.size() > needed)
-    diagnostics.warning({}, name + ": " + format_count(bytes.size() - needed) + " bytes after the last of " +
-                                format_count(triangles) + " triangles are not read");
+  if (promised == 0) fail(diagnostics, name, "this binary STL has no triangles");
+  diagnostics.warning({}, name + ": " + format_count(bytes.size() - needed) + " bytes after the last of " +
+                              format_count(promised) + " triangles are not read");
+  return promised;
 }
 
 Mesh read_binary(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  check_size(name, bytes, diagnostics);
-  const uint64_t count = promised_triangles(bytes);
+  const uint64_t count = count_triangles(name, bytes, diagnostics);
   VertexMerger merger;
   Mesh mesh;
   mesh.triangles.resize(count);
@@ -81,64 +98,6 @@ Mesh read_binary(const std::string& name, std::string_view bytes, Diagnostics& d
   return mesh;
 }
 
-// solid NAME, then facets, then endsolid NAME; any number of solids.
-class TextReader {
- public:
-  TextReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
-      : scanner_(name, bytes, diagnostics) {}
-
-  Mesh read() {
-    while (!scanner_.at_end()) {
-      expect("solid", "a solid begins");
-      builder_.start_group(std::string(scanner_.rest_of_line()));
-      while (read_facet()) continue;
-    }
-    if (builder_.triangle_count() == 0) scanner_.fail_here("this STL has no facets");
-    return builder_.finish(merger_.take_places()).mesh;
-  }
-
- private:
-  void expect(std::string_view keyword, std::string_view where) {
-    const std::string_view found = scanner_.word();
-    if (to_lower(found) == keyword) return;
-    if (found.empty())
-      scanner_.fail_here("this STL is cut short: expected \"" + std::string(keyword) + "\" where " +
-                         std::string(where) + ", but the file ends here");
-    scanner_.fail_at_word("expected \"" + std::string(keyword) + "\" where " + std::string(where) + ", found " +
-                          quoted(found));
-  }
-
-  // False when the solid ends.
-  bool read_facet() {
-    const std::string keyword = to_lower(scanner_.word());
-    if (keyword == "endsolid") {
-      scanner_.rest_of_line();
-      return false;
-    }
-    if (keyword.empty())
-      scanner_.fail_here("this STL is cut short: expected \"facet\" or \"endsolid\", but the file ends here");
-    if (keyword != "facet") scanner_.fail_at_word("expected \"facet\" or \"endsolid\", found " + quoted(keyword));
-    // Normals follow from the corners, and many files hold none worth reading.
-    expect("normal", "a facet begins");
-    for (int i = 0; i < 3; ++i) scanner_.word();
-    expect("outer", "a facet's corners begin");
-    expect("loop", "a facet's corners begin");
-    std::array<uint32_t, 3> corners;
-    for (uint32_t& corner : corners) {
-      expect("vertex", "one of three corners is due");
-      corner = merger_.add(scanner_.point("a coordinate of a corner"));
-    }
-    expect("endloop", "a facet has its three corners");
-    expect("endfacet", "a facet ends");
-    builder_.add_polygon(corners);
-    return true;
-  }
-
-  TextScanner scanner_;
-  MeshBuilder builder_;
-  VertexMerger merger_;
-};
-
 }  // namespace
 
 bool is_stl(std::string_view bytes) { return has_binary_size(bytes) || looks_like_text(bytes); }
@@ -147,7 +106,7 @@ std::optional<Mesh> read_stl(const std::string& name, std::string_view bytes, Di
   try {
     if (bytes.empty()) fail(diagnostics, name, "the file is empty");
     if (has_binary_size(bytes) || !looks_like_text(bytes)) return read_binary(name, bytes, diagnostics);
-    return TextReader(name, bytes, diagnostics).read();
+    return read_stl_text(name, bytes, diagnostics);
   } catch (const DesignError&) {
     return std::nullopt;
   }

@@ -25,6 +25,22 @@ bool is_tiny(std::string_view number) {
   return e == std::string_view::npos || number.substr(e + 1, 1) == "-";
 }
 
+// A number of FORTRAN (1.5D+02, 1.5+102) or with one decimal comma as C writes it; empty if it is neither.
+std::string usual_spelling(std::string_view number) {
+  constexpr size_t longest = 64;
+  if (number.empty() || number.size() > longest) return {};
+  std::string usual(number);
+  if (std::count(usual.begin(), usual.end(), ',') == 1 && usual.find('.') == std::string::npos)
+    usual[usual.find(',')] = '.';
+  const size_t letter = usual.find_first_of("dD");
+  const size_t sign = usual.find_first_of("+-", 1);
+  if (letter != std::string::npos)
+    usual[letter] = 'e';
+  else if (sign != std::string::npos && usual[sign - 1] != 'e' && usual[sign - 1] != 'E')
+    usual.insert(sign, 1, 'e');
+  return usual;
+}
+
 }  // namespace
 
 void fail(Diagnostics& diagnostics, const std::string& name, const std::string& message, std::string hint) {
@@ -127,7 +143,21 @@ double TextScanner::number(std::string_view what) {
   if (status == std::errc() && stop == end) return value;
   if (status == std::errc::result_out_of_range && stop == end)
     return is_tiny(text) ? 0 : std::numeric_limits<double>::infinity();
-  fail_number(what);
+  return unusual_number(text, what);
+}
+
+double TextScanner::unusual_number(std::string_view text, std::string_view what) {
+  const std::string usual = usual_spelling(text);
+  double value = 0;
+  const char* const end = usual.data() + usual.size();
+  const auto [stop, status] = std::from_chars(usual.data(), end, value);
+  if (usual.empty() || status != std::errc() || stop != end) fail_number(what);
+  if (text.find(',') != std::string_view::npos && !has_commas_) {
+    has_commas_ = true;
+    diagnostics_.warning({},
+                         name_ + ": " + quoted(text) + " is taken for a number with a decimal comma, as are others");
+  }
+  return value;
 }
 
 double TextScanner::coordinate(std::string_view what) {

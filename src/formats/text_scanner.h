@@ -30,6 +30,7 @@ class TextScanner {
       : TextScanner(name, bytes, diagnostics, Syntax{}) {}
 
   size_t position() const { return at_; }
+  void go_to(size_t position) { at_ = position; }
   size_t remaining() const { return bytes_.size() - at_; }
   bool at_end();       // past blanks, empty lines and comments
   bool at_line_end();  // past blanks and comments
@@ -39,7 +40,8 @@ class TextScanner {
   std::string_view word_in_line();  // empty at the line's end
   std::string_view rest_of_line();  // trimmed; the line end stays
 
-  // The next number in any line. `what` is for the message: "the x of a vertex".
+  // The next number in any line, also as FORTRAN programs write them (1.5D+02, 1.5+102), or with a decimal comma, which
+  // is warned of. `what` is for the message: "the x of a vertex".
   double number(std::string_view what);
   // One that fits a vertex: finite, within greatest_coordinate.
   double coordinate(std::string_view what);
@@ -53,6 +55,7 @@ class TextScanner {
   [[noreturn]] void fail_here(const std::string& message, std::string hint = "") const;
 
  private:
+  double unusual_number(std::string_view text, std::string_view what);
   void skip_blanks();
   bool skip_continuation();
   [[noreturn]] void fail_number(std::string_view what) const;
@@ -63,6 +66,7 @@ class TextScanner {
   Syntax syntax_;
   size_t at_ = 0;
   size_t word_begin_ = 0, word_end_ = 0;
+  bool has_commas_ = false;
 };
 
 }  // namespace ombre::formats
