@@ -17,7 +17,7 @@ struct LibzipCalls {
   // Entries.
   decltype(&zip_get_num_entries) get_num_entries = zip_get_num_entries;
   decltype(&zip_get_name) get_name = zip_get_name;
-  decltype(&zip_stat) stat = zip_stat;
+  decltype(&zip_stat_index) stat_index = zip_stat_index;
   decltype(&zip_stat_init) stat_init = zip_stat_init;
   decltype(&zip_fopen_index) fopen_index = zip_fopen_index;
   decltype(&zip_fread) fread = zip_fread;

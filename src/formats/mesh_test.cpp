@@ -374,14 +374,83 @@ TEST(Obj, MistakesPointAtTheWord) {
             "    |     ^\n");
   expect_message("a.obj", "v 1 2\n", "a.obj:1:6: error: expected a coordinate of a vertex, but the line ends here");
   expect_message("a.obj", "v 1 2 x\n", "expected a coordinate of a vertex, found \"x\"");
-  expect_message("a.obj", "v 0 0 0\nf 1 1\n", "a face needs at least 3 corners, this one has 2");
+  expect_message("a.obj", "v 0 0 0\nf 1 1\n", "this OBJ file has no faces");
   expect_message("a.obj", "v 0 0 0\nf 1 0 1\n", "expected a corner of a face, found \"0\"");
   expect_message("a.obj", "v 0 0 0\nf 1 1/ 1/x\n", "expected a corner of a face, found \"1/x\"");
-  expect_message("a.obj", "v 0 0 0\nf 1/1 1/1 1/1\n",
-                 "uses texture coordinate 1, but 0 texture coordinates come before it");
   expect_message("a.obj", "v 0 0 0\nf 99999999999999999999 1 1\n", "expected a corner of a face");
   expect_message("a.obj", "w 0 0 0\n", "an OBJ file has no statement \"w\"");
   expect_message("a.obj", "v 0 0 0\n", "this OBJ file has no faces");
+}
+
+const std::string no_part = "no part of the surface";
+
+TEST(Obj, FacesOfTwoCornersAreNoPart) {
+  expect_warning("a.obj", obj() + "f 1 2\n", "a face of fewer than three corners is " + no_part);
+  expect_warning("a.obj", replaced(obj(), "f 1 2 3", "f -4 -3 -2\nf 1\nf 1 2"),
+                 "2 faces of fewer than three corners are " + no_part);
+}
+
+// Vertex and normal by V/VN, or texture coordinates that are not there.
+TEST(Obj, TextureCoordinatesNeedNotBeThere) {
+  const std::string normals = "vn 0 0 1\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\n";
+  for (const std::string form : {"/1", "/1/1", "/-9/1", "/4"}) {
+    std::string text = obj() + "# end\n";
+    for (const char* face : {"f 1 2 3", "f 1 4 2", "f 2 4 3", "f 1 3 4"}) {
+      const std::string was(face);
+      text = replaced(text, was,
+                      "f " + was.substr(2, 1) + form + ' ' + was.substr(4, 1) + form + ' ' + was.substr(6, 1) + form);
+    }
+    EXPECT_EQ(shape(read("a.obj", normals + text)), expected_shape()) << form;
+  }
+  Diagnostics diagnostics;
+  ASSERT_TRUE(read_obj("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 1 1\nf 1/1 2/2 3/3\n", diagnostics));
+  EXPECT_EQ(to_text(diagnostics), "warning: a.obj: 2 corners use texture coordinates that the file does not have\n");
+}
+
+TEST(Obj, WhatIsNotReadIsCounted) {
+  expect_warning("a.obj", obj() + "surf 0 1 0 1 1 2\nsurf 0 1 0 1 1 2\n", "2 statements \"surf\" are not read");
+  expect_warning("a.obj", obj() + "vc 1 1 1\n", "a statement \"vc\" is not read");
+}
+
+TEST(Ply, LinesMayHoldMoreThanTheHeaderSays) {
+  const std::string text = ply_header("ascii") + rows_of_numbers();
+  EXPECT_EQ(shape(read("a.ply", replaced(text, "\n3 ", " 7 7\n3 "))), expected_shape());
+  // Where there are fewer lines than elements, or more, they mean nothing.
+  const size_t body = text.find("end_header\n") + 11;
+  EXPECT_EQ(shape(read("a.ply", text.substr(0, body) + replaced(text.substr(body), "\n", " "))), expected_shape());
+  EXPECT_EQ(shape(read("a.ply", text.substr(0, body) + replaced(text.substr(body), " ", "\n"))), expected_shape());
+}
+
+TEST(Ply, WhatIsNoSurfaceIsCounted) {
+  std::string text = replaced(ply_header("ascii"), "face 4", "face 6") + rows_of_numbers() + "2 0 1\n0\n";
+  expect_warning("a.ply", text, "2 faces of fewer than three corners are " + no_part);
+  text = replaced(ply_header("ascii"), "end_header", "element patch 1\nproperty int n\nend_header");
+  expect_warning("a.ply", text + rows_of_numbers() + "5\n", "an element \"patch\" is not read");
+}
+
+TEST(Off, LinesMeanNothingBeforeColours) {
+  const std::vector<std::string> files{
+      replaced(off(), "\n", " "),          replaced(off(), "\n", "\n\n"),
+      replaced(off(), " ", "\n"),          replaced(off(), "\n3 ", " 0.5 0.5 0.5\n3 "),
+      replaced(off(), "\n3 ", "\n  3\n "), replaced(replaced(off(), "00\n", "00 "), "\n3 ", "\n\n3 ")};
+  for (const std::string& file : files) EXPECT_EQ(shape(read("a.off", file)), expected_shape()) << file;
+  const Mesh mesh = read("a.off",
+                         "STCNOFF 3 1 0 0 0 0 0 0 1 1 0 0 1 0.25 0.5 1 0 0 0 0 1 1 0 0 1 0.75 1 0 1 0 0 0 1 1 0 "
+                         "0 1 0 0 3 0 1 2");
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
+  EXPECT_EQ(mesh.texture_coordinates[1], (std::array<double, 2>{0.75, 1}));
+}
+
+TEST(Off, TheHeaderMayTouchTheCountOrBeLeftOut) {
+  for (const std::string header : {"OFF", "COFF", "NOFF", "\xEF\xBB\xBFOFF", ""})
+    EXPECT_EQ(shape(read("a.off", off(header))), expected_shape()) << header;
+  EXPECT_EQ(shape(read("called otherwise", off("OFF"))), expected_shape());
+  expect_message("a.off", "OFFx 1 1\n", "found \"OFFx\"");
+}
+
+TEST(Off, FacesOfTwoCornersAreNoPart) {
+  expect_warning("a.off", replaced(off(), "4 4 6", "4 6 6") + "2 0 1\n1 3\n",
+                 "2 faces of fewer than three corners are " + no_part);
 }
 
 TEST(Ply, ExtraElementsAndPropertiesArePassedOver) {
@@ -409,7 +478,6 @@ TEST(Ply, MistakesSayWhere) {
   expect_message("a.ply", changed(text, "float x", "float w"), "lack one of the properties x, y, z");
   expect_message("a.ply", changed(text, "vertex_indices", "corners"), "lack the list vertex_indices");
   expect_message("a.ply", changed(text, "vertex 4", "vertex 40000000000"), "promises 40,000,000,000 of \"vertex\"");
-  expect_message("a.ply", changed(text, "3 0 1 2", "2 0 1 2"), "a face needs at least 3 corners, face 0 has 2");
   expect_message("a.ply", changed(text, "3 0 1 2", "3 0 1 4"),
                  "a.ply:16:7: error: face 0 uses vertex 4, but the 4 vertices");
   expect_message("a.ply", changed(text, "3 0 1 2", "3 0 1 1.5"), "face 0 uses vertex 1.5");
@@ -450,7 +518,7 @@ TEST(Off, MistakesPointAtTheWord) {
   expect_message("a.off", "OFF 9999999 1 0\n0 0 0\n", "promises 9,999,999 vertices, more than the file has room for");
   expect_message("a.off", "OFF 3 0 0\n0 0 0\n0 0 0\n0 0 0\n", "this OFF file has no faces");
   expect_message("a.off", "OFF 3 1 0\n0 0 0\n0 0 0\n0 0 0\n3 0 1 3\n", "a.off:5:7: error: the face uses vertex 3");
-  expect_message("a.off", "OFF 3 1 0\n0 0 0\n0 0 0\n0 0 0\n2 0 1 3\n", "a face needs at least 3 corners");
+  expect_message("a.off", "OFF 3 1 0\n0 0 0\n0 0 0\n0 0 0\n2 0 1\n", "this OFF file has no faces");
   expect_message("a.off", "OFF 3 1 0\n0 0 0\n0 0 0\n0 0 0\n99 0 1 3\n", "more than the file has room for");
   expect_message("a.off", "OFF 3 2 0\n0 0 0\n0 0 0\n0 0 0\n3 0 1 2      \n",
                  "2 faces are promised, the file ends after 1");

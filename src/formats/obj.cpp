@@ -1,9 +1,10 @@
 // Wavefront OBJ: vertices, texture coordinates, faces, and the names of objects, groups and materials.
 #include <algorithm>
-#include <array>
 #include <charconv>
+#include <span>
 
 #include "base/text.h"
+#include "formats/counted_warnings.h"
 #include "formats/mesh.h"
 #include "formats/mesh_builder.h"
 #include "formats/text_scanner.h"
@@ -11,12 +12,17 @@
 namespace ombre::formats {
 namespace {
 
-// Statements without a bearing on the surface.
-constexpr std::array<std::string_view, 38> passed_over{
-    "vn",    "s",     "mtllib",   "l",        "p",    "vp",     "cstype", "deg",        "bmat",      "step",
-    "curv",  "curv2", "surf",     "parm",     "trim", "hole",   "scrv",   "sp",         "end",       "con",
-    "mg",    "bevel", "c_interp", "d_interp", "lod",  "maplib", "usemap", "shadow_obj", "trace_obj", "ctech",
-    "stech", "call",  "csh",      "bsp",      "bzp",  "cdc",    "cdp",    "res"};
+// Statements without a bearing on the surface, and what belongs to a free-form surface.
+constexpr std::string_view passed_over[]{
+    "vn",     "s",        "mtllib", "l",    "p",    "vp",     "cstype",     "deg",       "bmat",  "step",     "curv",
+    "curv2",  "parm",     "trim",   "hole", "sp",   "end",    "con",        "mg",        "bevel", "c_interp", "lod",
+    "maplib", "d_interp", "res",    "cdc",  "scrv", "usemap", "shadow_obj", "trace_obj", "ctech", "stech"};
+// What adds to the surface but is not read: free-form surfaces, and the contents of other files.
+constexpr std::string_view left_out[]{"surf", "bsp", "bzp", "cdp", "call", "csh"};
+
+bool is_one_of(std::string_view word, std::span<const std::string_view> list) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
 
 class ObjReader {
  public:
@@ -28,6 +34,8 @@ class ObjReader {
       read_statement(scanner_.word_in_line());
       scanner_.next_line();
     }
+    if (builder_.triangle_count() == 0 && unknown_end_ > 0) fail_at_unknown();
+    warnings_.report(name_, diagnostics_);
     if (builder_.triangle_count() == 0)
       fail(diagnostics_, name_, "this OBJ file has no faces (lines that begin with f)");
     MeshBuilder::Result result = builder_.finish();
@@ -50,9 +58,21 @@ class ObjReader {
       material_ = scanner_.rest_of_line();
       return start_group();
     }
-    if (std::find(passed_over.begin(), passed_over.end(), keyword) != passed_over.end()) return;
-    scanner_.fail_at_word("an OBJ file has no statement " + quoted(keyword),
-                          "v, vt, f, o, g and usemtl make up a mesh; # begins a comment");
+    if (is_one_of(keyword, passed_over)) return;
+    if (!is_one_of(keyword, left_out) && unknown_end_ == 0) {
+      unknown_end_ = scanner_.position();
+      unknown_begin_ = unknown_end_ - keyword.size();
+    }
+    const std::string statement = ' ' + quoted(keyword);
+    warnings_.add("a statement" + statement + " is not read", "statements" + statement + " are not read");
+  }
+
+  // A file without faces that has something else is no OBJ file.
+  [[noreturn]] void fail_at_unknown() const {
+    TextScanner word(scanner_);
+    word.go_to(unknown_begin_);
+    scanner_.fail_at(unknown_begin_, unknown_end_, "an OBJ file has no statement " + quoted(word.word_in_line()),
+                     "v, vt, f, o, g and usemtl make up a mesh; # begins a comment");
   }
 
   void start_group() { builder_.start_group(object_.empty() ? material_ : object_, material_); }
@@ -88,22 +108,27 @@ class ObjReader {
     texture_.clear();
     while (!scanner_.at_line_end()) read_corner(scanner_.word_in_line());
     if (corners_.size() < 3)
-      scanner_.fail_here("a face needs at least 3 corners, this one has " + std::to_string(corners_.size()));
+      return warnings_.add("a face of fewer than three corners is no part of the surface",
+                           "faces of fewer than three corners are no part of the surface");
     // A face of which only some corners have texture coordinates counts as one without.
     if (texture_.size() != corners_.size()) texture_.clear();
     builder_.add_polygon(corners_, texture_);
   }
 
-  // V, V/VT, V//VN or V/VT/VN.
+  // V, V/VT, V//VN or V/VT/VN. Some programs write V/VN, or texture coordinates that the file does not have: the
+  // surface needs neither.
   void read_corner(std::string_view text) {
     const char* at = text.data();
     const char* const end = at + text.size();
-    corners_.push_back(resolve(read_index(at, end, text), builder_.vertex_count(), "vertex", "vertices", text));
+    const int64_t vertex = read_index(at, end, text);
+    const auto corner = resolve(vertex, builder_.vertex_count());
+    if (!corner)
+      scanner_.fail_at_word("the corner " + quoted(text) + " uses vertex " + std::to_string(vertex) + ", but " +
+                            format_count(builder_.vertex_count()) + " vertices come before it");
+    corners_.push_back(*corner);
     if (at == end) return;
     if (*at++ != '/') fail_corner(text);
-    if (at != end && *at != '/')
-      texture_.push_back(resolve(read_index(at, end, text), builder_.texture_coordinate_count(), "texture coordinate",
-                                 "texture coordinates", text));
+    if (at != end && *at != '/') read_texture_index(read_index(at, end, text));
     if (at == end) return;
     if (*at++ != '/') fail_corner(text);
     if (at != end) read_index(at, end, text);
@@ -118,12 +143,18 @@ class ObjReader {
     return index;
   }
 
-  // Indices count from 1; negative ones count back from the last.
-  uint32_t resolve(int64_t index, size_t count, std::string_view one, std::string_view many, std::string_view corner) {
+  void read_texture_index(int64_t index) {
+    if (const auto texture = resolve(index, builder_.texture_coordinate_count()))
+      texture_.push_back(*texture);
+    else if (builder_.texture_coordinate_count() > 0)
+      warnings_.add("a corner uses a texture coordinate that the file does not have",
+                    "corners use texture coordinates that the file does not have");
+  }
+
+  // Indices count from 1; negative ones count back from the last. Nothing for one beyond.
+  static std::optional<uint32_t> resolve(int64_t index, size_t count) {
     const auto known = static_cast<int64_t>(count);
-    if (index > known || index < -known)
-      scanner_.fail_at_word("the corner " + quoted(corner) + " uses " + std::string(one) + " " + std::to_string(index) +
-                            ", but " + format_count(count) + " " + std::string(many) + " come before it");
+    if (index > known || index < -known) return std::nullopt;
     return static_cast<uint32_t>(index > 0 ? index - 1 : known + index);
   }
 
@@ -136,8 +167,10 @@ class ObjReader {
   const std::string& name_;
   Diagnostics& diagnostics_;
   MeshBuilder builder_;
+  CountedWarnings warnings_;
   std::string object_, material_;
   std::vector<uint32_t> corners_, texture_;
+  size_t unknown_begin_ = 0, unknown_end_ = 0;  // the first statement of an unknown name
 };
 
 }  // namespace

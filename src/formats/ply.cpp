@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "formats/counted_warnings.h"
 #include "formats/mesh.h"
 #include "formats/mesh_builder.h"
 #include "formats/ply_header.h"
@@ -138,6 +139,7 @@ class PlyReader {
         diagnostics_(diagnostics) {}
 
   Mesh read() {
+    is_one_a_line_ = header_.encoding == PlyEncoding::ascii && scanner_.has_lines(text_lines());
     for (const PlyElement& element : header_.elements) {
       check_fits(element);
       if (element.name == "vertex")
@@ -147,11 +149,25 @@ class PlyReader {
       else
         skip_element(element);
     }
+    warnings_.report(name_, diagnostics_);
     if (builder_.triangle_count() == 0) fail(diagnostics_, name_, "this PLY file has no faces");
     return builder_.finish().mesh;
   }
 
  private:
+  // Of text, where each element has its own. What a line has beyond its element's properties is passed over; where
+  // there are fewer lines, they mean nothing.
+  uint64_t text_lines() const {
+    uint64_t lines = 0;
+    for (const PlyElement& element : header_.elements)
+      if (!element.properties.empty()) lines += std::min(element.count, UINT64_MAX - lines);
+    return lines;
+  }
+
+  void end_element() {
+    if (is_one_a_line_) scanner_.next_line();
+  }
+
   void check_fits(const PlyElement& element) const {
     const size_t least = least_bytes(element, header_.encoding);
     if (least == 0 || element.count <= (values_.remaining() + 1) / least) return;
@@ -166,10 +182,20 @@ class PlyReader {
     values_.skip(property.type, count, "a value of " + quoted(property.name));
   }
 
+  void warn_of(const PlyElement& element) {
+    constexpr std::string_view harmless[]{"edge", "camera", "user", "material", "viewpoint", "obj_info"};
+    if (std::find(std::begin(harmless), std::end(harmless), element.name) != std::end(harmless)) return;
+    const std::string name = ' ' + quoted(element.name);
+    warnings_.add("an element" + name + " is not read", "elements" + name + " are not read", element.count);
+  }
+
   void skip_element(const PlyElement& element) {
     if (element.properties.empty()) return;
-    for (uint64_t i = 0; i < element.count; ++i)
+    warn_of(element);
+    for (uint64_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& property : element.properties) skip_property(property);
+      end_element();
+    }
   }
 
   static std::vector<Role> roles(const PlyElement& element, Role (*role)(const PlyProperty&)) {
@@ -218,6 +244,7 @@ class PlyReader {
     }
     builder_.add_vertex(p);
     if (has_texture_) builder_.add_texture_coordinate(u, v);
+    end_element();
   }
 
   double coordinate(const PlyProperty& property) {
@@ -240,14 +267,12 @@ class PlyReader {
         else
           skip_property(element.properties[p]);
       }
+      end_element();
     }
   }
 
   void read_face(const PlyProperty& property, uint64_t number) {
     const uint64_t count = values_.length(property);
-    if (count < 3)
-      values_.fail_at_value(property.count_type, "a face needs at least 3 corners, face " + format_count(number) +
-                                                     " has " + std::to_string(count));
     corners_.clear();
     for (uint64_t i = 0; i < count; ++i) {
       const double corner = values_.number(property.type, "the number of a vertex");
@@ -257,6 +282,9 @@ class PlyReader {
                                                  " vertices before it are numbered from 0");
       corners_.push_back(static_cast<uint32_t>(corner));
     }
+    if (count < 3)
+      return warnings_.add("a face of fewer than three corners is no part of the surface",
+                           "faces of fewer than three corners are no part of the surface");
     builder_.add_polygon(corners_, has_texture_ ? std::span<const uint32_t>(corners_) : std::span<const uint32_t>());
   }
 
@@ -267,7 +295,9 @@ class PlyReader {
   Diagnostics& diagnostics_;
   MeshBuilder builder_;
   std::vector<uint32_t> corners_;
+  CountedWarnings warnings_;
   bool has_texture_ = false;
+  bool is_one_a_line_ = false;
 };
 
 }  // namespace

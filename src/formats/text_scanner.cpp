@@ -107,6 +107,15 @@ void TextScanner::next_line() {
   at_ += two ? 2 : 1;
 }
 
+bool TextScanner::has_lines(uint64_t count) const {
+  TextScanner ahead(*this);
+  for (uint64_t found = 0; found < count; ++found) {
+    if (ahead.at_end()) return false;
+    ahead.next_line();
+  }
+  return true;
+}
+
 std::string_view TextScanner::word_in_line() {
   skip_blanks();
   word_begin_ = at_;

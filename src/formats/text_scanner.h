@@ -35,6 +35,8 @@ class TextScanner {
   bool at_end();       // past blanks, empty lines and comments
   bool at_line_end();  // past blanks and comments
   void next_line();    // past the rest of this line
+  // Whether so many lines with words follow, what is left of this one among them.
+  bool has_lines(uint64_t count) const;
 
   std::string_view word();          // in this line or a later one; empty at the end
   std::string_view word_in_line();  // empty at the line's end

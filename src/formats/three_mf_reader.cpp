@@ -1,6 +1,7 @@
 // 3MF: finds the model in the archive, and what it refers to.
 #ifdef OMBRE_3MF
 
+#include "base/text.h"
 #include "formats/text_scanner.h"
 #include "formats/three_mf_model.h"
 #include "formats/three_mf_text.h"
@@ -34,11 +35,8 @@ class ThreeMfReader {
  private:
   // The archive's file to which the package points.
   std::string root_model() {
-    if (!archive_.has(relationships))
-      fail(diagnostics_, name_,
-           std::string("this zip archive is not a 3MF file: it has no file \"") + relationships + '"',
-           "name it .amf if it is a zipped AMF file");
-    const std::string text = archive_.read(relationships);
+    const std::string text = text_of(relationships);
+    if (text.empty()) return only_model("it has no file \"" + std::string(relationships) + '"');
     const XmlFile file(name_ + '/' + relationships, text, diagnostics_);
     for (const pugi::xml_node node : file.root("Relationships").children()) {
       const std::string_view type = file.attribute(node, "Type").value_or("");
@@ -46,8 +44,29 @@ class ThreeMfReader {
       const std::string_view target = file.required(node, "Target");
       return std::string(target.starts_with('/') ? target.substr(1) : target);
     }
-    fail(diagnostics_, name_, "this 3MF file says nowhere which of its files is the model",
-         std::string(relationships) + " lacks a relationship of the type 3dmodel");
+    return only_model(std::string(relationships) + " lacks a relationship of the type 3dmodel");
+  }
+
+  // Where the package does not point to its model, but there is but one.
+  std::string only_model(const std::string& fault) {
+    std::vector<std::string> models = names_ending({".model"});
+    if (models.size() == 1) {
+      diagnostics_.warning({}, name_ + ": " + fault + "; the model " + quoted(models[0]) + " is read");
+      return models[0];
+    }
+    const std::vector<std::string> meshes = names_ending({".stl", ".obj", ".ply", ".off", ".amf", ".3mf"});
+    std::string hint = "save it again";
+    if (!meshes.empty()) hint = "it holds " + quoted(meshes[0]) + ": unpack it";
+    if (!meshes.empty() && to_lower(meshes[0]).ends_with(".amf")) hint = "name it .amf if it is a zipped AMF file";
+    fail(diagnostics_, name_, "this zip archive is not a 3MF file: " + fault, hint);
+  }
+
+  std::vector<std::string> names_ending(std::initializer_list<std::string_view> endings) const {
+    std::vector<std::string> found;
+    for (const std::string& name : archive_.names())
+      for (const std::string_view ending : endings)
+        if (to_lower(name).ends_with(ending)) found.push_back(name);
+    return found;
   }
 
   void read_part(const std::string& part, bool is_root) {

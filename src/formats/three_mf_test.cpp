@@ -386,8 +386,38 @@ TEST(ThreeMf, WrongPackagesAreExplained) {
   expect_message("PK\x03\x04 rest", "this zip archive is damaged or cut short");
   expect_message(zipped({{"hello.txt", "hello"}}),
                  "this zip archive is not a 3MF file: it has no file \"_rels/.rels\"");
-  expect_message(zipped({{"_rels/.rels", "<Relationships/>"}}), "says nowhere which of its files is the model");
+  expect_message(zipped({{"_rels/.rels", "<Relationships/>"}}), "_rels/.rels lacks a relationship of the type 3dmodel");
+  expect_message(zipped({{"read me.txt", "hello"}, {"parts/lid.STL", "solid"}}),
+                 "it holds \"parts/lid.STL\": unpack it");
   expect_message(zipped({relationships("/../../etc/passwd")}), "the archive's file \"../../etc/passwd\" is missing");
+}
+
+TEST(ThreeMf, NamesInPackagesAreComparedLoosely) {
+  const std::string text = model(object(1));
+  const auto rels = [](const std::string& name, const std::string& target) {
+    return std::pair{name, relationships(target).second};
+  };
+  const std::vector<std::vector<std::pair<std::string, std::string>>> packages{
+      {rels("_rels\\.rels", "/3D/a.model"), {"3D\\a.model", text}},
+      {rels("_RELS/.Rels", "3d/A.Model"), {"3D/a.model", text}},
+      {rels("/_rels/.rels", "./3D/a.model"), {"./3D/a.model", text}},
+      {rels("_rels/.rels", "/3D/my%20part.model"), {"3D/my part.model", text}},
+      {rels("_rels/.rels", "/3D/my part.model"), {"3D/my%20part.model", text}}};
+  for (const auto& files : packages) EXPECT_EQ(read(zipped(files)).triangles.size(), 4u) << files[1].first;
+
+  const std::string root =
+      model(components(4, "<component p:path=\"/3d/objects/B%2Emodel\" objectid=\"1\"/>"), "<item objectid=\"4\"/>");
+  EXPECT_EQ(read(zipped({relationships(), {"3D/a.model", root}, {"3D\\Objects\\b.model", model(object(1), "")}}))
+                .triangles.size(),
+            4u);
+}
+
+TEST(ThreeMf, ThePackageNeedNotPointToItsOnlyModel) {
+  const std::string text = model(object(1));
+  EXPECT_EQ(warnings(zipped({{"folder/3D/3dmodel.model", text}})),
+            "warning: a.3mf: it has no file \"_rels/.rels\"; the model \"folder/3D/3dmodel.model\" is read\n");
+  EXPECT_EQ(warnings(zipped({{"_rels/.rels", "<Relationships/>"}, {"a.model", text}})),
+            "warning: a.3mf: _rels/.rels lacks a relationship of the type 3dmodel; the model \"a.model\" is read\n");
 }
 
 TEST(ThreeMf, BombsAreNotUnpacked) {

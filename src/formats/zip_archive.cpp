@@ -135,6 +135,27 @@ void add(zip_t* archive, const std::string& name, EntrySource& bytes) {
     throw_failure(libzip().get_error(archive));
 }
 
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+}
+
+// Names that stand for the same entry have the same key.
+std::string name_key(std::string_view name) {
+  const std::string lower = to_lower(name);
+  std::string key;
+  for (size_t i = 0; i < lower.size(); ++i) {
+    char c = lower[i];
+    if (c == '%' && i + 2 < lower.size() && hex_digit(lower[i + 1]) >= 0 && hex_digit(lower[i + 2]) >= 0) {
+      c = static_cast<char>(16 * hex_digit(lower[i + 1]) + hex_digit(lower[i + 2]));
+      i += 2;
+    }
+    key += c == '\\' ? '/' : c;
+  }
+  while (key.starts_with('/') || key.starts_with("./")) key.erase(0, key[0] == '/' ? 1 : 2);
+  return to_lower(key);
+}
+
 }  // namespace
 
 void write_zip(const std::string& path, const std::vector<ZipEntry>& entries) {
@@ -160,9 +181,11 @@ ZipReader::ZipReader(const std::string& name, std::string_view bytes, Diagnostic
     fail(diagnostics, name, "this zip archive is damaged or cut short", "save or copy it again");
   }
   const zip_int64_t count = libzip().get_num_entries(archive_, 0);
-  for (zip_int64_t i = 0; i < std::min<zip_int64_t>(count, most_entries); ++i)
-    if (const char* const entry = libzip().get_name(archive_, static_cast<zip_uint64_t>(i), 0))
-      names_.emplace_back(entry);
+  for (zip_int64_t i = 0; i < std::min<zip_int64_t>(count, most_entries); ++i) {
+    const char* const entry = libzip().get_name(archive_, static_cast<zip_uint64_t>(i), 0);
+    names_.emplace_back(entry ? entry : "");
+    by_key_.emplace(name_key(names_.back()), names_.size() - 1);
+  }
 }
 
 ZipReader::~ZipReader() {
@@ -173,8 +196,12 @@ void ZipReader::fail_entry(const std::string& entry, const std::string& problem,
   fail(diagnostics_, name_, "the archive's file " + quoted(entry) + ' ' + problem, hint);
 }
 
-bool ZipReader::has(const std::string& entry) const {
-  return std::find(names_.begin(), names_.end(), entry) != names_.end();
+std::optional<size_t> ZipReader::find(const std::string& entry) const {
+  if (const auto exact = std::find(names_.begin(), names_.end(), entry); exact != names_.end())
+    return exact - names_.begin();
+  const auto near = by_key_.find(name_key(entry));
+  if (near == by_key_.end()) return std::nullopt;
+  return near->second;
 }
 
 // What an entry promises is believed only where it says that reading is not worth while.
@@ -191,7 +218,8 @@ void ZipReader::check(const std::string& entry, const struct zip_stat& stat) con
 
 std::string ZipReader::read(const std::string& entry) {
   zip_stat_t stat;
-  if (libzip().stat(archive_, entry.c_str(), 0, &stat) != 0) fail_entry(entry, "is missing");
+  const auto index = find(entry);
+  if (!index || libzip().stat_index(archive_, *index, 0, &stat) != 0) fail_entry(entry, "is missing");
   check(entry, stat);
   const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(libzip().fopen_index(archive_, stat.index, 0),
                                                                libzip().fclose);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,10 +43,13 @@ class ZipReader {
   ZipReader& operator=(const ZipReader&) = delete;
 
   const std::vector<std::string>& names() const { return names_; }
-  bool has(const std::string& entry) const;
+  // Names are compared as OPC does, and as its careless writers need it: either case, / or \, %20 for a blank, with or
+  // without / and ./ at the beginning. A name that fits exactly comes first.
+  bool has(const std::string& entry) const { return find(entry).has_value(); }
   std::string read(const std::string& entry);
 
  private:
+  std::optional<size_t> find(const std::string& entry) const;
   void check(const std::string& entry, const struct zip_stat& stat) const;
   [[noreturn]] void fail_entry(const std::string& entry, const std::string& problem,
                                const std::string& hint = "") const;
@@ -53,7 +57,8 @@ class ZipReader {
   const std::string& name_;
   Diagnostics& diagnostics_;
   zip* archive_ = nullptr;
-  std::vector<std::string> names_;  // as in the archive
+  std::vector<std::string> names_;        // as in the archive, by index
+  std::map<std::string, size_t> by_key_;  // the first of each
   uint64_t bytes_read_ = 0;
 };
 
