@@ -105,6 +105,32 @@ void leave_out_impossible(Built& built, const Box& box, int threads) {
   built.checks = std::move(checks);
 }
 
+namespace {
+
+// Meshes and CAD solids may lie anywhere; designs end at the limit. True, and a diagnostic, where a solid has ends
+// beyond.
+bool report_beyond_limit(const design::Node& solid, Diagnostics& diagnostics) {
+  constexpr double wide_mm = 1e12;
+  const Box bounds = solid.bounds(Box::centered({wide_mm, wide_mm, wide_mm}));
+  for (int axis = 0; axis < 3 && !bounds.is_empty(); ++axis) {
+    const double lo = bounds.lo[axis], hi = bounds.hi[axis];
+    const bool is_within = lo > -design::design_limit_mm && hi < design::design_limit_mm;
+    if (is_within || lo <= -wide_mm || hi >= wide_mm) continue;
+    const std::string name(1, static_cast<char>('x' + axis));
+    std::array<std::string, 3> move{"0", "0", "0"};
+    move[axis] = format_number(-std::round(lo));
+    diagnostics.error(
+        solid.where(),
+        "this goes from " + name + " = " + format_rounded(lo, 9) + " to " + format_rounded(hi, 9) +
+            " mm; designs may reach from -1,000,000 to 1,000,000 mm",
+        hi - lo < design::design_limit_mm ? "move it: translate(" + join(move, ", ") + ')' : "scale it down");
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnostics) {
   if (design.sampling) return design.sampling->box;
   Box box;
@@ -112,6 +138,7 @@ std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnos
     const Box bounds = part.solid->bounds(design::design_space());
     for (int axis = 0; axis < 3 && !bounds.is_empty(); ++axis) {
       if (bounds.lo[axis] > -design::design_limit_mm && bounds.hi[axis] < design::design_limit_mm) continue;
+      if (report_beyond_limit(*part.solid, diagnostics)) return std::nullopt;
       diagnostics.error(
           part.solid->where(), "this has no end along " + std::string(1, static_cast<char>('x' + axis)),
           "give the function bounds, intersect it with a bounded solid, or put everything into root(min, max, voxel)");
@@ -120,6 +147,8 @@ std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnos
     box = hull(box, bounds);
   }
   if (!box.is_empty()) return box;
+  for (const design::Part& part : design.parts)
+    if (report_beyond_limit(*part.solid, diagnostics)) return std::nullopt;
   diagnostics.error(design.parts[0].solid->where(),
                     "nothing of the design is left: its solids do not meet, or their formulas are never 0 or less");
   return std::nullopt;

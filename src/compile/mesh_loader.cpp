@@ -7,7 +7,9 @@
 #include "compile/support_source.h"
 #include "formats/file.h"
 #include "formats/mesh_objects.h"
+#include "import/corner_welder.h"
 #include "import/mesh_source.h"
+#include "import/shells.h"
 
 namespace ombre::compile {
 namespace {
@@ -38,16 +40,45 @@ std::string faults(const importing::MeshReport& report) {
   return message;
 }
 
-// False, and a diagnostic, when the mesh has no inside under the rule.
-bool check_closed(const std::string& path, const formats::Mesh& mesh, std::string_view rule,
-                  const design::Reader& reader) {
-  const importing::MeshReport report = importing::inspect(mesh);
-  if (has_inside(report, rule)) return true;
-  const std::string hint = report.open_edges > 0
-                               ? "repair it, or write inside=\"generalized\" to close it by winding number"
-                               : "repair it, or write inside=\"parity\" to ignore which way triangles face";
-  reader.diagnostics.error(reader.where, "the mesh \"" + path + "\" " + faults(report), hint);
-  return false;
+// Where the surface is open because corners differ by rounding.
+void join_corners(const std::string& path, formats::Mesh& mesh, std::string_view rule, const design::Reader& reader,
+                  importing::MeshReport& report) {
+  const size_t open_edges = report.open_edges;
+  const auto welded = importing::weld_corners(mesh, rule == "parity");
+  if (!welded) return;
+  reader.diagnostics.note(reader.where, format_count(welded->corners) + " corners of the mesh \"" + path +
+                                            "\" that lie up to " + format_rounded(welded->farthest_mm, 2) +
+                                            " mm apart were joined: the surface was open along " +
+                                            format_count(open_edges) + (open_edges == 1 ? " edge" : " edges"));
+  report = importing::inspect(mesh);
+}
+
+// Shells that face inward and overlap others that face outward would cancel them out.
+void turn_shells(const std::string& path, formats::Mesh& mesh, const design::Reader& reader) {
+  const auto [turned, shells] = importing::turn_inverted_shells(mesh);
+  if (turned == 0) return;
+  const bool is_one = turned == 1;
+  reader.diagnostics.warning(reader.where, format_count(turned) + " of the " + format_count(shells) +
+                                               " shells of the mesh \"" + path + "\" " + (is_one ? "faces" : "face") +
+                                               " inward, where others face outward, and " + (is_one ? "lies" : "lie") +
+                                               " in none of them; " + (is_one ? "it is" : "they are") +
+                                               " turned round");
+}
+
+// False, and a diagnostic, when the mesh has no inside under the rule. Small faults are mended.
+bool make_closed(const std::string& path, formats::Mesh& mesh, std::string_view rule, const design::Reader& reader) {
+  importing::MeshReport report = importing::inspect(mesh);
+  if (!has_inside(report, rule)) join_corners(path, mesh, rule, reader, report);
+  if (!has_inside(report, rule)) {
+    const std::string hint = report.open_edges > 0
+                                 ? "repair it, or write inside=\"generalized\" to close it by winding number"
+                                 : "repair it, or write inside=\"parity\" to ignore which way triangles face";
+    reader.diagnostics.error(reader.where, "the mesh \"" + path + "\" " + faults(report), hint);
+    return false;
+  }
+  if (rule != "parity" && report.inward_shells > 0 && report.inward_shells < report.shells)
+    turn_shells(path, mesh, reader);
+  return true;
 }
 
 // The same for what a file has of one material, when the whole is closed.
@@ -97,7 +128,7 @@ std::optional<std::vector<MaterialMesh>> read_parts(const std::string& path, std
     return std::nullopt;
   }
   if (!choose_object(path, *mesh, use.object, reader)) return std::nullopt;
-  if (!check_closed(path, *mesh, use.inside.text(), reader)) return std::nullopt;
+  if (!make_closed(path, *mesh, use.inside.text(), reader)) return std::nullopt;
   std::vector<MaterialMesh> parts;
   if (use.materials == "one") {
     parts.push_back({use.material, std::move(*mesh)});

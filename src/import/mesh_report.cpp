@@ -2,74 +2,47 @@
 #include "import/mesh_report.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <span>
 
-#include "formats/vertex_merger.h"
+#include "import/mesh_edges.h"
+#include "import/shells.h"
 
 namespace ombre::importing {
 namespace {
 
 constexpr size_t most_examples = 5;
 
-// An edge between two places, the lesser first, and which way a triangle runs along it.
-struct FacetEdge {
-  uint32_t a = 0, b = 0;
-  int direction = 1;
-};
-
-std::vector<std::array<uint32_t, 3>> merge_places(const formats::Mesh& mesh, formats::VertexMerger& merger) {
-  std::vector<uint32_t> place_of;
-  place_of.reserve(mesh.vertices.size());
-  for (const Vec3& p : mesh.vertices) place_of.push_back(merger.add(p));
-  std::vector<std::array<uint32_t, 3>> triangles;
-  triangles.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles) triangles.push_back({place_of[t[0]], place_of[t[1]], place_of[t[2]]});
-  return triangles;
-}
-
-std::vector<FacetEdge> sorted_edges(const std::vector<std::array<uint32_t, 3>>& triangles) {
-  std::vector<FacetEdge> edges;
-  edges.reserve(3 * triangles.size());
-  for (const auto& t : triangles) {
-    for (size_t i = 0; i < 3; ++i) {
-      const uint32_t from = t[i], to = t[(i + 1) % 3];
-      if (from < to) edges.push_back({from, to, 1});
-      if (from > to) edges.push_back({to, from, -1});
-    }
-  }
-  std::sort(edges.begin(), edges.end(),
-            [](const FacetEdge& x, const FacetEdge& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
-  return edges;
-}
-
-void check_edges(const std::vector<FacetEdge>& edges, const std::vector<Vec3>& places, MeshReport& report) {
-  for (size_t i = 0; i < edges.size();) {
-    const FacetEdge& edge = edges[i];
-    size_t uses = 0;
-    int64_t balance = 0;
-    for (; i < edges.size() && edges[i].a == edge.a && edges[i].b == edge.b; ++i) {
-      ++uses;
-      balance += edges[i].direction;
-    }
-    if (balance == 0) continue;
-    ++(uses % 2 == 1 ? report.open_edges : report.inconsistent_edges);
-    if (report.examples.size() < most_examples) report.examples.push_back({places[edge.a], places[edge.b]});
-  }
+void check_edges(std::span<const FacetEdge> edges, const std::vector<Vec3>& places, MeshReport& report) {
+  for_each_edge(edges, [&](std::span<const FacetEdge> edge) {
+    if (balance(edge) == 0) return;
+    ++(edge.size() % 2 == 1 ? report.open_edges : report.inconsistent_edges);
+    if (report.examples.size() < most_examples)
+      report.examples.push_back({places[edge[0].lesser()], places[edge[0].greater()]});
+  });
 }
 
 // About the centre, which keeps digits for meshes far from the origin.
-void measure(const std::vector<std::array<uint32_t, 3>>& triangles, const std::vector<Vec3>& places,
-             MeshReport& report) {
+void measure(const PlacedTriangles& placed, const std::vector<uint32_t>& shell_of, MeshReport& report) {
+  const auto& [places, place_of, triangles] = placed;
   for (const auto& t : triangles)
     for (const uint32_t i : t) report.bounds = hull(report.bounds, Box{places[i], places[i]});
   const Vec3 center = report.bounds.is_empty() ? Vec3{} : report.bounds.center();
-  for (const auto& t : triangles) {
+  std::vector<double> volumes;  // of shells
+  for (size_t n = 0; n < triangles.size(); ++n) {
+    const auto& t = triangles[n];
     const Vec3 a = places[t[0]] - center, b = places[t[1]] - center, c = places[t[2]] - center;
     const Vec3 doubled = cross(b - a, c - a);
     if (doubled == Vec3{}) ++report.degenerate;
     report.area += length(doubled) / 2;
-    report.volume += dot(a, cross(b, c)) / 6;
+    const double volume = dot(a, cross(b, c)) / 6;
+    report.volume += volume;
+    if (shell_of.empty()) continue;
+    if (shell_of[n] >= volumes.size()) volumes.push_back(0);
+    volumes[shell_of[n]] += volume;
   }
+  report.shells = volumes.size();
+  report.inward_shells =
+      static_cast<size_t>(std::count_if(volumes.begin(), volumes.end(), [](double v) { return v < 0; }));
 }
 
 }  // namespace
@@ -77,10 +50,10 @@ void measure(const std::vector<std::array<uint32_t, 3>>& triangles, const std::v
 MeshReport inspect(const formats::Mesh& mesh) {
   MeshReport report;
   report.triangles = mesh.triangles.size();
-  formats::VertexMerger merger;
-  const auto triangles = merge_places(mesh, merger);
-  check_edges(sorted_edges(triangles), merger.places(), report);
-  measure(triangles, merger.places(), report);
+  const PlacedTriangles placed = placed_triangles(mesh);
+  const std::vector<FacetEdge> edges = sorted_edges(placed.triangles);
+  check_edges(edges, placed.places, report);
+  measure(placed, report.is_closed() ? shells_of(placed.triangles.size(), edges) : std::vector<uint32_t>(), report);
   return report;
 }
 

@@ -16,6 +16,7 @@ struct MeshReport {
   size_t open_edges = 0;                      // an odd number of triangles meets there
   size_t inconsistent_edges = 0;              // triangles run along it in the same direction: one of them is inside out
   std::vector<std::array<Vec3, 2>> examples;  // a few of these edges
+  size_t shells = 0, inward_shells = 0;       // of a closed mesh; of these, those that face inward
   double volume = 0;                          // mm3; negative if the triangles face inward
   double area = 0;                            // mm2
   Box bounds;
