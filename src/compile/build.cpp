@@ -1,6 +1,7 @@
 #include "compile/build.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
 #include "compile/possible_outputs.h"
@@ -11,6 +12,31 @@ namespace ombre::compile {
 namespace {
 
 constexpr double most_instructions = 1e8;  // some gigabytes
+
+// Meshes and CAD solids may lie anywhere; designs end at a limit. True, and a diagnostic, where a solid ends beyond it.
+bool report_beyond_limit(const design::Node& solid, Diagnostics& diagnostics) {
+  constexpr double wide_mm = 1e12;
+  const Box bounds = solid.bounds(Box::centered({wide_mm, wide_mm, wide_mm}));
+  if (bounds.is_empty()) return false;
+  std::vector<std::string> places, move;
+  double longest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double lo = bounds.lo[axis], hi = bounds.hi[axis];
+    const bool is_within = lo > -design::design_limit_mm && hi < design::design_limit_mm;
+    move.push_back(is_within ? "0" : format_number(-std::round(lo)));
+    if (is_within) continue;
+    if (lo <= -wide_mm || hi >= wide_mm) return false;
+    longest = std::max(longest, hi - lo);
+    places.push_back(std::string(1, static_cast<char>('x' + axis)) + " = " + format_rounded(lo, 9) + " to " +
+                     format_rounded(hi, 9));
+  }
+  if (places.empty()) return false;
+  diagnostics.error(
+      solid.where(),
+      "this reaches from " + join(places, " and from ") + " mm; designs may reach from -1,000,000 to 1,000,000 mm",
+      longest < design::design_limit_mm ? "move it: translate(" + join(move, ", ") + ')' : "scale it down");
+  return true;
+}
 
 }  // namespace
 
@@ -104,32 +130,6 @@ void leave_out_impossible(Built& built, const Box& box, int threads) {
   m.check_count = checks.size();
   built.checks = std::move(checks);
 }
-
-namespace {
-
-// Meshes and CAD solids may lie anywhere; designs end at the limit. True, and a diagnostic, where a solid has ends
-// beyond.
-bool report_beyond_limit(const design::Node& solid, Diagnostics& diagnostics) {
-  constexpr double wide_mm = 1e12;
-  const Box bounds = solid.bounds(Box::centered({wide_mm, wide_mm, wide_mm}));
-  for (int axis = 0; axis < 3 && !bounds.is_empty(); ++axis) {
-    const double lo = bounds.lo[axis], hi = bounds.hi[axis];
-    const bool is_within = lo > -design::design_limit_mm && hi < design::design_limit_mm;
-    if (is_within || lo <= -wide_mm || hi >= wide_mm) continue;
-    const std::string name(1, static_cast<char>('x' + axis));
-    std::array<std::string, 3> move{"0", "0", "0"};
-    move[axis] = format_number(-std::round(lo));
-    diagnostics.error(
-        solid.where(),
-        "this goes from " + name + " = " + format_rounded(lo, 9) + " to " + format_rounded(hi, 9) +
-            " mm; designs may reach from -1,000,000 to 1,000,000 mm",
-        hi - lo < design::design_limit_mm ? "move it: translate(" + join(move, ", ") + ')' : "scale it down");
-    return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnostics) {
   if (design.sampling) return design.sampling->box;
