@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "import/corner_welder.h"
 #include "import/mesh_source.h"
+#include "import/shells.h"
 
 namespace ombre::importing::test {
 
@@ -26,7 +28,11 @@ inline void exercise(formats::Mesh mesh) {
   }
   require(grouped == mesh.triangles.size());
 
+  formats::Mesh mended = mesh;
+  if (weld_corners(mended, false)) require(inspect(mended).is_closed());
+  if (inspect(mended).is_closed()) turn_inverted_shells(mended);
   const bool is_closed = inspect(mesh).is_closed();
+  require(!is_closed || inspect(mended).is_closed());
   const auto source = make_mesh_source("fuzz", std::move(mesh), {});
   source->sample(0, source->bounds().center());
   // Sixteen voxels across, whatever the size.
