@@ -421,6 +421,16 @@ TEST(Ply, LinesMayHoldMoreThanTheHeaderSays) {
   EXPECT_EQ(shape(read("a.ply", text.substr(0, body) + replaced(text.substr(body), " ", "\n"))), expected_shape());
 }
 
+// Two strips in one list: the tetrahedron's first three faces, and its last.
+TEST(Ply, StripsOfTrianglesAreRead) {
+  const std::string header = replaced(replaced(ply_header("ascii"), "face 4", "tristrips 1"), "list uchar", "list int");
+  std::string text = rows_of_numbers();
+  text = header + text.substr(0, text.find("3 0 1 2")) + "10 2 0 1 3 2 -1 0 2 3 -1\n";
+  const Mesh mesh = read("a.ply", text);
+  EXPECT_EQ(mesh.triangles, (Triangles{{2, 0, 1}, {1, 0, 3}, {1, 3, 2}, {0, 2, 3}}));
+  expect_message("a.ply", replaced(text, "-1 0", "-2 0"), "uses vertex -2");
+}
+
 TEST(Ply, WhatIsNoSurfaceIsCounted) {
   std::string text = replaced(ply_header("ascii"), "face 4", "face 6") + rows_of_numbers() + "2 0 1\n0\n";
   expect_warning("a.ply", text, "2 faces of fewer than three corners are " + no_part);

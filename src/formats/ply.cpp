@@ -145,7 +145,9 @@ class PlyReader {
       if (element.name == "vertex")
         read_vertices(element);
       else if (element.name == "face")
-        read_faces(element);
+        read_faces(element, &PlyReader::read_face);
+      else if (element.name == "tristrips")
+        read_faces(element, &PlyReader::read_strips);
       else
         skip_element(element);
     }
@@ -256,14 +258,14 @@ class PlyReader {
     return value + 0.0;  // -0 becomes 0
   }
 
-  void read_faces(const PlyElement& element) {
+  void read_faces(const PlyElement& element, void (PlyReader::*read_one)(const PlyProperty&, uint64_t)) {
     const std::vector<Role> found = roles(element, face_role);
     if (std::find(found.begin(), found.end(), Role::corners) == found.end())
       fail(diagnostics_, name_, "the faces of this PLY file lack the list vertex_indices");
     for (uint64_t i = 0; i < element.count; ++i) {
       for (size_t p = 0; p < found.size(); ++p) {
         if (found[p] == Role::corners)
-          read_face(element.properties[p], i);
+          (this->*read_one)(element.properties[p], i);
         else
           skip_property(element.properties[p]);
       }
@@ -274,17 +276,43 @@ class PlyReader {
   void read_face(const PlyProperty& property, uint64_t number) {
     const uint64_t count = values_.length(property);
     corners_.clear();
-    for (uint64_t i = 0; i < count; ++i) {
-      const double corner = values_.number(property.type, "the number of a vertex");
-      if (!(corner >= 0 && corner < static_cast<double>(builder_.vertex_count()) && corner == std::floor(corner)))
-        values_.fail_at_value(property.type, "face " + format_count(number) + " uses vertex " + format_number(corner) +
-                                                 ", but the " + format_count(builder_.vertex_count()) +
-                                                 " vertices before it are numbered from 0");
-      corners_.push_back(static_cast<uint32_t>(corner));
-    }
+    for (uint64_t i = 0; i < count; ++i)
+      corners_.push_back(corner(property, values_.number(property.type, "the number of a vertex"), number));
     if (count < 3)
       return warnings_.add("a face of fewer than three corners is no part of the surface",
                            "faces of fewer than three corners are no part of the surface");
+    add_face();
+  }
+
+  // Strips one behind the other, each ended by -1: every corner makes a triangle with the two before it, whose sides
+  // alternate.
+  void read_strips(const PlyProperty& property, uint64_t number) {
+    const uint64_t count = values_.length(property);
+    std::vector<uint32_t> strip;
+    for (uint64_t i = 0; i < count; ++i) {
+      const double value = values_.number(property.type, "the number of a vertex");
+      if (value == -1) {
+        strip.clear();
+        continue;
+      }
+      strip.push_back(corner(property, value, number));
+      if (strip.size() < 3) continue;
+      const size_t n = strip.size() - 1;
+      const bool is_even = strip.size() % 2 == 1;
+      corners_ = {strip[is_even ? n - 2 : n - 1], strip[is_even ? n - 1 : n - 2], strip[n]};
+      add_face();
+    }
+  }
+
+  uint32_t corner(const PlyProperty& property, double value, uint64_t number) const {
+    if (value >= 0 && value < static_cast<double>(builder_.vertex_count()) && value == std::floor(value))
+      return static_cast<uint32_t>(value);
+    values_.fail_at_value(property.type, "face " + format_count(number) + " uses vertex " + format_number(value) +
+                                             ", but the " + format_count(builder_.vertex_count()) +
+                                             " vertices before it are numbered from 0");
+  }
+
+  void add_face() {
     builder_.add_polygon(corners_, has_texture_ ? std::span<const uint32_t>(corners_) : std::span<const uint32_t>());
   }
 
