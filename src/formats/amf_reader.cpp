@@ -25,20 +25,20 @@ struct Material {
   std::optional<Rgba> colour;
 };
 
-std::string metadata(xml_node node, std::string_view type) {
+std::string metadata_of(xml_node node, std::string_view type) {
   for (const xml_node child : node.children("metadata"))
     if (child.attribute("type").value() == type) return child.text().get();
   return "";
 }
 
-std::string name_of(xml_node node) { return metadata(node, "name"); }
+std::string name_of(xml_node node) { return metadata_of(node, "name"); }
 
 // Slic3r and the slicers that came from it write angles in radians, against the standard.
 bool has_radians(xml_node amf) {
-  const std::string program = to_lower(metadata(amf, "cad"));
+  const std::string program = to_lower(metadata_of(amf, "cad"));
   for (const char* name : {"slic3r", "prusaslicer", "superslicer"})
     if (program.find(name) != std::string::npos) return true;
-  return !metadata(amf, "slic3rpe_amf_version").empty();
+  return !metadata_of(amf, "slic3rpe_amf_version").empty();
 }
 
 // A quarter turn has no end in radians. These are written with six digits.
@@ -86,7 +86,7 @@ class AmfReader {
     const xml_node amf = file_.root("amf");
     read_unit(amf);
     has_radians_ = has_radians(amf);
-    extruders_ = ExtruderColours::of_prusa(metadata(amf, "slic3rpe_config"));
+    extruders_ = ExtruderColours::of_prusa(metadata_of(amf, "slic3rpe_config"));
     warn_of_others(amf, of_amf);
     for (const xml_node material : amf.children("material")) {
       warn_of_others(material, of_material);
@@ -150,11 +150,11 @@ class AmfReader {
   }
 
   bool is_solid(xml_node volume) {
-    const std::string type = metadata(volume, "slic3r.volume_type");
+    const std::string type = metadata_of(volume, "slic3r.volume_type");
     if (type == negative_volume)
       assembly_.warnings.add("a negative volume is left out, not taken away from the others",
                              "negative volumes are left out, not taken away from the others");
-    return is_solid_volume(type, metadata(volume, "slic3r.modifier")) &&
+    return is_solid_volume(type, metadata_of(volume, "slic3r.modifier")) &&
            std::string_view(volume.attribute("type").value()) != "support";
   }
 
@@ -172,9 +172,9 @@ class AmfReader {
     group.colour = colour_of(volume);
     if (!group.colour && material != materials_.end()) group.colour = material->second.colour;
     if (!group.colour) group.colour = object_colour;
-    const std::string extruder = metadata(volume.parent().parent(), "slic3r.extruder");
+    const std::string extruder = metadata_of(volume.parent().parent(), "slic3r.extruder");
     mesh.groups.push_back(std::move(group));
-    extruders_.paint(mesh.groups, extruder_of(metadata(volume, "slic3r.extruder"), extruder));
+    extruders_.paint(mesh.groups, extruder_of(metadata_of(volume, "slic3r.extruder"), extruder));
   }
 
   std::array<uint32_t, 3> corners(xml_node triangle, size_t vertices) {

@@ -36,7 +36,7 @@ std::vector<std::optional<Rgba>> colour_list(std::string_view text) {
 }
 
 // 0 if the text is no number.
-uint64_t number(std::string_view text) {
+uint64_t count_of(std::string_view text) {
   uint64_t value = 0;
   const std::string_view digits = trim(text);
   const auto [stop, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -73,8 +73,8 @@ void ExtruderColours::paint(std::vector<MeshGroup>& groups, uint64_t extruder) c
 }
 
 uint64_t extruder_of(std::string_view part, std::string_view object) {
-  if (const uint64_t own = number(part)) return own;
-  const uint64_t whole = number(object);
+  if (const uint64_t own = count_of(part)) return own;
+  const uint64_t whole = count_of(object);
   return whole == 0 ? 1 : whole;
 }
 

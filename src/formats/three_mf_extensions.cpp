@@ -28,7 +28,7 @@ constexpr std::string_view known_elements[]{"resources",      "build",     "obje
                                             "colorgroup",     "texture2d", "texture2dgroup", "compositematerials",
                                             "multiproperties"};
 
-bool is_one_of(std::string_view text, std::span<const std::string_view> list) {
+bool is_listed(std::string_view text, std::span<const std::string_view> list) {
   return std::find(list.begin(), list.end(), text) != list.end();
 }
 
@@ -69,10 +69,10 @@ class ExtensionFinder {
       const std::string_view name = local_name(child);
       const std::string_view space = space_of(child, prefix_of(child));
       if (name.empty() || names_one_of(space, harmless_spaces)) continue;
-      const bool is_read = is_one_of(name, known_elements) && (space.empty() || is_read_space(space));
+      const bool is_read = is_listed(name, known_elements) && (space.empty() || is_read_space(space));
       if (!is_read)
         ++extension(prefix_of(child), space).elements[std::string(name)];
-      else if (is_one_of(name, holders))
+      else if (is_listed(name, holders))
         look_into(child);
     }
   }
