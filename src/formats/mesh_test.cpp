@@ -207,6 +207,14 @@ TEST(Stl, BytesAfterTheLastTriangleAreAWarning) {
   Diagnostics diagnostics;
   EXPECT_TRUE(read_stl("a.stl", binary_stl() + "more", diagnostics));
   EXPECT_NE(to_text(diagnostics).find("warning: a.stl: 4 bytes after the last of 4 triangles"), std::string::npos);
+  // As many bytes as a triangle has are none where they cannot be one.
+  for (const char fill : {'\0', '\xFF'}) {
+    Diagnostics others;
+    const auto mesh = read_stl("a.stl", binary_stl() + std::string(50, fill), others);
+    ASSERT_TRUE(mesh);
+    EXPECT_EQ(mesh->triangles.size(), 4u);
+    EXPECT_NE(to_text(others).find("50 bytes after the last of 4 triangles are not read"), std::string::npos);
+  }
 }
 
 TEST(Stl, CoordinatesMustBeNumbers) {

@@ -14,7 +14,7 @@ namespace ombre::formats {
 namespace {
 
 constexpr size_t bytes_before_triangles = 84, count_offset = 80;
-constexpr size_t triangle_bytes = 50, normal_bytes = 12;
+constexpr size_t triangle_bytes = 50, normal_bytes = 12, corner_bytes = 12;
 constexpr size_t sniffed_bytes = 1024;
 
 uint32_t load_u32(const char* bytes) {
@@ -51,6 +51,26 @@ bool looks_like_text(std::string_view bytes) {
            " bytes, does not begin with \"solid\", and a binary STL has at least 84");
 }
 
+bool is_usable(Vec3 p) {
+  return std::abs(p.x) <= greatest_coordinate && std::abs(p.y) <= greatest_coordinate &&
+         std::abs(p.z) <= greatest_coordinate;
+}
+
+Vec3 load_corner(std::string_view bytes, uint64_t triangle, size_t corner) {
+  const char* const from =
+      bytes.data() + bytes_before_triangles + triangle_bytes * triangle + normal_bytes + corner_bytes * corner;
+  return {load_float(from), load_float(from + 4), load_float(from + 8)};
+}
+
+// Whether what stands there can be triangles: no zeros that fill up the file, no other data.
+bool hold_triangles(std::string_view bytes, uint64_t begin, uint64_t end) {
+  for (uint64_t t = begin; t < end; ++t) {
+    const Vec3 a = load_corner(bytes, t, 0), b = load_corner(bytes, t, 1), c = load_corner(bytes, t, 2);
+    if (!is_usable(a) || !is_usable(b) || !is_usable(c) || (a == Vec3{} && b == Vec3{} && c == Vec3{})) return false;
+  }
+  return true;
+}
+
 // How many triangles there are. Where the header's count is wrong, the size of the file says it.
 uint64_t count_triangles(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
   if (bytes.size() < bytes_before_triangles || is_plain_text(bytes.substr(0, sniffed_bytes)))
@@ -59,7 +79,8 @@ uint64_t count_triangles(const std::string& name, std::string_view bytes, Diagno
   const uint64_t needed = bytes_before_triangles + triangle_bytes * promised;
   if (bytes.size() == needed && promised > 0) return promised;
   const uint64_t present = (bytes.size() - bytes_before_triangles) / triangle_bytes;
-  if (present > 0 && present <= UINT32_MAX && (bytes.size() - bytes_before_triangles) % triangle_bytes == 0) {
+  if (present > 0 && present <= UINT32_MAX && (bytes.size() - bytes_before_triangles) % triangle_bytes == 0 &&
+      (present < promised || hold_triangles(bytes, promised, present))) {
     diagnostics.warning({}, name + ": the header promises " + format_count(promised) + " triangles, but the file has " +
                                 format_count(present) + ", which are read");
     return present;
@@ -80,15 +101,13 @@ Mesh read_binary(const std::string& name, std::string_view bytes, Diagnostics& d
   Mesh mesh;
   mesh.triangles.resize(count);
   for (uint64_t t = 0; t < count; ++t) {
-    const size_t at = bytes_before_triangles + triangle_bytes * t + normal_bytes;
+    const uint64_t at = bytes_before_triangles + triangle_bytes * t + normal_bytes;
     for (size_t corner = 0; corner < 3; ++corner) {
-      const char* const from = bytes.data() + at + 12 * corner;
-      const Vec3 p{load_float(from), load_float(from + 4), load_float(from + 8)};
-      if (!(std::abs(p.x) <= greatest_coordinate && std::abs(p.y) <= greatest_coordinate &&
-            std::abs(p.z) <= greatest_coordinate))
+      const Vec3 p = load_corner(bytes, t, corner);
+      if (!is_usable(p))
         fail(diagnostics, name,
              "corner " + std::to_string(corner + 1) + " of triangle " + format_count(t + 1) + " (at byte " +
-                 format_count(at + 12 * corner) + ") is not a usable point: (" + format_number(p.x) + ", " +
+                 format_count(at + corner_bytes * corner) + ") is not a usable point: (" + format_number(p.x) + ", " +
                  format_number(p.y) + ", " + format_number(p.z) + ")");
       mesh.triangles[t][corner] = merger.add(p);
     }
