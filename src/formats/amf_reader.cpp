@@ -123,7 +123,7 @@ class AmfReader {
   void add(xml_node node, AssemblyObject object) {
     const std::string id(file_.required(node, "id"));
     if (!assembly_.objects.emplace(id, std::move(object)).second)
-      file_.fail_at(node, "there are two objects with the id " + quoted(id));
+      file_.fail_at(node, "there are two objects with the id " + formats::quoted(id));
   }
 
   AssemblyObject read_object(xml_node node) {

@@ -174,20 +174,20 @@ class PlyReader {
     const size_t least = least_bytes(element, header_.encoding);
     if (least == 0 || element.count <= (values_.remaining() + 1) / least) return;
     fail(diagnostics_, name_,
-         "this PLY is cut short: its header promises " + format_count(element.count) + " of " + quoted(element.name) +
-             " (at least " + std::to_string(least) + " bytes each), the file has " + format_count(values_.remaining()) +
-             " bytes left");
+         "this PLY is cut short: its header promises " + format_count(element.count) + " of " +
+             formats::quoted(element.name) + " (at least " + std::to_string(least) + " bytes each), the file has " +
+             format_count(values_.remaining()) + " bytes left");
   }
 
   void skip_property(const PlyProperty& property) {
     const uint64_t count = property.is_list ? values_.length(property) : 1;
-    values_.skip(property.type, count, "a value of " + quoted(property.name));
+    values_.skip(property.type, count, "a value of " + formats::quoted(property.name));
   }
 
   void warn_of(const PlyElement& element) {
     constexpr std::string_view harmless[]{"edge", "camera", "user", "material", "viewpoint", "obj_info"};
     if (std::find(std::begin(harmless), std::end(harmless), element.name) != std::end(harmless)) return;
-    const std::string name = ' ' + quoted(element.name);
+    const std::string name = ' ' + formats::quoted(element.name);
     warnings_.add("an element" + name + " is not read", "elements" + name + " are not read", element.count);
   }
 

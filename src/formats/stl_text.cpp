@@ -42,7 +42,7 @@ class StlTextReader {
       scanner_.fail_here("this STL is cut short: expected \"" + std::string(keyword) + "\" where " +
                          std::string(where) + ", but the file ends here");
     scanner_.fail_at_word("expected \"" + std::string(keyword) + "\" where " + std::string(where) + ", found " +
-                          quoted(found));
+                          formats::quoted(found));
   }
 
   // One word, or two as FORTRAN programs write them: "endloop", "end loop".
@@ -96,7 +96,7 @@ class StlTextReader {
     }
     if (found.empty())
       scanner_.fail_here("this STL is cut short: expected \"facet\" or \"endsolid\", but the file ends here");
-    if (found != "facet") scanner_.fail_at_word("expected \"facet\" or \"endsolid\", found " + quoted(found));
+    if (found != "facet") scanner_.fail_at_word("expected \"facet\" or \"endsolid\", found " + formats::quoted(found));
     pass_normal();
     read_corners();
     if (const std::string end = next(); !is_pair(end, "end", "facet")) expect("endfacet", "a facet ends", end);

@@ -103,9 +103,9 @@ class ExtensionFinder {
     const bool is_core = extension.prefix.empty() && (extension.space.empty() || is_read_space(extension.space));
     if (is_core) return file_.name() + ": elements of unknown names are not read: " + elements;
     const std::string called =
-        extension.prefix.empty() ? "a 3MF extension" : "the 3MF extension " + quoted(extension.prefix);
+        extension.prefix.empty() ? "a 3MF extension" : "the 3MF extension " + formats::quoted(extension.prefix);
     return file_.name() + ": what " + called + " adds is not read" +
-           (extension.space.empty() ? "" : ": " + quoted(extension.space, longest_space)) +
+           (extension.space.empty() ? "" : ": " + formats::quoted(extension.space, longest_space)) +
            (elements.empty() ? "" : " (" + elements + ')');
   }
 

@@ -11,7 +11,7 @@
 namespace ombre::formats {
 namespace {
 
-constexpr const char* relationships = "_rels/.rels";
+constexpr const char* relationships_path = "_rels/.rels";
 constexpr std::string_view model_relationship = "/3dmodel";
 
 class ThreeMfReader {
@@ -35,28 +35,28 @@ class ThreeMfReader {
  private:
   // The archive's file to which the package points.
   std::string root_model() {
-    const std::string text = text_of(relationships);
-    if (text.empty()) return only_model("it has no file \"" + std::string(relationships) + '"');
-    const XmlFile file(name_ + '/' + relationships, text, diagnostics_);
+    const std::string text = text_of(relationships_path);
+    if (text.empty()) return only_model("it has no file \"" + std::string(relationships_path) + '"');
+    const XmlFile file(name_ + '/' + relationships_path, text, diagnostics_);
     for (const pugi::xml_node node : file.root("Relationships").children()) {
       const std::string_view type = file.attribute(node, "Type").value_or("");
       if (local_name(node) != "Relationship" || !type.ends_with(model_relationship)) continue;
       const std::string_view target = file.required(node, "Target");
       return std::string(target.starts_with('/') ? target.substr(1) : target);
     }
-    return only_model(std::string(relationships) + " lacks a relationship of the type 3dmodel");
+    return only_model(std::string(relationships_path) + " lacks a relationship of the type 3dmodel");
   }
 
   // Where the package does not point to its model, but there is but one.
   std::string only_model(const std::string& fault) {
     std::vector<std::string> models = names_ending({".model"});
     if (models.size() == 1) {
-      diagnostics_.warning({}, name_ + ": " + fault + "; the model " + quoted(models[0]) + " is read");
+      diagnostics_.warning({}, name_ + ": " + fault + "; the model " + formats::quoted(models[0]) + " is read");
       return models[0];
     }
     const std::vector<std::string> meshes = names_ending({".stl", ".obj", ".ply", ".off", ".amf", ".3mf"});
     std::string hint = "save it again";
-    if (!meshes.empty()) hint = "it holds " + quoted(meshes[0]) + ": unpack it";
+    if (!meshes.empty()) hint = "it holds " + formats::quoted(meshes[0]) + ": unpack it";
     if (!meshes.empty() && to_lower(meshes[0]).ends_with(".amf")) hint = "name it .amf if it is a zipped AMF file";
     fail(diagnostics_, name_, "this zip archive is not a 3MF file: " + fault, hint);
   }

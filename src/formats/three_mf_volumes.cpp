@@ -38,7 +38,7 @@ struct Negatives {
   void warn(const XmlFile& file) const {
     if (count == 0) return;
     const std::string more = count > 1 ? " and " + format_count(count - 1) + " more are" : " is";
-    file.diagnostics().warning({}, file.name() + ": the negative volume " + quoted(first) + more +
+    file.diagnostics().warning({}, file.name() + ": the negative volume " + formats::quoted(first) + more +
                                        " left out, not taken away from the others");
   }
 };

@@ -193,7 +193,7 @@ ZipReader::~ZipReader() {
 }
 
 void ZipReader::fail_entry(const std::string& entry, const std::string& problem, const std::string& hint) const {
-  fail(diagnostics_, name_, "the archive's file " + quoted(entry) + ' ' + problem, hint);
+  fail(diagnostics_, name_, "the archive's file " + formats::quoted(entry) + ' ' + problem, hint);
 }
 
 std::optional<size_t> ZipReader::find(const std::string& entry) const {
