@@ -133,6 +133,10 @@ void leave_out_impossible(Built& built, const Box& box, int threads) {
 
 std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnostics) {
   if (design.sampling) return design.sampling->box;
+  if (std::ranges::all_of(design.parts, [](const design::Part& part) { return part.solid->is_nothing(); })) {
+    diagnostics.error(design.parts[0].solid->where(), "the design is empty: nothing in it makes a solid");
+    return std::nullopt;
+  }
   Box box;
   for (const design::Part& part : design.parts) {
     const Box bounds = part.solid->bounds(design::design_space());

@@ -194,8 +194,10 @@ class DesignReader {
     std::vector<NamedValue> values;
     if (!read_parameters(*entry.data, *type, values)) return nullptr;
     std::vector<NodePtr> inputs;
-    if (const Data* list = entry.data->find("inputs"))
+    if (const Data* list = entry.data->find("inputs")) {
       for (const Data& input : *list->list()) inputs.push_back(entries_.at(*input.string()).node);
+      if (inputs.empty() && type->inputs.least == 1) inputs = {make_nothing(*type, type_name->where)};
+    }
     return make_node(*type, values, std::move(inputs),
                      {design_.materials, diagnostics_, loader_, type_name->where, "", ""});
   }

@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "design/lowering.h"
+#include "design/registry.h"
 
 namespace ombre::design {
 
@@ -30,6 +31,8 @@ bool Node::has_along() const {
   if (inputs().empty()) return gives_along();
   return std::ranges::any_of(inputs(), [](const NodePtr& input) { return input->has_along(); });
 }
+
+bool Node::is_nothing() const { return type().is_nothing; }
 
 Box BoundsMemory::of(const Node& node, const Box& where, double margin) {
   // What is only a few nodes in a row is asked again: remembering it would cost more.

@@ -142,6 +142,8 @@ class Node {
   std::span<const NodePtr> inputs() const { return {inputs_.get(), input_count_}; }
   const SourceRange& where() const { return where_; }
 
+  bool is_nothing() const;  // a solid without a point
+
   // The smallest known box around what is inside within `where`.
   Box bounds(const Box& where) const;
   Metric metric() const { return {kind_, lipschitz_}; }

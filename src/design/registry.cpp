@@ -1,5 +1,7 @@
 #include "design/registry.h"
 
+#include <algorithm>
+
 #include "base/assert.h"
 #include "base/text.h"
 
@@ -21,6 +23,9 @@ std::vector<std::string> NodeType::parameter_names() const {
 void Registry::add_type(std::unique_ptr<NodeType> type) {
   const bool is_new = by_name_.emplace(fold_name(type->name), type.get()).second;
   ASSERT(is_new && "two nodes have one name");
+  if (type->is_nothing) nothing_ = type.get();
+  for (const auto& other : types_) other->nothing = nothing_;
+  type->nothing = nothing_;
   types_.push_back(std::move(type));
 }
 
@@ -62,7 +67,28 @@ bool check_inputs(const NodeType& type, const std::vector<NodePtr>& inputs, cons
   return true;
 }
 
+bool is_nothing(const NodePtr& input) { return input->is_nothing(); }
+
+// Leaves out inputs that do not count. Nothing, where that is what a node of the type makes of them.
+NodePtr nothing_of(const NodeType& type, std::vector<NodePtr>& inputs) {
+  const OfNothing rule = type.inputs.of_nothing;
+  const auto first = std::ranges::find_if(inputs, is_nothing);
+  if (first == inputs.end() || rule == OfNothing::asked) return nullptr;
+  NodePtr nothing = *first;
+  if (rule == OfNothing::gives_nothing) return nothing;
+  if (rule == OfNothing::cuts_nothing && first == inputs.begin()) return nothing;
+  std::erase_if(inputs, is_nothing);
+  return inputs.empty() ? nothing : nullptr;
+}
+
 }  // namespace
+
+NodePtr make_nothing(const NodeType& type, const SourceRange& where) {
+  if (!type.nothing) return nullptr;
+  const std::shared_ptr<Node> node = type.nothing->create();
+  node->finish({}, where);
+  return node;
+}
 
 NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, std::vector<NodePtr> inputs,
                   const Reader& reader) {
@@ -87,6 +113,8 @@ NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, s
   }
   if (has_all || !has_unwanted) good = check_inputs(type, inputs, reader) && good;
   if (!good || !has_all) return nullptr;
+  if (type.makes_nothing(*node)) return make_nothing(type, reader.where);
+  if (NodePtr nothing = nothing_of(type, inputs)) return nothing;
   const Reader whole{reader.materials, reader.diagnostics, reader.loader, reader.where, type.name, ""};
   if (!type.complete(*node, whole, inputs)) return nullptr;
   for (const NodePtr& input : inputs) {

@@ -18,16 +18,28 @@ struct ParameterInfo {
   Data default_value;  // null when it is required
 };
 
+// What a node makes of inputs that are nothing.
+enum class OfNothing : uint8_t {
+  gives_nothing,  // where one of them is nothing, so is the whole
+  left_out,       // they do not count; where none is left, the whole is nothing
+  cuts_nothing,   // the same, but of a first input that is nothing, nothing is left
+  asked,          // they are inputs like any others
+};
+
 // How many inputs a node takes, and of which type.
 struct InputInfo {
   ValueType type = ValueType::solid;
   size_t least = 0, most = 0;
   bool grouped = false;  // what one statement of a script makes (a loop, a module) is one input, its union
+  OfNothing of_nothing = OfNothing::gives_nothing;
 };
 inline constexpr InputInfo no_inputs{};
 inline constexpr InputInfo one_solid{ValueType::solid, 1, 1};
-inline constexpr InputInfo many_solids{ValueType::solid, 1, std::numeric_limits<size_t>::max()};
-inline constexpr InputInfo grouped_solids{ValueType::solid, 1, std::numeric_limits<size_t>::max(), true};
+inline constexpr InputInfo many_solids{ValueType::solid, 1, std::numeric_limits<size_t>::max(), false,
+                                       OfNothing::left_out};
+inline constexpr InputInfo grouped_solids(OfNothing of_nothing) {
+  return {ValueType::solid, 1, std::numeric_limits<size_t>::max(), true, of_nothing};
+}
 
 class NodeType {
  public:
@@ -37,10 +49,14 @@ class NodeType {
   InputInfo inputs;
   ValueType output = ValueType::solid;
   std::vector<ParameterInfo> parameters;
+  bool is_nothing = false;            // its nodes are solids without a point
+  const NodeType* nothing = nullptr;  // the type of its registry that is nothing; null: there is none
 
   virtual std::shared_ptr<Node> create() const = 0;
   virtual bool set(Node& node, size_t parameter, const Data& data, const Reader& reader) const = 0;
   virtual Data get(const Node& node, size_t parameter, bool for_hash) const = 0;
+  // Do its parameters say that it is nothing, as a text without letters does?
+  virtual bool makes_nothing(const Node& node) const = 0;
   // Fills in what defaults leave open and checks what involves several parameters.
   virtual bool complete(Node& node, const Reader& reader, const std::vector<NodePtr>& inputs) const = 0;
 
@@ -65,6 +81,7 @@ class Registry {
 
   std::vector<std::unique_ptr<NodeType>> types_;
   std::map<std::string, const NodeType*, std::less<>> by_name_;
+  const NodeType* nothing_ = nullptr;
 };
 
 struct NamedValue {
@@ -75,8 +92,11 @@ struct NamedValue {
 // Nodes above one another; what walks a design may recurse.
 inline constexpr int deepest_design = 400;
 
-// Makes a node. Null, and diagnostics, when something is wrong with it.
+// Makes a node. Null, and diagnostics, when something is wrong with it. What turns out to be nothing is a node of the
+// type that says so, whatever it was made from.
 NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, std::vector<NodePtr> inputs,
                   const Reader& reader);
+// A solid without a point, for a node of the type; null where its registry has none.
+NodePtr make_nothing(const NodeType& type, const SourceRange& where);
 
 }  // namespace ombre::design

@@ -9,7 +9,7 @@
 // and where the defaults do not fit
 //   Metric metric([Inputs]) const             default: exact for leaves with constant numbers
 //   inside, interior, composition, attribute, declares, value, complete, along, pitch,
-//   nearest_copy_is_enough, repetitions, own_parts
+//   nearest_copy_is_enough, repetitions, own_parts, makes_nothing
 #pragma once
 
 #include <algorithm>
@@ -257,6 +257,7 @@ class NodeTypeOf final : public NodeType {
     example = spec_.example;
     inputs = spec_.inputs;
     output = spec_.output;
+    is_nothing = requires { T::is_nothing_itself; };
     const T defaults{};
     for (const Parameter<T>& parameter : spec_.parameters)
       parameters.push_back({std::string(parameter.name), std::string(parameter.doc), parameter.kind, parameter.domain,
@@ -271,6 +272,13 @@ class NodeTypeOf final : public NodeType {
 
   Data get(const Node& node, size_t parameter, bool for_hash) const override {
     return spec_.parameters[parameter].get(static_cast<const NodeOf<T>&>(node).data, for_hash);
+  }
+
+  bool makes_nothing(const Node& node) const override {
+    if constexpr (requires(const T& t) { t.makes_nothing(); })
+      return static_cast<const NodeOf<T>&>(node).data.makes_nothing();
+    else
+      return false;
   }
 
   bool complete(Node& node, const Reader& reader, const std::vector<NodePtr>& children) const override {

@@ -298,14 +298,14 @@ bool read_edge(const Data& data, const Domain& domain, Edge& edge, const Reader&
 
 }  // namespace
 
-bool read(const Data& data, const Domain& domain, std::vector<Edge>& value, const Reader& reader) {
-  value.clear();
+bool read(const Data& data, const Domain& domain, std::optional<std::vector<Edge>>& value, const Reader& reader) {
   if (!data.list()) return reader.fail(data, "a list of edges");
-  value.reserve(data.list()->size());
+  std::vector<Edge>& edges = value.emplace();
+  edges.reserve(data.list()->size());
   bool good = true;
   for (const Data& element : *data.list()) {
-    value.emplace_back();
-    good = read_edge(element, domain, value.back(), reader) && good;
+    edges.emplace_back();
+    good = read_edge(element, domain, edges.back(), reader) && good;
   }
   return good;
 }
@@ -343,9 +343,10 @@ Data write(const SharedList<MaterialName>& value, bool h) {
   return Data(std::move(list));
 }
 
-Data write(const std::vector<Edge>& value, bool h) {
+Data write(const std::optional<std::vector<Edge>>& value, bool h) {
+  if (!value) return {};
   DataList list;
-  for (const Edge& edge : value) {
+  for (const Edge& edge : *value) {
     DataList parts{write(edge.start, h), write(edge.end, h)};
     if (edge.radius > 0) parts.emplace_back(edge.radius);
     list.emplace_back(std::move(parts));

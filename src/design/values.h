@@ -207,7 +207,7 @@ bool read(const Data& data, const Domain& domain, FilePath& value, const Reader&
 bool read(const Data& data, const Domain& domain, SharedList<Number>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, SharedList<MaterialName>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<MaterialForName>& value, const Reader& reader);
-bool read(const Data& data, const Domain& domain, std::vector<Edge>& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, std::optional<std::vector<Edge>>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Points& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<Points>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, FontName& value, const Reader& reader);
@@ -229,7 +229,7 @@ Data write(const FilePath& value, bool for_hash);
 Data write(const SharedList<Number>& value, bool for_hash);
 Data write(const SharedList<MaterialName>& value, bool for_hash);
 Data write(const std::vector<MaterialForName>& value, bool for_hash);
-Data write(const std::vector<Edge>& value, bool for_hash);
+Data write(const std::optional<std::vector<Edge>>& value, bool for_hash);
 Data write(const Points& value, bool for_hash);
 Data write(const std::vector<Points>& value, bool for_hash);
 Data write(const FontName& value, bool for_hash);
@@ -251,7 +251,7 @@ constexpr std::string_view kind_name() {
   if constexpr (std::is_same_v<M, SharedList<Number>>) return "list of numbers or fields";
   if constexpr (std::is_same_v<M, SharedList<MaterialName>>) return "list of materials";
   if constexpr (std::is_same_v<M, std::vector<MaterialForName>>) return "list of names with materials";
-  if constexpr (std::is_same_v<M, std::vector<Edge>>) return "list of edges";
+  if constexpr (std::is_same_v<M, std::optional<std::vector<Edge>>>) return "list of edges";
   if constexpr (std::is_same_v<M, Points>) return "list of points";
   if constexpr (std::is_same_v<M, std::vector<Points>>) return "lists of points";
   if constexpr (std::is_same_v<M, FontName>) return "font";

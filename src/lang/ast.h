@@ -322,6 +322,7 @@ struct Plan {
 
 struct Block {
   std::vector<StatementPtr> statements;
+  bool has_braces = false;
   Plan plan;
 };
 

@@ -113,6 +113,9 @@ void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scop
     run_block(statement.children, scope, invocation.children, &invocation.group_ends);
     invocation.has_wrong_children = failures_ > failures;
   }
+  invocation.braces = !statement.children.statements.empty() ? Invocation::Braces::filled
+                      : statement.children.has_braces        ? Invocation::Braces::empty
+                                                             : Invocation::Braces::none;
   invocation.name = statement.name.text();
   invocation.where = statement.name.span.range();
   invocation.whole = statement.whole.range();

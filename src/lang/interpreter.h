@@ -102,8 +102,8 @@ class Interpreter {
   // --- statements.cpp
   const ScopePtr& unit_scope(const Unit& unit);
   void assign(const ast::Plan& plan, const ScopePtr& scope, bool is_main);
-  // `ends`, where it is given, gets the size of `out` after each statement that gave something.
   void warn_of_unused(const Definition& definition, const Unit& main);
+  // `ends`, where it is given, gets the size of `out` after each statement that makes solids, however many.
   void run_block(const ast::Block& block, const ScopePtr& outer, Nodes& out, std::vector<size_t>* ends = nullptr);
   void run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out, std::vector<size_t>* ends = nullptr);
   void run_action(const ast::Statement& statement, const ScopePtr& scope, Nodes& out);

@@ -305,6 +305,7 @@ void Parser::block(Block& into, const char* owner) {
 void Parser::braces(Block& into) {
   const Level level(*this);
   take();
+  into.has_braces = true;
   statements(into.statements, true);
   finish(into);
   expect(TokenKind::right_brace, "}");

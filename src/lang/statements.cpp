@@ -7,6 +7,17 @@ namespace ombre::lang {
 
 using ast::Statement;
 
+namespace {
+
+// Statements that only say or check something, and what "%" and "!" take elsewhere, stand for no solid.
+bool makes_solids(const Statement& statement) {
+  if (statement.has('%') || statement.has('!')) return false;
+  if (statement.kind != Statement::Kind::echo && statement.kind != Statement::Kind::assertion) return true;
+  return !static_cast<const ast::CallStatement&>(statement).children.statements.empty();
+}
+
+}  // namespace
+
 Interpreter::Level::Level(Interpreter& interpreter, const ast::Span& at, int weight)
     : interpreter_(interpreter), weight_(weight) {
   interpreter.at_ = at;
@@ -78,10 +89,9 @@ void Interpreter::run_actions(const ast::Plan& plan, const ScopePtr& scope, Node
   const auto reader = options_.threads > 1 ? ReadAhead::start(plan.actions, *program_.names) : nullptr;
   const Reading reading(reader_, reader.get());
   for (size_t n = 0; n < plan.actions.size(); ++n) {
-    const size_t before = out.size();
     if (reader) reader->go_to(n);
     run_action(*plan.actions[n], scope, out);
-    if (ends && out.size() > before) ends->push_back(out.size());
+    if (ends && makes_solids(*plan.actions[n])) ends->push_back(out.size());
   }
 }
 

@@ -31,8 +31,9 @@ struct Invocation {
   std::vector<Argument> arguments;
   std::vector<design::NodePtr> children;  // null results are left out
   // The children that one statement of the braces gave stand together; each group ends before these
-  // positions. Loops, modules and conditions may give several.
+  // positions. Loops, modules and conditions may give several, or none.
   std::vector<size_t> group_ends;
+  enum class Braces : uint8_t { none, empty, filled } braces = Braces::none;  // filled also by a single child without
   bool has_wrong_children = false;       // there were mistakes in the braces, and they were told
   bool is_top_level = false;             // a statement of the main file, outside of any call
   std::vector<SourceRange> called_from;  // user module calls around it, innermost first, at most 8

@@ -217,7 +217,7 @@ struct Intersection {
             {{"materials", &Intersection::materials, overlap_doc, overlap_choices()},
              {"blend", &Intersection::blend_radius, blend_doc, unit::not_negative_mm},
              {"join", &Intersection::join, join_doc, join_choices()}},
-            grouped_solids,
+            grouped_solids(OfNothing::gives_nothing),
             "intersection() { cube(8, \"red\"); sphere(5, \"red\"); }"};
   }
 
@@ -277,7 +277,7 @@ struct Difference {
             "What is in its first child and in none of the others.",
             {{"blend", &Difference::blend_radius, blend_doc, unit::not_negative_mm},
              {"join", &Difference::join, join_doc, join_choices()}},
-            grouped_solids,
+            grouped_solids(OfNothing::cuts_nothing),
             "difference() { cube(8, \"red\"); cylinder(2, 10); }"};
   }
 
@@ -322,8 +322,12 @@ struct Difference {
 
 struct Negate {
   static Spec<Negate> spec() {
-    return {"negate", "booleans", "Everything that is not in its child. Without bounds: use it inside an intersection.",
-            {},       one_solid,  "intersection() { cube(8, \"red\"); negate() { sphere(5, \"red\"); } }"};
+    return {"negate",
+            "booleans",
+            "Everything that is not in its child. Without bounds: use it inside an intersection.",
+            {},
+            {ValueType::solid, 1, 1, false, OfNothing::asked},
+            "intersection() { cube(8, \"red\"); negate() { sphere(5, \"red\"); } }"};
   }
 
   Box reach(const Inputs&, const Box& where, double) const { return where; }
@@ -339,8 +343,24 @@ struct Negate {
   }
 };
 
+// What a loop without passes, a condition that does not hold or a text without letters makes.
+struct Empty {
+  static constexpr bool is_nothing_itself = true;
+
+  static Spec<Empty> spec() {
+    return {
+        "empty", "booleans", "Nothing: a solid without a point. What is made from it or cut out of it is nothing too.",
+        {},      no_inputs,  "union() { sphere(4, \"red\"); empty(); }"};
+  }
+
+  Metric metric() const { return Metric::bounded(); }
+  Box bounds(const Box&) const { return Box::empty(); }
+  // Farther than any point of a design is from another.
+  Field distance(const Point& p) const { return p.constant(10 * design_limit_mm); }
+};
+
 }  // namespace
 
-void add_booleans(Registry& registry) { registry.add<Union, Intersection, Difference, Negate>(); }
+void add_booleans(Registry& registry) { registry.add<Union, Intersection, Difference, Negate, Empty>(); }
 
 }  // namespace ombre::nodes

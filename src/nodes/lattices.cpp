@@ -20,7 +20,7 @@ struct Lattice {
   Choice cell = "none";
   Vec3 size{10, 10, 10};
   Number radius = 1;
-  std::vector<Edge> edges;
+  std::optional<std::vector<Edge>> edges;
   MaterialName material;
 
   static Spec<Lattice> spec() {
@@ -38,9 +38,11 @@ struct Lattice {
             "lattice(\"bcc\", (10, 10, 10), 1, material=\"gray\");"};
   }
 
+  bool makes_nothing() const { return cell == "none" && edges && edges->empty(); }
+
   bool complete(const Reader& reader) {
-    const bool is_cell = !(cell == "none");
-    if (is_cell == edges.empty()) {
+    const bool is_cell = !(cell == "none"), has_edges = edges && !edges->empty();
+    if (is_cell != has_edges) {
       segments_ = is_cell ? of_cell() : of_edges();
       return true;
     }
@@ -159,7 +161,7 @@ struct Lattice {
 
   std::vector<Strut> of_edges() const {
     std::vector<Strut> struts;
-    for (const Edge& edge : edges) struts.push_back({{edge.start, edge.end}, edge.radius});
+    for (const Edge& edge : *edges) struts.push_back({{edge.start, edge.end}, edge.radius});
     return struts;
   }
 

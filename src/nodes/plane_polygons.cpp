@@ -121,6 +121,7 @@ std::optional<PlanePolygons> PlanePolygons::read(const Points& outer, const std:
   if (!ring) return std::nullopt;
   result.polygons.solid.push_back(*ring);
   for (size_t n = 0; n < holes.size(); ++n) {
+    if (holes[n].at.empty()) continue;
     auto hole = laid(holes[n], plane_from_here, room, "hole " + std::to_string(n + 1), reader);
     if (!hole) return std::nullopt;
     result.polygons.holes.push_back(std::move(*hole));

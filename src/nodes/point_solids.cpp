@@ -31,6 +31,8 @@ struct Hull {
             "hull([[0, 0, 0], [10, 0, 0], [0, 10, 0], [0, 0, 10], [6, 6, 6]], \"green\");"};
   }
 
+  bool makes_nothing() const { return points.at.empty(); }
+
   bool complete(const Reader& reader) {
     OfPoints<Plane> found = hull_planes(points.at);
     if (!found.problem.empty()) {
@@ -95,6 +97,8 @@ struct Tube {
             no_inputs,
             "tube([[0, 0, 0], [10, 0, 0], [10, 8, 4], [0, 8, 8]], 1.2, \"cyan\", curve=\"smooth\");"};
   }
+
+  bool makes_nothing() const { return points.at.empty(); }
 
   bool complete(const Reader& reader) {
     const auto fail = [&](const std::string& message, const std::string& hint = "") {

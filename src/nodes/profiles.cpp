@@ -57,6 +57,8 @@ struct PolygonExtrude {
             "polygon_extrude([[0, 0], [12, 0], [12, 4], [4, 4], [4, 10], [0, 10]], 5, false, \"red\");"};
   }
 
+  bool makes_nothing() const { return vertices.at.empty(); }
+
   bool complete(const Reader& reader) {
     if (!needs_loader(reader)) return false;
     auto plane = PlanePolygons::read(vertices, holes, reader);
@@ -122,6 +124,8 @@ struct Revolve {
             no_inputs,
             "revolve([[3, 0], [8, 0], [8, 2], [5, 4], [5, 10], [3, 10]], 270, \"blue\");"};
   }
+
+  bool makes_nothing() const { return profile.at.empty(); }
 
   bool complete(const Reader& reader) {
     if (!needs_loader(reader)) return false;

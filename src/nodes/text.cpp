@@ -47,6 +47,8 @@ struct Letters {
         "text(\"B1\", 8, 2, \"red\", style=\"bold\");"};
   }
 
+  bool makes_nothing() const { return text.find_first_not_of(" \t\r\n") == std::string::npos; }
+
   bool complete(const Reader& reader) {
     if (!reader.loader) {
       reader.diagnostics.error(reader.where, "texts cannot be made here");

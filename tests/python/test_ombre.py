@@ -52,6 +52,41 @@ def test_volume_and_voxels():
     assert half.volumes(0.05)["blue"] == pytest.approx(6, rel=0.03)
 
 
+def test_nothing_is_a_solid():
+    nothing, ball, block = ombre.empty(), ombre.sphere(3), ombre.cube(2)
+    points = random_points(size=4.0)
+    for solid in (nothing, ombre.union([]), ombre.difference([], ball), nothing - ball, ombre.intersection(ball, []),
+                  ball & nothing, ombre.translate([], (1, 2, 3)), nothing.grade({"red": "x", "blue": "y"}),
+                  nothing.offset(1), ombre.text(""), ombre.hull([]), ombre.tube([], 1), ombre.sum([nothing])):
+        assert solid.type == "empty" and not solid.inside(points).any()
+    for solid in (block - nothing, block | nothing, nothing | block, ombre.union(block, []), block & ~nothing,
+                  ombre.sum(block, nothing, blend=1)):
+        assert (solid.inside(points) == block.inside(points)).all()
+    with pytest.raises(ombre.DesignError, match="the design is empty"):
+        nothing.bounds
+    with pytest.raises(TypeError, match="translate needs a solid"):
+        ombre.translate((1, 2, 3))
+
+
+def test_nothing_in_design_files():
+    def design(kind, *inputs):
+        nodes = [{"id": "none", "type": "empty"}, {"id": "ball", "type": "sphere", "parameters": {"radius": 3}},
+                 {"id": "gone", "type": "union", "inputs": []},
+                 {"id": "moved", "type": "translate", "parameters": {"by": [1, 0, 0]}, "inputs": ["none"]},
+                 {"id": "top", "type": kind, "inputs": list(inputs)}]
+        return ombre.Design.from_json(json.dumps({
+            "format": "ombre-design", "version": 1, "materials": [{"name": "red", "r": 255, "g": 0, "b": 0}],
+            "nodes": nodes, "parts": [{"name": "part", "node": "top"}]}))
+    points = random_points(size=4.0)
+    inside = ombre.sphere(3).inside(points)
+    for none in ("none", "gone", "moved"):
+        assert not design("difference", none, "ball").inside(points).any()
+        assert not design("intersection", "ball", none).inside(points).any()
+        assert (design("difference", "ball", none).inside(points) == inside).all()
+        assert (design("union", none, "ball").inside(points) == inside).all()
+        assert ombre.Design.from_json(design("negate", none).to_json()).inside(points).all()
+
+
 def test_operators_and_chains():
     a, b = ombre.sphere(5), ombre.cube(6).translate(z=3)
     points = random_points()

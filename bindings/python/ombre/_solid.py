@@ -43,17 +43,35 @@ def _is_solids(value):
     return _is_solid(value) or isinstance(value, (list, tuple)) and len(value) > 0 and all(map(_is_solids, value))
 
 
+def _is_no_solids(value):
+    return isinstance(value, (list, tuple)) and len(value) == 0
+
+
+def _split(positional, most):
+    """The nodes of the solids among the arguments, None for an empty list in the place of some, and what is no solid."""
+    inputs, values = [], []
+    for value in positional:
+        if _is_solids(value):
+            inputs += _nodes(value)
+        elif _is_no_solids(value) and not values and (most is None or len(inputs) < most):
+            inputs.append(None)
+        else:
+            values.append(value)
+    return inputs, tuple(values)
+
+
 def make(name, info, positional, named):
-    """A node of the type `name`; solids among the positional arguments are its inputs."""
-    inputs = [node for value in positional if _is_solids(value) for node in _nodes(value)]
-    values = tuple(value for value in positional if not _is_solids(value))
+    """A node of the type `name`; solids among the positional arguments are its inputs. An empty list of solids is
+    nothing."""
     least, most = info["inputs"]["least"], info["inputs"]["most"]
+    inputs, values = _split(positional, most)
     if len(inputs) < least:
         raise TypeError(f"{name} needs {'a solid' if least == 1 else f'{least:.0f} solids'} to work on; "
                         f"write {name}(sphere(5), ...) or sphere(5).{name}(...)")
     if inputs and most == 0:
         raise TypeError(f"{name} takes no solids")
-    factory = inputs[0].factory if inputs else current_factory()
+    factory = next((node.factory for node in inputs if node), None) or current_factory()
+    inputs = [node or factory.make("empty", (), {}, [], _place.get()) for node in inputs]
     child = wrap(inputs[0]) if inputs else None
     try:
         return factory.make(name, tuple(adapt(v, child) for v in values),

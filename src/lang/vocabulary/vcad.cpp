@@ -18,6 +18,14 @@ namespace {
 
 constexpr std::string_view axes[] = {"x", "y", "z"};
 
+// Does each statement of the braces give one solid?
+bool has_single_children(const Invocation& call) {
+  if (call.group_ends.size() != call.children.size()) return false;
+  for (size_t n = 0; n < call.group_ends.size(); ++n)
+    if (call.group_ends[n] != n + 1) return false;
+  return true;
+}
+
 }  // namespace
 
 VcadVocabulary::VcadVocabulary(const design::Registry& registry, const design::MaterialTable& materials,
@@ -70,21 +78,32 @@ NodePtr VcadVocabulary::make_of_type(const NodeType& type, Invocation& call, Dia
   const auto values = bound_arguments(type, std::move(call.arguments), reader);
   if (!values) return nullptr;
   if (children.empty() && call.has_wrong_children && type.inputs.least > 0) return nullptr;  // told already
-  if (type.inputs.grouped && call.group_ends.size() < children.size()) {
-    children = groups(call, reader);
+  if (type.inputs.grouped && !has_single_children(call)) {
+    children = groups(type, call, reader);
     if (children.empty()) return nullptr;
   }
+  if (children.empty() && type.inputs.least == 1 && call.braces != Invocation::Braces::none)
+    children = {nothing_inside(type, call, diagnostics)};
   return known_.first(make_called(type, *values, std::move(children), registry_, reader));
 }
 
+// Loops, modules and conditions may give nothing; who writes nothing at all may have forgotten it.
+NodePtr VcadVocabulary::nothing_inside(const NodeType& type, const Invocation& call, Diagnostics& diagnostics) {
+  if (call.braces == Invocation::Braces::empty)
+    diagnostics.warning(call.whole, type.name + " has nothing inside its braces, and makes nothing",
+                        "write " + type.name + "(...) { sphere(5); }");
+  return design::make_nothing(type, call.whole);
+}
+
 // As OpenSCAD has it: difference() { for (...) ...; sphere(5); } takes the ball out of all that the loop makes.
-std::vector<NodePtr> VcadVocabulary::groups(const Invocation& call, const Reader& reader) {
+std::vector<NodePtr> VcadVocabulary::groups(const NodeType& type, const Invocation& call, const Reader& reader) {
   std::vector<NodePtr> result;
   size_t begin = 0;
   for (const size_t end : call.group_ends) {
     const auto first = call.children.begin() + static_cast<std::ptrdiff_t>(begin),
                last = call.children.begin() + static_cast<std::ptrdiff_t>(end);
-    result.push_back(known_.first(joined({first, last}, registry_, reader)));
+    result.push_back(
+        known_.first(begin == end ? design::make_nothing(type, call.whole) : joined({first, last}, registry_, reader)));
     if (!result.back()) return {};
     begin = end;
   }
@@ -144,13 +163,13 @@ std::optional<design::Design> VcadVocabulary::finish(const std::vector<NodePtr>&
   if (diagnostics.has_errors()) return std::nullopt;
   if (root_where_) {
     for (const NodePtr& beside : top_level)
-      if (beside != root_)
+      if (beside != root_ && !beside->is_nothing())
         diagnostics.error(beside->where(), "this stands beside root, which is all that is sampled",
                           "put it inside the braces of root");
     if (diagnostics.has_errors()) return std::nullopt;
   }
   const std::vector<NodePtr>& solids = root_where_ ? root_children_ : top_level;
-  if (solids.empty()) {
+  if (std::ranges::all_of(solids, [](const NodePtr& solid) { return solid->is_nothing(); })) {
     diagnostics.error(whole, "the design is empty: nothing in it makes a solid",
                       "write for example sphere(5, \"red\");");
     return std::nullopt;
@@ -160,6 +179,7 @@ std::optional<design::Design> VcadVocabulary::finish(const std::vector<NodePtr>&
   std::vector<NodePtr> unnamed;
   std::unordered_set<const design::Node*> parts;
   for (const NodePtr& solid : solids) {
+    if (solid->is_nothing()) continue;
     if (solid->type().name != "part") {
       unnamed.push_back(solid);
       continue;

@@ -29,7 +29,9 @@ class VcadVocabulary : public Vocabulary {
  private:
   design::NodePtr make_root(const Invocation& call, Diagnostics& diagnostics);
   design::NodePtr make_of_type(const design::NodeType& type, Invocation& call, Diagnostics& diagnostics);
-  std::vector<design::NodePtr> groups(const Invocation& call, const design::Reader& reader);
+  design::NodePtr nothing_inside(const design::NodeType& type, const Invocation& call, Diagnostics& diagnostics);
+  std::vector<design::NodePtr> groups(const design::NodeType& type, const Invocation& call,
+                                      const design::Reader& reader);
 
   const design::Registry& registry_;
   const design::MaterialTable& materials_;
