@@ -17,7 +17,8 @@ SourceText::SourceText(std::string name, std::string text) : name_(std::move(nam
   for (size_t i = 0; i < text_.size(); ++i) {
     if (i % block == 0) characters_before_block_.push_back(characters);
     characters += begins_character(text_[i]);
-    if (text_[i] == '\n') line_starts_.push_back(i + 1);
+    const bool is_half_end = text_[i] == '\r' && i + 1 < text_.size() && text_[i + 1] == '\n';
+    if (is_line_end(text_[i]) && !is_half_end) line_starts_.push_back(i + 1);
   }
   characters_before_block_.push_back(characters);  // for the end of a text of whole blocks
 }
@@ -39,9 +40,7 @@ Place SourceText::place(size_t offset) const {
 std::string_view SourceText::line(int number) const {
   if (number < 1 || static_cast<size_t>(number) > line_starts_.size()) return {};
   const size_t start = line_starts_[number - 1];
-  size_t end = text_.find('\n', start);
-  if (end == std::string::npos) end = text_.size();
-  if (end > start && text_[end - 1] == '\r') --end;
+  const size_t end = std::min(text_.find_first_of(line_ends, start), text_.size());
   return std::string_view(text_).substr(start, end - start);
 }
 

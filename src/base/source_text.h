@@ -9,6 +9,10 @@
 
 namespace ombre {
 
+// Lines end at "\n", "\r\n", or "\r" alone.
+inline constexpr std::string_view line_ends = "\n\r";
+inline bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
 struct Place {
   int line = 1, column = 1;  // columns count Unicode code points, tabs as one
 };

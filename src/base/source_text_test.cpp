@@ -1,4 +1,4 @@
-// Lines and columns: columns count code points, tabs as one, lines end at "\n" or "\r\n".
+// Lines and columns: columns count code points, tabs as one, lines end at "\n", "\r\n" or "\r".
 #include "base/source_text.h"
 
 #include <gtest/gtest.h>
@@ -18,10 +18,11 @@ struct Expected {
 
 TEST(SourceText, Places) {
   const Expected cases[] = {
-      {"", 0, 1, 1},        {"", 99, 1, 1},        {"abc", 2, 1, 3}, {"abc", 3, 1, 4},    {"abc", 99, 1, 4},
-      {"a\nb", 1, 1, 2},    {"a\nb", 2, 2, 1},     {"a\n", 2, 2, 1}, {"a\r\nb", 3, 2, 1}, {"a\r\nb", 2, 1, 3},
-      {"\n\n\nx", 3, 4, 1}, {"\tx", 1, 1, 2},      {"é=1", 2, 1, 2}, {"é=1", 3, 1, 3},    {"漢字x", 6, 1, 3},
-      {"😀x", 4, 1, 2},      {"x\n漢\tx", 6, 2, 3},
+      {"", 0, 1, 1},        {"", 99, 1, 1},        {"abc", 2, 1, 3},      {"abc", 3, 1, 4},    {"abc", 99, 1, 4},
+      {"a\nb", 1, 1, 2},    {"a\nb", 2, 2, 1},     {"a\n", 2, 2, 1},      {"a\r\nb", 3, 2, 1}, {"a\r\nb", 2, 1, 3},
+      {"\n\n\nx", 3, 4, 1}, {"\tx", 1, 1, 2},      {"é=1", 2, 1, 2},      {"é=1", 3, 1, 3},    {"漢字x", 6, 1, 3},
+      {"😀x", 4, 1, 2},      {"x\n漢\tx", 6, 2, 3}, {"a\rb", 1, 1, 2},     {"a\rb", 2, 2, 1},   {"a\r\rb", 3, 3, 1},
+      {"a\n\rb", 3, 3, 1},  {"a\r", 2, 2, 1},      {"a\r\n\rb", 4, 3, 1},
   };
   for (const Expected& e : cases) {
     const Place place = SourceText("t", e.text).place(e.offset);
@@ -37,6 +38,11 @@ TEST(SourceText, Lines) {
   EXPECT_EQ(source.line(3), "");
   EXPECT_EQ(source.line(4), "four");  // without an end
   for (const int number : {0, -1, 5, 1 << 30}) EXPECT_EQ(source.line(number), "");
+  const SourceText old("t", "one\rtwo\r\rfour\r\nfive");
+  EXPECT_EQ(old.line(1), "one");
+  EXPECT_EQ(old.line(3), "");
+  EXPECT_EQ(old.line(4), "four");
+  EXPECT_EQ(old.line(5), "five");
   EXPECT_EQ(SourceText("t", "").line(1), "");
   EXPECT_EQ(SourceText("t", "\n").line(2), "");
   EXPECT_EQ(SourceText("t", "\r\n").line(1), "");

@@ -197,7 +197,7 @@ void Lexer::skip_blank() {
     if (is_space(text_[at_])) {
       ++at_;
     } else if (peek() == '/' && peek(1) == '/') {
-      at_ = std::min(text_.find('\n', at_), text_.size());
+      at_ = std::min(text_.find_first_of(line_ends, at_), text_.size());
     } else if (peek() == '/' && peek(1) == '*') {
       skip_comment();
     } else {
@@ -239,8 +239,8 @@ void Lexer::name() {
 }
 
 void Lexer::path(size_t begin, size_t open, bool is_use) {
-  const size_t close = text_.find_first_of(">\n", open);
-  if (close == std::string_view::npos || text_[close] == '\n') {
+  const size_t close = text_.find_first_of(">\n\r", open);
+  if (close == std::string_view::npos || is_line_end(text_[close])) {
     error(open, open + 1, "the path is not closed", "write > at its end");
     at_ = std::min(close, text_.size());
     return;

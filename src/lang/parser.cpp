@@ -321,7 +321,8 @@ void Parser::end_of_statement(const char* after) {
   const Span where{source_, last_end(), last_end() + 1};
   std::string message = "expected \";\" after this " + std::string(after) + ", found " + found();
   // A new line begins a new statement, which is read as usual.
-  const bool is_new_line = text_.substr(last_end(), token().begin - last_end()).find('\n') != std::string_view::npos;
+  const std::string_view between = text_.substr(last_end(), token().begin - last_end());
+  const bool is_new_line = between.find_first_of(line_ends) != std::string_view::npos;
   if (!is_new_line || at(TokenKind::end)) fail(where, std::move(message));
   diagnostics_.error(where.range(), std::move(message));
 }
