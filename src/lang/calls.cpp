@@ -102,6 +102,8 @@ void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scop
   Invocation invocation;
   const SpecialsMark mark(*this);
   node_arguments(statement, scope, invocation);
+  if (const Value* facets = find_special(facets_name_); facets && facets->number())
+    invocation.facets = *facets->number();
   if (!statement.children.statements.empty()) {
     struct Inside {
       int& depth;
@@ -134,6 +136,7 @@ void Interpreter::node_arguments(const CallStatement& statement, const ScopePtr&
     const ast::Span& span = argument.value->span;
     if (argument.name.symbol && argument.name.is_special()) {
       set_special(argument.name.symbol, value, specials_from);  // for the children
+      invocation.has_own_facets |= argument.name.symbol == facets_name_;
       continue;
     }
     Argument& result = invocation.arguments.emplace_back();

@@ -13,7 +13,8 @@ Interpreter::Interpreter(const Program& program, Vocabulary& vocabulary, const O
       meter_(options.limits, options.stop),
       captured_(options.limits),
       children_name_(program.names->intern("children")),
-      children_count_name_(program.names->intern("$children")) {
+      children_count_name_(program.names->intern("$children")),
+      facets_name_(program.names->intern("$fn")) {
   for (const auto table : {math_builtins(), list_builtins(), text_builtins(), point_builtins()})
     for (const Builtin& builtin : table) builtins_[program.names->intern(builtin.name)] = &builtin;
   constants_[program.names->intern("PI")] = 3.14159265358979323846;

@@ -190,7 +190,7 @@ class Interpreter {
   Meter meter_;
   CapturedScopes captured_;
 
-  Symbol children_name_, children_count_name_;
+  Symbol children_name_, children_count_name_, facets_name_;
   std::unordered_map<Symbol, const Builtin*> builtins_;
   std::unordered_map<Symbol, Value> constants_;
   std::unordered_set<Symbol> no_constants_;

@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "base/text.h"
+#include "lang/vocabulary/facets.h"
 #include "lang/vocabulary/legacy_forms.h"
 #include "lang/vocabulary/node_calls.h"
 #include "lang/vocabulary/openscad.h"
@@ -84,7 +85,8 @@ NodePtr VcadVocabulary::make_of_type(const NodeType& type, Invocation& call, Dia
   }
   if (children.empty() && type.inputs.least == 1 && call.braces != Invocation::Braces::none)
     children = {nothing_inside(type, call, diagnostics)};
-  return known_.first(make_called(type, *values, std::move(children), registry_, reader));
+  NodePtr node = make_called(type, *values, std::move(children), registry_, reader);
+  return known_.first(with_facets(std::move(node), call, registry_, reader));
 }
 
 // Loops, modules and conditions may give nothing; who writes nothing at all may have forgotten it.
