@@ -10,9 +10,12 @@ bool read(const Data& data, const Domain& domain, int& value, const Reader& read
   const int least = static_cast<int>(std::max(domain.least, -1e9)),
             greatest = static_cast<int>(std::min(domain.greatest, 1e9));
   const double* number = data.number();
-  if (!number || *number != std::floor(*number) || *number < least || *number > greatest)
+  // A quotient such as 0.3 / 0.1 is whole but for rounding.
+  constexpr double noise = 1e-9;
+  const double whole = number ? std::round(*number) : 0;
+  if (!number || !(std::abs(*number - whole) <= noise) || whole < least || whole > greatest)
     return reader.fail(data, "a whole number from " + std::to_string(least) + " to " + std::to_string(greatest));
-  value = static_cast<int>(*number);
+  value = static_cast<int>(whole);
   return true;
 }
 

@@ -72,6 +72,16 @@ bool in_range(double v, const Domain& domain) {
   return std::isfinite(v) && v <= domain.greatest && (domain.above_least ? v > domain.least : v >= domain.least);
 }
 
+// What computations put beyond an end of the range by their rounding is the end.
+double without_noise(double v, const Domain& domain) {
+  constexpr double noise = 1e-12;
+  if (v < domain.least && !domain.above_least && v >= domain.least - noise * std::max(1.0, std::abs(domain.least)))
+    return domain.least;
+  if (v > domain.greatest && v <= domain.greatest + noise * std::max(1.0, std::abs(domain.greatest)))
+    return domain.greatest;
+  return v;
+}
+
 bool is_list(const Data& data, size_t size) { return data.list() && data.list()->size() == size; }
 
 bool read_vector(const Data& data, const Domain& domain, const Reader& reader) {
@@ -89,11 +99,12 @@ std::optional<double> plain_number(const std::string& text) {
 bool read(const Data& data, const Domain& domain, double& value, const Reader& reader) {
   const double* number = data.number();
   if (!number) return reader.fail(data, "a number" + with_unit(domain));
-  if (!in_range(*number, domain)) {
+  const double near = without_noise(*number, domain);
+  if (!in_range(near, domain)) {
     const std::string range = range_text(domain);
     return reader.fail(data, range.empty() ? "a finite number" : "a number " + range + with_unit(domain));
   }
-  value = *number;
+  value = near;
   return true;
 }
 

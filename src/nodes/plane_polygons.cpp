@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "nodes/repeated_points.h"
 
 namespace ombre::nodes {
 namespace {
@@ -16,12 +17,6 @@ constexpr double flattest_area = 1e-8, farthest_from_plane = 1e-6;
 bool fail(const Reader& reader, const std::string& message, const std::string& hint = "") {
   reader.diagnostics.error(reader.where, message, hint);
   return false;
-}
-
-double size_of(const std::vector<Vec3>& points) {
-  Box box;
-  for (const Vec3& p : points) box = hull(box, Box{p, p});
-  return length(box.size());
 }
 
 // Of twice the area's length, at a right angle to the plane in which the points lie nearly.
@@ -84,17 +79,11 @@ std::optional<Ring> laid(const Points& points, const Affine& plane_from_here, do
 }  // namespace
 
 std::optional<Ring> checked_ring(Ring ring, const std::string& what, const Reader& reader) {
-  if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+  Box box;
+  for (const Vec2 p : ring) box = hull(box, Box{{p.x, p.y, 0}, {p.x, p.y, 0}});
+  ring = without_repeated(ring, length(box.size()), true);
   if (ring.size() < 3) {
     fail(reader, what + " needs at least 3 points, found " + std::to_string(ring.size()));
-    return std::nullopt;
-  }
-  Box box;
-  for (size_t n = 0; n < ring.size(); ++n) {
-    box = hull(box, Box{{ring[n].x, ring[n].y, 0}, {ring[n].x, ring[n].y, 0}});
-    if (n == 0 || !(ring[n] == ring[n - 1])) continue;
-    fail(reader, "points " + std::to_string(n) + " and " + std::to_string(n + 1) + " of " + what + " are the same",
-         "leave one of them out");
     return std::nullopt;
   }
   const Vec2 first = ring[1] - ring[0];

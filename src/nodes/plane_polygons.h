@@ -8,7 +8,7 @@
 
 namespace ombre::nodes {
 
-// A ring, without the first point once more at its end. Nothing, and a diagnostic, for what bounds no area.
+// A ring, without points that repeat the one before. Nothing, and a diagnostic, for what bounds no area.
 std::optional<Ring> checked_ring(Ring ring, const std::string& what, const design::Reader& reader);
 
 // Polygons and the plane around which they are right-handed; points of two numbers lie in XY, seen from above.

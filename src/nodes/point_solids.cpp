@@ -7,6 +7,7 @@
 #include "design/source_loader.h"
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
+#include "nodes/repeated_points.h"
 #include "nodes/shapes.h"
 
 namespace ombre::nodes {
@@ -101,21 +102,16 @@ struct Tube {
   bool makes_nothing() const { return points.at.empty(); }
 
   bool complete(const Reader& reader) {
-    const auto fail = [&](const std::string& message, const std::string& hint = "") {
-      reader.diagnostics.error(reader.where, message, hint);
+    const auto fail = [&](const std::string& message) {
+      reader.diagnostics.error(reader.where, message);
       return false;
     };
     if (!reader.loader) return fail("tubes cannot be made here");
-    std::vector<Vec3> corners = points.at;
-    if (closed && corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+    const std::vector<Vec3> corners = without_repeated(points.at, size_of(points.at), closed);
     const size_t least = closed ? 3 : 2;
     if (corners.size() < least)
       return fail(std::string(closed ? "a closed tube" : "a tube") + " needs at least " + std::to_string(least) +
                   " points, found " + std::to_string(corners.size()));
-    for (size_t n = 1; n < corners.size(); ++n)
-      if (corners[n] == corners[n - 1])
-        return fail("points " + std::to_string(n) + " and " + std::to_string(n + 1) + " of tube are the same",
-                    "leave one of them out");
     path = curve == "smooth" ? smooth_path(corners) : corners;
     if (closed && curve != "smooth") path.push_back(corners.front());
     line = reader.loader->path(path);

@@ -8,6 +8,7 @@
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
 #include "nodes/plane_polygons.h"
+#include "nodes/repeated_points.h"
 #include "nodes/shapes.h"
 
 namespace ombre::nodes {
@@ -130,8 +131,10 @@ struct Revolve {
   bool complete(const Reader& reader) {
     if (!needs_loader(reader)) return false;
     Ring ring;
+    const double on_axis = noise_of_points * size_of(profile.at);
     for (size_t n = 0; n < profile.at.size(); ++n) {
-      const Vec3 p = profile.at[n];
+      Vec3 p = profile.at[n];
+      if (std::abs(p.x) <= on_axis) p.x = 0;
       if (!profile.are_flat || p.x < 0) {
         reader.diagnostics.error(
             reader.where,
