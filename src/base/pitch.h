@@ -13,10 +13,12 @@ struct Pitch {
   int64_t numerator = 1, denominator = 10;
 
   static std::optional<Pitch> from_ratio(int64_t numerator, int64_t denominator);
-  // The decimal digits as written are exact ("0.027", "1/3", "25.4/600").
+  // The decimal digits as written are exact ("0.027", "1/3", "25.4/600", "5e-2"). What has more digits than a person
+  // writes was computed: it is the simple ratio that it is but for rounding (0.08466666666666667 is 25.4/300), if there
+  // is one, or else as it stands.
   static std::optional<Pitch> parse(std::string_view text);
   static std::optional<Pitch> from_dpi(std::string_view dots_per_inch);
-  // The shortest decimal that gives this double is taken as what was meant.
+  // The same of the shortest decimal that gives this double.
   static std::optional<Pitch> from_mm(double mm);
 
   double mm() const { return static_cast<double>(numerator) / static_cast<double>(denominator); }

@@ -23,9 +23,25 @@ void expect_ratio(const std::optional<Pitch>& pitch, const Meaning& meant) {
 }  // namespace
 
 TEST(Pitch, TextIsExact) {
-  const Meaning meanings[] = {{"25.4/600", 127, 3000},  {"0.027", 27, 1000}, {"1/3", 1, 3}, {" 1 / 3 ", 1, 3},
-                              {"0.1", 1, 10},           {".5", 1, 2},        {"5.", 5, 1},  {"0.40", 2, 5},
-                              {"25.4/1200", 127, 6000}, {"0.3/0.6", 1, 2},   {"1", 1, 1},   {"0.00005", 1, 20000}};
+  const Meaning meanings[] = {{"25.4/600", 127, 3000},
+                              {"0.027", 27, 1000},
+                              {"1/3", 1, 3},
+                              {" 1 / 3 ", 1, 3},
+                              {"0.1", 1, 10},
+                              {".5", 1, 2},
+                              {"5.", 5, 1},
+                              {"0.40", 2, 5},
+                              {"25.4/1200", 127, 6000},
+                              {"0.3/0.6", 1, 2},
+                              {"1", 1, 1},
+                              {"0.00005", 1, 20000},
+                              {"5e-1", 1, 2},
+                              {"1e-1", 1, 10},
+                              {"1E-3", 1, 1000},
+                              {"2.54e+1/3e2", 127, 1500},
+                              {"0.042333", 42333, 1000000},
+                              {"0.0423333", 423333, 10000000},
+                              {"0.100000000000", 1, 10}};
   for (const Meaning& meant : meanings) expect_ratio(Pitch::parse(meant.text), meant);
 }
 
@@ -44,6 +60,42 @@ TEST(Pitch, MillimetresMeanTheirShortestDecimal) {
   for (const auto& [mm, meant] : meanings) expect_ratio(Pitch::from_mm(mm), meant);
 }
 
+// A program that divided wrote these, in double precision or with fewer digits.
+TEST(Pitch, ComputedTextIsTheRatioThatWasMeant) {
+  const Meaning meanings[] = {{"0.08466666666666667", 127, 1500},  {"0.0846666666666667", 127, 1500},
+                              {"0.084666666667", 127, 1500},       {"0.042333333", 127, 3000},
+                              {"0.3333333333333333", 1, 3},        {"0.333333333333", 1, 3},
+                              {"0.30000000000000004", 3, 10},      {"0.6666666666666666/2", 1, 3},
+                              {"8.466666666666667e-2", 127, 1500}, {"0.1000000000000000055511151231257827", 1, 10},
+                              {"0.12345678", 6172839, 50000000},   {"299.99999999999994", 300, 1}};
+  for (const Meaning& meant : meanings) expect_ratio(Pitch::parse(meant.text), meant);
+  expect_ratio(Pitch::from_dpi("300.00000000000006"), {"300.00000000000006", 127, 1500});
+}
+
+TEST(Pitch, ComputedMillimetresAreTheRatioThatWasMeant) {
+  for (int dpi = 1; dpi <= 12000; ++dpi) {
+    const auto exact = Pitch::from_dpi(std::to_string(dpi));
+    EXPECT_EQ(Pitch::from_mm(25.4 / dpi), exact) << dpi;
+    EXPECT_EQ(Pitch::from_mm(1 / (dpi / 25.4)), exact) << dpi;
+  }
+  for (int64_t n = 1; n <= 60; ++n)
+    for (int64_t d = 1; d <= 60; ++d)
+      EXPECT_EQ(Pitch::from_mm(static_cast<double>(n) / static_cast<double>(d)), Pitch::from_ratio(n, d));
+}
+
+// Without such a ratio it is the number itself.
+TEST(Pitch, AnyMillimetresAreKept) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> exponent(-4, 4);
+  for (int i = 0; i < 20000; ++i) {
+    const double mm = std::exp(2.3 * exponent(random));
+    const auto pitch = Pitch::from_mm(mm);
+    ASSERT_TRUE(pitch) << mm;
+    EXPECT_NEAR(pitch->mm(), mm, 1e-13 * mm);
+    EXPECT_EQ(Pitch::parse(pitch->text()), pitch);
+  }
+}
+
 TEST(Pitch, RefusesWhatIsNoLength) {
   for (const char* text : {"",
                            " ",
@@ -58,7 +110,14 @@ TEST(Pitch, RefusesWhatIsNoLength) {
                            "-1",
                            "-0.1",
                            "+1",
-                           "1e-3",
+                           "1e",
+                           "1e-",
+                           "1e-3.5",
+                           "e-3",
+                           "1e-30",
+                           "1e300",
+                           "1e999",
+                           "-1e-3",
                            "1/2/3",
                            "0,1",
                            "1.2.3",
@@ -72,7 +131,7 @@ TEST(Pitch, RefusesWhatIsNoLength) {
                            "4000000000000000/0.001",
                            "1\n2"})
     EXPECT_FALSE(Pitch::parse(text)) << text;
-  for (const char* text : {"", "0", "-600", "600dpi", "6e2", "99999999999999999999"})
+  for (const char* text : {"", "0", "-600", "600dpi", "6e", "99999999999999999999"})
     EXPECT_FALSE(Pitch::from_dpi(text)) << text;
   for (const double mm : {0.0, -0.0, -0.1, 1e300, 1e-300, 5e-324, HUGE_VAL, -HUGE_VAL, std::nan("")})
     EXPECT_FALSE(Pitch::from_mm(mm)) << mm;

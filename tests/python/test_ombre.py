@@ -1,5 +1,6 @@
 """The package ombre: values against mathematics, the same designs in other forms, errors, jobs."""
 import doctest
+import fractions
 import gc
 import importlib
 import json
@@ -85,6 +86,19 @@ def test_nothing_in_design_files():
         assert (design("difference", "ball", none).inside(points) == inside).all()
         assert (design("union", none, "ball").inside(points) == inside).all()
         assert ombre.Design.from_json(design("negate", none).to_json()).inside(points).all()
+
+
+@pytest.mark.parametrize("voxel", [25.4 / 300, numpy.float64(25.4 / 300), numpy.array([25.4 / 300]), "25.4/300", "8.466666666666667e-2",
+                                   fractions.Fraction(127, 1500), [25.4 / 300, "25.4/300", 25.4 / 300]])
+def test_voxel_sizes_that_a_program_computed(voxel):
+    design = ombre.Design(ombre.sphere(2), box=((-2, -2, -2), (2, 2, 2)), voxel=voxel)
+    assert json.loads(design.to_json())["sampling"]["voxel"] == ["127/1500"] * 3
+    assert ombre.sphere(2).voxels(voxel).values.shape == (48, 48, 48)
+
+
+def test_voxel_sizes_in_single_precision():
+    design = ombre.Design(ombre.sphere(2), box=((-2, -2, -2), (2, 2, 2)), voxel=numpy.float32([0.1, 0.5, 0.027]))
+    assert json.loads(design.to_json())["sampling"]["voxel"] == ["0.1", "0.5", "0.027"]
 
 
 def test_operators_and_chains():

@@ -1,9 +1,13 @@
 """Jobs: the commands of the command line, with their options as keyword arguments."""
+import decimal
+import fractions
 import functools
 import keyword
 import os
 import sys
 import warnings
+
+import numpy
 
 from . import _core
 from ._errors import CheckError, DesignError, DesignWarning, MachineError
@@ -32,11 +36,20 @@ def keywords_of(command):
     return {name: option for name, option in options_of(command).items() if name not in _own}
 
 
+def length_text(value):
+    """A length in mm as text that says no more digits than the number has; fractions are exact."""
+    if isinstance(value, numpy.floating):
+        return numpy.format_float_positional(value, trim="-")
+    if isinstance(value, (str, int, decimal.Decimal, fractions.Fraction)):
+        return str(value)
+    return repr(float(value))
+
+
 def _text(value):
-    if isinstance(value, (list, tuple)) or hasattr(value, "tolist"):
+    if isinstance(value, (list, tuple)) or hasattr(value, "tolist") and getattr(value, "ndim", 0) > 0:
         return ",".join(_text(v) for v in value)
-    if isinstance(value, float):
-        return repr(value)
+    if isinstance(value, (float, numpy.floating)):
+        return length_text(value)
     return os.fspath(value) if hasattr(value, "__fspath__") else str(value)
 
 

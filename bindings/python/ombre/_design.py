@@ -9,7 +9,7 @@ import textwrap
 import numpy
 
 from . import _core
-from ._commands import keywords_of, run
+from ._commands import keywords_of, length_text, run
 from ._errors import DesignError
 from ._solid import Solid, _is_solid, _nodes, wrap
 
@@ -321,8 +321,11 @@ def _grid_arguments(grids):
 
 
 def _voxel_texts(voxel):
-    values = voxel.split(",") if isinstance(voxel, str) else list(numpy.atleast_1d(numpy.asarray(voxel, dtype=object)))
-    texts = [v if isinstance(v, str) else repr(float(v)) for v in values]
+    if isinstance(voxel, str):
+        values = voxel.split(",")
+    else:
+        values = list(numpy.atleast_1d(voxel if isinstance(voxel, numpy.ndarray) else numpy.asarray(voxel, dtype=object)))
+    texts = [length_text(v) for v in values]
     return texts * 3 if len(texts) == 1 else texts
 
 
