@@ -550,6 +550,28 @@ def designs_of_openscad_are_explained(job):
         expect(made.returncode == 0, f"{ours}: {made.stderr}")
 
 
+def links_lead_to_what_lies_beside_them(job):
+    """Files are looked for beside a link first, then beside what it links to, in one step or more."""
+    for folder in ("real", "mid", "near"):
+        (job.folder / folder).mkdir()
+    job.write("real/part.vcad", "include <sizes.vcad>\nuse <bump.vcad>\nrectprism((side, 1, 1), red);\nbump();\n")
+    job.write("real/sizes.vcad", "side = 10;\n")
+    job.write("real/bump.vcad", "module bump() translate(0, 5, 0) cube(1, red);\n")
+    job.write("mid/sizes.vcad", "side = 6;\n")
+    job.write("near/sizes.vcad", "side = 3;\n")
+    (job.folder / "far.vcad").symlink_to("real/part.vcad")
+    (job.folder / "mid/part.vcad").symlink_to("../real/part.vcad")
+    (job.folder / "near/part.vcad").symlink_to(job.folder / "mid/part.vcad")
+    (job.folder / "two_steps.vcad").symlink_to("mid/part.vcad")
+    for name, side in (("far", 10), ("mid/part", 6), ("near/part", 3), ("two_steps", 6)):
+        told = job.slice("out", "--voxel", "1", "--dry-run", design=job.folder / f"{name}.vcad")
+        expect(f"box {side} x " in told.stderr + told.stdout, f"{name}: {told.stderr}")
+    (job.folder / "real/lost.vcad").write_text("include <lost_sizes.vcad>\n")
+    (job.folder / "lost.vcad").symlink_to("real/lost.vcad")
+    told = job.slice("out", "--dry-run", design="lost.vcad", status=1).stderr
+    expect("looked for lost_sizes.vcad and real/lost_sizes.vcad" in told, told)
+
+
 def reference_is_up_to_date(job):
     printed = program.run([job.ombre, "nodes", "--markdown"]).stdout
     reference = program.SOURCE / "docs" / "nodes.md"
@@ -576,7 +598,7 @@ QUICK = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make_
          masks_resume_and_are_replaced, layers_of_masks_have_several_files, layers_are_those_of_the_job, boxes_cut_layers, layers_have_names_and_are_not_overwritten,
          wrong_layers_are_explained, resume_refuses_another_job, damaged_layers_are_made_again, foreign_files_are_left_alone,
          finished_jobs_are_not_overwritten, force_removes_the_old_layers, output_that_is_a_file,
-         folder_that_may_not_be_written, full_disk, reference_is_up_to_date, examples_of_nodes_slice,
+         folder_that_may_not_be_written, full_disk, links_lead_to_what_lies_beside_them, reference_is_up_to_date, examples_of_nodes_slice,
          suggestions_of_examples_work, designs_of_openscad_are_explained]
 SLOW = [killed_jobs_resume, killed_twice_resumes, interrupted_jobs_resume, large_layers_stop_and_resume]
 

@@ -2,21 +2,20 @@
 
 #include <filesystem>
 
+#include "base/named_files.h"
+#include "base/text.h"
+
 namespace ombre::compile {
 
 namespace fs = std::filesystem;
 
 std::optional<std::string> find_file(const std::string& path, const SourceRange& where, Diagnostics& diagnostics) {
   std::error_code ignored;
-  const fs::path wanted(path);
-  const fs::path script = where.source ? fs::path(where.source->name()) : fs::path();
-  const fs::path beside = wanted.is_absolute() ? wanted : script.parent_path() / wanted;
-  if (fs::exists(beside, ignored)) return beside.string();
-  if (fs::exists(wanted, ignored)) return path;
-  std::string looked = beside.string();
-  if (beside != wanted && !wanted.is_absolute())
-    looked += " and " + fs::absolute(wanted, ignored).lexically_normal().string();
-  diagnostics.error(where, "there is no file \"" + path + "\"", "looked for " + looked);
+  std::vector<std::string> places = places_of(path, where.source ? where.source->name() : "");
+  for (const std::string& place : places)
+    if (fs::exists(place, ignored)) return place;
+  if (places.size() > 1) places.back() = fs::absolute(path, ignored).lexically_normal().string();
+  diagnostics.error(where, "there is no file \"" + path + "\"", "looked for " + join(places, " and "));
   return std::nullopt;
 }
 

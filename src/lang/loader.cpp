@@ -6,6 +6,8 @@
 #include <map>
 #include <sstream>
 
+#include "base/named_files.h"
+#include "base/text.h"
 #include "lang/parser.h"
 
 namespace ombre::lang {
@@ -103,19 +105,18 @@ class Loader {
     return names;
   }
 
-  // Beside the file that asks first, then from the working directory.
+  // Beside the file that asks first, then beside the one that it links to, then from the working directory.
   SourcePtr find(const ast::Include& include) {
     if (include.path.empty()) {
       diagnostics_.error(include.span.range(), "there is no path between < and >");
       return nullptr;
     }
-    const fs::path folder = fs::path((*include.span.source)->name()).parent_path();
-    const std::string beside = (folder / fs::path(include.path)).generic_string();
-    for (const std::string& path : {beside, include.path})
+    std::vector<std::string> places = places_of(include.path, (*include.span.source)->name());
+    for (const std::string& path : places)
       if (auto text = read_(path)) return make_source(path, std::move(*text));
-    std::string hint = "looked for " + beside;
-    if (beside != include.path) hint += " and " + include.path + " in the working directory";
-    diagnostics_.error(include.path_span.range(), "there is no file \"" + include.path + '"', hint);
+    if (places.size() > 1) places.back() += " in the working directory";
+    diagnostics_.error(include.path_span.range(), "there is no file \"" + include.path + '"',
+                       "looked for " + join(places, " and "));
     return nullptr;
   }
 

@@ -101,6 +101,16 @@ def test_voxel_sizes_in_single_precision():
     assert json.loads(design.to_json())["sampling"]["voxel"] == ["0.1", "0.5", "0.027"]
 
 
+def test_scripts_that_are_links(tmp_path, run_program):
+    (tmp_path / "real").mkdir()
+    (tmp_path / "real" / "sizes.py").write_text("side = 4\n")
+    (tmp_path / "real" / "block.obj").write_text("v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+    (tmp_path / "real" / "part.py").write_text("import ombre, sizes\nroot = ombre.mesh('block.obj') | ombre.cube(sizes.side)\n")
+    (tmp_path / "part.py").symlink_to("real/part.py")
+    assert ombre.load(str(tmp_path / "part.py")).bounds == ((-2, -2, -2), (4, 4, 4))
+    assert "inside" in run_program("probe", "part.py", "--at", "3,0.1,0.1").stdout
+
+
 def test_operators_and_chains():
     a, b = ombre.sphere(5), ombre.cube(6).translate(z=3)
     points = random_points()

@@ -71,7 +71,8 @@ def main(arguments=None):
         if len(arguments) == 1:
             import runpy
             sys.argv = arguments
-            sys.path.insert(0, os.path.dirname(os.path.abspath(arguments[0])))
+            from ._script import folders_of
+            sys.path[:0] = folders_of(arguments[0])
             runpy.run_path(arguments[0], run_name="__main__")
             return 0
     from ._errors import FunctionError

@@ -36,13 +36,17 @@ def option(name, default):
     return _running.variables[name]
 
 
+def folders_of(path):
+    """Where a script's modules lie: beside it, and beside the file that it links to."""
+    return list(dict.fromkeys(os.path.dirname(place(path)) for place in (os.path.abspath, os.path.realpath)))
+
+
 def run_script(path, materials="", variables=()):
     """Runs a script. Returns its names, and what it showed."""
     global _running
     before, path_before = _running, list(sys.path)
     _running = _Script(materials, dict(variables))
-    folder = os.path.dirname(os.path.abspath(path))
-    sys.path.insert(0, folder)
+    sys.path[:0] = folders_of(path)
     try:
         if materials:
             from ._materials import Materials, using
