@@ -8,6 +8,8 @@ import pytest
 
 import ombre
 import pyvcad as pv
+import pyvcad_compilers
+import pyvcad_rendering
 from pyvcad_parts import ball, blue, graded_bar, green, origin, red
 
 
@@ -218,3 +220,92 @@ def test_colors_of_a_mixture():
     loose = graded_bar().toRGBAArray(2, pv.default_materials, False)
     assert {tuple(c) for c in loose.reshape(-1, 4)} == {tuple(a), tuple(b)}
     assert not ball(2).toRGBAArray(1)[0, 0, 0].any()
+
+
+# What scripts for pyvcad 3 write.
+
+def test_booleans_take_nodes_one_by_one():
+    a, b, c = (pv.Sphere(pv.Vec3(3 * n, 0, 0), 5) for n in (-1, 1, 3))
+    for union in (pv.Union(a, b), pv.Union([a, b]), pv.Union(False, a, b), pv.Union(0.0, [a, b]), pv.Union(0.0, a, b),
+                  pv.BBoxUnion(a, b), pv.BBoxUnion([a, b])):
+        assert union.bounding_box() == (pv.Vec3(-8, -5, -5), pv.Vec3(8, 5, 5)) and union.num_children() == 2
+    for shared in (pv.Intersection(a, b), pv.Intersection([a, b]), pv.Intersection(0.0, a, b), pv.BBoxIntersection(a, b)):
+        assert shared.bounding_box() == (pv.Vec3(-2, -5, -5), pv.Vec3(2, 5, 5))
+    assert pv.Union(a, b, c).num_children() == 3
+    for rest in (pv.Difference(a, b), pv.Difference([a, b]), pv.Difference(0.0, a, b), pv.Difference(0.0, [a, b])):
+        assert rest.evaluate(-3, 0, 0) == pytest.approx(-1) and rest.evaluate(3, 0, 0) > 0
+    most = pv.Difference(pv.RectPrism(pv.Vec3(0, 0, 0), pv.Vec3(30, 4, 4)), a, b, c)
+    assert most.evaluate(-14, 0, 0) == pytest.approx(-1) and all(most.evaluate(x, 0, 0) > 0 for x in (-3, 3, 9))
+    assert pv.Union(2.0, a, b).evaluate(0, 5, 0) < pv.Union(a, b).evaluate(0, 5, 0)
+
+
+def test_empty_lists_are_nothing():
+    ball = pv.Sphere(pv.Vec3(0, 0, 0), 5)
+    nothing = pv.Union(False, [])
+    assert nothing.distribution(0, 0, 0) == {} and pv.Difference(nothing, ball).evaluate(0, 0, 0) > 5
+    assert pv.Union(nothing, ball).evaluate(0, 0, 0) == -5 and pv.Intersection(nothing, ball).distribution(0, 0, 0) == {}
+    with pytest.raises(ombre.DesignError, match="the design is empty"):
+        nothing.bounding_box()
+
+
+def test_attributes_say_of_what_a_node_is():
+    m = pv.default_materials
+    bar = pv.RectPrism(pv.Vec3(0, 0, 0), pv.Vec3(50, 10, 10))
+    mix = pv.VolumeFractionsAttribute([("x/50 + 0.5", m.id("blue")), ("-x/50 + 0.5", m.id("red"))])
+    bar.set_attribute(pv.DefaultAttributes.VOLUME_FRACTIONS, mix)
+    assert bar.distribution(0, 0, 0) == {m.id("blue"): 0.5, m.id("red"): 0.5}
+    assert bar.distribution(15, 0, 0)[m.id("blue")] == pytest.approx(0.8)
+    assert bar.material_list() == sorted([m.id("red"), m.id("blue")])
+    assert bar.get_attribute("volume_fractions") is mix and bar.attribute_list() == ["volume_fractions"]
+    with pytest.raises(RuntimeError, match="already"):
+        bar.set_attribute("volume_fractions", mix)
+    # Those of a parent stand in the place of its children's.
+    whole = pv.Union(bar, pv.Sphere(pv.Vec3(0, 0, 0), 8))
+    assert whole.distribution(0, 0, 0) == bar.distribution(0, 0, 0)
+    moved, green = pv.Translate(10, 0, 0, bar), pv.VolumeFractionsAttribute()
+    assert moved.distribution(10, 0, 0) == {m.id("blue"): 0.5, m.id("red"): 0.5}
+    green.add_value(1.0, m.id("green"))
+    moved.set_attribute(pv.DefaultAttributes.VOLUME_FRACTIONS, green)
+    assert moved.distribution(10, 0, 0) == {m.id("green"): 1} and moved.clone().material_list() == [m.id("green")]
+
+
+def test_float_attributes():
+    ball = pv.Sphere(pv.Vec3(0, 0, 0), 5)
+    ball.set_attribute(pv.DefaultAttributes.DENSITY, pv.FloatAttribute("0.2 - d/10"))
+    assert float(ombre.union(ball).attribute("density", [0, 0, 3])) == pytest.approx(0.4)
+    with pytest.raises(TypeError, match="VolumeFractionsAttribute"):
+        ball.set_attribute("volume_fractions", pv.FloatAttribute(1))
+
+
+def test_newer_nodes():
+    block = pv.RectPrism.FromMinAndMax(pv.Vec3(1, 2, 3), pv.Vec3(3, 6, 9))
+    assert block.bounding_box() == (pv.Vec3(1, 2, 3), pv.Vec3(3, 6, 9)) and block.volume(0.5) == 48
+    assert block.volume(pv.Vec3(1, 1, 1)) == 48 and pv.Identity(block).bounding_box() == block.bounding_box()
+    assert pv.Mirror("x", block).bounding_box() == (pv.Vec3(-3, 2, 3), pv.Vec3(-1, 6, 9))
+    assert pv.Mirror("x", 4, block).bounding_box() == (pv.Vec3(5, 2, 3), pv.Vec3(7, 6, 9))
+    low, high = pv.Mirror(pv.Vec3(4, 0, 0), pv.Vec3(2, 0, 0), block).bounding_box()
+    assert numpy.allclose([*low, *high], [5, 2, 3, 7, 6, 9])
+    assert pv.Scale(2, block).bounding_box() == (pv.Vec3(2, 4, 6), pv.Vec3(6, 12, 18))
+    for turned in (pv.Rotate(0, 0, 90, block), pv.Rotate(pv.Vec3(0, 0, 90), block)):
+        low, high = turned.bounding_box()  # about the middle, (2, 4, 6)
+        assert numpy.allclose([*low, *high], [0, 3, 3, 4, 5, 9])
+    assert pv.Torus(4, 1).evaluate(4, 0, 0) == -1
+
+
+@pytest.mark.parametrize("make", [
+    lambda: pv.Vec4Attribute("1", "0", "0", "1"), lambda: pv.TreeSampler(pv.Sphere(), pv.Vec3(1, 1, 1)),
+    lambda: pv.PNGColorMode.COLOR_RGB, lambda: pv.PNGLoader.FromImage("a.png", 1, 1), lambda: pv.resolvers.AverageConflictResolver(),
+    lambda: pv.Sphere().sample(0, 0, 0), lambda: pyvcad_compilers.VatCompiler(pv.Sphere()),
+    lambda: pyvcad_rendering.Render_Image(pv.Sphere(), "a.png"), lambda: pv.HexahedralMesh.from_tree(pv.Sphere())])
+def test_what_is_missing_says_so(make):
+    with pytest.raises(pv.MissingFeature, match="Ombre does not have this yet"):
+        make()
+
+
+@pytest.mark.parametrize("ask, near", [
+    (lambda: pv.Spehre, "Sphere"), (lambda: pv.VolumeFractionAttribute, "VolumeFractionsAttribute"),
+    (lambda: pv.Sphere().evalute(0, 0, 0), "evaluate"), (lambda: pyvcad_compilers.MeshCompilr, "MeshCompiler"),
+    (lambda: pyvcad_rendering.Rendr, "Render")])
+def test_misspelt_names_get_a_suggestion(ask, near):
+    with pytest.raises(AttributeError, match=f"did you mean '{near}'"):
+        ask()

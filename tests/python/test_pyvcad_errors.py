@@ -31,7 +31,7 @@ def chain():
     (lambda: pv.RectPrism(origin, pv.Vec3(1, 0, 1)), ValueError, "RectPrism, size: expected lengths above 0"),
     (lambda: pv.Cylinder(origin, 1, 2, "red"), TypeError, r"write materials.id\('red'\)"),
     (lambda: pv.Cylinder(origin, 1, hight=2), TypeError, r"hight=int"),
-    (lambda: pv.Union(False, ball()), TypeError, "expected a list of nodes, found Sphere"),
+    (lambda: pv.Union(False, "ball"), TypeError, "expected a list of nodes, found str"),
     (lambda: pv.Union(False, [pv.Sphere]), TypeError, r"write Sphere\(...\)"),
     (lambda: pv.Union().add_child("ball"), TypeError, "expected a node, found str"),
     (lambda: pv.Union(-1.0), ValueError, "expected a radius of 0 or more"),

@@ -5,14 +5,16 @@
     materials = pv.default_materials
     root = pv.RectPrism(pv.Vec3(0, 0, 0), pv.Vec3(10, 10, 10), materials.id("red"))
 """
+from ._attributes import Attribute, DefaultAttributes, FloatAttribute, VolumeFractionsAttribute
 from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
 from ._errors import MissingFeature
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
-from ._missing import (Blend, Convolution, HexahedralMesh, Map, PointMap, SimulationField, TetrahedralMesh, Voxels)
-from ._operations import (BBoxUnion, ConformalMap, Difference, FGrade, Intersection, Offset, Rotate, Scale, Shell, Sum,
-                          Tile, Translate, Union)
+from ._missing import (Blend, Convolution, HexahedralMesh, Map, PointMap, SimulationField, TetrahedralMesh, Voxels,
+                       attribute_of)
+from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference, FGrade, Identity, Intersection, Mirror,
+                          Offset, Rotate, Scale, Shell, Sum, Tile, Translate, Union)
 from ._outlines import PolygonExtrude, Text
-from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, Sphere, Strut
+from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, Sphere, Strut, Torus
 from ._supports import SupportAnalyzer, SupportAnalyzerParallel
 from ._texts import parse_vcad_text, version
 from ._tree import Node
@@ -20,10 +22,15 @@ from ._vectors import Vec2, Vec3, Vec4
 
 __version__ = version()
 
-__all__ = ["FontAspect", "HorizontalAlignment", "LatticeType", "VerticalAlignment", "MissingFeature", "MaterialDefs",
+__all__ = ["Attribute", "DefaultAttributes", "FloatAttribute", "VolumeFractionsAttribute", "BBoxIntersection", "Identity",
+           "Mirror", "Torus", "FontAspect", "HorizontalAlignment", "LatticeType", "VerticalAlignment", "MissingFeature", "MaterialDefs",
            "default_materials", "j750_materials", "resources_path", "CAD", "Blend", "ConformalMap", "Convolution",
            "HexahedralMesh", "Map", "Offset", "PointMap", "PolygonExtrude", "Shell", "SimulationField",
            "SupportAnalyzer", "SupportAnalyzerParallel", "TetrahedralMesh", "Text", "Tile", "Voxels", "BBoxUnion",
            "Difference", "FGrade", "Intersection", "Rotate", "Scale", "Sum", "Translate", "Union", "Cylinder",
            "Function", "GraphLattice", "Mesh", "RectPrism", "Sphere", "Strut", "parse_vcad_text", "version", "Node",
            "Vec2", "Vec3", "Vec4"]
+
+
+def __getattr__(name: str) -> object:
+    return attribute_of(__name__, __all__, name)

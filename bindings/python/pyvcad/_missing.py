@@ -1,19 +1,113 @@
 """What scripts may name and Ombre does not have yet: each says so where it is made."""
 from __future__ import annotations
 
+import difflib
+import functools
 from typing import Any
 
 from ._errors import missing
 from ._tree import Node
 
+_grids = "ombre voxels writes grids, and node.toSignedDistanceArray and toRGBAArray give arrays"
+_fractions = "set a VolumeFractionsAttribute"
+_lattices = "tile a GraphLattice, or write the lattice as a Function"
+_surfaces = "ombre.conformal_map, surface_map and relief lay things along surfaces"
+_images = "ombre.relief reads images as heights"
+
+# By the packages that have them, each with what to use instead.
+MISSING: dict[str, dict[str, str]] = {
+    "pyvcad": {
+        "Cone": "ombre.cone(base, top, height) makes cones", "PolygonRevolve": "ombre.revolve turns a profile about z",
+        "SignedDistanceField": "", "SurfaceMesh": "Mesh(path) reads a file", "TexturedMesh": "Mesh(path) reads the shape",
+        "BeamLattice": "GraphLattice(edges, radius) joins struts", "ThreeMFBeamLattice": "GraphLattice(edges, radius)",
+        "Beam": "", "Ball": "", "BallMode": "", "CapMode": "", "ClipMode": "", "read_3mf_beam_lattice": "",
+        "SurfaceReliefVolume": _surfaces, "ImageHeightField": _images, "FunctionalHeightField": _surfaces,
+        "Mix": "Union(True, [...]) mixes compositions", "Convolve": "", "BoxKernel": "", "CustomKernel": "",
+        "Vec3Attribute": _fractions, "Vec4Attribute": _fractions, "DerivedFloatAttribute": "FloatAttribute(formula)",
+        "AttributeSamples": "node.distribution(x, y, z)", "AttributeModifier": _fractions,
+        "AttributeConverterBase": _fractions, "LookupTableConverter": _fractions, "LookupTableEntry": _fractions,
+        "InterpolationMode": _fractions, "ExpressionConverter": _fractions,
+        "VolumeFractionsExpressionConverter": _fractions, "Vec3ToScalarsConverter": "", "ScalarsToVec3Converter": "",
+        "ScalarsToVec4Converter": "", "resolvers": "Union(True, [...]) mixes compositions", "Vec4Mode": "",
+        "TreeSampler": _grids, "ColorMap": "", "FloatVolume": _grids, "Vec2sVolume": _grids, "Vec3sVolume": _grids,
+        "Vec4sVolume": _grids, "FloatGrid": _grids, "BoolGrid": _grids, "vdb_loader": _grids, "DICOMLoader": "",
+        "PNGLoader": _images, "PNGColorMode": _images, "CellMap": _surfaces, "CellMapCollection": _surfaces,
+        "MappedImplicitLattice": _lattices, "MappedGraphLattice": _lattices, "ImplicitUnitCell": _lattices,
+        "GraphUnitCell": _lattices, "CADModel": "CAD(path) reads STEP and IGES files", "CADFace": "",
+        "TriangleMeshSurface": _surfaces, "MeshSelection": "", "UnstructuredFieldDataset": "",
+        "FieldAssociation": "", "XDMFFieldLoader": "", "SimulationModel": "", "probe_point": "node.snap(point)",
+        "probe_ray": "node.snap(point)", "surface_normal": "node.gradient(point)", "alignment_angles": "",
+        "Point2": "Vec2", "Segment2": "", "Polygon2": "", "Polyline2": "", "Arrangement2": ""},
+    "pyvcad_compilers": dict.fromkeys(
+        ("MaterialInkjetCompiler", "MaterialInkjetExportMode", "ColorInkjetCompiler", "ColorInkjetExportMode",
+         "ColorPipelineOptions", "ColorPipeline", "GCVFCompiler"),
+        "DirectMaterialCompiler writes the images of a material printer") | dict.fromkeys(
+        ("VatCompiler", "MultiMaterialVatCompiler", "MultiMaterialVatSystem", "MultiMaterialVatOutputMode",
+         "MyersonCompiler"), "GrayscaleCompiler writes gray images") | {
+        "VdbCompiler": "Export(root, materials, path=\"part.vdb\") writes grids"} | dict.fromkeys(
+        ("SimulationCompiler", "SimulationCompilerSettings", "SimulationBackend", "SimulationMeshKind",
+         "SimulationHexMeshSettings", "SimulationTetFixedMeshSettings"), "") | dict.fromkeys(
+        ("PrusaSlicerProjectCompiler", "FullSpectrumSlicerProjectCompiler"),
+        "MeshCompiler writes a .3mf with a body for each band"),
+    "pyvcad_rendering": {
+        "Render_Image": "Render(root, materials, path=\"part.png\")", "Render_Sweep_Animation": "", "VisualizeSDF": "",
+        "Render_Turntable_Animation": "", "Render_Tree_Diagram": "", "Render_Tree_Legend": "",
+        "export_iso_surface_vtk": "Export(root, materials, path=\"part.ply\")",
+        "export_volume_vtk": "Export(root, materials, path=\"part.vdb\")", "select_mesh_patch": "",
+        "resolve_selection_mesh": "", "save_mesh_selection": "", "load_mesh_selection": "", "replay_mesh_selection": ""},
+}
+
+# Of nodes.
+_methods = {
+    "sample": "node.evaluate and node.distribution tell of a point", "to_diagram": "",
+    "set_attribute_conflict_resolver": "Union(True, [...]) mixes compositions",
+    "attribute_conflict_resolvers": "Union(True, [...]) mixes compositions", "get_gradient_epsilon": "",
+    "set_gradient_epsilon": "", "component_parameter": "", "segment_info": ""}
+
+
+class _Absent(type):
+    """The class of what is missing: whatever is asked of it says so."""
+
+    _instead: str
+
+    def __call__(cls, *arguments: Any, **named: Any) -> Any:
+        raise missing(cls.__name__, cls._instead)
+
+    def __getattr__(cls, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        raise missing(f"{cls.__name__}.{name}", cls._instead)
+
+
+@functools.lru_cache(maxsize=None)
+def _absent(package: str, name: str) -> type:
+    return _Absent(name, (), {"_instead": MISSING[package][name], "__module__": package})
+
+
+def attribute_of(package: str, known: list[str], name: str) -> Any:
+    """For `__getattr__` of a package: what stands for a name that it lacks. Raises AttributeError for other names."""
+    if name in MISSING.get(package, {}):
+        return _absent(package, name)
+    close = difflib.get_close_matches(name, [*known, *MISSING.get(package, {})], 1)
+    hint = f"; did you mean {close[0]!r}?" if close else ""
+    raise AttributeError(f"module {package!r} has no attribute {name!r}{hint}")
+
+
+def _method_of(node: Node, name: str) -> Any:
+    if name in _methods:
+        raise missing(f"{node.type()}.{name}", _methods[name])
+    close = [] if name.startswith("_") else difflib.get_close_matches(name, [n for n in dir(node) if n[0] != "_"], 1)
+    hint = f"; did you mean {close[0]!r}?" if close else ""
+    raise AttributeError(f"{type(node).__name__!r} has no attribute {name!r}{hint}")
+
+
+# Put here instead of into the class, so that type checkers still find misspelt names.
+Node.__getattr__ = _method_of  # type: ignore[attr-defined]
+
 
 class _Missing(Node):
-    _instead = ""
-
     def __init__(self, *arguments: Any, **named: Any) -> None:
-        raise missing(type(self).__name__, self._instead)
-
-
+        raise missing(type(self).__name__)
 
 
 class Voxels(_Missing):
@@ -64,3 +158,7 @@ class HexahedralMesh:
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         raise missing("HexahedralMesh")
+
+    @classmethod
+    def from_tree(cls, *arguments: Any, **named: Any) -> HexahedralMesh:
+        raise missing("HexahedralMesh.from_tree")

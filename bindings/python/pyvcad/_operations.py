@@ -23,12 +23,12 @@ class Translate(Unary):
 
 
 class Scale(Unary):
-    """Stretches its child, away from the origin: Scale(x, y, z, child)."""
+    """Stretches its child, away from the origin: Scale(x, y, z, child), Scale(k, child)."""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
-        values = read("Scale", _moves, arguments, named)
+        values = read("Scale", (*_moves, {"k": number, **_child}), arguments, named)
         super().__init__(values.get("child"))
-        self._by: Point = tuple(values.get(axis, 1.0) for axis in "xyz")  # type: ignore[assignment]
+        self._by: Point = tuple(values.get(axis, values.get("k", 1.0)) for axis in "xyz")  # type: ignore[assignment]
         if 0 in self._by:
             raise ValueError(f"Scale: expected factors other than 0, found {self._by}")
 
@@ -39,23 +39,60 @@ class Scale(Unary):
 class Rotate(Unary):
     """Turns its child, right-handed, in degrees: Rotate(pitch, yaw, roll, around, child).
 
-    About fixed axes: z by roll, then y by yaw, then x by pitch. The point `around` stays where it is.
+    About fixed axes: z by roll, then y by yaw, then x by pitch. The point `around` stays where it is; in the forms of
+    pyvcad 3, Rotate(pitch, yaw, roll, child) and Rotate(Vec3, child), the middle of the child's bounding box.
     """
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         around = Optional(vector, (0.0, 0.0, 0.0))
         form = {"pitch": number, "yaw": number, "roll": number, "around": around, "child": Optional(as_node, None)}
-        values = read("Rotate", ({}, form), arguments, named)
+        angles = {"pitch": number, "yaw": number, "roll": number}
+        values = read("Rotate", ({}, form, {**angles, "child": as_node}, {"angles": vector, **_child}), arguments, named)
         super().__init__(values.get("child"))
-        self._angles = tuple(values.get(angle, 0.0) for angle in ("pitch", "yaw", "roll"))
-        self._around: Point = values.get("around", (0.0, 0.0, 0.0))
+        self._angles = values.get("angles") or tuple(values.get(angle, 0.0) for angle in angles)
+        is_about_middle = "around" not in values and bool(values)
+        self._around: Point | None = None if is_about_middle else values.get("around", (0.0, 0.0, 0.0))
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return ombre.rotate(solids[0], self._angles, around=self._around)
+        around = self._around
+        if around is None and solids[0].type != "empty":
+            low, high = solids[0].bounds
+            around = tuple((a + b) / 2 for a, b in zip(low, high))  # type: ignore[assignment]
+        return ombre.rotate(solids[0], self._angles, around=around or (0.0, 0.0, 0.0))
+
+
+class Mirror(Unary):
+    """The mirror image of its child: Mirror("x", child), Mirror("x", offset, child), Mirror(point, normal, child)."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        axis = {"axis": _axis}
+        values = read("Mirror", ({**axis, "child": as_node}, {**axis, "offset": number, "child": as_node},
+                                 {"point": vector, "normal": vector, "child": as_node}), arguments, named)
+        super().__init__(values["child"])
+        self._normal: Point = values.get("axis") or values["normal"]
+        if self._normal == (0, 0, 0):
+            raise ValueError("Mirror, normal: expected a direction, found (0, 0, 0)")
+        offset = values.get("offset", 0.0)
+        self._point: Point = values.get("point") or tuple(offset * n for n in self._normal)  # type: ignore[assignment]
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        length_2 = sum(n * n for n in self._normal)
+        twice = 2 * sum(n * p for n, p in zip(self._normal, self._point)) / length_2
+        return ombre.translate(ombre.mirror(solids[0], self._normal), tuple(twice * n for n in self._normal))
+
+
+class Identity(Unary):
+    """Its child, unchanged: a place for attributes."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__(read("Identity", (_child,), arguments, named)["child"])
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return solids[0]
 
 
 class _Boolean(NAry):
-    """Forms: (), (mix), (mix, children), (k), (k, mix), (k, mix, children).
+    """Forms: (), (mix), (mix, children), (k), (k, mix), (k, mix, children), (k, children), (children), (a, b, ...).
 
     Where children overlap, mix=False takes the composition of the first that is there, mix=True all in equal parts.
     The radius k (mm) rounds the seams.
@@ -64,8 +101,8 @@ class _Boolean(NAry):
     _operation = ""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
-        values = read(type(self).__name__, _boolean_forms, arguments, named)
-        super().__init__(values.get("children", []))
+        values = read(type(self).__name__, _boolean_forms, _with_list(arguments), named)
+        super().__init__(values.get("children"))
         self._mix: bool = values.get("mix", False)
         self._blend: float = values.get("k", 0.0)
 
@@ -90,9 +127,9 @@ class BBoxUnion(NAry):
     """A union, of which the first child wins: BBoxUnion(children). Every union has an index in space."""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
-        children = Optional(as_nodes, [])
+        children = Optional(as_nodes, None)
         values = read("BBoxUnion", ({"children": children}, {"k": radius_of_blend, "children": children}),
-                      arguments, named)
+                      _with_list(arguments), named)
         super().__init__(values["children"])
         self._blend: float = values.get("k", 0.0)
 
@@ -100,14 +137,33 @@ class BBoxUnion(NAry):
         return ombre.union(solids, materials="first", blend=self._blend)
 
 
+class BBoxIntersection(NAry):
+    """An intersection, of which the first child wins: BBoxIntersection(children)."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        values = read("BBoxIntersection", ({"children": Optional(as_nodes, None)},), _with_list(arguments), named)
+        super().__init__(values["children"])
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return ombre.intersection(solids, materials="first")
+
+
 class Difference(Binary):
-    """What is in the left child and not in the right one: Difference(left, right)."""
+    """What is in the left child and not in the right one: Difference(left, right). Of more, the first without the rest."""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         sides = {"left": as_node, "right": as_node}
         k = {"k": radius_of_blend}
-        values = read("Difference", ({}, sides, k, {**k, **sides}), arguments, named)
-        super().__init__(values.get("left"), values.get("right"))
+        some = {"children": as_nodes}
+        if len(arguments) > 2 or any(isinstance(a, (list, tuple)) for a in arguments):
+            arguments = _with_list(arguments)
+        values = read("Difference", ({}, sides, k, {**k, **sides}, some, {**k, **some}), arguments, named)
+        left, right = values.get("left"), values.get("right")
+        if "children" in values:
+            if not values["children"]:
+                raise ValueError("Difference, children: expected at least one node, since the first is what is left")
+            left, right = values["children"][0], _joined(values["children"][1:])
+        super().__init__(left, right)
         self._blend: float = values.get("k", 0.0)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
@@ -121,8 +177,9 @@ class Sum(NAry):
     """Where the distances of its children add up to `iso` mm or less: Sum(iso=0, children=[...])."""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
-        form = {"iso": Optional(number, 0.0), "children": Optional(as_nodes, [])}
-        values = read("Sum", (form,), arguments, named)
+        some = {"children": Optional(as_nodes, None)}
+        values = read("Sum", ({"iso": Optional(number, 0.0), **some}, {**some, "iso": Optional(number, 0.0)}),
+                      _with_list(arguments), named)
         super().__init__(values["children"])
         self._iso: float = values["iso"]
 
@@ -232,8 +289,34 @@ def _list_of(reader: Any) -> Any:
     return read_list
 
 
+def _is_node(value: Any) -> bool:
+    return isinstance(value, (Node, ombre.Solid))
+
+
+def _with_list(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    """The arguments, with nodes that stand one by one behind the others as the list that they are."""
+    first = next((n for n, value in enumerate(arguments) if _is_node(value)), None)
+    if first is None or not all(map(_is_node, arguments[first:])):
+        return arguments
+    return (*arguments[:first], list(arguments[first:]))
+
+
+def _joined(nodes: list[Node]) -> Node:
+    return nodes[0] if len(nodes) == 1 else Union(False, nodes)
+
+
+def _axis(value: Any) -> Point:
+    directions: dict[str, Point] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+    if not isinstance(value, str):
+        raise TypeError(f"expected an axis, found {type(value).__name__}")
+    if value.lower() not in directions:
+        raise ValueError(f'expected "x", "y" or "z", found {value!r}')
+    return directions[value.lower()]
+
+
 _child = {"child": Optional(as_node, None)}
 _moves: tuple[dict[str, Any], ...] = ({}, {"x": number, "y": number, "z": number, **_child})
-_some = {"children": Optional(as_nodes, [])}
+_some = {"children": Optional(as_nodes, None)}
 _boolean_forms: tuple[dict[str, Any], ...] = (
-    {}, {"mix": boolean, **_some}, {"k": radius_of_blend, "mix": Optional(boolean, False), **_some})
+    {}, {"mix": boolean, **_some}, {"k": radius_of_blend, "mix": Optional(boolean, False), **_some},
+    {"children": as_nodes}, {"k": radius_of_blend, "children": as_nodes})

@@ -35,6 +35,13 @@ class RectPrism(_Leaf):
         self._size: Point = values.get("size", (10, 10, 10))
         self._material = values.get("material", 1)
 
+    @staticmethod
+    def FromMinAndMax(min: Any, max: Any, material: int = 1) -> RectPrism:
+        """The block between two opposite corners."""
+        low, high = vector(min), vector(max)
+        center = tuple((a + b) / 2 for a, b in zip(low, high))
+        return RectPrism(center, tuple(b - a for a, b in zip(low, high)), material)
+
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return _at(self._center, ombre.rectprism(self._size, self._material))
 
@@ -54,6 +61,19 @@ class Sphere(_Leaf):
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return _at(self._center, ombre.sphere(self._radius, self._material))
+
+
+class Torus(_Leaf):
+    """Ring in the plane z = 0: Torus(ring, tube, material=1), of the radii of its middle line and of its tube."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        values = read("Torus", ({}, {"r1": length, "r2": length, "material": _one}), arguments, named)
+        self._ring, self._tube = values.get("r1", 2.0), values.get("r2", 1.0)
+        self._material = values.get("material", 1)
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return ombre.torus(self._ring, self._tube, self._material)
 
 
 class Cylinder(_Leaf):

@@ -16,6 +16,7 @@ from ombre._materials import current_factory, using
 from ombre._solid import made_at, wrap
 
 from . import _grids
+from ._attributes import Attribute, checked
 from ._materials import MaterialDefs, default_materials, expect_table, numbered
 from ._vectors import Vec3
 
@@ -41,6 +42,7 @@ class Node:
         self._factory: Any = None  # whose materials that names
         self._built_from: list[ombre.Solid] = []  # those of the children
         self._checked_at = -1  # when nothing below had changed, by _Changes.count
+        self._attributes: dict[str, Attribute] = {}
         self._place = _call_place()
         self._home: Any = current_factory()  # the materials in use where it was made
 
@@ -68,6 +70,30 @@ class Node:
     def _replace(self, of: Callable[[Node], Node]) -> None:
         """Puts `of(child)` in place of every child."""
 
+    def _fractions(self) -> set[int] | None:
+        """The materials that its attribute names, if it has one that says of what it is."""
+        attribute = self._attributes.get("volume_fractions")
+        return attribute._materials() if attribute else None
+
+    # Attributes.
+
+    def set_attribute(self, name: str, attribute: Any) -> None:
+        """Gives the node a value that varies through it, in place of those that nodes below have by this name."""
+        name, attribute = checked(name, attribute)
+        if name in self._attributes:
+            raise RuntimeError(f"set_attribute: this {self.type()} has the attribute {name!r} already")
+        self._attributes[name] = attribute
+        self._changed()
+
+    def get_attribute(self, name: str) -> Attribute:
+        if name not in self._attributes:
+            raise RuntimeError(f"get_attribute: this {self.type()} has no attribute {name!r}")
+        return self._attributes[name]
+
+    def attribute_list(self) -> list[str]:
+        """The names that the node and those below it have."""
+        return sorted({name for node in in_order(self) for name in node._attributes})
+
     # Building.
 
     def _changed(self) -> None:
@@ -91,6 +117,8 @@ class Node:
             try:
                 with made_at(self._place):
                     self._solid = self._make(solids)
+                    for name, attribute in self._attributes.items():
+                        self._solid = attribute._given_to(self._solid, name)
             except (ombre.DesignError, TypeError) as error:
                 raise self._error(_text_of(error)) from None
             self._factory, self._built_from = factory, solids
@@ -104,7 +132,8 @@ class Node:
         """For questions, which need no materials but ids."""
         if self._solid is not None and self._checked_at == _Changes.count:
             return self._solid.design()
-        greatest = max((max(node._own_materials(), default=0) for node in in_order(self)), default=0)
+        greatest = max((max(node._own_materials() | (node._fractions() or set()), default=0) for node in in_order(self)),
+                       default=0)
         known = default_materials._materials()
         if greatest > 255:
             raise self._error(f"there is no material {greatest}; 255 is the greatest id")
@@ -144,6 +173,14 @@ class Node:
         5.0
         """
         return float(self._design().distance([x, y, z]))
+
+    def volume(self, voxel_size: Any = None) -> float:
+        """mm3, by the cells whose centres are inside; without a size, the longest side has 128 of them."""
+        design = self._design()
+        if voxel_size is None:
+            low, high = design.bounds
+            voxel_size = max(b - a for a, b in zip(low, high)) / 128
+        return float(design.volume(_voxel_size(voxel_size)))
 
     def gradient(self, *point: Any) -> Vec3:
         """Gradient of the distance at (x, y, z) or a Vec3."""
@@ -188,8 +225,9 @@ class Node:
     def material_list(self) -> list[int]:
         """The ids of the materials that the design can have."""
         found: set[int] = set()
-        for node in in_order(self, lambda node: node._composing()):
-            found |= node._own_materials()
+        for node in in_order(self, lambda node: node._composing() if node._fractions() is None else []):
+            fractions = node._fractions()
+            found |= node._own_materials() if fractions is None else fractions
         return sorted(found)
 
     def prepare(self, voxel_size: Any = None, interior_bandwidth: Any = None, exterior_bandwidth: Any = None) -> None:
@@ -201,7 +239,7 @@ class Node:
         copies: dict[int, Node] = {}
         for node in in_order(self):
             twin = copy.copy(node)
-            twin._home = node._home
+            twin._home, twin._attributes = node._home, dict(node._attributes)
             twin._replace(lambda child: copies[id(child)])
             copies[id(node)] = twin
         return copies[id(self)]
@@ -303,9 +341,10 @@ class Binary(Node):
 class NAry(Node):
     """A node with any number of children."""
 
-    def __init__(self, children: Any = ()) -> None:
+    def __init__(self, children: Any = None) -> None:
         super().__init__()
-        self._children: list[Node] = list(children)
+        self._is_given = children is not None  # an empty list is nothing, no list a mistake
+        self._children: list[Node] = list(children or ())
 
     def add_child(self, child: Any) -> None:
         self._children.append(as_node(child))
@@ -321,7 +360,7 @@ class NAry(Node):
         return len(self._children)
 
     def _inputs(self) -> list[Node]:
-        if not self._children:
+        if not self._children and not self._is_given:
             raise self._error("it has no children; give it some with add_child(node)")
         return self._children
 
@@ -352,7 +391,8 @@ class Wrapped(Node):
 
     def _ombre_design_(self, materials: Any = None) -> ombre.Design:
         # On its own it keeps its box, its parts and its materials.
-        return super()._ombre_design_(materials) if isinstance(materials, MaterialDefs) else self._given
+        is_changed = isinstance(materials, MaterialDefs) or self._attributes
+        return super()._ombre_design_(materials) if is_changed else self._given
 
 
 def as_node(value: Any) -> Node:
@@ -413,6 +453,11 @@ def _text_of(error: Exception) -> str:
     diagnostics = getattr(error, "diagnostics", [])
     texts = [d["message"] + (f"; {d['hint']}" if d.get("hint") else "") for d in diagnostics]
     return "; ".join(texts) or str(error)
+
+
+def _voxel_size(value: Any) -> Any:
+    from ._arguments import voxel_size
+    return voxel_size(value)
 
 
 def _point(what: str, values: tuple[Any, ...]) -> list[float]:

@@ -2,6 +2,12 @@
 
 A callback gets the share that is done, 0 to 1.
 """
+from pyvcad._missing import attribute_of
+
 from ._compilers import (CrossSectionSlicer, DirectMaterialCompiler, GrayscaleCompiler, InpWriter, MeshCompiler)
 
 __all__ = ["CrossSectionSlicer", "DirectMaterialCompiler", "GrayscaleCompiler", "InpWriter", "MeshCompiler"]
+
+
+def __getattr__(name: str) -> object:
+    return attribute_of(__name__, __all__, name)

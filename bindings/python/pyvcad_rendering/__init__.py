@@ -12,6 +12,7 @@ from typing import Any
 import ombre
 from ombre._script import is_hosted, take_note
 from pyvcad._materials import expect_table
+from pyvcad._missing import attribute_of
 from pyvcad._tree import as_node
 
 __all__ = ["Render", "Export"]
@@ -73,3 +74,6 @@ def Export(root: Any, materials: Any = None, path: str | os.PathLike[str] | None
     getattr(design, _jobs[ending])(target, **options)
     print(f"written to {target}", file=sys.stderr)
 
+
+def __getattr__(name: str) -> object:
+    return attribute_of(__name__, __all__, name)
