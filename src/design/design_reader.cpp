@@ -11,6 +11,7 @@ struct Entry {
   const Data* data = nullptr;
   NodePtr node;
   enum class State : uint8_t { unseen, open, done } state = State::unseen;
+  size_t inputs_made = 0;  // the first ones of its list
 };
 
 class DesignReader {
@@ -163,7 +164,8 @@ class DesignReader {
       error(*inputs, "expected a list of node ids");
       return false;
     }
-    for (const Data& input : *inputs->list()) {
+    for (; entry.inputs_made < inputs->list()->size(); ++entry.inputs_made) {
+      const Data& input = (*inputs->list())[entry.inputs_made];
       const auto found = input.string() ? entries_.find(*input.string()) : entries_.end();
       if (found != entries_.end() && found->second.state == Entry::State::open) {
         error(input, "the node \"" + *input.string() + "\" is, through its inputs, an input of itself");
