@@ -9,6 +9,8 @@
 namespace ombre::compile {
 namespace {
 
+constexpr uint64_t most_pixels = uint64_t{1} << 27;  // a gigabyte and a half while it is read
+
 // As bright as it looks over black, from 0 to 1: the luma of ITU-R BT.601.
 float brightness(formats::Rgba colour) {
   const double luma = 0.299 * colour[0] + 0.587 * colour[1] + 0.114 * colour[2];
@@ -30,7 +32,7 @@ design::HeightImage load_heights(design::FilePath& path, const design::Reader& r
   if (!found) return {};
   try {
     const std::string bytes = formats::read_file(*found);
-    importing::GrayImage image = gray_of(formats::decode_png(bytes, *found));
+    importing::GrayImage image = gray_of(formats::decode_png(bytes, *found, most_pixels));
     const auto [across, up] = importing::steepest_steps(image);
     path.path = *found;
     path.content = hash_bytes(bytes);

@@ -42,7 +42,7 @@ struct PngImage {
 };
 
 // Palette images stay indexed; gray, RGB and 16-bit images become 8-bit RGBA. Throws Error, naming
-// `name`, for what is not a whole PNG or has more than a milliard pixels.
-PngImage decode_png(std::string_view bytes, const std::string& name);
+// `name`, for what is not a whole PNG or has too many pixels, before memory is taken for them.
+PngImage decode_png(std::string_view bytes, const std::string& name, uint64_t most_pixels = 1'000'000'000);
 
 }  // namespace ombre::formats

@@ -8,6 +8,7 @@
 
 #include "base/assert.h"
 #include "base/error.h"
+#include "base/text.h"
 
 // libpng leaves by longjmp, which runs no destructors. So everything that owns memory lives in a PngReader, outside the
 // functions that call libpng, and those hold plain values only.
@@ -15,7 +16,6 @@
 namespace ombre::formats {
 namespace {
 
-constexpr uint64_t most_pixels = 1'000'000'000;
 constexpr png_uint_32 largest_side = 1'000'000;
 
 struct Failure {
@@ -39,7 +39,7 @@ struct PngReader {
   size_t position = 0;
   png_structp png = nullptr;
   png_infop info = nullptr;
-  int stored_bit_depth = 0;
+  int stored_bit_depth = 0, stored_bits_per_pixel = 0;
   std::vector<png_bytep> rows;
 
   explicit PngReader(std::string_view from) : bytes(from) {
@@ -64,6 +64,7 @@ bool read_header(PngReader& reader) {
   png_set_user_limits(reader.png, largest_side, largest_side);
   png_read_info(reader.png, reader.info);
   reader.stored_bit_depth = png_get_bit_depth(reader.png, reader.info);
+  reader.stored_bits_per_pixel = reader.stored_bit_depth * png_get_channels(reader.png, reader.info);
   if (png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE) {
     png_set_packing(reader.png);
   } else {
@@ -98,6 +99,19 @@ std::vector<Rgba> read_palette(PngReader& reader) {
   return palette;
 }
 
+// Told by the header, before memory is taken.
+void check_size(const PngReader& reader, uint32_t width, uint32_t height, uint64_t most_pixels,
+                const std::string& name) {
+  const std::string size = format_count(width) + " x " + format_count(height) + " pixels";
+  if (uint64_t{width} * height > most_pixels)
+    throw Error("cannot read " + name + ": it has " + size + ", more than " + format_count(most_pixels));
+  // Deflate makes at most 1032 bytes of one.
+  constexpr double most_inflated = 1040;
+  const double stored_bits = double{1} * width * height * reader.stored_bits_per_pixel;
+  if (stored_bits / 8 > most_inflated * static_cast<double>(reader.bytes.size()))
+    throw Error("cannot read " + name + ": not a whole PNG image (the file is too short for " + size + ")");
+}
+
 void read_dots(PngReader& reader, PngImage& image) {
   png_uint_32 x = 0, y = 0;
   int unit = PNG_RESOLUTION_UNKNOWN;
@@ -109,7 +123,7 @@ void read_dots(PngReader& reader, PngImage& image) {
 
 }  // namespace
 
-PngImage decode_png(std::string_view bytes, const std::string& name) {
+PngImage decode_png(std::string_view bytes, const std::string& name, uint64_t most_pixels) {
   const auto require_read = [&](bool read, const PngReader& reader) {
     if (!read) throw Error("cannot read " + name + ": not a whole PNG image (" + reader.failure.message + ")");
   };
@@ -120,8 +134,7 @@ PngImage decode_png(std::string_view bytes, const std::string& name) {
   PngImage image;
   image.width = png_get_image_width(reader.png, reader.info);
   image.height = png_get_image_height(reader.png, reader.info);
-  if (uint64_t{image.width} * image.height > most_pixels)
-    throw Error("cannot read " + name + ": it has more than 1,000,000,000 pixels");
+  check_size(reader, image.width, image.height, most_pixels, name);
   const bool indexed = png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE;
   image.format = indexed ? PngFormat::indexed : PngFormat::rgba;
   image.bit_depth = reader.stored_bit_depth;

@@ -353,4 +353,54 @@ TEST(Png, DamagedFilesAreErrorsThatNameTheFile) {
   EXPECT_THROW(decode_png(flipped, "layer.png"), Error);
 }
 
+namespace {
+
+// By the polynomial of the PNG specification, its Annex D.
+uint32_t crc_of(std::string_view bytes) {
+  uint32_t crc = 0xFFFFFFFF;
+  for (const char c : bytes) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? 0xEDB88320U ^ (crc >> 1) : crc >> 1;
+  }
+  return ~crc;
+}
+
+void put(std::string& bytes, size_t at, uint32_t value) {
+  for (size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(value >> (24 - 8 * i));
+}
+
+// A small file whose header says another size; interlaced, of 16 bits, perhaps.
+std::string with_header(uint32_t width, uint32_t height, int depth, bool is_interlaced) {
+  std::string bytes = encode_png(20, 20, std::vector<uint8_t>(4 * 20 * 20, 200));
+  constexpr size_t header = 16, length = 13;  // behind the signature, a length and "IHDR"
+  put(bytes, header, width);
+  put(bytes, header + 4, height);
+  bytes[header + 8] = static_cast<char>(depth);
+  bytes[header + 9] = depth == 16 ? 6 : 3;  // RGBA, or a palette
+  bytes[header + 12] = is_interlaced ? 1 : 0;
+  put(bytes, header + length, crc_of(std::string_view(bytes).substr(header - 4, length + 4)));
+  return bytes;
+}
+
+std::string message_of(const std::string& bytes, uint64_t most_pixels) {
+  try {
+    decode_png(bytes, "map.png", most_pixels);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST(Png, SizesAreCheckedBeforeMemoryIsTaken) {
+  for (const bool is_interlaced : {false, true})
+    for (const int depth : {8, 16}) {
+      EXPECT_EQ(message_of(with_header(30'000, 30'000, depth, is_interlaced), uint64_t{1} << 27),
+                "cannot read map.png: it has 30,000 x 30,000 pixels, more than 134,217,728");
+      EXPECT_EQ(message_of(with_header(10'000, 10'000, depth, is_interlaced), uint64_t{1} << 27),
+                "cannot read map.png: not a whole PNG image (the file is too short for 10,000 x 10,000 pixels)");
+    }
+}
+
 }  // namespace ombre::formats
