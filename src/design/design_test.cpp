@@ -126,6 +126,26 @@ TEST_F(Designs, ASolidUnderSeveralFramesIsOneBody) {
   EXPECT_EQ(calls, 2u);
 }
 
+// So many that looking through all of a node's inputs for each of them would take minutes.
+TEST_F(Designs, NodesWithVeryManyInputsAreRead) {
+  constexpr size_t count = 150'000;
+  DataList nodes, inputs;
+  for (size_t n = 0; n < count; ++n) {
+    const std::string id = "n" + std::to_string(n);
+    nodes.emplace_back(DataMembers{{"id", Data(id)}, {"type", Data("ball")}});
+    inputs.emplace_back(id);
+  }
+  nodes.insert(nodes.begin(), Data(DataMembers{{"id", Data("all")}, {"type", Data("any")}, {"inputs", Data(inputs)}}));
+  const Data part(DataMembers{{"name", Data("part")}, {"node", Data("all")}});
+  DataMembers file{{"format", Data("ombre-design")}, {"version", Data(1.0)}};
+  file.push_back(materials_.to_data().members()->front());
+  file.emplace_back("nodes", Data(std::move(nodes)));
+  file.emplace_back("parts", Data(DataList{part}));
+  const auto design = read_design(Data(std::move(file)), registry_, nullptr, diagnostics_);
+  ASSERT_TRUE(design) << to_text(diagnostics_);
+  EXPECT_EQ(design->parts[0].solid->inputs().size(), count);
+}
+
 // Each level uses the one below twice: 2^40 paths.
 TEST_F(Designs, SharedNodesAreAskedOnce) {
   NodePtr node = make("ball", {});

@@ -31,8 +31,8 @@ def test_a_hole_may_be_one_list_or_several():
 
 
 def test_wrong_polygons_raise():
-    with pytest.raises(ombre.DesignError, match="points 1 and 2 of polygon_extrude are the same"):
-        ombre.polygon_extrude([[0, 0], [0, 0], [1, 1], [0, 1]], 2)
+    with pytest.raises(ombre.DesignError, match="polygon_extrude needs at least 3 points, found 2"):
+        ombre.polygon_extrude([[0, 0], [0, 0], [1, 1], [1, 1]], 2)
     with pytest.raises(ombre.DesignError, match="beyond the axis"):
         ombre.revolve([[-1, 0], [2, 0], [1, 4]])
     with pytest.warns(ombre.DesignWarning, match="crosses itself"):
