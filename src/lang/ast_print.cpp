@@ -122,7 +122,7 @@ class Printer {
   void call(const CallStatement& call) {
     text += call.name.text();
     arguments(call.arguments);
-    if (call.children.statements.empty())
+    if (call.children.statements.empty() && !call.children.has_braces)
       text += ';';
     else
       braces(call.children.statements);

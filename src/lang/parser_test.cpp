@@ -175,7 +175,7 @@ TEST(Parser, GoesOnAfterAMistake) {
   const ast::File file = parse(
       make_source("part.vcad", "cube(; sphere(1); x = ; { y = [1; } translate(2) { cube(3 } z = 4;"), diagnostics);
   EXPECT_EQ(diagnostics.error_count(), 4u);
-  EXPECT_EQ(print(file), "sphere(1);\n{\n}\ntranslate(2);\nz = 4;\n");
+  EXPECT_EQ(print(file), "sphere(1);\n{\n}\ntranslate(2) {\n}\nz = 4;\n");
 }
 
 TEST(Parser, ReadsStrangeBytes) {
