@@ -42,6 +42,7 @@ void Interpreter::call(const CallStatement& statement, const ScopePtr& scope, No
 
 void Interpreter::call_module(const ast::ModuleDef& module, const ScopePtr& home, const CallStatement& statement,
                               const ScopePtr& scope, Nodes& out) {
+  meter_.count_call();
   const Children children{&statement.children, scope};
   const ScopePtr inner = make_scope(home, &module.body.plan);
   const SpecialsMark mark(*this);
@@ -62,6 +63,7 @@ void Interpreter::call_module(const ast::ModuleDef& module, const ScopePtr& home
 void Interpreter::call_children(const CallStatement& statement, const ScopePtr& scope, Nodes& out) {
   const Children* children = scope->children();
   if (!children) fail(statement.name.span, "children() means something inside of a module only");
+  meter_.count_call();
   if (!statement.children.statements.empty())
     fail(statement.children.statements.front()->span, "children() takes no children itself");
   const ast::Plan& plan = children->block->plan;

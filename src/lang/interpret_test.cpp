@@ -259,6 +259,14 @@ TEST(Interpret, EndlessRecursionIsADiagnostic) {
   }
 }
 
+void expect_limits(const Options& options, const Cases& cases) {
+  for (const auto& [text, message] : cases) {
+    const std::string found = first_message(text, options);
+    EXPECT_NE(found.find(message), std::string::npos) << text << found;
+    EXPECT_EQ(found.substr(0, 10), "part.vcad:") << found;
+  }
+}
+
 TEST(Interpret, StepsAndInstancesAreLimited) {
   Options options;
   options.limits.steps = 100'000;
@@ -271,6 +279,23 @@ TEST(Interpret, StepsAndInstancesAreLimited) {
   const Result result = run_script("for (i = [0:999]) cube(i);", options);
   EXPECT_EQ(result.calls.size(), 100u);
   EXPECT_NE(result.messages.find("the design makes more than 100 nodes"), std::string::npos);
+}
+
+// With the limits as they are these stop after millions of calls or nodes, which takes seconds, instead of milliards.
+TEST(Interpret, WhatDoublesAtEachLevelIsLimited) {
+  Options options;
+  options.limits.calls = 5000;
+  const std::string calls =
+      "error: the design calls modules more than 5,000 times; look for a module that calls itself";
+  expect_limits(options, {{"module a(n) { if (n > 0) { a(n - 1); a(n - 1); } else cube(1); }\na(40);", calls},
+                          {"module a(n) { if (n > 0) { a(n - 1); a(n - 1); } }\na(40);", calls},
+                          {"module a(n) { if (n > 0) { b(n - 1); b(n - 1); } }\nmodule b(n) a(n);\na(40);", calls},
+                          {"module d(n) { if (n > 0) d(n - 1) { children(); children(); } else children(); }\n"
+                           "d(40) cube(1);",
+                           calls}});
+  options.limits = {};
+  options.limits.instances = 5000;
+  expect_limits(options, {{"for (i = [0:999]) for (j = [0:999]) cube(1);", "error: the design makes more than 5,000"}});
 }
 
 // Reading ahead or not.

@@ -49,6 +49,12 @@ class Meter {
                          "build fewer or shorter strings"};
   }
 
+  void count_call() {
+    if (++calls_ > limits_.calls)
+      throw LimitReached{"the design calls modules more than " + format_count(limits_.calls) + " times",
+                         "look for a module that calls itself more than once, so that each level doubles the calls"};
+  }
+
   void count_instance() {
     if (++instances_ > limits_.instances)
       throw LimitReached{"the design makes more than " + format_count(limits_.instances) + " nodes",
@@ -68,7 +74,7 @@ class Meter {
 
   const Limits& limits_;
   const StopFlag* stop_;
-  uint64_t steps_ = 0, next_check_ = 0, elements_ = 0, text_ = 0, instances_ = 0;
+  uint64_t steps_ = 0, next_check_ = 0, elements_ = 0, text_ = 0, instances_ = 0, calls_ = 0;
 };
 
 }  // namespace ombre::lang

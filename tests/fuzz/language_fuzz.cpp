@@ -42,6 +42,7 @@ lang::Options small_options(const std::string& text) {
   options.limits.elements = 10'000;
   options.limits.text_bytes = 1'000'000;
   options.limits.instances = 10'000;
+  options.limits.calls = 10'000;
   options.limits.steps = 100'000;
   options.limits.closures = 2'000;
   options.limits.files = 10;
