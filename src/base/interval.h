@@ -26,6 +26,8 @@ struct Interval {
   bool operator==(const Interval&) const = default;
 };
 
+inline bool is_zero(Interval v) { return v.lo == 0 && v.hi == 0; }
+inline bool lacks_zero(Interval v) { return v.lo > 0 || v.hi < 0; }
 inline Interval hull(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 inline double round_down(double v) { return std::nextafter(v, -std::numeric_limits<double>::infinity()); }
 inline double round_up(double v) { return std::nextafter(v, std::numeric_limits<double>::infinity()); }

@@ -40,8 +40,6 @@ bool meets(Interval v, double phase) {
 
 // A truth value known only in part.
 Interval truth_of(bool surely, bool never) { return surely ? Interval(1) : never ? Interval(0) : Interval(0, 1); }
-bool is_zero(Interval v) { return v.lo == 0 && v.hi == 0; }
-bool lacks_zero(Interval v) { return v.lo > 0 || v.hi < 0; }
 
 }  // namespace
 

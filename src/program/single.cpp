@@ -7,9 +7,6 @@
 namespace ombre::program {
 namespace {
 
-bool is_zero(Interval v) { return v.lo == 0 && v.hi == 0; }
-bool lacks_zero(Interval v) { return v.lo > 0 || v.hi < 0; }
-
 // The batches' elementary functions are within one unit in the last place.
 Interval widened(Interval v) {
   constexpr float inf = std::numeric_limits<float>::infinity();

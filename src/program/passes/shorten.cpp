@@ -9,8 +9,6 @@
 namespace ombre::program {
 namespace {
 
-bool lacks_zero(Interval v) { return v.lo > 0 || v.hi < 0; }
-
 bool is_same(const Instruction& a, const Instruction& b) {
   return a.op == b.op && a.a == b.a && a.b == b.b && a.c == b.c && a.aux == b.aux &&
          std::bit_cast<uint64_t>(a.value) == std::bit_cast<uint64_t>(b.value);
