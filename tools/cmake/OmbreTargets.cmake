@@ -4,6 +4,10 @@ if(OMBRE_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)
 endif()
+set(OMBRE_TEST_TIMEOUT 300) # s
+if(OMBRE_SANITIZE) # which make all take ten times as long
+  set(OMBRE_TEST_TIMEOUT 900)
+endif()
 
 # A few sources of it at once, where heavy headers take longer than what includes them; few, so that a change of one
 # costs little.
@@ -46,7 +50,7 @@ function(ombre_folder name)
     target_link_libraries(test_${name} PRIVATE ombre_${name} GTest::gtest_main)
     ombre_test_options(test_${name})
     target_compile_definitions(test_${name} PRIVATE OMBRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+    gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${OMBRE_TEST_TIMEOUT})
   endif()
 endfunction()
 
