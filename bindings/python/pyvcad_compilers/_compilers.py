@@ -100,8 +100,8 @@ class GrayscaleCompiler(_Compiler):
         os.makedirs(self._folder, exist_ok=True)
         for layers, points in slabs(axes, self._callback):
             shares = design.material(points).get(high, numpy.zeros(points.shape[:3]))
-            for number, layer in zip(range(layers.start, layers.stop), shares):
-                pixels = numpy.rint(255 * layer[::-1]).astype(numpy.uint8)
+            for layer, number in enumerate(range(layers.start, layers.stop)):
+                pixels = numpy.rint(255 * shares[layer, ::-1]).astype(numpy.uint8)
                 write_gray(_image_path(self._folder, self._prefix, number), pixels)
         self._tell(1.0)
 
