@@ -18,10 +18,10 @@ using voxel::Lattice;
 using voxel::TileBox;
 
 constexpr double most_cells = 1 << 29;
-constexpr int64_t slab_layers = 8, strip_rows = 256;
+constexpr int64_t look_layers = 8, look_rows = 256;
 // In cells: how far from a corner a border may lie, how far a facet is from what is missing, how far behind its border
 // a part is looked for, and the steps of differences.
-constexpr double reach = 0.75, facet_room = 1, behind = 0.002, difference = 0.001;
+constexpr double border_reach = 0.75, facet_room = 1, step_behind = 0.002, difference_step = 0.001;
 
 // Cells that facets come near.
 class NearFacets {
@@ -106,7 +106,7 @@ class CornerLook {
     asker_.ask(points);
     std::vector<size_t> close;
     for (size_t n = 0; n < points.size(); ++n)
-      if (std::abs(distance(n)) < reach * cell_mm_) close.push_back(n);
+      if (std::abs(distance(n)) < border_reach * cell_mm_) close.push_back(n);
     for (const size_t n : close) look_from(points[n], lost);
   }
 
@@ -114,7 +114,7 @@ class CornerLook {
   double distance(size_t n) const { return asker_.between(1, 0, n); }
 
   void look_from(Vec3 p, LostParts& lost) {
-    const double step = difference * cell_mm_;
+    const double step = difference_step * cell_mm_;
     asker_.ask({p, p + Vec3{step, 0, 0}, p - Vec3{step, 0, 0}, p + Vec3{0, step, 0}, p - Vec3{0, step, 0},
                 p + Vec3{0, 0, step}, p - Vec3{0, 0, step}});
     const bool is_void = asker_.label(0) == 0;
@@ -127,7 +127,7 @@ class CornerLook {
     Vec3 border = p - (here / squared) * slope;
     asker_.ask({border});
     border = border - (distance(0) / squared) * slope;
-    const Vec3 past = border - (std::copysign(behind * cell_mm_, here) / std::sqrt(squared)) * slope;
+    const Vec3 past = border - (std::copysign(step_behind * cell_mm_, here) / std::sqrt(squared)) * slope;
     asker_.ask({past});
     if (length(past - p) > cell_mm_ || (asker_.label(0) == 0) == is_void) return;
     if (lost.places++ == 0) lost.first = border;
@@ -152,16 +152,16 @@ LostParts find_lost_parts(const Partition& partition, const RegionSurface& surfa
     return lost;
   const NearFacets facets(surface, corners);
   const voxel::FieldEvaluator evaluator(partition.label, corners, voxel::best_evaluator(corners));
-  const auto slabs = static_cast<size_t>((corners.count[2] + slab_layers - 1) / slab_layers);
+  const auto slabs = static_cast<size_t>((corners.count[2] + look_layers - 1) / look_layers);
   run_ordered<LostParts>(
       slabs, threads, 2 * static_cast<size_t>(threads > 0 ? threads : core_count()),
       [&](size_t n) {
         LostParts found;
         CornerLook look(partition, corners, facets);
-        TileBox strip{{0, 0, static_cast<int64_t>(n) * slab_layers}, corners.count};
-        strip.hi[2] = std::min(strip.lo[2] + slab_layers, corners.count[2]);
-        for (; strip.lo[1] < corners.count[1]; strip.lo[1] += strip_rows) {
-          strip.hi[1] = std::min(strip.lo[1] + strip_rows, corners.count[1]);
+        TileBox strip{{0, 0, static_cast<int64_t>(n) * look_layers}, corners.count};
+        strip.hi[2] = std::min(strip.lo[2] + look_layers, corners.count[2]);
+        for (; strip.lo[1] < corners.count[1]; strip.lo[1] += look_rows) {
+          strip.hi[1] = std::min(strip.lo[1] + look_rows, corners.count[1]);
           for (const FieldTile& tile : evaluator.tiles(strip, stop))
             if (!tile.is_uniform && !(stop && stop->requested())) look.look(tile, found);
         }
