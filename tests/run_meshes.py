@@ -211,7 +211,8 @@ def files_are_kept(meshes):
 
 
 def interrupts_leave_nothing(meshes):
-    job = subprocess.Popen(meshes.command("mesh", "bar.vcad", "-o", "bar.stl", "--cell", "0.005"), cwd=meshes.folder,
+    job = subprocess.Popen(meshes.command("mesh", "bar.vcad", "-o", "bar.stl", "--cell", "0.005",
+                                          "--memory", "1T"), cwd=meshes.folder,
                            env=program.environment(), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                            stderr=subprocess.PIPE, text=True)
     time.sleep(1)
@@ -221,9 +222,30 @@ def interrupts_leave_nothing(meshes):
     expect(meshes.names() == ["bar.vcad"], str(meshes.names()))
 
 
+def memory_is_told_and_kept(meshes):
+    result = meshes.mesh("-o", "bar.stl", "--cell", "0.005", "--json", status=1)
+    events = [json.loads(line) for line in result.stdout.splitlines()]
+    (plan,) = [event for event in events if event["event"] == "plan"]
+    cells = 2 * (20 * 10 + 10 * 5 + 5 * 20) / 0.005**2  # of the bar's surface
+    expect(abs(plan["cells"] / cells - 1) < 0.1, str(plan))
+    (message,) = [event["message"] for event in events if event["event"] == "message"]
+    expect("more than the 4 GiB allowed" in message, message)
+    expect(meshes.names() == ["bar.vcad"], str(meshes.names()))
+
+
+def thin_parts_are_told(meshes):
+    (meshes.folder / "thin.vcad").write_text("translate(0, 0, 0.013) rectprism((100, 100, 0.05));\n"
+                                             "translate(0, 0, 20) cube(10);", encoding="utf-8")
+    result = meshes.mesh("-o", "thin.stl", design="thin.vcad")
+    expect("thinner than the cells of 0.4 mm is missing" in result.stderr, result.stderr)
+    (meshes.folder / "thin.stl").unlink()
+    result = meshes.mesh("-o", "thin.stl", "--cell", "2", "--tolerance", "1", design="bar.vcad")
+    expect("missing" not in result.stderr, result.stderr)
+
+
 CHECKS = [wing_is_right_where_cells_can_follow_it, bands_fill_the_whole, materials_get_a_body_each, steps_have_borders,
           materials_come_back, slicers_get_settings_of_each_band, slips_get_remedies, files_are_kept,
-          interrupts_leave_nothing]
+          interrupts_leave_nothing, memory_is_told_and_kept, thin_parts_are_told]
 
 
 def in_a_folder(ombre, checker, comparer, check):

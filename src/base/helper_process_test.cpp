@@ -46,15 +46,6 @@ TEST(HelperProcess, TellsErrorsCrashesAndHangs) {
   EXPECT_EQ(run(wait_forever, 0.2), "error: it is slow");
 }
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define OMBRE_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define OMBRE_SANITIZED
-#endif
-
 TEST(HelperProcess, KeepsItsMemory) {
 #ifdef OMBRE_SANITIZED
   GTEST_SKIP() << "the sanitizer ends programs that run out of memory";
