@@ -107,7 +107,7 @@ class CommandLine {
     }
   }
 
-  // For the scripts of `ombre completion`: a word and what it is on each line.
+  // Prints a word and what it is on each line, which the scripts of `ombre completion` read.
   int complete(const std::vector<std::string>& words) const {
     std::string text;
     for (const Completion& c : completions(program_, words))

@@ -25,7 +25,7 @@ std::vector<Completion> nodes() {
   return found;
 }
 
-// What the option accepts stands in its type: "MODE:{blue,white}" (checks.h).
+// An option's type lists the values that it accepts: "MODE:{blue,white}" (checks.h).
 std::vector<Completion> choices(const CLI::Option& option) {
   const std::string name = option.get_name(), type = option.get_type_name();
   if (name == "printer" || name == "--printer") return printers();

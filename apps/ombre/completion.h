@@ -1,4 +1,4 @@
-// What may stand next on a command line, for the shells' completion.
+// Words that may come next on a command line, for the shells' completion.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -11,8 +11,8 @@ struct Completion {
   std::string word, description;
 };
 
-// What may stand in place of the last of `words`, which follow the program's name, and begins as it does. Empty where
-// the names of files may stand, too.
+// Words that complete the last of `words`, which follow the program's name. Empty where names of files are possible,
+// too.
 std::vector<Completion> completions(const CLI::App& program, const std::vector<std::string>& words);
 
 // The script that has a shell ask `ombre completion words ...` for completions. Empty for a shell that is not known.

@@ -12,7 +12,7 @@
 namespace ombre::cli {
 namespace {
 
-// What `ombre completion words ...` prints: words and, after a tab, what they are.
+// The lines that `ombre completion words ...` prints: words and, after a tab, what they are.
 std::vector<std::string> lines_for(std::vector<const char*> words) {
   words.insert(words.begin(), {"ombre", "completion", "words"});
   testing::internal::CaptureStdout();

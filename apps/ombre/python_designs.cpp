@@ -24,7 +24,7 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
-// With its compiled part: a build folder links the rest before that is built.
+// The compiled part must be there: a build folder links the Python files before it is built.
 bool holds_package(const fs::path& folder) {
   std::error_code ignored;
   const fs::directory_iterator files(folder / "ombre", ignored);

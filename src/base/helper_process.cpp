@@ -24,7 +24,7 @@ namespace {
 
 constexpr int look_around_ms = 50;
 
-// What the child sends before its bytes.
+// The child sends this before its bytes.
 struct Header {
   uint64_t is_error = 0, size = 0;
 };

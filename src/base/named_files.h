@@ -1,4 +1,4 @@
-// Where the files may lie that a file names.
+// The places where a file that another file names may lie.
 #pragma once
 
 #include <string>

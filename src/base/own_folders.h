@@ -1,4 +1,4 @@
-// Where the files lie that are installed, or built, together with this code.
+// The folders of files that are installed, or built, together with this code.
 #pragma once
 
 #include <filesystem>

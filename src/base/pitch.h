@@ -18,7 +18,7 @@ struct Pitch {
   // is one, or else as it stands.
   static std::optional<Pitch> parse(std::string_view text);
   static std::optional<Pitch> from_dpi(std::string_view dots_per_inch);
-  // The same of the shortest decimal that gives this double.
+  // Takes the shortest decimal that gives this double.
   static std::optional<Pitch> from_mm(double mm);
 
   double mm() const { return static_cast<double>(numerator) / static_cast<double>(denominator); }

@@ -14,7 +14,7 @@ _lattices = "tile a GraphLattice, or write the lattice as a Function"
 _surfaces = "ombre.conformal_map, surface_map and relief lay things along surfaces"
 _images = "ombre.relief reads images as heights"
 
-# By the packages that have them, each with what to use instead.
+# Names that are missing, by the package that has them in pyvcad 3, each with what to use instead.
 MISSING: dict[str, dict[str, str]] = {
     "pyvcad": {
         "Cone": "ombre.cone(base, top, height) makes cones", "PolygonRevolve": "ombre.revolve turns a profile about z",
@@ -57,7 +57,7 @@ MISSING: dict[str, dict[str, str]] = {
         "resolve_selection_mesh": "", "save_mesh_selection": "", "load_mesh_selection": "", "replay_mesh_selection": ""},
 }
 
-# Of nodes.
+# Methods of nodes that are missing, with what to use instead.
 _methods = {
     "sample": "node.evaluate and node.distribution tell of a point", "to_diagram": "",
     "set_attribute_conflict_resolver": "Union(True, [...]) mixes compositions",
