@@ -3,13 +3,14 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "compile/find_file.h"
+#include "compile/mesh_closing.h"
 #include "compile/mesh_materials.h"
 #include "compile/support_source.h"
 #include "formats/file.h"
 #include "formats/mesh_objects.h"
-#include "import/corner_welder.h"
+#include "import/beam_source.h"
+#include "import/combined_source.h"
 #include "import/mesh_source.h"
-#include "import/shells.h"
 
 namespace ombre::compile {
 namespace {
@@ -17,79 +18,6 @@ namespace {
 importing::InsideRule rule_of(std::string_view name) {
   if (name == "parity") return importing::InsideRule::parity;
   return name == "generalized" ? importing::InsideRule::generalized : importing::InsideRule::nonzero;
-}
-
-std::string point_text(Vec3 p) {
-  return "(" + format_rounded(p.x) + ", " + format_rounded(p.y) + ", " + format_rounded(p.z) + ")";
-}
-
-bool has_inside(const importing::MeshReport& report, std::string_view rule) {
-  return report.is_closed() || rule == "generalized" || (rule == "parity" && report.open_edges == 0);
-}
-
-// "is open along 4 edges, for example from ... to ..."
-std::string faults(const importing::MeshReport& report) {
-  std::string message;
-  if (report.open_edges > 0)
-    message = "is open along " + format_count(report.open_edges) + (report.open_edges == 1 ? " edge" : " edges");
-  if (report.inconsistent_edges > 0)
-    message += std::string(report.open_edges > 0 ? " and " : "") + "has triangles facing different ways along " +
-               format_count(report.inconsistent_edges) + (report.inconsistent_edges == 1 ? " edge" : " edges");
-  if (!report.examples.empty())
-    message += ", for example from " + point_text(report.examples[0][0]) + " to " + point_text(report.examples[0][1]);
-  return message;
-}
-
-// Where the surface is open because corners differ by rounding.
-void join_corners(const std::string& path, formats::Mesh& mesh, std::string_view rule, const design::Reader& reader,
-                  importing::MeshReport& report) {
-  const size_t open_edges = report.open_edges;
-  const auto welded = importing::weld_corners(mesh, rule == "parity");
-  if (!welded) return;
-  reader.diagnostics.note(reader.where, format_count(welded->corners) + " corners of the mesh \"" + path +
-                                            "\" that lie up to " + format_rounded(welded->farthest_mm, 2) +
-                                            " mm apart were joined: the surface was open along " +
-                                            format_count(open_edges) + (open_edges == 1 ? " edge" : " edges"));
-  report = importing::inspect(mesh);
-}
-
-// Shells that face inward and overlap others that face outward would cancel them out.
-void turn_shells(const std::string& path, formats::Mesh& mesh, const design::Reader& reader) {
-  const auto [turned, shells] = importing::turn_inverted_shells(mesh);
-  if (turned == 0) return;
-  const bool is_one = turned == 1;
-  reader.diagnostics.warning(reader.where, format_count(turned) + " of the " + format_count(shells) +
-                                               " shells of the mesh \"" + path + "\" " + (is_one ? "faces" : "face") +
-                                               " inward, where others face outward, and " + (is_one ? "lies" : "lie") +
-                                               " in none of them; " + (is_one ? "it is" : "they are") +
-                                               " turned round");
-}
-
-// False, and a diagnostic, when the mesh has no inside under the rule. Small faults are mended.
-bool make_closed(const std::string& path, formats::Mesh& mesh, std::string_view rule, const design::Reader& reader) {
-  importing::MeshReport report = importing::inspect(mesh);
-  if (!has_inside(report, rule)) join_corners(path, mesh, rule, reader, report);
-  if (!has_inside(report, rule)) {
-    const std::string hint = report.open_edges > 0
-                                 ? "repair it, or write inside=\"generalized\" to close it by winding number"
-                                 : "repair it, or write inside=\"parity\" to ignore which way triangles face";
-    reader.diagnostics.error(reader.where, "the mesh \"" + path + "\" " + faults(report), hint);
-    return false;
-  }
-  if (rule != "parity" && report.inward_shells > 0 && report.inward_shells < report.shells)
-    turn_shells(path, mesh, reader);
-  return true;
-}
-
-// The same for what a file has of one material, when the whole is closed.
-bool check_part_closed(const std::string& path, const MaterialMesh& part, std::string_view rule,
-                       const design::Reader& reader) {
-  const importing::MeshReport report = importing::inspect(part.mesh);
-  if (has_inside(report, rule)) return true;
-  reader.diagnostics.error(
-      reader.where, "what the mesh \"" + path + "\" has of \"" + part.material.material->name + "\" " + faults(report),
-      "save a closed body for each material, or leave materials out to have one");
-  return false;
 }
 
 // False, and a diagnostic, when the file has no object of that name.
@@ -120,6 +48,34 @@ std::vector<std::string> key_of(const std::string& path, const design::MeshUse& 
   return key;
 }
 
+formats::Mesh moved(formats::Mesh mesh, const Affine& map) {
+  for (Vec3& p : mesh.vertices) p = map(p);
+  if (determinant(map) < 0)
+    for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+  return mesh;
+}
+
+program::SourceField source_of(const std::string& path, const formats::PlacedLattice& placed, Hash content,
+                               importing::InsideRule rule) {
+  program::SourceField beams = importing::make_beam_source(path, placed, content);
+  const formats::BeamLattice& lattice = *placed.lattice;
+  if (!lattice.clip) return beams;
+  program::SourceField clip =
+      importing::make_mesh_source(path, moved(*lattice.clip, placed.mm_from_lattice), content, {rule});
+  return importing::make_clipped_source(beams, clip, lattice.clipping == formats::LatticeClipping::inside);
+}
+
+// The triangles and the lattices of one material. `content` is the hash of what they are.
+design::MeshPart part_of(const std::string& path, MaterialMesh part, Hash content, importing::InsideRule rule) {
+  std::vector<program::SourceField> sources;
+  const std::vector<formats::PlacedLattice> lattices = std::move(part.mesh.lattices);
+  if (!part.mesh.triangles.empty())
+    sources.push_back(importing::make_mesh_source(path, std::move(part.mesh), content, {rule}));
+  for (size_t n = 0; n < lattices.size(); ++n)
+    sources.push_back(source_of(path, lattices[n], hash_bytes(content.hex() + " lattice " + std::to_string(n)), rule));
+  return {part.material, importing::make_union_source(std::move(sources)), lattices.empty()};
+}
+
 std::optional<std::vector<MaterialMesh>> read_parts(const std::string& path, std::string_view bytes,
                                                     const design::MeshUse& use, const design::Reader& reader) {
   auto mesh = formats::read_mesh(path, bytes, reader.diagnostics);
@@ -128,7 +84,8 @@ std::optional<std::vector<MaterialMesh>> read_parts(const std::string& path, std
     return std::nullopt;
   }
   if (!choose_object(path, *mesh, use.object, reader)) return std::nullopt;
-  if (!make_closed(path, *mesh, use.inside.text(), reader)) return std::nullopt;
+  if (!make_closed(mesh_called(path), *mesh, use.inside.text(), reader)) return std::nullopt;
+  if (!close_clips(path, *mesh, use.inside.text(), reader)) return std::nullopt;
   std::vector<MaterialMesh> parts;
   if (use.materials == "one") {
     parts.push_back({use.material, std::move(*mesh)});
@@ -188,8 +145,7 @@ std::vector<design::MeshPart> MeshLoader::read(const std::string& path, const de
   std::vector<design::MeshPart> parts;
   for (MaterialMesh& part : *meshes) {
     const Hash own = use.materials == "one" ? content : hash_bytes(content.hex() + part.material.material->name);
-    parts.push_back(
-        {part.material, importing::make_mesh_source(path, std::move(part.mesh), own, {rule_of(use.inside.text())})});
+    parts.push_back(part_of(path, std::move(part), own, rule_of(use.inside.text())));
   }
   if (parts[0].source->channel("distance") >= 0) return parts;
   reader.diagnostics.error(reader.where, "meshes are not available: this build has no library for their distances");

@@ -135,7 +135,7 @@ namespace {
 std::string remedy_of(const formats::Mesh& mesh) {
   const std::string other = "use a 3MF, AMF or OBJ file that has them";
   const std::vector<std::string> names = formats::object_names(mesh);
-  if (mesh.groups.size() < 2 || names.size() < 2) return other;
+  if (formats::all_groups(mesh).size() < 2 || names.size() < 2) return other;
   // The last ones are bodies also where the first is what they make up.
   return "give each of its bodies a mesh and a material of its own, with object=\"" + names[names.size() - 2] +
          "\", object=\"" + names.back() + "\" and so on, or " + other;
@@ -155,7 +155,8 @@ std::optional<std::vector<const Material*>> find_materials(const GroupedFile& fi
 
 std::optional<std::vector<MaterialMesh>> by_material(const std::string& path, const formats::Mesh& mesh,
                                                      const design::MeshUse& use, const design::Reader& reader) {
-  const auto materials = find_materials({"the mesh", "mesh", path, remedy_of(mesh)}, mesh.groups, use, reader);
+  const auto materials =
+      find_materials({"the mesh", "mesh", path, remedy_of(mesh)}, formats::all_groups(mesh), use, reader);
   if (!materials) return std::nullopt;
   std::vector<MaterialMesh> parts;
   std::set<const Material*> done;

@@ -16,10 +16,11 @@ struct MeshUse {
   std::vector<MaterialForName> material_map;  // before the names in the table of materials
 };
 
-// The triangles of one material.
+// The triangles and lattices of one material.
 struct MeshPart {
   MaterialName material;
   program::SourceField source;  // with the channels "inside" and "distance"
+  bool is_exact = true;         // "distance" is the one to the surface everywhere
 };
 
 // A source that is made when a job knows how finely. Thread-safe.

@@ -12,14 +12,19 @@ namespace {
 constexpr size_t most_levels = 32;
 // Of what repeated objects come to; what a file lists one by one may be more.
 constexpr uint64_t most_instances = 1'000'000, most_groups = 1'000'000;
-constexpr uint64_t most_triangles = 50'000'000, most_vertices = 50'000'000;
+constexpr uint64_t most_triangles = 50'000'000, most_vertices = 50'000'000, most_beams = 50'000'000;
 
 struct Amount {
-  uint64_t instances = 0, groups = 0, vertices = 0, triangles = 0;
+  uint64_t instances = 0, groups = 0, vertices = 0, triangles = 0, beams = 0;
   size_t levels = 0;
 
-  // An object without its components.
-  static Amount of(const Mesh& mesh) { return {1, mesh.groups.size(), mesh.vertices.size(), mesh.triangles.size(), 0}; }
+  // An object without its components. A ball counts as a beam.
+  static Amount of(const Mesh& mesh) {
+    Amount amount{1, mesh.groups.size() + mesh.lattices.size(), mesh.vertices.size(), mesh.triangles.size()};
+    for (const PlacedLattice& placed : mesh.lattices)
+      amount.beams += placed.lattice->beams.size() + placed.lattice->balls.size();
+    return amount;
+  }
 
   // Each is cut off beyond all limits, so that sums of sums stay numbers.
   void add(const Amount& other) {
@@ -28,6 +33,7 @@ struct Amount {
     groups = std::min(groups + other.groups, beyond);
     vertices = std::min(vertices + other.vertices, beyond);
     triangles = std::min(triangles + other.triangles, beyond);
+    beams = std::min(beams + other.beams, beyond);
     levels = std::max(levels, other.levels);
   }
 };
@@ -76,12 +82,12 @@ class Assembler {
     if (amount.instances > std::max(most_instances, once.instances) ||
         amount.groups > std::max(most_groups, once.groups) ||
         amount.triangles > std::max(most_triangles, once.triangles) ||
-        amount.vertices > std::max(most_vertices, once.vertices))
+        amount.vertices > std::max(most_vertices, once.vertices) || amount.beams > std::max(most_beams, once.beams))
       fail(diagnostics_, file_,
-           "its objects are repeated too often: to " + format_count(amount.triangles) + " triangles in " +
-               format_count(amount.instances) + " places; at most " + format_count(most_triangles) + " in " +
-               format_count(most_instances) + " are made");
-    if (amount.triangles == 0)
+           "its objects are repeated too often: to " + format_count(amount.triangles) + " triangles and " +
+               format_count(amount.beams) + " beams in " + format_count(amount.instances) + " places; at most " +
+               format_count(most_triangles) + " of either in " + format_count(most_instances) + " are made");
+    if (amount.triangles == 0 && amount.beams == 0)
       fail(diagnostics_, file_, "nothing that is built has triangles", "save it with at least one mesh");
     if (amount.triangles > UINT32_MAX || amount.vertices > UINT32_MAX)
       fail(diagnostics_, file_, "there are too many triangles or vertices: more than 4,294,967,295");
@@ -112,6 +118,7 @@ class Assembler {
 
   void place(const AssemblyObject& object, const Affine& mm_from_object, const std::string& whole) {
     if (!object.mesh.triangles.empty()) append(object, mm_from_object, whole);
+    for (const PlacedLattice& placed : object.mesh.lattices) append(placed, object, mm_from_object, whole);
     for (const Placement& component : object.components)
       place(find(component.object), mm_from_object * component.parent_from_object, whole);
   }
@@ -126,10 +133,21 @@ class Assembler {
           {first_vertex + a, first_vertex + (is_mirrored ? c : b), first_vertex + (is_mirrored ? b : c)});
     for (MeshGroup group : object.mesh.groups) {
       group.first_triangle += first_triangle;
-      if (group.name.empty()) group.name = object.name;
-      if (group.name != whole) group.object = whole;
-      mesh_.groups.push_back(std::move(group));
+      mesh_.groups.push_back(named(std::move(group), object, whole));
     }
+  }
+
+  static MeshGroup named(MeshGroup group, const AssemblyObject& object, const std::string& whole) {
+    if (group.name.empty()) group.name = object.name;
+    if (group.name != whole) group.object = whole;
+    return group;
+  }
+
+  void append(const PlacedLattice& placed, const AssemblyObject& object, const Affine& mm_from_object,
+              const std::string& whole) {
+    const Affine mm_from_lattice = mm_from_object * placed.mm_from_lattice;
+    for (const Vec3& p : placed.lattice->vertices) usable(mm_from_lattice(p));
+    mesh_.lattices.push_back({named(placed.group, object, whole), placed.lattice, mm_from_lattice});
   }
 
   Vec3 usable(Vec3 p) const {

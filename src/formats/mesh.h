@@ -10,6 +10,7 @@
 
 #include "base/diagnostic.h"
 #include "base/vec.h"
+#include "formats/beam_lattice.h"
 #include "formats/rgba.h"
 
 namespace ombre::formats {
@@ -24,13 +25,21 @@ struct MeshGroup {
   std::optional<Rgba> colour = {};  // AMF, 3MF: its own or its material's
 };
 
+// A lattice of one material in its place. Several places may share it.
+struct PlacedLattice {
+  MeshGroup group;  // what it is called and made of; it has no triangles
+  std::shared_ptr<const BeamLattice> lattice;
+  Affine mm_from_lattice = {};  // with an inverse
+};
+
 struct Mesh {
   // As in the file, 3MF and AMF in mm; finite, at most greatest_coordinate away from 0.
   std::vector<Vec3> vertices;
-  std::vector<std::array<uint32_t, 3>> triangles;          // counter-clockwise from outside; never empty
+  std::vector<std::array<uint32_t, 3>> triangles;          // counter-clockwise from outside; empty only beside lattices
   std::vector<MeshGroup> groups;                           // in order, none empty, together all triangles
   std::vector<std::array<double, 2>> texture_coordinates;  // may be empty
   std::vector<std::array<uint32_t, 3>> texture_triangles;  // empty, or one per triangle, into texture_coordinates
+  std::vector<PlacedLattice> lattices;  // of 3MF; they unite with the triangles, and what comes first wins
 };
 
 // Farther away, a double cannot tell micrometres apart.

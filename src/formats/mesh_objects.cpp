@@ -38,11 +38,17 @@ std::vector<std::string> object_names(const Mesh& mesh) {
   const auto add = [&](const std::string& name) {
     if (!name.empty() && known.insert(name).second) names.push_back(name);
   };
-  for (const MeshGroup& group : mesh.groups) {
+  for (const MeshGroup& group : all_groups(mesh)) {
     add(group.object);
     add(group.name);
   }
   return names;
+}
+
+std::vector<MeshGroup> all_groups(const Mesh& mesh) {
+  std::vector<MeshGroup> groups = mesh.groups;
+  for (const PlacedLattice& placed : mesh.lattices) groups.push_back(placed.group);
+  return groups;
 }
 
 Mesh groups_of(const Mesh& mesh, const std::vector<bool>& marks) {
@@ -55,6 +61,8 @@ Mesh groups_of(const Mesh& mesh, const std::vector<bool>& marks) {
     group.first_triangle = static_cast<uint32_t>(kept.triangles.size()) - group.triangle_count;
     kept.groups.push_back(std::move(group));
   }
+  for (size_t n = 0; n < mesh.lattices.size(); ++n)
+    if (marks[mesh.groups.size() + n]) kept.lattices.push_back(mesh.lattices[n]);
   kept.texture_coordinates = mesh.texture_coordinates;
   take_used_vertices(mesh.vertices, kept);
   return kept;
@@ -62,7 +70,7 @@ Mesh groups_of(const Mesh& mesh, const std::vector<bool>& marks) {
 
 bool keep_object(Mesh& mesh, const std::string& name) {
   std::vector<bool> marks;
-  for (const MeshGroup& group : mesh.groups) marks.push_back(is_called(group, name));
+  for (const MeshGroup& group : all_groups(mesh)) marks.push_back(is_called(group, name));
   if (std::find(marks.begin(), marks.end(), true) == marks.end()) return false;
   mesh = groups_of(mesh, marks);
   return true;

@@ -11,7 +11,10 @@ namespace ombre::formats {
 // The names by which keep_object() finds something, each once, in the order of the file.
 std::vector<std::string> object_names(const Mesh& mesh);
 
-// The groups that are marked, in order, with the vertices that they use.
+// Those of the triangles, then those of the lattices.
+std::vector<MeshGroup> all_groups(const Mesh& mesh);
+
+// The groups that are marked, in order, with the vertices that they use; `marks` is for all_groups().
 Mesh groups_of(const Mesh& mesh, const std::vector<bool>& marks);
 
 // Keeps the groups whose name is `name`, or whose object's is. False, and an unchanged mesh, if there are none.

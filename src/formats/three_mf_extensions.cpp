@@ -17,16 +17,17 @@ namespace {
 using pugi::xml_node;
 
 // Parts of the names of those that are read, and of those in which slicers keep settings.
-constexpr std::string_view read_spaces[]{"/core/", "/material/", "/production/"};
+constexpr std::string_view read_spaces[]{"/core/", "/material/", "/production/", "/beamlattice/"};
 constexpr std::string_view harmless_spaces[]{"/trianglesets/", "slic3r.org", "bambulab.com", "ultimaker.com"};
 
 // Elements that hold others, among which extensions put theirs.
-constexpr std::string_view holders[]{"resources", "build", "object", "mesh"};
-constexpr std::string_view known_elements[]{"resources",      "build",     "object",         "mesh",
-                                            "vertices",       "triangles", "components",     "item",
-                                            "metadata",       "settings",  "metadatagroup",  "basematerials",
-                                            "colorgroup",     "texture2d", "texture2dgroup", "compositematerials",
-                                            "multiproperties"};
+constexpr std::string_view holders[]{"resources", "build", "object", "mesh", "beamlattice"};
+constexpr std::string_view known_elements[]{"resources",       "build",       "object",         "mesh",
+                                            "vertices",        "triangles",   "components",     "item",
+                                            "metadata",        "settings",    "metadatagroup",  "basematerials",
+                                            "colorgroup",      "texture2d",   "texture2dgroup", "compositematerials",
+                                            "multiproperties", "beamlattice", "beams",          "balls",
+                                            "beamsets"};
 
 bool is_listed(std::string_view text, std::span<const std::string_view> list) {
   return std::find(list.begin(), list.end(), text) != list.end();

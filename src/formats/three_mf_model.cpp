@@ -7,24 +7,14 @@
 
 #include "base/text.h"
 #include "formats/text_scanner.h"
+#include "formats/three_mf_beams.h"
 #include "formats/three_mf_extensions.h"
+#include "formats/three_mf_resources.h"
 
 namespace ombre::formats {
 namespace {
 
 using pugi::xml_node;
-
-struct Property {
-  std::string material;
-  std::optional<Rgba> colour;
-};
-using PropertyGroups = std::map<uint64_t, std::vector<Property>>;
-
-xml_node child_of(xml_node node, std::string_view name) {
-  for (const xml_node child : node.children())
-    if (local_name(child) == name) return child;
-  return {};
-}
 
 // Twelve numbers, column by column of our matrices: 3MF multiplies rows by matrices.
 Affine parse_transform(const XmlFile& file, xml_node node) {
@@ -43,22 +33,16 @@ Affine parse_transform(const XmlFile& file, xml_node node) {
 class ObjectReader {
  public:
   ObjectReader(const XmlFile& file, const std::string& part, Assembly& assembly, std::set<std::string>& further)
-      : file_(file), part_(part), assembly_(assembly), further_(further) {}
+      : file_(file), part_(part), assembly_(assembly), further_(further), properties_(file) {}
 
   void read(xml_node resources) {
-    for (const xml_node node : resources.children()) {
-      const std::string_view kind = local_name(node);
-      if (kind == "basematerials") read_properties(node, "base", "displaycolor");
-      if (kind == "colorgroup") read_properties(node, "color", "color");
-      if (kind == "texture2dgroup" || kind == "compositematerials" || kind == "multiproperties")
-        mixtures_[id_of(node, "id")] = kind;
-    }
+    properties_.read(resources);
     for (const xml_node node : resources.children())
       if (local_name(node) == "object") read_object(node);
   }
 
   Placement read_placement(xml_node node) {
-    const uint64_t id = id_of(node, "objectid");
+    const uint64_t id = resource_id(file_, node, "objectid");
     const auto path = file_.attribute(node, "path");
     if (!path || path->empty()) return {object_key(part_, id), parse_transform(file_, node)};
     const std::string other(path->front() == '/' ? path->substr(1) : *path);
@@ -67,27 +51,8 @@ class ObjectReader {
   }
 
  private:
-  // Where a triangle's property stands: a group and an index in it.
-  struct Source {
-    std::optional<uint64_t> group, index;
-    bool operator==(const Source&) const = default;
-  };
-
-  uint64_t id_of(xml_node node, std::string_view attribute) const {
-    return file_.count(node, file_.required(node, attribute), "the number of an object or a resource");
-  }
-
-  void read_properties(xml_node node, std::string_view element, std::string_view colour) {
-    std::vector<Property>& properties = properties_[id_of(node, "id")];
-    for (const xml_node child : node.children()) {
-      if (local_name(child) != element) continue;
-      const auto text = file_.attribute(child, colour);
-      properties.push_back({std::string(file_.attribute(child, "name").value_or("")), parse_colour(text.value_or(""))});
-    }
-  }
-
   void read_object(xml_node node) {
-    const uint64_t id = id_of(node, "id");
+    const uint64_t id = resource_id(file_, node, "id");
     AssemblyObject object;
     object.name = file_.attribute(node, "name").value_or("");
     if (object.name.empty()) object.name = "object " + std::to_string(id);
@@ -126,23 +91,37 @@ class ObjectReader {
 
   void read_mesh(xml_node mesh, xml_node object_node, AssemblyObject& object) {
     for (const xml_node vertex : child_of(mesh, "vertices").children()) object.mesh.vertices.push_back(point(vertex));
-    const Source usual = source_of(object_node, "pindex", {});
-    Source last;
+    const PropertyReference usual = properties_.reference(object_node, "pindex", {});
+    PropertyReference last;
     for (const xml_node triangle : child_of(mesh, "triangles").children()) {
       if (local_name(triangle) != "triangle") continue;
-      const Source source = source_of_triangle(triangle, usual);
-      if (object.mesh.groups.empty() || source != last) start_group(object.mesh, source, triangle);
-      last = source;
-      count_mixture(source);
+      const PropertyReference property = properties_.reference(triangle, {"p1", "p2", "p3"}, usual);
+      if (object.mesh.groups.empty() || property != last) start_group(object.mesh, property, triangle);
+      last = property;
+      count_mixture(property);
       object.mesh.triangles.push_back(corners(triangle, object.mesh.vertices.size()));
       ++object.mesh.groups.back().triangle_count;
     }
+    if (const xml_node lattice = child_of(mesh, "beamlattice"))
+      add_lattices(
+          file_, lattice, properties_, usual, [&](xml_node user, uint64_t id) { return clip(user, id); },
+          assembly_.warnings, object.mesh);
   }
 
-  void count_mixture(const Source& source) {
-    const auto mixture = source.group ? mixtures_.find(*source.group) : mixtures_.end();
-    if (mixture == mixtures_.end()) return;
-    const std::string rest = " by <" + mixture->second + ">, which is not read";
+  // The mesh by which a lattice is clipped: that of an object before its own.
+  std::shared_ptr<const Mesh> clip(xml_node user, uint64_t id) {
+    std::shared_ptr<const Mesh>& known = clips_[id];
+    if (known) return known;
+    const auto found = assembly_.objects.find(object_key(part_, id));
+    if (found == assembly_.objects.end() || found->second.mesh.triangles.empty())
+      file_.fail_at(user, "the clippingmesh " + std::to_string(id) + " is no object with triangles before this one");
+    return known = std::make_shared<Mesh>(found->second.mesh);
+  }
+
+  void count_mixture(const PropertyReference& property) {
+    const std::string mixture = properties_.mixture(property);
+    if (mixture.empty()) return;
+    const std::string rest = " by <" + mixture + ">, which is not read";
     assembly_.warnings.add("a triangle has its material" + rest, "triangles have their materials" + rest);
   }
 
@@ -154,54 +133,21 @@ class ObjectReader {
   }
 
   std::array<uint32_t, 3> corners(xml_node triangle, size_t vertices) const {
-    const auto corner = [&](const char* attribute) {
-      const uint64_t index = file_.count(triangle, file_.required(triangle, attribute), "the number of a vertex");
-      if (index >= vertices)
-        file_.fail_at(triangle, "the triangle uses vertex " + std::to_string(index) + ", but the " +
-                                    format_count(vertices) + " vertices of its object are numbered from 0");
-      return static_cast<uint32_t>(index);
-    };
-    return {corner("v1"), corner("v2"), corner("v3")};
+    return {vertex_number(file_, triangle, "v1", vertices), vertex_number(file_, triangle, "v2", vertices),
+            vertex_number(file_, triangle, "v3", vertices)};
   }
 
-  Source source_of(xml_node node, std::string_view index, Source usual) const {
-    if (const auto group = file_.attribute(node, "pid"))
-      usual.group = file_.count(node, *group, "the number of a resource");
-    if (const auto text = file_.attribute(node, index))
-      usual.index = file_.count(node, *text, "the number of a property");
-    return usual;
-  }
-
-  // A triangle whose corners differ has none: there is no place for mixtures.
-  Source source_of_triangle(xml_node triangle, const Source& usual) const {
-    const Source source = source_of(triangle, "p1", usual);
-    const auto first = file_.attribute(triangle, "p1");
-    for (const char* corner : {"p2", "p3"})
-      if (const auto other = file_.attribute(triangle, corner); other && other != first) return {};
-    return source;
-  }
-
-  // Groups of other kinds (textures, mixtures) give neither a material nor a colour.
-  void start_group(Mesh& mesh, const Source& source, xml_node triangle) const {
+  void start_group(Mesh& mesh, const PropertyReference& property, xml_node triangle) const {
     mesh.groups.push_back({"", static_cast<uint32_t>(mesh.triangles.size()), 0});
-    if (!source.group || !source.index) return;
-    const auto found = properties_.find(*source.group);
-    if (found == properties_.end()) return;
-    if (*source.index >= found->second.size())
-      file_.fail_at(triangle, "the triangle uses property " + std::to_string(*source.index) + " of resource " +
-                                  std::to_string(*source.group) + ", which has " + format_count(found->second.size()) +
-                                  " numbered from 0");
-    const Property& property = found->second[*source.index];
-    mesh.groups.back().material = property.material;
-    mesh.groups.back().colour = property.colour;
+    properties_.describe(property, triangle, mesh.groups.back());
   }
 
   const XmlFile& file_;
   const std::string& part_;
   Assembly& assembly_;
   std::set<std::string>& further_;
-  PropertyGroups properties_;
-  std::map<uint64_t, std::string> mixtures_;  // the kinds of resources that mix others
+  PropertyTable properties_;
+  std::map<uint64_t, std::shared_ptr<const Mesh>> clips_;
 };
 
 // Slicers' ways to give parts of a surface to other extruders.

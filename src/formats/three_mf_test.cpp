@@ -1,12 +1,7 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-
-#include "formats/file.h"
-#include "formats/mesh_writers.h"
 #include "formats/test_documents.h"
-#include "formats/zip_archive.h"
+#include "formats/test_packages.h"
 
 #ifdef OMBRE_3MF
 
@@ -14,73 +9,6 @@ namespace ombre::formats {
 namespace {
 
 using namespace test;
-
-// What a writer writes to a path.
-template <class Write>
-std::string written(const Write& write) {
-  const std::string path =
-      (std::filesystem::temp_directory_path() / ("three_mf_test_" + std::to_string(getpid()))).string();
-  write(path);
-  std::string bytes = read_file(path);
-  std::filesystem::remove(path);
-  return bytes;
-}
-
-std::string package(const MeshDocument& document, SlicerFlavour flavour) {
-  return written([&](const std::string& path) { write_3mf(path, document, flavour); });
-}
-
-std::string zipped(const std::vector<std::pair<std::string, std::string>>& files) {
-  std::vector<ZipEntry> entries;
-  for (const auto& [name, text] : files) {
-    entries.push_back({name, {}});
-    entries.back().bytes.add(text);
-  }
-  return written([&](const std::string& path) { write_zip(path, entries); });
-}
-
-std::pair<std::string, std::string> relationships(const std::string& target = "/3D/a.model") {
-  return {"_rels/.rels",
-          "<Relationships><Relationship Id=\"r\" Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\" "
-          "Target=\"" +
-              target + "\"/></Relationships>"};
-}
-
-std::string archive(const std::string& model) { return zipped({relationships(), {"3D/a.model", model}}); }
-
-std::string object(int id, const std::string& attributes = "", const std::string& triangle = "") {
-  return "<object id=\"" + std::to_string(id) + "\" " + attributes +
-         "><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"2\" "
-         "z=\"0\"/><vertex x=\"0\" y=\"0\" z=\"4\"/></vertices>\n<triangles><triangle v1=\"0\" v2=\"2\" v3=\"1\" " +
-         triangle +
-         "/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/><triangle v1=\"1\" v2=\"2\" v3=\"3\"/>"
-         "<triangle v1=\"0\" v2=\"3\" v3=\"2\"/></triangles></mesh></object>\n";
-}
-
-std::string components(int id, const std::string& inner) {
-  return "<object id=\"" + std::to_string(id) + "\"><components>" + inner + "</components></object>\n";
-}
-
-std::string model(const std::string& resources, const std::string& build = "<item objectid=\"1\"/>",
-                  const std::string& attributes = "unit=\"millimeter\"") {
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model " + attributes + ">\n<resources>\n" + resources +
-         "</resources>\n<build>" + build + "</build>\n</model>\n";
-}
-
-Mesh read(const std::string& bytes) {
-  Diagnostics diagnostics;
-  const auto mesh = read_mesh("a.3mf", bytes, diagnostics);
-  EXPECT_TRUE(mesh && diagnostics.list().empty()) << to_text(diagnostics);
-  return mesh.value_or(Mesh{});
-}
-
-void expect_message(const std::string& bytes, const std::string& part) {
-  Diagnostics diagnostics;
-  EXPECT_FALSE(read_3mf("a.3mf", bytes, diagnostics));
-  EXPECT_EQ(diagnostics.error_count(), 1u);
-  EXPECT_NE(to_text(diagnostics).find(part), std::string::npos)
-      << "expected: " << part << "\nfound: " << to_text(diagnostics);
-}
 
 TEST(ThreeMf, NamesMaterialsAndColoursComeBack) {
   for (const auto flavour : {SlicerFlavour::generic, SlicerFlavour::prusa, SlicerFlavour::bambu}) {
@@ -309,17 +237,16 @@ TEST(ThreeMf, MeshesOfCuraThatChangeSettingsAreNoPart) {
 }
 
 TEST(ThreeMf, ExtensionsThatAreUsedAreTold) {
-  std::string beams = object(1);
-  const std::string lattice = "beamlattice radius=\"1\"><b:beams><b:beam v1=\"0\" v2=\"3\"/></b:beams></b:beamlattice>";
-  beams.insert(beams.find("</mesh>"), "<b:" + lattice);
-  const std::string space = "http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02";
+  std::string slices = object(1);
+  slices.insert(slices.find("</mesh>"), "<s:slicestack><s:slice/></s:slicestack>");
+  const std::string space = "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07";
   const std::string told =
-      "warning: a.3mf/3D/a.model: what the 3MF extension \"b\" adds is not read: \"" + space + "\" (1 <beamlattice>)\n";
-  const std::string declared = "xmlns:b=\"" + space + '"';
-  EXPECT_EQ(warnings(archive(model(beams, "<item objectid=\"1\"/>", declared))), told);
-  EXPECT_EQ(warnings(archive(model(beams, "<item objectid=\"1\"/>", declared + " requiredextensions=\"b\""))), told);
+      "warning: a.3mf/3D/a.model: what the 3MF extension \"s\" adds is not read: \"" + space + "\" (1 <slicestack>)\n";
+  const std::string declared = "xmlns:s=\"" + space + '"';
+  EXPECT_EQ(warnings(archive(model(slices, "<item objectid=\"1\"/>", declared))), told);
+  EXPECT_EQ(warnings(archive(model(slices, "<item objectid=\"1\"/>", declared + " requiredextensions=\"s\""))), told);
   std::string own = object(1);
-  own.insert(own.find("</mesh>"), "<beamlattice xmlns=\"" + space + "\"/>");
+  own.insert(own.find("</mesh>"), "<slicestack xmlns=\"" + space + "\"/>");
   EXPECT_NE(warnings(archive(model(own))).find("what a 3MF extension adds is not read: \"" + space), std::string::npos);
   EXPECT_EQ(warnings(archive(model("<stack/>" + object(1) + "<stack/>"))),
             "warning: a.3mf/3D/a.model: elements of unknown names are not read: 2 <stack>\n");

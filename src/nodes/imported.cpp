@@ -87,7 +87,8 @@ struct Mesh {
   static Spec<Mesh> spec() {
     return {"mesh",
             "imported",
-            "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF or AMF in their own unit.",
+            "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF (with its beams) or AMF in their own "
+            "unit.",
             {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
              {"material", &Mesh::material, "Its material; beside the file's materials, that of what has none there"},
              {"inside", &Mesh::inside_rule,
@@ -121,7 +122,7 @@ struct Mesh {
   }
 
   // Walls between two parts are nearer than the surface of the whole.
-  Metric metric() const { return parts.size() == 1 ? Metric::exact() : Metric::bounded(); }
+  Metric metric() const { return parts.size() == 1 && parts[0].is_exact ? Metric::exact() : Metric::bounded(); }
 
   Box bounds(const Box&) const { return bounds_of(parts); }
   Field distance(const Point& p) const { return least_distance(parts, p); }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/box_tree.h"
 #include "base/tasks.h"
-#include "surface/box_tree.h"
 #include "surface/surface_distance.h"
 
 namespace ombre::surface {

@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "base/box_tree.h"
 #include "base/tasks.h"
-#include "surface/box_tree.h"
 
 namespace ombre::surface {
 namespace {

@@ -1,8 +1,8 @@
-#include "surface/box_tree.h"
+#include "base/box_tree.h"
 
 #include <utility>
 
-namespace ombre::surface {
+namespace ombre {
 namespace {
 
 constexpr int bits = 21;  // of a place along each axis
@@ -67,4 +67,4 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) {
   } while (levels_.back().size() > 1);
 }
 
-}  // namespace ombre::surface
+}  // namespace ombre

@@ -10,7 +10,7 @@
 
 #include "base/box.h"
 
-namespace ombre::surface {
+namespace ombre {
 
 inline bool meet(const Box& a, const Box& b) {
   return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
@@ -116,4 +116,4 @@ class BoxTree {
   std::vector<uint32_t> order_;           // of the boxes: their numbers
 };
 
-}  // namespace ombre::surface
+}  // namespace ombre

@@ -1,4 +1,4 @@
-#include "surface/box_tree.h"
+#include "base/box_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-namespace ombre::surface {
+namespace ombre {
 namespace {
 
 std::vector<Box> scattered_boxes(size_t count) {
@@ -70,4 +70,4 @@ TEST(BoxTree, FindsEachPairOnce) {
   }
 }
 
-}  // namespace ombre::surface
+}  // namespace ombre
