@@ -11,13 +11,22 @@ namespace {
 using program::Span;
 
 // What is nearer to the eye is not seen, as a share of the way to the picture plane.
-constexpr double nearest = 1.0 / 200;
+constexpr double nearest_seen = 1.0 / 200;
 // Coordinates beyond this are no voxels of ours; within, doubles hold every integer.
-constexpr double farthest_index = 4e15;
-// Ends of chords are computed but for rounding, which may move them past a voxel's centre.
-constexpr int most_steps = 2;
+constexpr double farthest_voxel = 4e15;
+// Ends of chords are rounded; nearer to a voxel's centre they do not say on which side of it they lie.
+constexpr double doubt = 1e-6;
 
-int64_t voxel(double index) { return static_cast<int64_t>(std::clamp(index, -farthest_index, farthest_index)); }
+int64_t whole(double index) { return static_cast<int64_t>(std::clamp(index, -farthest_voxel, farthest_voxel)); }
+
+// The first voxel from the beginning of a chord on. One whose centre is the beginning, but for rounding, is looked at
+// by itself.
+template <class Holds>
+int64_t first_voxel(double begin, const Holds& holds) {
+  const double centre = std::nearbyint(begin);
+  if (std::abs(begin - centre) > doubt * (1 + std::abs(centre))) return whole(std::ceil(begin));
+  return whole(centre) + (holds(centre) ? 0 : 1);
+}
 
 // Around the beam in another space.
 Box box_of(const BeamShape& shape, const Affine& to_from_source) {
@@ -61,12 +70,12 @@ BeamRows::Line BeamRows::Grid::line(int64_t j, int64_t k) const {
   const Vec3 place{0, row * rays.step.y + rays.first.y, layer * rays.step.z + rays.first.z};
   const double grown = 1 + rays.first.x / rays.eye_mm, growth = rays.step.x / rays.eye_mm;
   const Vec3 origin = Vec3{rays.first.x, 0, 0} + grown * place, step = Vec3{rays.step.x, 0, 0} + growth * place;
-  return {source_from_grid(origin), source_from_grid.linear(step), voxel(std::ceil((nearest - grown) / growth))};
+  return {source_from_grid(origin), source_from_grid.linear(step), whole(std::ceil((nearest_seen - grown) / growth))};
 }
 
 Box BeamRows::Grid::index_box(const Box& grid_box) const {
   if (!is_perspective) return grid_box;
-  const double depth = std::max(grid_box.lo.x, (nearest - 1) * rays.eye_mm);
+  const double depth = std::max(grid_box.lo.x, (nearest_seen - 1) * rays.eye_mm);
   if (!(depth <= grid_box.hi.x)) return Box::empty();
   const double near = 1 + depth / rays.eye_mm, far = 1 + grid_box.hi.x / rays.eye_mm;
   Box box;
@@ -82,18 +91,14 @@ Box BeamRows::Grid::index_box(const Box& grid_box) const {
 }
 
 void BeamRows::add(const BeamShape& shape, const Line& line, int64_t width, std::vector<Span>& row) const {
+  if (shape.is_missed_by(line.origin, line.step)) return;
   for (const BeamShape::Piece piece : BeamShape::pieces) {
     if (!shape.has(piece)) continue;
     const Interval chord = shape.chord(piece, line.origin, line.step);
     if (!(chord.lo <= chord.hi)) continue;
-    const auto holds = [&](int64_t i) { return shape.holds(piece, line.origin + static_cast<double>(i) * line.step); };
-    int64_t begin = voxel(std::ceil(chord.lo)), end = voxel(std::floor(chord.hi)) + 1;
-    for (int n = 0; n < most_steps && holds(begin - 1); ++n) --begin;
-    for (int n = 0; n < most_steps && begin < end && !holds(begin); ++n) ++begin;
-    for (int n = 0; n < most_steps && holds(end); ++n) ++end;
-    for (int n = 0; n < most_steps && begin < end && !holds(end - 1); ++n) --end;
-    begin = std::max({begin, line.first, int64_t{0}});
-    end = std::min(end, width);
+    const auto holds = [&](double i) { return shape.holds(piece, line.origin + i * line.step); };
+    const int64_t begin = std::max({first_voxel(chord.lo, holds), line.first, int64_t{0}});
+    const int64_t end = std::min(-first_voxel(-chord.hi, [&](double i) { return holds(-i); }) + 1, width);
     if (begin < end) row.push_back({begin, end});
   }
 }
@@ -109,8 +114,8 @@ void BeamRows::layer(int64_t k, int64_t j_begin, int64_t j_end, int64_t width,
   const Box here{{0, static_cast<double>(j_begin), layer},
                  {static_cast<double>(width), static_cast<double>(j_end - 1), layer}};
   tree_.each_that_meets(here, [&](uint32_t n) {
-    const int64_t begin = std::max(j_begin, voxel(std::ceil(boxes_[n].lo.y)));
-    const int64_t end = std::min(j_end, voxel(std::floor(boxes_[n].hi.y)) + 1);
+    const int64_t begin = std::max(j_begin, whole(std::ceil(boxes_[n].lo.y)));
+    const int64_t end = std::min(j_end, whole(std::floor(boxes_[n].hi.y)) + 1);
     for (int64_t j = begin; j < end; ++j) {
       const auto row = static_cast<size_t>(j - j_begin);
       add((*shapes_)[numbers_[n]], lines[row], width, rows[row]);

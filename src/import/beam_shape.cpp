@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace ombre::importing {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const Interval nothing{1, 0};
 // A line that touches a surface may miss it by as much of the squares that its discriminant is computed from.
 constexpr double touching = 1e-12;
@@ -31,7 +29,7 @@ Interval meet(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::min(a
 
 // Where value + t * change lies between 0 and `most`.
 Interval slab(double value, double change, double most) {
-  if (change == 0) return value >= 0 && value <= most ? Interval{-infinity, infinity} : nothing;
+  if (change == 0) return value >= 0 && value <= most ? Interval{-Box::inf, Box::inf} : nothing;
   const double at_zero = -value / change, at_most = (most - value) / change;
   return {std::min(at_zero, at_most), std::max(at_zero, at_most)};
 }
@@ -64,6 +62,13 @@ BeamShape::Place BeamShape::place(Vec3 p) const {
 
 bool BeamShape::has(Piece piece) const { return piece == frustum ? !is_ball() : caps_[piece - 1] != Cap::butt; }
 
+bool BeamShape::is_missed_by(Vec3 origin, Vec3 step) const {
+  constexpr double sure = 1 + 1e-9;
+  const Vec3 across = cross(axis_, step);
+  const double way = dot(origin - ends_[0], across), radius = greatest_radius();
+  return way * way > sure * radius * radius * dot(across, across) && dot(across, across) > 1e-12 * dot(step, step);
+}
+
 bool BeamShape::holds(Piece piece, Vec3 p) const {
   if (piece == frustum) {
     const Place at = place(p);
@@ -78,7 +83,7 @@ bool BeamShape::holds(Piece piece, Vec3 p) const {
 double BeamShape::distance(Vec3 p) const {
   if (is_ball()) return ombre::length(p - ends_[0]) - radii_[0];
   const Place at = place(p);
-  double depth = infinity, away = frustum_distance(at);
+  double depth = Box::inf, away = frustum_distance(at);
   if (holds(frustum, p)) depth = depth_in_frustum(p, at);
   for (const int i : {0, 1}) {
     const auto cap = static_cast<Piece>(i + 1);
@@ -115,7 +120,7 @@ double BeamShape::depth_in_cap(int i, Vec3 p, Place at) const {
   if (caps_[i] == Cap::sphere) return depth;
   const double to_other_end = -(length_ + beyond(i, at.along));
   const bool is_thicker = radii_[i] > radii_[1 - i];
-  return std::min(0.0, std::max({depth, to_other_end, is_thicker ? slant_distance(at) : -infinity}));
+  return std::min(0.0, std::max({depth, to_other_end, is_thicker ? slant_distance(at) : -Box::inf}));
 }
 
 Interval BeamShape::chord(Piece piece, Vec3 origin, Vec3 step) const {
@@ -131,7 +136,7 @@ Interval BeamShape::ball_chord(int i, Vec3 origin, Vec3 step) const {
   const Interval ball = roots(dot(step, step), dot(from, step), dot(from, from) - radii_[i] * radii_[i]);
   if (caps_[i] == Cap::sphere || ball.lo > ball.hi) return ball;
   const double sign = i == 0 ? -1 : 1;
-  return meet(ball, slab(sign * dot(from, axis_), sign * dot(step, axis_), infinity));
+  return meet(ball, slab(sign * dot(from, axis_), sign * dot(step, axis_), Box::inf));
 }
 
 Interval BeamShape::frustum_chord(Vec3 origin, Vec3 step) const {

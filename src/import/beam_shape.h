@@ -29,6 +29,8 @@ class BeamShape {
   enum Piece : uint8_t { frustum, first_cap, second_cap };
   static constexpr std::array<Piece, 3> pieces{frustum, first_cap, second_cap};
   bool has(Piece piece) const;
+  // Is the line of the points origin + t * step farther from the axis than the beam reaches? True only if it is.
+  bool is_missed_by(Vec3 origin, Vec3 step) const;
   bool holds(Piece piece, Vec3 p) const;
   // The t of the points origin + t * step within the piece, but for rounding; lo > hi: none.
   Interval chord(Piece piece, Vec3 origin, Vec3 step) const;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "import/beam_rows.h"
 #include "import/channels.h"
@@ -10,7 +9,6 @@
 namespace ombre::importing {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Of a distance, relative to the numbers that it was computed from.
 constexpr double beam_rounding = 1e-12;
 
@@ -66,7 +64,7 @@ class BeamSource final : public program::FieldSource {
   double sample(int channel, Vec3 p) const override {
     const Vec3 at = lattice_from_mm_(p);
     if (channel == inside_channel) return nearest(at, 0, 0) <= 0 ? 1 : 0;
-    return shrinks_ * nearest(at, infinity, -infinity);
+    return shrinks_ * nearest(at, Box::inf, -Box::inf);
   }
 
   // A distance changes by no more than the way to the box's corners.
