@@ -5,13 +5,10 @@
 
 #include "base/text.h"
 #include "compile/possible_outputs.h"
-#include "nodes/all_nodes.h"
 #include "program/passes/passes.h"
 
 namespace ombre::compile {
 namespace {
-
-constexpr double most_instructions = 1e8;  // some gigabytes
 
 // Meshes and CAD solids may lie anywhere; designs end at a limit. True, and a diagnostic, where a solid ends beyond it.
 bool report_beyond_limit(const design::Node& solid, Diagnostics& diagnostics) {
@@ -40,68 +37,50 @@ bool report_beyond_limit(const design::Node& solid, Diagnostics& diagnostics) {
 
 }  // namespace
 
-design::NodePtr whole_solid(const design::Design& design) {
-  if (design.parts.size() == 1) return design.parts[0].solid;
-  Diagnostics none;
-  return design::make_node(*nodes::registry().find("union"), {}, design.roots(),
-                           {design.materials, none, nullptr, {}, "", ""});
-}
+namespace {
 
-Built build_program(const design::Design& design, int threads) {
-  const design::NodePtr solid = whole_solid(design);
-  design::LoweringContext context(design.materials, {solid}, design.voxel_mm(), threads);
-  program::Builder builder;
-  design::Lowering lowering(context, builder);
-  const program::Point p = program::Point::origin_frame(builder);
-
-  // Where is material, and which?
-  std::vector<std::pair<std::string, program::Field>> outputs{{"inside", lowering.inside(*solid, p)}};
-  const design::Composition composition = lowering.composition(*solid, p, design::Demand::inside);
-  Built built;
+// Where is material, and which?
+program::Outputs ask_for_materials(Question& question, Built& built) {
+  program::Outputs outputs{{"inside", question.inside()}};
+  const design::Composition composition = question.composition();
   for (const auto& [id, fraction] : composition.fractions) {
-    outputs.emplace_back(design.materials.all()[id].name, fraction);
+    outputs.emplace_back(question.design().materials.all()[id].name, fraction);
     built.materials.materials.push_back(id);
   }
   for (const auto& [number, mark] : composition.checks) {
     outputs.emplace_back("check " + std::to_string(number), mark);
-    built.checks.push_back(context.checks()[number]);
+    built.checks.push_back(question.check(number));
   }
   built.materials.check_count = built.checks.size();
+  return outputs;
+}
 
-  context.finish_bodies();
-  built.materials.program = builder.finish(outputs);
+}  // namespace
+
+Built build_program(const design::Design& design, int threads) {
+  Question question(design, {.threads = threads});
+  Built built;
+  const program::Outputs outputs = ask_for_materials(question, built);
+  built.materials.program = question.program_with_calls(outputs);
+  return built;
+}
+
+std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics, int threads) {
+  Question question(design, {.threads = threads});
+  Built built;
+  auto program = question.program(ask_for_materials(question, built), diagnostics);
+  if (!program) return std::nullopt;
+  built.materials.program = std::move(*program);
   return built;
 }
 
 std::optional<voxel::MaterialProgram> build_inside_program(const design::Design& design, Diagnostics& diagnostics) {
-  const design::NodePtr solid = whole_solid(design);
-  design::LoweringContext context(design.materials, {solid}, design.voxel_mm());
-  program::Builder builder;
-  design::Lowering lowering(context, builder);
-  const program::Field inside = lowering.inside(*solid, program::Point::origin_frame(builder));
-  context.finish_bodies();
+  Question question(design);
   const design::Material& material = design.materials.first();
-  auto flat =
-      flatten(builder.finish({{"inside", inside}, {material.name, builder.constant(1)}}), solid->where(), diagnostics);
-  if (!flat) return std::nullopt;
-  return voxel::MaterialProgram{std::move(*flat), {material.id}, 0};
-}
-
-std::optional<program::Program> flatten(const program::Program& program, const SourceRange& where,
-                                        Diagnostics& diagnostics) {
-  const double size = program::inlined_size(program);
-  if (size <= most_instructions) return program::inline_bodies(program);
-  diagnostics.error(where,
-                    "the design repeats its parts too often: about " + format_rounded(size, 2) + " operations a voxel");
-  return std::nullopt;
-}
-
-std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics, int threads) {
-  Built built = build_program(design, threads);
-  auto flat = flatten(built.materials.program, design.parts[0].solid->where(), diagnostics);
-  if (!flat) return std::nullopt;
-  built.materials.program = std::move(*flat);
-  return built;
+  const program::Field inside = question.inside();
+  auto program = question.program({{"inside", inside}, {material.name, question.builder().constant(1)}}, diagnostics);
+  if (!program) return std::nullopt;
+  return voxel::MaterialProgram{std::move(*program), {material.id}, 0};
 }
 
 void leave_out_impossible(Built& built, const Box& box, int threads) {

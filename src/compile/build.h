@@ -3,14 +3,11 @@
 
 #include <optional>
 
+#include "compile/question.h"
 #include "design/design.h"
-#include "design/lowering.h"
 #include "voxel/layers.h"
 
 namespace ombre::compile {
-
-// All parts as one solid: overlaps are mixed, as in a union.
-design::NodePtr whole_solid(const design::Design& design);
 
 // The program that says what is inside and of which composition, with its bodies still called.
 struct Built {
@@ -19,10 +16,6 @@ struct Built {
 };
 // On up to `threads` threads; 0: all cores.
 Built build_program(const design::Design& design, int threads = 1);
-
-// Bodies written out where they are called. Nothing, and a diagnostic, when that would not fit into memory.
-std::optional<program::Program> flatten(const program::Program& program, const SourceRange& where,
-                                        Diagnostics& diagnostics);
 
 // build_program, ready to be evaluated. Nothing, and a diagnostic, when it would not fit into memory.
 std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics, int threads = 1);

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 
-#include "compile/build.h"
-#include "design/lowering.h"
-#include "program/passes/passes.h"
+#include "compile/question.h"
 
 namespace ombre::compile {
 namespace {
@@ -19,39 +17,21 @@ Field cut_off(Field distance, double band_mm) {
 
 }  // namespace
 
-std::vector<std::pair<MaterialId, Field>> shares(const design::Composition& composition) {
-  std::vector<std::pair<MaterialId, Field>> parts;
-  std::vector<Field> all;
-  for (const auto& [id, fraction] : composition.fractions) {
-    parts.emplace_back(id, max(fraction, 0.0));
-    all.push_back(parts.back().second);
-  }
-  const Field total = program::fold(all, [](Field a, Field b) { return a + b; });
-  for (auto& [id, part] : parts) part = share(part, total);
-  return parts;
-}
-
 std::optional<program::Program> build_field_program(const design::Design& design, const FieldWishes& wishes,
                                                     Diagnostics& diagnostics) {
-  const design::NodePtr solid = whole_solid(design);
-  design::LoweringContext context(design.materials, {solid}, design.voxel_mm());
-  program::Builder builder;
-  design::Lowering lowering(context, builder);
-  const program::Point p = program::Point::origin_frame(builder);
-
-  std::vector<std::pair<std::string, Field>> outputs;
+  Question question(design);
+  program::Outputs outputs;
   if (wishes.distance) {
-    const Field distance = lowering.distance(*solid, p);
+    const Field distance = question.distance();
     outputs.emplace_back("distance", wishes.band_mm ? cut_off(distance, *wishes.band_mm) : distance);
   }
   if (!wishes.fractions.empty()) {
-    const Field inside = lowering.inside(*solid, p), none = builder.constant(0);
-    for (const auto& [id, part] : shares(lowering.composition(*solid, p, design::Demand::inside)))
+    const Field inside = question.inside(), none = question.builder().constant(0);
+    for (const auto& [id, part] : shares(question.composition()))
       if (std::find(wishes.fractions.begin(), wishes.fractions.end(), id) != wishes.fractions.end())
         outputs.emplace_back(design.materials.all()[id].name, select(inside, part, none));
   }
-  context.finish_bodies();
-  return flatten(builder.finish(outputs), solid->where(), diagnostics);
+  return question.program(outputs, diagnostics);
 }
 
 }  // namespace ombre::compile

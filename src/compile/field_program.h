@@ -6,7 +6,6 @@
 
 #include "base/run.h"
 #include "design/design.h"
-#include "design/lowered.h"
 #include "program/program.h"
 
 namespace ombre::compile {
@@ -16,9 +15,6 @@ struct FieldWishes {
   std::optional<double> band_mm;      // distances are cut off there, on both sides of the surface
   std::vector<MaterialId> fractions;  // of these materials
 };
-
-// A composition's fractions as dithering takes them: those that are not positive, or not numbers, take no part.
-std::vector<std::pair<MaterialId, program::Field>> shares(const design::Composition& composition);
 
 // Outputs: the distance, mm, if it is wished for; then each of the fractions, as dithering takes them and 0
 // outside. Without calls. Nothing, and a diagnostic, when it would not fit into memory.

@@ -4,9 +4,7 @@
 #include <algorithm>
 
 #include "base/text.h"
-#include "compile/build.h"
-#include "compile/field_program.h"
-#include "design/lowering.h"
+#include "compile/question.h"
 
 namespace ombre::compile {
 namespace {
@@ -50,27 +48,20 @@ std::string list_names(const std::vector<std::string>& names) {
 class RegionBuilder {
  public:
   RegionBuilder(const design::Design& design, const RegionRule& rule, Diagnostics& diagnostics)
-      : design_(design),
-        rule_(rule),
-        diagnostics_(diagnostics),
-        solid_(whole_solid(design)),
-        context_(design.materials, {solid_}, design.voxel_mm()),
-        lowering_(context_, builder_),
-        p_(Point::origin_frame(builder_)) {}
+      : design_(design), rule_(rule), diagnostics_(diagnostics), question_(design) {}
 
   std::optional<RegionProgram> build(const Box& box) {
     if (!add_scores()) return std::nullopt;
-    const Field within = box_distance(box, p_);
-    const Field inside = logical_and(lowering_.inside(*solid_, p_), within <= 0);
-    const Field label = select(inside, number(), builder_.constant(0));
-    program::Outputs details{{"region", label}, {"distance", max(lowering_.distance(*solid_, p_), within)}};
+    const Field within = box_distance(box, question_.point());
+    const Field inside = logical_and(question_.inside(), within <= 0);
+    const Field label = select(inside, number(), question_.builder().constant(0));
+    program::Outputs details{{"region", label}, {"distance", max(question_.distance(), within)}};
     for (const Field& score : scores_) details.emplace_back("score " + std::to_string(details.size() - 1), score);
-    context_.finish_bodies();
-    auto flat_label = flatten(builder_.finish({{"region", label}}), solid_->where(), diagnostics_);
-    auto flat_details = flatten(builder_.finish(details), solid_->where(), diagnostics_);
-    if (!flat_label || !flat_details) return std::nullopt;
-    made_.partition.label = std::move(*flat_label);
-    made_.partition.details = surface::LocalPrograms(std::move(*flat_details), box);
+    auto label_program = question_.program({{"region", label}}, diagnostics_);
+    auto details_program = question_.program(details, diagnostics_);
+    if (!label_program || !details_program) return std::nullopt;
+    made_.partition.label = std::move(*label_program);
+    made_.partition.details = surface::LocalPrograms(std::move(*details_program), box);
     made_.partition.regions = made_.regions.size();
     return std::move(made_);
   }
@@ -92,14 +83,14 @@ class RegionBuilder {
   }
 
   Field number() {
-    if (scores_.empty()) return builder_.constant(1);
+    if (scores_.empty()) return question_.builder().constant(1);
     if (made_.partition.division == surface::Division::greatest) return number_of_greatest(scores_);
     return number_of_band(scores_.front(), made_.partition.borders);
   }
 
   bool add_materials() {
     made_.partition.division = surface::Division::greatest;
-    for (const auto& [id, fraction] : composition().fractions) {
+    for (const auto& [id, fraction] : question_.composition().fractions) {
       scores_.push_back(fraction);
       made_.regions.push_back({design_.materials.all()[id].name, id, {}, {}});
     }
@@ -109,7 +100,7 @@ class RegionBuilder {
   bool add_fraction() {
     const design::Material* material = design_.materials.find(rule_.of);
     std::vector<std::string> names;
-    for (const auto& [id, part] : shares(composition())) {
+    for (const auto& [id, part] : shares(question_.composition())) {
       if (material && material->id == id) {
         scores_.push_back(part);
         add_bands(material->name, 100, " %");
@@ -117,17 +108,16 @@ class RegionBuilder {
       }
       names.push_back(design_.materials.all()[id].name);
     }
-    diagnostics_.error(solid_->where(), "the design has no material \"" + rule_.of + "\"; " + list_names(names));
+    diagnostics_.error(question_.solid()->where(),
+                       "the design has no material \"" + rule_.of + "\"; " + list_names(names));
     return false;
   }
 
   bool add_attribute() {
-    if (!lowering_.has_attribute(*solid_, rule_.of)) {
-      diagnostics_.error(solid_->where(), "the design has no attribute \"" + rule_.of + "\"");
-      return false;
-    }
-    scores_.push_back(lowering_.attribute(*solid_, rule_.of, p_, design::Demand::inside));
-    const design::AttributeDeclaration* declared = lowering_.declaration(rule_.of);
+    const auto value = question_.attribute(rule_.of, diagnostics_);
+    if (!value) return false;
+    scores_.push_back(*value);
+    const design::AttributeDeclaration* declared = question_.declaration(rule_.of);
     add_bands(rule_.of, 1, declared && !declared->unit.empty() ? " " + declared->unit : "");
     return true;
   }
@@ -152,16 +142,10 @@ class RegionBuilder {
     return region.greatest ? " below " + text(*region.greatest) : "";
   }
 
-  design::Composition composition() { return lowering_.composition(*solid_, p_, design::Demand::inside); }
-
   const design::Design& design_;
   const RegionRule& rule_;
   Diagnostics& diagnostics_;
-  design::NodePtr solid_;
-  design::LoweringContext context_;
-  program::Builder builder_;
-  design::Lowering lowering_;
-  Point p_;
+  Question question_;
   std::vector<Field> scores_;
   RegionProgram made_;
 };

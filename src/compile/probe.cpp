@@ -1,5 +1,6 @@
 #include "compile/probe.h"
 
+#include "compile/question.h"
 #include "compile/sampler.h"
 
 namespace ombre::compile {

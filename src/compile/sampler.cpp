@@ -6,9 +6,7 @@
 
 #include "base/error.h"
 #include "base/tasks.h"
-#include "base/text.h"
-#include "compile/build.h"
-#include "design/lowering.h"
+#include "compile/question.h"
 #include "eval/rows.h"
 #include "program/passes/passes.h"
 
@@ -53,50 +51,31 @@ program::Program parts_within(const program::Program& program, const Box& box) {
 
 }  // namespace
 
-std::vector<std::string> attribute_names(const design::Design& design) {
-  const design::LoweringContext context(design.materials, design.roots());
-  std::vector<std::string> names;
-  for (const auto& attribute : context.attributes()) names.push_back(attribute.name);
-  return names;
-}
-
 std::optional<Sampler> Sampler::build(const design::Design& design, const SampleWishes& wishes,
                                       Diagnostics& diagnostics) {
   using Kind = Column::Kind;
-  const std::vector<std::string> known = attribute_names(design);
-  for (const std::string& name : wishes.attributes) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    diagnostics.error(
-        design.parts[0].solid->where(), "the design has no attribute \"" + name + "\"",
-        known.empty() ? "give it one with attribute(\"" + name + "\", value)" : "it has " + join(known, ", "));
-    return std::nullopt;
-  }
-  const design::NodePtr solid = whole_solid(design);
-  std::vector<design::NodePtr> roots = design.roots();
-  roots.push_back(solid);
-  design::LoweringContext context(design.materials, roots, design.voxel_mm());
-  program::Builder builder;
-  design::Lowering lowering(context, builder);
-  const program::Point p = program::Point::origin_frame(builder);
+  Question question(design, {.parts = wishes.parts});
   Sampler sampler;
-  std::vector<std::pair<std::string, program::Field>> outputs;
+  program::Outputs outputs;
   const auto add = [&](Kind kind, const std::string& name, program::Field field, MaterialId material = 0) {
     sampler.columns_.push_back({kind, name, material});
     outputs.emplace_back(name, field);
   };
-  if (wishes.inside) add(Kind::inside, "inside", lowering.inside(*solid, p));
-  if (wishes.distance) add(Kind::distance, "distance", lowering.distance(*solid, p));
+  if (wishes.inside) add(Kind::inside, "inside", question.inside());
+  if (wishes.distance) add(Kind::distance, "distance", question.distance());
   if (wishes.fractions)
-    for (const auto& [id, fraction] : lowering.composition(*solid, p, design::Demand::inside).fractions)
+    for (const auto& [id, fraction] : question.composition().fractions)
       add(Kind::fraction, design.materials.all()[id].name, fraction, id);
-  for (const std::string& name : wishes.attributes)
-    add(Kind::attribute, name, lowering.attribute(*solid, name, p, design::Demand::inside));
+  for (const std::string& name : wishes.attributes) {
+    const auto value = question.attribute(name, diagnostics);
+    if (!value) return std::nullopt;
+    add(Kind::attribute, name, *value);
+  }
   if (wishes.parts)
-    for (const design::Part& part : design.parts) add(Kind::part, part.name, lowering.inside(*part.solid, p));
-  context.finish_bodies();
-  auto flat = flatten(builder.finish(outputs), solid->where(), diagnostics);
-  if (!flat) return std::nullopt;
-  sampler.program_ = std::move(*flat);
+    for (size_t n = 0; n < design.parts.size(); ++n) add(Kind::part, design.parts[n].name, question.part(n));
+  auto program = question.program(outputs, diagnostics);
+  if (!program) return std::nullopt;
+  sampler.program_ = std::move(*program);
   return sampler;
 }
 

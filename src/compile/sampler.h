@@ -50,7 +50,4 @@ class Sampler {
   std::vector<Column> columns_;
 };
 
-// The attributes that some node of the design declares.
-std::vector<std::string> attribute_names(const design::Design& design);
-
 }  // namespace ombre::compile

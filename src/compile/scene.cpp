@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compile/build.h"
-#include "design/lowering.h"
+#include "compile/question.h"
 #include "render/shade.h"
 
 namespace ombre::compile {
@@ -67,38 +67,33 @@ struct Shown {
   bool is_translucent = false;
 };
 
-using Outputs = std::vector<std::pair<std::string, Field>>;
-
-// At the design's point that the builder's inputs stand for. `further` follow the outputs.
-std::optional<Shown> lower(const design::Design& design, const SceneOptions& options, program::Builder& builder,
-                           const Point& p, const Outputs& further, Diagnostics& diagnostics) {
-  const design::NodePtr solid = whole_solid(design);
-  design::LoweringContext context(design.materials, {solid}, design.voxel_mm(), options.threads);
-  design::Lowering lowering(context, builder);
-  const Field inside = within_cuts(lowering.inside(*solid, p), p, options);
-  const design::Composition composition = lowering.composition(*solid, p, design::Demand::inside);
+// `further` follow the outputs.
+std::optional<Shown> lower(Question& question, const SceneOptions& options, const program::Outputs& further,
+                           Diagnostics& diagnostics) {
+  const Point& p = question.point();
+  const auto& materials = question.design().materials.all();
+  const Field inside = within_cuts(question.inside(), p, options);
+  const design::Composition composition = question.composition();
 
   Shown shown;
   for (const auto& [id, fraction] : composition.fractions)
-    if (opacity_of(design.materials.all()[id], options) < 1) shown.is_translucent = true;
-  const auto linear = [&](MaterialId id) { return render::linear(design.materials.all()[id].colour); };
-  const Field opacity =
-      mean(composition, p, [&](MaterialId id) { return opacity_of(design.materials.all()[id], options); });
+    if (opacity_of(materials[id], options) < 1) shown.is_translucent = true;
+  const Field opacity = mean(composition, p, [&](MaterialId id) { return opacity_of(materials[id], options); });
   const Field opaque = shown.is_translucent ? logical_and(inside, less_equal(p.constant(0.5), opacity)) : inside;
   const auto channel = [&](float render::Colour::*part) {
-    return mean(composition, p, [&](MaterialId id) { return static_cast<double>(linear(id).*part); });
+    return mean(composition, p,
+                [&](MaterialId id) { return static_cast<double>(render::linear(materials[id].colour).*part); });
   };
-  context.finish_bodies();
-  Outputs outputs{{"inside", inside},
-                  {"opaque", opaque},
-                  {"red", channel(&render::Colour::red)},
-                  {"green", channel(&render::Colour::green)},
-                  {"blue", channel(&render::Colour::blue)},
-                  {"opacity", opacity}};
+  program::Outputs outputs{{"inside", inside},
+                           {"opaque", opaque},
+                           {"red", channel(&render::Colour::red)},
+                           {"green", channel(&render::Colour::green)},
+                           {"blue", channel(&render::Colour::blue)},
+                           {"opacity", opacity}};
   outputs.insert(outputs.end(), further.begin(), further.end());
-  auto flat = flatten(builder.finish(outputs), design.parts[0].solid->where(), diagnostics);
-  if (!flat) return std::nullopt;
-  shown.program = std::move(*flat);
+  auto program = question.program(outputs, diagnostics);
+  if (!program) return std::nullopt;
+  shown.program = std::move(*program);
   return shown;
 }
 
@@ -117,14 +112,16 @@ Box scene_box(const Box& design_box, const SceneOptions& options) {
 
 std::optional<render::Scene> make_scene(const design::Design& design, const Box& box, const render::Camera& camera,
                                         const SceneOptions& options, Diagnostics& diagnostics) {
-  program::Builder builder;
-  Point view = Point::origin_frame(builder);
-  Outputs base;
-  if (!camera.is_orthographic()) {
-    view = in_perspective(builder, camera);
-    base = {{"depth", view.x}, {"right", view.y}, {"down", view.z}};
-  }
-  auto shown = lower(design, options, builder, view.mapped(camera.design_from_view()), base, diagnostics);
+  // In a perspective view the inputs are not the view's point, but a depth and a place on the picture plane.
+  std::optional<Point> view;
+  const Frame frame = [&](program::Builder& builder) {
+    view = camera.is_orthographic() ? Point::origin_frame(builder) : in_perspective(builder, camera);
+    return view->mapped(camera.design_from_view());
+  };
+  Question question(design, {.threads = options.threads, .frame = frame});
+  program::Outputs base;
+  if (!camera.is_orthographic()) base = {{"depth", view->x}, {"right", view->y}, {"down", view->z}};
+  auto shown = lower(question, options, base, diagnostics);
   if (!shown) return std::nullopt;
   render::Scene scene;
   scene.eye_mm = camera.distance_mm;
@@ -138,10 +135,11 @@ std::optional<render::Scene> make_scene(const design::Design& design, const Box&
 std::shared_ptr<const render::Section> make_section(const design::Design& design, const render::Camera& camera,
                                                     const render::Film& film, const SceneOptions& options,
                                                     Diagnostics& diagnostics) {
-  program::Builder builder;
-  const Point film_point = Point::origin_frame(builder);
-  auto shown = lower(design, options, builder, film_point.mapped(render::Section::design_from_film(camera, film)), {},
-                     diagnostics);
+  const Frame frame = [&](program::Builder& builder) {
+    return Point::origin_frame(builder).mapped(render::Section::design_from_film(camera, film));
+  };
+  Question question(design, {.threads = options.threads, .frame = frame});
+  auto shown = lower(question, options, {}, diagnostics);
   if (!shown) return nullptr;
   program::Program& program = shown->program;
   using render::Scene;

@@ -1,0 +1,86 @@
+#include "compile/question.h"
+
+#include <algorithm>
+
+#include "base/assert.h"
+#include "base/text.h"
+#include "nodes/all_nodes.h"
+#include "program/passes/passes.h"
+
+namespace ombre::compile {
+namespace {
+
+using program::Field;
+using program::Program;
+
+constexpr double most_instructions = 1e8;  // some gigabytes
+
+std::vector<design::NodePtr> roots(const design::Design& design, const design::NodePtr& solid, bool parts) {
+  std::vector<design::NodePtr> found;
+  if (parts) found = design.roots();
+  found.push_back(solid);
+  return found;
+}
+
+}  // namespace
+
+Question::Question(const design::Design& design, const QuestionOptions& options)
+    : design_(design),
+      solid_(whole_solid(design)),
+      context_(design.materials, roots(design, solid_, options.parts), design.voxel_mm(), options.threads),
+      lowering_(context_, builder_),
+      point_(options.frame(builder_)) {}
+
+std::optional<Field> Question::attribute(std::string_view name, Diagnostics& diagnostics) {
+  if (lowering_.declaration(name)) return lowering_.attribute(*solid_, name, point_, design::Demand::inside);
+  std::vector<std::string> known;
+  for (const auto& attribute : attributes()) known.push_back(attribute.name);
+  const std::string wanted(name);
+  diagnostics.error(
+      design_.parts[0].solid->where(), "the design has no attribute \"" + wanted + '"',
+      known.empty() ? "give it one with attribute(\"" + wanted + "\", value)" : "it has " + join(known, ", "));
+  return std::nullopt;
+}
+
+Program Question::program_with_calls(const program::Outputs& outputs) {
+  if (!is_finished_) context_.finish_bodies();
+  is_finished_ = true;
+  return builder_.finish(outputs);
+}
+
+std::optional<Program> Question::program(const program::Outputs& outputs, Diagnostics& diagnostics) {
+  const Program with_calls = program_with_calls(outputs);
+  const double size = program::inlined_size(with_calls);
+  if (size <= most_instructions) return program::inline_bodies(with_calls);
+  diagnostics.error(solid_->where(),
+                    "the design repeats its parts too often: about " + format_rounded(size, 2) + " operations a voxel");
+  return std::nullopt;
+}
+
+design::NodePtr whole_solid(const design::Design& design) {
+  if (design.parts.size() == 1) return design.parts[0].solid;
+  Diagnostics none;
+  return design::make_node(*nodes::registry().find("union"), {}, design.roots(),
+                           {design.materials, none, nullptr, {}, "", ""});
+}
+
+std::vector<std::string> attribute_names(const design::Design& design) {
+  const design::LoweringContext context(design.materials, design.roots());
+  std::vector<std::string> names;
+  for (const auto& attribute : context.attributes()) names.push_back(attribute.name);
+  return names;
+}
+
+std::vector<std::pair<MaterialId, Field>> shares(const design::Composition& composition) {
+  std::vector<std::pair<MaterialId, Field>> parts;
+  std::vector<Field> all;
+  for (const auto& [id, fraction] : composition.fractions) {
+    parts.emplace_back(id, max(fraction, 0.0));
+    all.push_back(parts.back().second);
+  }
+  const Field total = program::fold(all, [](Field a, Field b) { return a + b; });
+  for (auto& [id, part] : parts) part = share(part, total);
+  return parts;
+}
+
+}  // namespace ombre::compile

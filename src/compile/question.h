@@ -1,0 +1,76 @@
+// From a design to programs.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "design/design.h"
+#include "design/lowering.h"
+#include "program/program.h"
+
+namespace ombre::compile {
+
+// The design's point that a program's inputs stand for.
+using Frame = std::function<program::Point(program::Builder& builder)>;
+
+struct QuestionOptions {
+  int threads = 1;     // that make tables of many parts; 0: all cores
+  bool parts = false;  // may part() be called?
+  Frame frame = program::Point::origin_frame;
+};
+
+// What a design is at a point, as fields, and programs that compute what a job makes of them. Every program of a design
+// is made by a question; one question may make several.
+class Question {
+ public:
+  // The design must live as long.
+  explicit Question(const design::Design& design, const QuestionOptions& options = {});
+
+  const design::Design& design() const { return design_; }
+  // All parts as one solid: overlaps are mixed, as in a union.
+  const design::NodePtr& solid() const { return solid_; }
+  program::Builder& builder() { return builder_; }
+  const program::Point& point() const { return point_; }
+
+  program::Field inside() { return lowering_.inside(*solid_, point_); }      // truth value
+  program::Field distance() { return lowering_.distance(*solid_, point_); }  // mm, negative inside
+  // Meant inside only, as are attributes.
+  design::Composition composition() { return lowering_.composition(*solid_, point_, design::Demand::inside); }
+  // Of one part, by its number: a truth value.
+  program::Field part(size_t number) { return lowering_.inside(*design_.parts[number].solid, point_); }
+  // Nothing, and a diagnostic, when no node of the design declares it.
+  std::optional<program::Field> attribute(std::string_view name, Diagnostics& diagnostics);
+  const std::vector<design::AttributeDeclaration>& attributes() const { return context_.attributes(); }
+  // Null when no node declares it.
+  const design::AttributeDeclaration* declaration(std::string_view name) const { return lowering_.declaration(name); }
+  // What a composition's check of this number tells of.
+  const design::Check& check(uint32_t number) const { return context_.checks()[number]; }
+
+  // After this, nothing more can be asked. What nodes that are used more than once compute is called.
+  program::Program program_with_calls(const program::Outputs& outputs);
+  // The same without calls. Nothing, and a diagnostic, when it would not fit into memory.
+  std::optional<program::Program> program(const program::Outputs& outputs, Diagnostics& diagnostics);
+
+ private:
+  const design::Design& design_;
+  design::NodePtr solid_;
+  design::LoweringContext context_;
+  program::Builder builder_;
+  design::Lowering lowering_;
+  program::Point point_;
+  bool is_finished_ = false;
+};
+
+// All parts of a design as one solid.
+design::NodePtr whole_solid(const design::Design& design);
+
+// The attributes that some node of the design declares.
+std::vector<std::string> attribute_names(const design::Design& design);
+
+// A composition's fractions as dithering takes them: those that are not positive, or not numbers, take no part.
+std::vector<std::pair<MaterialId, program::Field>> shares(const design::Composition& composition);
+
+}  // namespace ombre::compile
