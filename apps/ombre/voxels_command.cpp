@@ -42,12 +42,15 @@ constexpr const char* voxels_footer =
     "  distance    mm from each voxel's centre to the surface, negative inside. Where a design has only a bound of\n"
     "              its distance (unions inside, differences, blends) the surface may be farther; of a function\n"
     "              only the sign is meant. ombre slice --emit tree says which. In .vdb and .nvdb a narrow\n"
-    "              band around the surface, 3 voxels to both sides\n\n"
+    "              band around the surface, 3 voxels to both sides\n"
+    "  attributes  a grid for each attribute of the design, in its unit; its default outside\n"
+    "  NAME        the attribute of that name; several with commas\n\n"
     "Examples:\n"
     "  ombre voxels part.vcad -o part.npy                        materials, as ombre slice has them\n"
     "  ombre voxels part.vcad -o part.nrrd --what distance --voxel 0.2\n"
     "  ombre voxels part.vcad -o part.raw --what fractions       part_red.raw, part_blue.raw and so on\n"
     "  ombre voxels part.vcad -o part.vdb                        distance, and a grid for each material\n"
+    "  ombre voxels part.vcad -o part.npy --what density         the attribute \"density\"\n"
     "  ombre voxels part.vcad -o part.nrrd --gzip --box -5,-5,0,5,5,2\n";
 
 void add_arguments(CLI::App& app, VoxelsArguments& a) {
@@ -55,9 +58,10 @@ void add_arguments(CLI::App& app, VoxelsArguments& a) {
   app.add_option("-o,--output", a.output, "The file to write; its ending says the format")
       ->required()
       ->type_name("FILE");
-  app.add_option("--what", a.what,
-                 "What voxels hold: materials (default; .vdb, .nvdb: distance,fractions), fractions, distance, or\n"
-                 "distance,fractions")
+  app.add_option(
+         "--what", a.what,
+         "What voxels hold: materials (default; .vdb, .nvdb: distance,fractions), fractions, distance, attributes\n"
+         "or names of attributes; several with commas")
       ->type_name("WHAT");
   app.add_option("--box", a.box, "Only the voxels that touch this box; mm")->type_name("X0,Y0,Z0,X1,Y1,Z1");
   add_threads(app, a.threads);
@@ -82,23 +86,29 @@ Format chosen_format(const VoxelsArguments& a) {
 
 bool is_sparse(const Format& format) { return std::holds_alternative<vdb::FileFormat>(format); }
 
+std::string what_words() {
+  return "write materials, fractions, distance, attributes or an attribute's name, or several with commas";
+}
+
 compile::GridWishes chosen_grids(const VoxelsArguments& a, const Format& format) {
   compile::GridWishes wishes;
   wishes.narrow_band = is_sparse(format);
   const std::string usual = is_sparse(format) ? "distance,fractions" : "materials";
   for (const std::string& word : split(a.what.empty() ? usual : a.what, ',')) {
     const auto name = trim(word);
+    if (name.empty()) throw WrongArgument("--what " + a.what + " lacks a word; " + what_words());
     if (name == "materials")
       wishes.materials = true;
     else if (name == "fractions")
       wishes.fractions = true;
     else if (name == "distance")
       wishes.distance = true;
+    else if (name == "attributes")
+      wishes.all_attributes = true;
     else
-      throw WrongArgument("--what " + a.what + " is not understood; write materials, fractions, distance, or " +
-                          "distance,fractions");
+      wishes.attributes.emplace_back(name);
   }
-  if (wishes.materials && (wishes.fractions || wishes.distance))
+  if (wishes.materials && (wishes.fractions || wishes.distance || wishes.all_attributes || !wishes.attributes.empty()))
     throw WrongArgument("--what materials goes alone; write the others to a file of their own");
   return wishes;
 }

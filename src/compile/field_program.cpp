@@ -1,4 +1,3 @@
-// A design's distance and fractions as a program of numbers.
 #include "compile/field_program.h"
 
 #include <algorithm>
@@ -31,6 +30,13 @@ std::optional<program::Program> build_field_program(const design::Design& design
       if (std::find(wishes.fractions.begin(), wishes.fractions.end(), id) != wishes.fractions.end())
         outputs.emplace_back(design.materials.all()[id].name, select(inside, part, none));
   }
+  for (const std::string& name : wishes.attributes) {
+    const auto value = question.attribute(name, diagnostics);
+    if (!value) return std::nullopt;
+    const Field usual = question.builder().constant(question.declaration(name)->default_value);
+    outputs.emplace_back(name, select(question.inside(), *value, usual));
+  }
+  if (wishes.inside) outputs.emplace_back("inside", question.inside());
   return question.program(outputs, diagnostics);
 }
 

@@ -1,7 +1,8 @@
-// A design's distance and fractions as a program of numbers.
+// A design's distance, fractions and attributes as a program of numbers.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/run.h"
@@ -14,10 +15,13 @@ struct FieldWishes {
   bool distance = false;
   std::optional<double> band_mm;      // distances are cut off there, on both sides of the surface
   std::vector<MaterialId> fractions;  // of these materials
+  std::vector<std::string> attributes;
+  bool inside = false;  // 1 inside, 0 outside
 };
 
-// Outputs: the distance, mm, if it is wished for; then each of the fractions, as dithering takes them and 0
-// outside. Without calls. Nothing, and a diagnostic, when it would not fit into memory.
+// Outputs: the distance, mm, if it is wished for; each of the fractions, as dithering takes them and 0 outside; each of
+// the attributes, which have their default outside; and `inside`. Without calls. Nothing, and a diagnostic, when it
+// would not fit into memory or the design has no such attribute.
 std::optional<program::Program> build_field_program(const design::Design& design, const FieldWishes& wishes,
                                                     Diagnostics& diagnostics);
 

@@ -9,6 +9,7 @@
 #include "compile/build.h"
 #include "compile/field_program.h"
 #include "compile/layer.h"
+#include "compile/question.h"
 
 namespace ombre::compile {
 namespace {
@@ -79,7 +80,9 @@ std::optional<TileProducer> field_tiles(const LoadedPtr& loaded, const GridJob& 
   for (const Grid& grid : job.grids) {
     if (grid.material) wishes.fractions.push_back(grid.material->id);
     wishes.distance |= grid.kind == GridKind::distance;
+    if (grid.kind == GridKind::attribute) wishes.attributes.push_back(grid.name);
   }
+  wishes.inside = job.has_mark;
   if (job.band_mm > 0) wishes.band_mm = job.band_mm;
   auto program =
       build_field_program(design::for_voxels(loaded->design, job.request.lattice.voxel_mm()), wishes, diagnostics);
@@ -87,6 +90,29 @@ std::optional<TileProducer> field_tiles(const LoadedPtr& loaded, const GridJob& 
   auto evaluator =
       std::make_shared<const voxel::FieldEvaluator>(std::move(*program), job.request.lattice, job.request.evaluator);
   return [loaded, evaluator](const TileBox& region, const StopFlag* stop) { return evaluator->tiles(region, stop); };
+}
+
+// Nothing, and a diagnostic, when the design has none of that name.
+std::optional<std::vector<Grid>> attribute_grids(const design::Design& design, const GridWishes& wishes,
+                                                 Diagnostics& diagnostics) {
+  const std::vector<design::AttributeDeclaration> known = declared_attributes(design);
+  std::vector<Grid> grids;
+  if (wishes.all_attributes && known.empty()) {
+    diagnostics.error(design.parts[0].solid->where(), "the design has no attributes",
+                      "give it one, for example attribute(\"density\", 0.4)");
+    return std::nullopt;
+  }
+  if (wishes.all_attributes)
+    for (const auto& attribute : known) grids.push_back({GridKind::attribute, attribute.name, {}, attribute});
+  for (const std::string& name : wishes.attributes) {
+    const auto found = std::ranges::find(known, name, &design::AttributeDeclaration::name);
+    if (found == known.end()) {
+      report_unknown_attribute(design, name, diagnostics);
+      return std::nullopt;
+    }
+    if (!wishes.all_attributes) grids.push_back({GridKind::attribute, name, {}, *found});
+  }
+  return grids;
 }
 
 std::vector<Grid> wished_grids(const SliceRequest& request, const GridWishes& wishes) {
@@ -134,6 +160,11 @@ std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, con
   job.request = plan.request;
   job.region = region;
   job.grids = wished_grids(plan.request, wishes);
+  const auto attributes = attribute_grids(loaded->design, wishes, diagnostics);
+  if (!attributes) return std::nullopt;
+  // Values of attributes do not say what is inside.
+  job.has_mark = job.grids.empty();
+  job.grids.insert(job.grids.end(), attributes->begin(), attributes->end());
   job.metric = whole_solid(loaded->design)->metric();
   if (wishes.materials) {
     job.tiles = material_tiles(plan.producer);
@@ -185,10 +216,16 @@ void each_slab(const GridJob& job, int threads, const std::function<void(const G
 
 bool has_inside(const GridJob& job, const FieldTile& tile) {
   const size_t count = tile.is_uniform ? 1 : static_cast<size_t>(tile.box.voxels());
+  const auto any = [&](size_t output, const auto& is_inside) {
+    const float* values = tile.output(output);
+    return std::any_of(values, values + count, is_inside);
+  };
+  if (job.has_mark) return any(job.grids.size(), [](float v) { return v > 0; });
   for (size_t n = 0; n < job.grids.size(); ++n) {
-    const bool is_distance = job.grids[n].kind == GridKind::distance;
-    const float* values = tile.output(n);
-    if (std::any_of(values, values + count, [&](float v) { return is_distance ? v <= 0 : v > 0; })) return true;
+    const GridKind kind = job.grids[n].kind;
+    if (kind == GridKind::distance && any(n, [](float v) { return v <= 0; })) return true;
+    if ((kind == GridKind::fraction || kind == GridKind::material) && any(n, [](float v) { return v > 0; }))
+      return true;
   }
   return false;
 }

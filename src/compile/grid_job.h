@@ -14,27 +14,31 @@ namespace ombre::compile {
 
 // What a grid holds for each voxel.
 enum class GridKind {
-  material,  // its material's id: what slicing puts there
-  fraction,  // of one material, before dithering; 0 outside
-  distance,  // from its centre to the surface, mm, negative inside
+  material,   // its material's id: what slicing puts there
+  fraction,   // of one material, before dithering; 0 outside
+  distance,   // from its centre to the surface, mm, negative inside
+  attribute,  // its value; the default outside
 };
 
 struct Grid {
   GridKind kind = GridKind::material;
   std::string name;
-  std::optional<SliceMaterial> material;  // of a fraction
+  std::optional<SliceMaterial> material = {};  // of a fraction
+  design::AttributeDeclaration attribute = {};
 };
 
 // Which grids are wanted. Materials go alone.
 struct GridWishes {
   bool materials = false, fractions = false, distance = false;
-  bool narrow_band = false;  // distances beyond a few voxels are cut off
+  bool narrow_band = false;             // distances beyond a few voxels are cut off
+  std::vector<std::string> attributes = {};  // by name
+  bool all_attributes = false;
 };
 
 // Distances in a narrow band reach so far to both sides of the surface.
 constexpr double band_voxels = 3;
 
-// Thread-safe. Values of all grids, in their order.
+// Thread-safe. Values of all grids, in their order, and of the mark.
 using TileProducer = std::function<std::vector<voxel::FieldTile>(const voxel::TileBox& region, const StopFlag* stop)>;
 
 struct GridJob {
@@ -43,10 +47,11 @@ struct GridJob {
   std::vector<Grid> grids;
   double band_mm = 0;     // of distances; 0: they are not cut off
   design::Metric metric;  // what distances are
+  bool has_mark = false;  // behind the grids, tiles have 1 inside and 0 outside
   TileProducer tiles;
 };
 
-// Nothing, and diagnostics, when the design cannot be sampled.
+// Nothing, and diagnostics, when the design cannot be sampled, or has no such attribute.
 std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, const GridWishes& wishes,
                                   const voxel::TileBox& region, Diagnostics& diagnostics);
 

@@ -37,30 +37,30 @@ void copy(const voxel::FieldTile& tile, Sampled& sampled) {
   }
 }
 
-struct Question {
+struct GridCase {
   GridWishes wishes;
   PlanOptions options;
   std::optional<Box> box;
   int threads = 2;
 };
 
-std::optional<GridJob> plan_text(const std::string& text, const Question& question) {
+std::optional<GridJob> plan_text(const std::string& text, const GridCase& grid_case) {
   Diagnostics diagnostics;
   const LoadedPtr loaded = load_text(text, diagnostics);
-  const auto plan = loaded ? plan_slice(loaded, question.options, diagnostics) : std::nullopt;
+  const auto plan = loaded ? plan_slice(loaded, grid_case.options, diagnostics) : std::nullopt;
   EXPECT_TRUE(plan) << to_text(diagnostics);
   if (!plan) return std::nullopt;
   voxel::TileBox region{{0, 0, 0}, plan->request.lattice.count};
-  if (question.box) region = region_over(plan->request.lattice, *question.box).value();
-  return plan_grids(loaded, *plan, question.wishes, region, diagnostics);
+  if (grid_case.box) region = region_over(plan->request.lattice, *grid_case.box).value();
+  return plan_grids(loaded, *plan, grid_case.wishes, region, diagnostics);
 }
 
-Sampled sample(const std::string& text, const Question& question) {
-  Sampled sampled{plan_text(text, question).value(), {}};
+Sampled sample(const std::string& text, const GridCase& grid_case) {
+  Sampled sampled{plan_text(text, grid_case).value(), {}};
   const auto voxels = static_cast<size_t>(sampled.job.region.voxels());
   sampled.values.assign(sampled.job.grids.size(), std::vector<float>(voxels, std::nanf("")));
   each_slab(
-      sampled.job, question.threads,
+      sampled.job, grid_case.threads,
       [&](const GridSlab& slab) {
         for (const voxel::FieldTile& tile : slab.tiles) copy(tile, sampled);
       },
@@ -83,6 +83,17 @@ const std::string graded =
     "rotate(20, 30, 40) { cylinder(1, 9); } } }";
 
 std::string temporary(const std::string& name) { return testing::TempDir() + std::to_string(getpid()) + "_" + name; }
+
+// The attribute of a ball of 3 mm: 2 + z, and 7 elsewhere.
+const std::string dosed =
+    "attribute(\"dose\", \"2 + z\", unit=\"J/cm2\", default=7) { sphere(3, \"red\"); }"
+    "attribute(\"heat\", 5) { translate(10, 0, 0) { sphere(1); } }";
+
+GridWishes named(std::vector<std::string> names) {
+  GridWishes wishes;
+  wishes.attributes = std::move(names);
+  return wishes;
+}
 
 }  // namespace
 
@@ -170,7 +181,7 @@ TEST(Grids, FractionsFollowTheGrade) {
 
 TEST(Grids, ABoxIsCutFromTheWhole) {
   const Box box{{-1.03, 0.5, -2}, {2.2, 3.1, 1.77}};
-  for (const GridWishes wishes : {materials(), fractions(), distance()}) {
+  for (const GridWishes& wishes : {materials(), fractions(), distance()}) {
     const Sampled whole = sample(graded, {wishes, pitch(0.17), {}, 2});
     const Sampled part = sample(graded, {wishes, pitch(0.17), box, 1});
     const voxel::TileBox& region = part.job.region;
@@ -249,6 +260,55 @@ TEST(Grids, NamesOfFilesSayTheGrid) {
   EXPECT_EQ(volume_paths("part.npy", {far, red})[0], "part_distance.npy");
   EXPECT_EQ(volume_paths("part.npy", {red}).size(), 1u);
   EXPECT_NE(volume_paths("part.npy", {red})[0], "part.npy");
+}
+
+TEST(Grids, AttributesHaveTheirDefaultOutside) {
+  const Sampled grid = sample(dosed, {named({"dose"}), pitch(0.5), {}, 2});
+  ASSERT_EQ(grid.job.grids.size(), 1u);
+  EXPECT_EQ(grid.job.grids[0].attribute.unit, "J/cm2");
+  const voxel::TileBox& region = grid.job.region;
+  for (int64_t k = region.lo[2]; k < region.hi[2]; ++k)
+    for (int64_t j = region.lo[1]; j < region.hi[1]; ++j)
+      for (int64_t i = region.lo[0]; i < region.hi[0]; ++i) {
+        const Vec3 p = grid.job.request.lattice.center(i, j, k);
+        const double expected = length(p) <= 3 ? 2 + p.z : 7;
+        const bool is_at_border = std::abs(length(p) - 3) < 1e-6 || length(p - Vec3{10, 0, 0}) < 1 + 1e-6;
+        if (is_at_border) continue;
+        ASSERT_NEAR(grid.at(0, i, j, k), expected, 1e-6) << p.x << ' ' << p.y << ' ' << p.z;
+      }
+}
+
+TEST(Grids, AllAttributesComeBesideOtherGrids) {
+  GridWishes wishes = fractions();
+  wishes.all_attributes = true;
+  const Sampled grid = sample(dosed, {wishes, pitch(0.5), {}, 2});
+  std::vector<std::string> names;
+  for (const Grid& g : grid.job.grids) names.push_back(g.name);
+  EXPECT_EQ(std::ranges::count(names, "dose"), 1);
+  EXPECT_EQ(std::ranges::count(names, "heat"), 1);
+  EXPECT_FALSE(grid.job.has_mark);
+}
+
+TEST(Grids, AttributesAloneKnowWhatIsInside) {
+  const Sampled grid = sample(dosed, {named({"heat"}), pitch(0.5), {}, 1});
+  EXPECT_TRUE(grid.job.has_mark);
+  const auto has_some = [&](const voxel::TileBox& region) {
+    const auto tiles = grid.job.tiles(region, nullptr);
+    return std::ranges::any_of(tiles, [&](const voxel::FieldTile& tile) { return has_inside(grid.job, tile); });
+  };
+  EXPECT_TRUE(has_some(grid.job.region));
+  EXPECT_FALSE(has_some({{0, 0, 0}, {2, 2, 2}}));  // a corner of the box around the ball
+}
+
+TEST(Grids, UnknownAttributesAreAnError) {
+  Diagnostics diagnostics;
+  const auto loaded = load_text(dosed, diagnostics);
+  const auto plan = plan_slice(loaded, pitch(0.5), diagnostics);
+  ASSERT_TRUE(plan);
+  EXPECT_FALSE(plan_grids(loaded, *plan, named({"dosee"}), {{0, 0, 0}, plan->request.lattice.count}, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("the design has no attribute \"dosee\"; did you mean \"dose\"?"),
+            std::string::npos)
+      << to_text(diagnostics);
 }
 
 }  // namespace ombre::compile

@@ -33,12 +33,7 @@ Question::Question(const design::Design& design, const QuestionOptions& options)
 
 std::optional<Field> Question::attribute(std::string_view name, Diagnostics& diagnostics) {
   if (lowering_.declaration(name)) return lowering_.attribute(*solid_, name, point_, design::Demand::inside);
-  std::vector<std::string> known;
-  for (const auto& attribute : attributes()) known.push_back(attribute.name);
-  const std::string wanted(name);
-  diagnostics.error(
-      design_.parts[0].solid->where(), "the design has no attribute \"" + wanted + '"',
-      known.empty() ? "give it one with attribute(\"" + wanted + "\", value)" : "it has " + join(known, ", "));
+  report_unknown_attribute(design_, std::string(name), diagnostics);
   return std::nullopt;
 }
 
@@ -64,11 +59,22 @@ design::NodePtr whole_solid(const design::Design& design) {
                            {design.materials, none, nullptr, {}, "", ""});
 }
 
+std::vector<design::AttributeDeclaration> declared_attributes(const design::Design& design) {
+  return design::LoweringContext(design.materials, design.roots()).attributes();
+}
+
 std::vector<std::string> attribute_names(const design::Design& design) {
-  const design::LoweringContext context(design.materials, design.roots());
   std::vector<std::string> names;
-  for (const auto& attribute : context.attributes()) names.push_back(attribute.name);
+  for (const auto& attribute : declared_attributes(design)) names.push_back(attribute.name);
   return names;
+}
+
+void report_unknown_attribute(const design::Design& design, const std::string& name, Diagnostics& diagnostics) {
+  const std::vector<std::string> known = attribute_names(design);
+  std::string hint = did_you_mean(name, known);
+  if (hint.empty())
+    hint = known.empty() ? "give it one with attribute(\"" + name + "\", value)" : "it has " + join(known, ", ");
+  diagnostics.error(design.parts[0].solid->where(), "the design has no attribute \"" + name + '"', hint);
 }
 
 std::vector<std::pair<MaterialId, Field>> shares(const design::Composition& composition) {

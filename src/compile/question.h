@@ -68,7 +68,10 @@ class Question {
 design::NodePtr whole_solid(const design::Design& design);
 
 // The attributes that some node of the design declares.
+std::vector<design::AttributeDeclaration> declared_attributes(const design::Design& design);
 std::vector<std::string> attribute_names(const design::Design& design);
+// The error that the design has no attribute of that name.
+void report_unknown_attribute(const design::Design& design, const std::string& name, Diagnostics& diagnostics);
 
 // A composition's fractions as dithering takes them: those that are not positive, or not numbers, take no part.
 std::vector<std::pair<MaterialId, program::Field>> shares(const design::Composition& composition);

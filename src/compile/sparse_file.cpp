@@ -15,6 +15,8 @@ vdb::GridClass class_of(GridKind kind) {
       return vdb::GridClass::fog;
     case GridKind::distance:
       return vdb::GridClass::level_set;
+    case GridKind::attribute:
+      return vdb::GridClass::values;
     default:
       return vdb::GridClass::labels;
   }
@@ -28,8 +30,9 @@ std::string hex(const formats::Rgba& rgba) {
 }
 
 vdb::SparseGrids::Notes notes_of(const GridJob& job, const Grid& grid) {
-  vdb::SparseGrids::Notes notes{
-      {"creator", job.request.program}, {"design_hash", job.request.design_hash}, {"unit", "mm"}};
+  vdb::SparseGrids::Notes notes{{"creator", job.request.program},
+                                {"design_hash", job.request.design_hash},
+                                {"unit", grid.kind == GridKind::attribute ? grid.attribute.unit : "mm"}};
   if (grid.kind == GridKind::distance) notes.emplace_back("distance", std::string(design::name(job.metric.kind)));
   if (grid.material) notes.emplace_back("colour", hex(grid.material->rgba));
   if (grid.kind == GridKind::material)
@@ -42,7 +45,7 @@ vdb::SparseGrids empty_grids(const GridJob& job) {
   const auto& pitch = job.request.lattice.pitch;
   vdb::SparseGrids grids({pitch[0].mm(), pitch[1].mm(), pitch[2].mm()}, job.request.lattice.center(0, 0, 0));
   for (const Grid& grid : job.grids) {
-    const double background = grid.kind == GridKind::distance ? job.band_mm : 0;
+    const double background = grid.kind == GridKind::distance ? job.band_mm : grid.attribute.default_value;
     grids.add(grid.name, class_of(grid.kind), static_cast<float>(background), notes_of(job, grid));
   }
   return grids;

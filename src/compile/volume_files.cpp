@@ -52,6 +52,11 @@ DataMembers about(const GridJob& job, const Grid& grid) {
       add("values", "distance to the surface in mm, negative inside");
       add("distance", std::string(design::name(job.metric.kind)));
       break;
+    case GridKind::attribute:
+      add("values", "an attribute, its default outside");
+      add("attribute",
+          DataMembers{{"name", grid.name}, {"unit", grid.attribute.unit}, {"default", grid.attribute.default_value}});
+      break;
   }
   return members;
 }
@@ -113,7 +118,8 @@ class SlabNumbers {
 }  // namespace
 
 std::vector<std::string> volume_paths(const std::string& path, const std::vector<Grid>& grids) {
-  if (grids.size() == 1 && grids[0].kind != GridKind::fraction) return {path};
+  const bool is_of_many = grids[0].kind == GridKind::fraction;
+  if (grids.size() == 1 && !is_of_many) return {path};
   std::vector<std::string> names, paths;
   for (const Grid& grid : grids) names.push_back(grid.name);
   const std::filesystem::path whole(path);

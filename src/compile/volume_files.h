@@ -10,8 +10,8 @@
 
 namespace ombre::compile {
 
-// One file for each grid: `path` itself if it is a single grid of materials or distances, else part_red.npy,
-// part_distance.npy and so on.
+// One file for each grid: `path` itself if it is a single grid of materials, distances or an attribute, else
+// part_red.npy, part_distance.npy and so on.
 std::vector<std::string> volume_paths(const std::string& path, const std::vector<Grid>& grids);
 
 // Of all files, without headers and before compression.

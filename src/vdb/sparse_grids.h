@@ -16,6 +16,7 @@ enum class GridClass {
   level_set,  // distances within a narrow band around a surface; beyond it the background, negative inside
   fog,        // amounts; where there is none is background
   labels,     // whole numbers; 0 is background
+  values,     // any numbers; what nothing is said of is background
 };
 
 enum class FileFormat { vdb, nvdb };
