@@ -21,7 +21,7 @@ namespace {
 
 struct RenderArguments {
   DesignArguments design;
-  std::string output, size = "800x600", view = "iso", from, slice, box, background = "white", font;
+  std::string output, size = "800x600", view = "iso", from, slice, box, background = "white", font, by, range;
   std::vector<std::string> cuts, opacity;
   double perspective = 0, zoom = 1;
   int samples = 2, frames = 1, threads = 0;
@@ -35,6 +35,7 @@ constexpr const char* render_footer =
     "  ombre render part.vcad --cut x=0 --view right        cut open, seen from the right\n"
     "  ombre render part.vcad --opacity clear=0.1           what the clear material hides\n"
     "  ombre render part.vcad --slice z=3.2 --annotate      the materials in a plane, with scale bar and legend\n"
+    "  ombre render part.vcad --by density --cut y=0 --legend    an attribute, cut open\n"
     "  ombre render part.vcad --frames 36 -o turn.png       turn_00.png to turn_35.png, all around the part\n";
 
 constexpr int64_t most_pixels = 16384;
@@ -66,6 +67,12 @@ void add_arguments(CLI::App& app, RenderArguments& a) {
       app.add_option("--opacity", a.opacity, "Of a material, 0 (clear) to 1, in place of its own; may be repeated")
           ->allow_extra_args(false)
           ->type_name("MATERIAL=N");
+  CLI::Option* by =
+      app.add_option("--by", a.by, "Colour by a material's fraction or an attribute, from dark blue (least) to yellow")
+          ->type_name("NAME");
+  app.add_option("--range", a.range, "The values from the first colour to the last (default: those of the design)")
+      ->needs(by)
+      ->type_name("LO,HI");
   app.add_option("--background", a.background, "white (default), black, gray, transparent or #rrggbb")
       ->type_name("COLOUR");
   app.add_option("--aa", a.samples, "Rays along the edge of a pixel, which smooth edges (default 2)")
@@ -165,6 +172,14 @@ compile::PictureRequest picture_request(const RenderArguments& a) {
       throw WrongArgument("--opacity " + text + " is not a material and a number from 0 to 1; write for example " +
                           "--opacity clear=0.2");
     request.opacity.emplace_back(text.substr(0, sign), *value);
+  }
+  request.by = a.by;
+  if (!a.range.empty()) {
+    const std::vector<double> ends = parse_numbers(a.range);
+    if (ends.size() != 2 || !(ends[0] < ends[1]))
+      throw WrongArgument("--range " + a.range +
+                          " is not two numbers, the lesser first; write for example --range 0,1");
+    request.range = Interval(ends[0], ends[1]);
   }
   request.annotations = {a.axes || a.annotate, a.scale_bar || a.annotate, a.legend || a.annotate, a.font};
   request.samples = a.samples;

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "compile/build.h"
 #include "compile/picture_labels.h"
+#include "compile/region_survey.h"
 
 namespace ombre::compile {
 namespace {
@@ -80,17 +81,31 @@ class Studio {
     options_ = std::move(*options);
     // What lies outside of the box that is sampled is not part of the job.
     if (loaded_.design.sampling) options_.box = options_.box ? intersect(*options_.box, whole_) : whole_;
+    if (!request_.by.empty() && !choose_range()) return false;
     width_ = request_.width;
     height_ = request_.height;
     const AnnotationRequest& wanted = request_.annotations;
     return !(wanted.axes || wanted.scale_bar || wanted.legend) || make_room();
   }
 
+  bool choose_range() {
+    options_.value = ValueColours{request_.by, {0, 1}};
+    if (request_.range) {
+      options_.value->range = *request_.range;
+      return true;
+    }
+    if (loaded_.design.materials.find(request_.by)) return true;
+    const size_t errors = diagnostics_.error_count();
+    if (const auto range = value_range(loaded_.design, whole_, request_.by, diagnostics_))
+      options_.value->range = *range;
+    return diagnostics_.error_count() == errors;
+  }
+
   bool make_room() {
     aim_cuts(camera_around(whole_, view_of(0)));
     const Box box = scene_box(whole_, options_);
     if (box.is_empty()) return nothing_left();
-    labels_ = PictureLabels::make(loaded_, request_, request_.slice ? plane(box) : box, diagnostics_);
+    labels_ = PictureLabels::make(loaded_, request_, request_.slice ? plane(box) : box, options_.value, diagnostics_);
     if (!labels_) return false;
     width_ = labels_->layout().width;
     height_ = labels_->layout().height;

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 
+#include "base/text.h"
+#include "compile/colour_map.h"
+#include "compile/question.h"
+
 namespace ombre::compile {
 namespace {
 
@@ -30,16 +34,34 @@ std::vector<uint8_t> on_background(const std::vector<uint8_t>& part, const rende
   return pixels;
 }
 
+// Some values with their colours, the greatest first.
+std::vector<render::Swatch> value_legend(const design::Design& design, const ValueColours& value) {
+  const int lines = value.range.is_point() ? 1 : 5;
+  std::string unit;
+  for (const auto& attribute : declared_attributes(design))
+    if (attribute.name == value.of && !design.materials.find(value.of) && !attribute.unit.empty() &&
+        attribute.unit != "1")
+      unit = " " + attribute.unit;
+  std::vector<render::Swatch> legend;
+  for (int n = lines - 1; n >= 0; --n) {
+    const double share = static_cast<double>(n) / std::max(1, lines - 1);
+    const double at = value.range.lo + share * (value.range.hi - value.range.lo);
+    legend.push_back({value.of + " " + format_rounded(at, 3) + unit, map_colour(share)});
+  }
+  return legend;
+}
+
 }  // namespace
 
 std::optional<PictureLabels> PictureLabels::make(const Loaded& loaded, const PictureRequest& request, const Box& box,
-                                                 Diagnostics& diagnostics) {
+                                                 const std::optional<ValueColours>& value, Diagnostics& diagnostics) {
   const AnnotationRequest& wanted = request.annotations;
   const SourceRange where{loaded.source, 0, 0};
   PictureLabels labels(request, draw::Pen(wanted.font_file));
   labels.annotations_.axes = wanted.axes;
   labels.annotations_.scale_bar = wanted.scale_bar;
-  if (wanted.legend) {
+  if (wanted.legend && value) labels.annotations_.legend = value_legend(loaded.design, *value);
+  if (wanted.legend && !value) {
     const auto materials = materials_within(loaded.design, box, request.threads, diagnostics);
     if (!materials) return std::nullopt;
     for (const MaterialId id : *materials) {

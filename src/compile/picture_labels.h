@@ -11,10 +11,10 @@ namespace ombre::compile {
 // The same room for all frames.
 class PictureLabels {
  public:
-  // `box` holds what is shown. Nothing, and diagnostics, where the picture is too small; throws Error where there is
-  // nothing to draw them with.
+  // `box` holds what is shown, `value` says what the colours are by. Nothing, and diagnostics, where the picture is too
+  // small; throws Error where there is nothing to draw them with.
   static std::optional<PictureLabels> make(const Loaded& loaded, const PictureRequest& request, const Box& box,
-                                           Diagnostics& diagnostics);
+                                           const std::optional<ValueColours>& value, Diagnostics& diagnostics);
 
   const render::Layout& layout() const { return layout_; }  // of which the part's picture has the size
   // Makes the part's picture the whole one.

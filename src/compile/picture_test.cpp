@@ -2,8 +2,10 @@
 #include "compile/picture.h"
 
 #include <cmath>
+#include <functional>
 
 #include "compile/build.h"
+#include "compile/colour_map.h"
 #include "compile/test_designs.h"
 #include "program/passes/passes.h"
 
@@ -260,6 +262,64 @@ TEST(Pictures, WhatIsWrongIsSaid) {
   request.cuts = {{0, '>', -11}};
   EXPECT_FALSE(take_pictures(*loaded, request, stop, ignore, diagnostics));
   EXPECT_NE(to_text(diagnostics).find("nothing of the design is left by the cuts"), std::string::npos);
+}
+
+// Flat, so that colours are those of the map.
+TEST(Pictures, ColoursFollowAValue) {
+  const auto picture_of = [](const std::string& text, const std::string& by, std::optional<Interval> range) {
+    Diagnostics diagnostics;
+    const LoadedPtr loaded = load_text(text, diagnostics);
+    PictureRequest request;
+    request.width = request.height = 40;
+    request.slice = {{2, 0}};
+    request.by = by;
+    request.range = range;
+    Picture found;
+    StopFlag stop;
+    EXPECT_TRUE(take_pictures(
+        *loaded, request, stop, [&](int, const Picture& p) { found = p; }, diagnostics))
+        << to_text(diagnostics);
+    return found;
+  };
+  const auto expect_map = [](const Picture& picture, const std::function<double(double x)>& share, int tolerance) {
+    for (int64_t column = 4; column < 36; ++column) {
+      const double x = (static_cast<double>(column) - 19.5) * picture.pixel_mm;
+      const design::Rgba expected = map_colour(share(x));
+      for (size_t n = 0; n < 3; ++n)
+        EXPECT_NEAR(picture.rgba[static_cast<size_t>((20 * 40 + column) * 4) + n], expected[n], tolerance) << column;
+    }
+  };
+  const std::string block = "cube(10, \"clear\");";
+  const std::string dosed = "attribute(\"dose\", \"3 + 0.2*x\") { " + block + " }";  // 2 to 4
+  // The range is that of samples, some 48 along the part, which begin half a step within.
+  expect_map(
+      picture_of(dosed, "dose", std::nullopt), [](double x) { return (x + 5) / 10; }, 8);
+  expect_map(
+      picture_of(dosed, "dose", Interval(0, 3)), [](double x) { return (3 + 0.2 * x) / 3; }, 2);
+  const std::string graded = "fgrade([\"0.5 + x/20\", \"0.5 - x/20\"], [\"red\", \"blue\"]) { " + block + " }";
+  expect_map(
+      picture_of(graded, "blue", std::nullopt), [](double x) { return 0.5 - x / 20; }, 2);
+}
+
+TEST(Pictures, ValuesThatAreNotThereAreAnError) {
+  Diagnostics diagnostics;
+  const LoadedPtr loaded = load_text("attribute(\"dose\", 1) { sphere(10, \"red\"); }", diagnostics);
+  PictureRequest request;
+  request.width = request.height = 20;
+  request.by = "doze";
+  StopFlag stop;
+  EXPECT_FALSE(take_pictures(
+      *loaded, request, stop, [](int, const Picture&) {}, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("neither a material nor an attribute \"doze\"; did you mean \"dose\"?"),
+            std::string::npos);
+}
+
+TEST(ColourMap, GoesFromDarkBlueToYellow) {
+  EXPECT_EQ(map_colour(0), (design::Rgba{68, 1, 84, 255}));
+  EXPECT_EQ(map_colour(0.5), (design::Rgba{33, 144, 141, 255}));
+  EXPECT_EQ(map_colour(1), (design::Rgba{253, 231, 37, 255}));
+  EXPECT_EQ(map_colour(7), map_colour(1));
+  EXPECT_EQ(map_colour(-7), map_colour(0));
 }
 
 }  // namespace ombre::compile

@@ -37,6 +37,20 @@ std::optional<Field> Question::attribute(std::string_view name, Diagnostics& dia
   return std::nullopt;
 }
 
+std::optional<Field> Question::value(const std::string& name, Diagnostics& diagnostics) {
+  if (const design::Material* material = design_.materials.find(name))
+    for (const auto& [id, part] : shares(composition()))
+      if (id == material->id) return part;
+  if (lowering_.declaration(name)) return attribute(name, diagnostics);
+  std::vector<std::string> known;
+  for (const auto& [id, part] : composition().fractions) known.push_back(design_.materials.all()[id].name);
+  for (const auto& attribute : attributes()) known.push_back(attribute.name);
+  std::string hint = did_you_mean(name, known);
+  if (hint.empty()) hint = "it has " + join(known, ", ");
+  diagnostics.error(solid_->where(), "the design has neither a material nor an attribute \"" + name + '"', hint);
+  return std::nullopt;
+}
+
 Program Question::program_with_calls(const program::Outputs& outputs) {
   if (!is_finished_) context_.finish_bodies();
   is_finished_ = true;

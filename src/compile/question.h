@@ -43,6 +43,9 @@ class Question {
   program::Field part(size_t number) { return lowering_.inside(*design_.parts[number].solid, point_); }
   // Nothing, and a diagnostic, when no node of the design declares it.
   std::optional<program::Field> attribute(std::string_view name, Diagnostics& diagnostics);
+  // Of a material its fraction, as dithering takes it; else the attribute of that name. Nothing, and a diagnostic, when
+  // the design has neither.
+  std::optional<program::Field> value(const std::string& name, Diagnostics& diagnostics);
   const std::vector<design::AttributeDeclaration>& attributes() const { return context_.attributes(); }
   // Null when no node declares it.
   const design::AttributeDeclaration* declaration(std::string_view name) const { return lowering_.declaration(name); }

@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "compile/field_program.h"
+#include "compile/question.h"
 #include "voxel/fields.h"
 
 namespace ombre::compile {
@@ -69,6 +70,16 @@ std::vector<bool> inside_of(const std::vector<std::vector<float>>& fractions) {
   return inside;
 }
 
+// Of the values that are numbers, where the mark is greater than 0.
+std::optional<Interval> range_inside(const std::vector<float>& values, const std::vector<float>& marks) {
+  std::optional<Interval> range;
+  for (size_t n = 0; n < values.size(); ++n) {
+    const double value = values[n];
+    if (marks[n] > 0 && std::isfinite(value)) range = range ? hull(*range, value) : Interval(value);
+  }
+  return range;
+}
+
 }  // namespace
 
 std::optional<MaterialId> most_varying_material(const design::Design& design, const Box& box,
@@ -93,15 +104,20 @@ std::optional<MaterialId> most_varying_material(const design::Design& design, co
   return most;
 }
 
+std::optional<Interval> value_range(const design::Design& design, const Box& box, const std::string& name,
+                                    Diagnostics& diagnostics) {
+  Question question(design);
+  const auto value = question.value(name, diagnostics);
+  if (!value) return std::nullopt;
+  const auto program = question.program({{name, *value}, {"inside", question.inside()}}, diagnostics);
+  if (!program) return std::nullopt;
+  const auto values = sample(*program, box);
+  return range_inside(values[0], values[1]);
+}
+
 std::optional<Interval> score_range(const Partition& partition, const Box& box) {
   const auto values = sample(partition.details.whole(), box);
-  std::optional<Interval> range;
-  for (size_t n = 0; n < values[Partition::label_output].size(); ++n) {
-    const double value = values[Partition::first_score][n];
-    if (values[Partition::label_output][n] > 0 && std::isfinite(value))
-      range = range ? hull(*range, value) : Interval(value);
-  }
-  return range;
+  return range_inside(values[Partition::first_score], values[Partition::label_output]);
 }
 
 std::vector<design::Rgba> mean_colours(const design::Design& design, const Partition& partition, const Box& box,

@@ -14,6 +14,11 @@ namespace ombre::compile {
 // The material whose fraction differs most within the design; of about equals the first. Nothing when it is empty.
 std::optional<MaterialId> most_varying_material(const design::Design& design, const Box& box, Diagnostics& diagnostics);
 
+// From the least to the greatest value inside of a material's fraction or of an attribute. Nothing when nothing is
+// inside, or, and a diagnostic, when the design has none of that name.
+std::optional<Interval> value_range(const design::Design& design, const Box& box, const std::string& name,
+                                    Diagnostics& diagnostics);
+
 // From the least to the greatest value of the first score inside. Nothing when nothing is inside.
 std::optional<Interval> score_range(const surface::Partition& partition, const Box& box);
 

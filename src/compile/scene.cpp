@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compile/build.h"
+#include "compile/colour_map.h"
 #include "compile/question.h"
 #include "render/shade.h"
 
@@ -36,7 +37,8 @@ Field within_cuts(Field inside, const Point& p, const SceneOptions& options) {
 
 double opacity_of(const design::Material& material, const SceneOptions& options) {
   const auto given = options.opacity.find(material.id);
-  return given != options.opacity.end() ? given->second : material.colour[3] / 255.0;
+  if (given != options.opacity.end()) return given->second;
+  return options.value ? 1 : material.colour[3] / 255.0;
 }
 
 // The sum of something over the materials, by their fractions.
@@ -67,6 +69,22 @@ struct Shown {
   bool is_translucent = false;
 };
 
+// Linear red, green and blue.
+std::optional<std::array<Field, 3>> colour_at(Question& question, const design::Composition& composition,
+                                              const SceneOptions& options, Diagnostics& diagnostics) {
+  if (options.value) {
+    const auto value = question.value(options.value->of, diagnostics);
+    if (!value) return std::nullopt;
+    return mapped_colour(*value, options.value->range);
+  }
+  const auto channel = [&](float render::Colour::*part) {
+    return mean(composition, question.point(), [&](MaterialId id) {
+      return static_cast<double>(render::linear(question.design().materials.all()[id].colour).*part);
+    });
+  };
+  return std::array{channel(&render::Colour::red), channel(&render::Colour::green), channel(&render::Colour::blue)};
+}
+
 // `further` follow the outputs.
 std::optional<Shown> lower(Question& question, const SceneOptions& options, const program::Outputs& further,
                            Diagnostics& diagnostics) {
@@ -80,16 +98,10 @@ std::optional<Shown> lower(Question& question, const SceneOptions& options, cons
     if (opacity_of(materials[id], options) < 1) shown.is_translucent = true;
   const Field opacity = mean(composition, p, [&](MaterialId id) { return opacity_of(materials[id], options); });
   const Field opaque = shown.is_translucent ? logical_and(inside, less_equal(p.constant(0.5), opacity)) : inside;
-  const auto channel = [&](float render::Colour::*part) {
-    return mean(composition, p,
-                [&](MaterialId id) { return static_cast<double>(render::linear(materials[id].colour).*part); });
-  };
-  program::Outputs outputs{{"inside", inside},
-                           {"opaque", opaque},
-                           {"red", channel(&render::Colour::red)},
-                           {"green", channel(&render::Colour::green)},
-                           {"blue", channel(&render::Colour::blue)},
-                           {"opacity", opacity}};
+  const auto colour = colour_at(question, composition, options, diagnostics);
+  if (!colour) return std::nullopt;
+  program::Outputs outputs{{"inside", inside},      {"opaque", opaque},     {"red", (*colour)[0]},
+                           {"green", (*colour)[1]}, {"blue", (*colour)[2]}, {"opacity", opacity}};
   outputs.insert(outputs.end(), further.begin(), further.end());
   auto program = question.program(outputs, diagnostics);
   if (!program) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/box.h"
@@ -21,10 +22,17 @@ struct CutPlane {
   int sign = 1;
 };
 
+// Colours by a value in place of those of the materials.
+struct ValueColours {
+  std::string of;  // a material, for its fraction, or an attribute
+  Interval range;  // that the colours span
+};
+
 struct SceneOptions {
   std::vector<CutPlane> cuts;
   std::optional<Box> box;                // only what is within
   std::map<MaterialId, double> opacity;  // 0 to 1, in place of the materials' own
+  std::optional<ValueColours> value;     // then materials without an opacity here are opaque
   int threads = 1;                       // that make tables of many parts; 0: all cores
 };
 

@@ -124,6 +124,8 @@ struct Sum {
 
 }  // namespace
 
+Rgba8 encoded(const Colour& linear) { return {to_srgb(linear.red), to_srgb(linear.green), to_srgb(linear.blue), 255}; }
+
 Colour linear(Rgba8 srgb) {
   return {static_cast<float>(to_linear(srgb[0])), static_cast<float>(to_linear(srgb[1])),
           static_cast<float>(to_linear(srgb[2]))};

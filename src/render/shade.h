@@ -14,6 +14,8 @@ namespace ombre::render {
 using Rgba8 = std::array<uint8_t, 4>;
 
 Colour linear(Rgba8 srgb);
+// Back again, opaque.
+Rgba8 encoded(const Colour& linear);
 
 struct Background {
   Rgba8 colour{255, 255, 255, 255};
