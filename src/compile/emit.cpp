@@ -1,8 +1,11 @@
 // Intermediate forms as text.
+#include <algorithm>
+
 #include "base/json.h"
 #include "base/text.h"
 #include "compile/build.h"
 #include "compile/load.h"
+#include "compile/pass_list.h"
 #include "lang/ast_print.h"
 #include "lang/parser.h"
 #include "program/passes/passes.h"
@@ -34,10 +37,35 @@ std::string stats(const design::Design& design) {
   return text;
 }
 
+// A line for each pass: its name, how many operations it left, how long it took, and what it does.
+std::string pass_table(const design::Design& design) {
+  std::string text;
+  const auto column = [](std::string word, size_t width) {
+    word.resize(std::max(width, word.size() + 1), ' ');
+    return word;
+  };
+  for (const PassResult& pass : slicing_passes(design))
+    text += column(pass.name, 22) + column(format_count(pass.program.code.size()) + " operations", 24) +
+            column(format_rounded(1000 * pass.seconds, 3) + " ms", 12) + pass.sentence + "\n";
+  return text;
+}
+
+std::string program_after(const design::Design& design, std::string_view name) {
+  for (const PassResult& pass : slicing_passes(design))
+    if (pass.name == name) return program::to_text(pass.program);
+  return "";
+}
+
+constexpr std::string_view after = "program=after-";
+
 }  // namespace
 
 const std::vector<std::string>& emit_forms() {
-  static const std::vector<std::string> forms{"ast", "tree", "program", "stats", "json"};
+  static const std::vector<std::string> forms = [] {
+    std::vector<std::string> all{"ast", "tree", "program", "stats", "json", "passes"};
+    for (const std::string& name : slicing_pass_names()) all.push_back(std::string(after) + name);
+    return all;
+  }();
   return forms;
 }
 
@@ -45,6 +73,8 @@ std::string emit(const Loaded& loaded, const std::string& form) {
   if (form == "tree") return design::to_tree(loaded.design);
   if (form == "json") return print_json(design::to_data(loaded.design));
   if (form == "program") return program::to_text(build_program(loaded.design).materials.program);
+  if (form == "passes") return pass_table(loaded.design);
+  if (form.starts_with(after)) return program_after(loaded.design, std::string_view(form).substr(after.size()));
   if (form == "stats") return stats(loaded.design);
   if (loaded.path.ends_with(".json")) return std::string(loaded.source->text());
   Diagnostics ignored;  // the design was read already

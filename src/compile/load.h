@@ -39,7 +39,8 @@ LoadedPtr load_design(const std::string& path, const LoadOptions& options, Diagn
 // The materials file at `path`, or the default set when it is empty.
 std::optional<design::MaterialTable> load_materials(const std::string& path, Diagnostics& diagnostics);
 
-// One intermediate form as text: "ast", "tree", "program", "stats" or "json".
+// One intermediate form as text: "ast", "tree", "program", "stats", "json", "passes" for a table of the passes that a
+// program goes through before it slices, or "program=after-NAME" for what one of them made.
 const std::vector<std::string>& emit_forms();
 std::string emit(const Loaded& loaded, const std::string& form);
 

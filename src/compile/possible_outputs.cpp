@@ -7,6 +7,7 @@
 
 #include "base/tasks.h"
 #include "program/passes/passes.h"
+#include "program/passes/prepare.h"
 
 namespace ombre::compile {
 namespace {
@@ -23,7 +24,7 @@ class Search {
  public:
   // `first_counts`: where the first output is 0 the others do not count.
   Search(const program::Program& program, bool first_counts, int threads)
-      : program_(program), batch_(program::fuse(program)), first_counts_(first_counts), threads_(threads) {
+      : program_(program), batch_(program::prepare(program, program::Purpose::ranges)), first_counts_(first_counts), threads_(threads) {
     for (size_t n = first_counts ? 1 : 0; n < program.outputs.size(); ++n) open_.push_back(n);
   }
 

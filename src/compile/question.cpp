@@ -13,8 +13,6 @@ namespace {
 using program::Field;
 using program::Program;
 
-constexpr double most_instructions = 1e8;  // some gigabytes
-
 std::vector<design::NodePtr> roots(const design::Design& design, const design::NodePtr& solid, bool parts) {
   std::vector<design::NodePtr> found;
   if (parts) found = design.roots();

@@ -67,6 +67,9 @@ class Question {
   bool is_finished_ = false;
 };
 
+// A program without calls has no more of them; they take some gigabytes.
+inline constexpr double most_instructions = 1e8;
+
 // All parts of a design as one solid.
 design::NodePtr whole_solid(const design::Design& design);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "program/passes/prepare.h"
 #include "render/end_colours.h"
 #include "render/ray_batch.h"
 #include "voxel/place_sources.h"
@@ -31,7 +32,8 @@ constexpr float dark = 0.01F;       // less light than that is none
 // For batches. While surfaces are looked for, colours matter in translucent material only.
 struct Programs {
   program::Program whole, walk;
-  Programs(const Scene& scene, const program::Program& reference) : whole(compose_affine(fuse(sign_only(reference)))) {
+  Programs(const Scene& scene, const program::Program& reference)
+      : whole(program::prepare(reference, program::Purpose::rays)) {
     whole.output_names.clear();
     walk = whole;
     if (!scene.is_translucent) walk.outputs.resize(Scene::red);

@@ -8,6 +8,7 @@
 #include "eval/batch/batch.h"
 #include "eval/rows.h"
 #include "program/passes/passes.h"
+#include "program/passes/prepare.h"
 #include "voxel/place_sources.h"
 #include "voxel/tile_points.h"
 
@@ -197,7 +198,7 @@ class FieldWalk {
 FieldEvaluator::FieldEvaluator(program::Program program, const Lattice& lattice, Evaluator evaluator)
     : parts_(std::make_unique<Parts>(Parts{std::move(program), {}, lattice, {}, evaluator})) {
   parts_->samplers = place_sources(parts_->reference, design_from_index(lattice));
-  if (evaluator == Evaluator::batch) parts_->batch = program::fuse(program::sign_only(parts_->reference));
+  if (evaluator == Evaluator::batch) parts_->batch = program::prepare(parts_->reference, program::Purpose::batch);
 }
 
 FieldEvaluator::~FieldEvaluator() = default;

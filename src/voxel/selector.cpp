@@ -1,6 +1,6 @@
 #include "voxel/selector.h"
 
-#include "program/passes/passes.h"
+#include "program/passes/prepare.h"
 #include "program/passes/replay.h"
 
 namespace ombre::voxel {
@@ -76,6 +76,6 @@ Selector make_selector(const MaterialProgram& materials, Dither dither) {
   return selector;
 }
 
-void make_batch(Selector& selector) { selector.batch = fuse(sign_only(selector.reference)); }
+void make_batch(Selector& selector) { selector.batch = program::prepare(selector.reference, program::Purpose::batch); }
 
 }  // namespace ombre::voxel
