@@ -77,6 +77,14 @@ void Diagnostics::add_all(const Diagnostics& others) {
   error_count_ += others.error_count_ - std::min(others.error_count_, most);  // those that were not kept
 }
 
+void Diagnostics::add_new(const Diagnostic& diagnostic) {
+  if (std::find(list_.begin(), list_.end(), diagnostic) == list_.end()) add(diagnostic);
+}
+
+void Diagnostics::add_new(const Diagnostics& others) {
+  for (const Diagnostic& diagnostic : others.list_) add_new(diagnostic);
+}
+
 void Diagnostics::error(SourceRange where, std::string message, std::string hint) {
   add({Severity::error, std::move(where), std::move(message), std::move(hint)});
 }

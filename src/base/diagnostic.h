@@ -15,6 +15,8 @@ struct Diagnostic {
   SourceRange where;
   std::string message;  // one sentence, lower case, no full stop
   std::string hint;     // what to write instead; may be empty
+
+  bool operator==(const Diagnostic&) const = default;
 };
 
 // Collects what is found, so that one run reports several mistakes.
@@ -24,6 +26,9 @@ class Diagnostics {
 
   void add(Diagnostic diagnostic);
   void add_all(const Diagnostics& others);
+  // Those that are not there yet: a job may find the same each time it lowers a design.
+  void add_new(const Diagnostic& diagnostic);
+  void add_new(const Diagnostics& others);
   void error(SourceRange where, std::string message, std::string hint = "");
   void warning(SourceRange where, std::string message, std::string hint = "");
   void note(SourceRange where, std::string message);

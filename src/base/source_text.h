@@ -50,6 +50,7 @@ struct SourceRange {
   SourceRange part(size_t from, size_t to) const {
     return {source, static_cast<uint32_t>(begin + from), static_cast<uint32_t>(begin + to)};
   }
+  bool operator==(const SourceRange&) const = default;
 };
 
 }  // namespace ombre

@@ -1,6 +1,7 @@
 #include "compile/cad_loader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 
 #include "base/error.h"
@@ -18,6 +19,27 @@ constexpr double voxels_of_tolerance = 0.25;
 // the less is left to ask. A millionth is the least.
 constexpr double diagonals_of_tolerance = 1e-3, diagonals_of_first_look = 1e-4, least_diagonals = 1e-6;
 
+std::string point_text(Vec3 p) {
+  return "(" + format_rounded(p.x) + ", " + format_rounded(p.y) + ", " + format_rounded(p.z) + ")";
+}
+
+design::Remark remark_on_gaps(const std::string& path, const std::vector<importing::OpenSolid>& open, double tolerance,
+                              bool is_exact) {
+  const auto& [name, edges] = open.front();
+  std::string message = "the triangles of the CAD file \"" + path + "\"";
+  if (!name.empty()) message += ", of its solid \"" + name + "\",";
+  message += " are open along " + format_count(edges.count) + (edges.count == 1 ? " edge" : " edges") +
+             ", for example from " + point_text(edges.example[0]) + " to " + point_text(edges.example[1]);
+  if (std::isfinite(edges.gap_mm)) message += ", by up to about " + format_rounded(edges.gap_mm, 2) + " mm";
+  if (open.size() > 1)
+    message += ", and so are those of " + format_count(open.size() - 1) + (open.size() == 2 ? " other" : " others");
+  message += "; what is inside near the gaps is a guess, by winding number";
+  if (is_exact) return {Severity::warning, message, "repair the file where it was drawn"};
+  return {Severity::warning, message,
+          "repair the file where it was drawn, or write a tolerance below " + format_rounded(tolerance, 2) +
+              ", or mode=\"exact\""};
+}
+
 class CadPart final : public design::PendingSource {
  public:
   CadPart(std::string name, Hash content, std::vector<cad::SolidPtr> solids, const design::CadUse& use)
@@ -34,16 +56,28 @@ class CadPart final : public design::PendingSource {
 
   program::SourceField make(std::optional<Vec3> voxel_mm) const override {
     const std::lock_guard lock(mutex_);
+    return made_for(tolerance_for(voxel_mm)).source;
+  }
+
+  std::vector<design::Remark> remarks(std::optional<Vec3> voxel_mm) const override {
+    const std::lock_guard lock(mutex_);
     const double tolerance = tolerance_for(voxel_mm);
-    program::SourceField& made = made_[tolerance];
-    if (made) return made;
+    std::vector<design::Remark> remarks;
+    if (const auto& open = made_for(tolerance).open; !open.empty())
+      remarks.push_back(remark_on_gaps(name_, open, tolerance, is_exact_));
+    return remarks;
+  }
+
+ private:
+  const importing::CadSource& made_for(double tolerance) const {
+    importing::CadSource& made = made_[tolerance];
+    if (made.source) return made;
     const Hash own = hash_bytes(content_.hex() + format_number(tolerance));
     made = is_exact_ ? importing::make_exact_source(name_, solids_, own, tolerance)
                      : importing::make_triangle_source(name_, solids_, own, tolerance);
     return made;
   }
 
- private:
   double tolerance_for(std::optional<Vec3> voxel_mm) const {
     const double diagonal = length(bounds_.size());
     double tolerance = (is_exact_ ? diagonals_of_first_look : diagonals_of_tolerance) * diagonal;
@@ -61,7 +95,7 @@ class CadPart final : public design::PendingSource {
   double tolerance_;
   Box bounds_;
   mutable std::mutex mutex_;
-  mutable std::map<double, program::SourceField> made_;
+  mutable std::map<double, importing::CadSource> made_;
 };
 
 std::vector<std::string> names_of(const std::vector<cad::SolidPtr>& solids) {

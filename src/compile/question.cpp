@@ -57,6 +57,7 @@ Program Question::program_with_calls(const program::Outputs& outputs) {
 
 std::optional<Program> Question::program(const program::Outputs& outputs, Diagnostics& diagnostics) {
   const Program with_calls = program_with_calls(outputs);
+  diagnostics.add_new(context_.diagnostics());
   const double size = program::inlined_size(with_calls);
   if (size <= most_instructions) return program::inline_bodies(with_calls);
   diagnostics.error(solid_->where(),

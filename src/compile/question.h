@@ -54,7 +54,8 @@ class Question {
 
   // After this, nothing more can be asked. What nodes that are used more than once compute is called.
   program::Program program_with_calls(const program::Outputs& outputs);
-  // The same without calls. Nothing, and a diagnostic, when it would not fit into memory.
+  // The same without calls; what nodes have to tell becomes diagnostics. Nothing, and a diagnostic, when it would not
+  // fit into memory.
   std::optional<program::Program> program(const program::Outputs& outputs, Diagnostics& diagnostics);
 
  private:

@@ -163,8 +163,13 @@ std::shared_ptr<const render::Section> make_section(const design::Design& design
 
 std::optional<std::vector<MaterialId>> materials_within(const design::Design& design, const Box& box, int threads,
                                                         Diagnostics& diagnostics) {
-  auto built = build_flat_program(design, diagnostics, threads);
-  if (!built) return std::nullopt;
+  // What nodes tell comes from the picture's own program, which is as fine as its pixels.
+  Diagnostics own;
+  auto built = build_flat_program(design, own, threads);
+  if (!built) {
+    diagnostics.add_new(own);
+    return std::nullopt;
+  }
   leave_out_impossible(*built, box, threads);
   return built->materials.materials;
 }

@@ -60,6 +60,11 @@ std::optional<Vec3> LoweringContext::voxel_mm(const Node& node) {
   return scales_.at(&node) * *voxel_mm_;
 }
 
+void LoweringContext::tell(const Diagnostic& diagnostic) {
+  const std::scoped_lock lock(asked_);
+  diagnostics_.add_new(diagnostic);
+}
+
 void LoweringContext::find_scales() {
   for (const NodePtr& root : roots_) scales_.emplace(root.get(), 1);
   std::vector<const Node*> nodes = topological(roots_);

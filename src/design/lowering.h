@@ -34,6 +34,9 @@ class LoweringContext {
   const MaterialTable& materials() const { return materials_; }
   const std::vector<Check>& checks() const { return checks_; }
   const std::vector<AttributeDeclaration>& attributes() const { return attributes_; }
+  // What nodes told while they were lowered, each once.
+  const Diagnostics& diagnostics() const { return diagnostics_; }
+  void tell(const Diagnostic& diagnostic);
   uint32_t register_check(const Node& node, const std::string& message);
   // As the node has them, where transforms above shrink or stretch it; where there are several ways to it, the least.
   std::optional<Vec3> voxel_mm(const Node& node);
@@ -60,6 +63,7 @@ class LoweringContext {
   std::mutex asked_;
   std::unordered_map<const Node*, double> scales_;  // a length there for one of the root's; found when asked for
   std::vector<Check> checks_;
+  Diagnostics diagnostics_;
   std::map<std::pair<const Node*, std::string>, uint32_t> check_numbers_;
   std::vector<AttributeDeclaration> attributes_;
   std::unordered_set<const Node*> shared_;                       // used more than once
@@ -100,6 +104,7 @@ class Lowering {
   const AttributeDeclaration* declaration(std::string_view name) const;
   MaterialId material(const MaterialName& name) const;
   std::optional<Vec3> voxel_mm(const Node& node) { return context_.voxel_mm(node); }
+  void tell(const Diagnostic& diagnostic) { context_.tell(diagnostic); }
   uint32_t add_check(const Node& node, const std::string& message);
   program::Builder& builder() { return builder_; }
 

@@ -166,6 +166,10 @@ MaterialId Inputs::material(const MaterialName& material_name) const { return lo
 
 std::optional<Vec3> Inputs::voxel_mm() const { return lowering_->voxel_mm(node_); }
 
+void Inputs::tell(Severity severity, const std::string& message, const std::string& hint) const {
+  lowering_->tell({severity, node_.where(), message, hint});
+}
+
 std::pair<uint32_t, Field> Inputs::check(Field bad, const std::string& message) const {
   return {lowering_->add_check(node_, message), bad};
 }

@@ -92,6 +92,8 @@ class Inputs {
   MaterialId material(const MaterialName& name) const;
   // The size of the job's voxels in this node's space, if it is known.
   std::optional<Vec3> voxel_mm() const;
+  // Told once for each job that lowers the node.
+  void tell(Severity severity, const std::string& message, const std::string& hint) const;
   // A mark that is 1 where something is wrong; `message` is told once, with the count of voxels.
   std::pair<uint32_t, Field> check(Field bad, const std::string& message) const;
 

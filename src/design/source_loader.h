@@ -23,6 +23,12 @@ struct MeshPart {
   bool is_exact = true;         // "distance" is the one to the surface everywhere
 };
 
+// What a designer should know of a source, once it is made.
+struct Remark {
+  Severity severity = Severity::warning;
+  std::string message, hint;
+};
+
 // A source that is made when a job knows how finely. Thread-safe.
 class PendingSource {
  public:
@@ -32,6 +38,8 @@ class PendingSource {
   // For voxels of this size, in the source's own space; without one, as finely as its size suggests. With the channels
   // "inside" and "distance"; the same source for the same size. Throws Error.
   virtual program::SourceField make(std::optional<Vec3> voxel_mm) const = 0;
+  // What is to be said of that source. It is made if need be.
+  virtual std::vector<Remark> remarks(std::optional<Vec3> /*voxel_mm*/) const { return {}; }
 };
 using PendingSourcePtr = std::shared_ptr<const PendingSource>;
 

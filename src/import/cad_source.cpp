@@ -15,15 +15,21 @@ namespace {
 // Triangles may be farther from the surface than the library was asked for, but not by so much.
 constexpr double deflections_of_doubt = 4;
 
-formats::Mesh mesh_of(const std::vector<cad::SolidPtr>& solids, double deflection_mm) {
+// A solid is in its box, but for rounding; mm.
+constexpr double box_rounding = 1e-6;
+
+formats::Mesh mesh_of(const cad::Solid& solid, double deflection_mm) {
+  cad::Triangles part = solid.triangulate(deflection_mm);
   formats::Mesh mesh;
-  for (const cad::SolidPtr& solid : solids) {
-    const cad::Triangles part = solid->triangulate(deflection_mm);
-    const auto first = static_cast<uint32_t>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
-    for (const auto& [a, b, c] : part.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
-  }
+  mesh.vertices = std::move(part.vertices);
+  mesh.triangles = std::move(part.triangles);
   return mesh;
+}
+
+void append(formats::Mesh& mesh, const formats::Mesh& part) {
+  const auto first = static_cast<uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (const auto& [a, b, c] : part.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
 }
 
 // Queries that wait for a thread.
@@ -58,18 +64,58 @@ class QueryPool {
   mutable std::vector<std::unique_ptr<cad::Query>> waiting_;
 };
 
+// 0 within it.
+double distance_to(const Box& box, Vec3 p) {
+  Vec3 beyond;
+  for (int axis = 0; axis < 3; ++axis) beyond[axis] = std::max({box.lo[axis] - p[axis], p[axis] - box.hi[axis], 0.0});
+  return length(beyond);
+}
+
+// A solid whose triangles decide what is inside where they leave no doubt.
+class ExactSolid {
+ public:
+  ExactSolid(cad::SolidPtr solid, program::SourceField triangles, double doubt_mm)
+      : box_(solid->bounds.expanded(box_rounding)),
+        pool_(std::move(solid)),
+        triangles_(std::move(triangles)),
+        distance_channel_(triangles_->channel("distance")),
+        doubt_(doubt_mm) {}
+
+  const Box& box() const { return box_; }
+
+  // No farther from the distance than the doubt.
+  double near_distance(Vec3 p) const { return triangles_->sample(distance_channel_, p); }
+
+  bool is_surely_inside(Vec3 p) const { return box_.contains(p) && near_distance(p) < -doubt_; }
+
+  bool is_inside(Vec3 p) const { return box_.contains(p) && is_inside(p, near_distance(p)); }
+
+  double distance(Vec3 p, double near) const {
+    const double distance = pool_.with([&](cad::Query& query) { return query.surface_distance(p); });
+    return is_inside(p, near) ? -distance : distance;
+  }
+
+ private:
+  bool is_inside(Vec3 p, double near) const {
+    if (std::abs(near) > doubt_) return near < 0;
+    return pool_.with([&](cad::Query& query) { return query.is_inside(p); });
+  }
+
+  Box box_;
+  QueryPool pool_;
+  program::SourceField triangles_;
+  int distance_channel_;
+  double doubt_;
+};
+
 class ExactSource final : public program::FieldSource {
  public:
-  ExactSource(std::string name, const std::vector<cad::SolidPtr>& solids, Hash content, double deflection_mm)
-      : name_(std::move(name)),
-        content_(content),
-        triangles_(make_triangle_source(name_, solids, content, deflection_mm)),
-        triangle_distance_(triangles_->channel("distance")),
-        doubt_(deflections_of_doubt * deflection_mm) {
-    for (const cad::SolidPtr& solid : solids) {
-      queries_.push_back(std::make_unique<QueryPool>(solid));
-      bounds_ = hull(bounds_, solid->bounds);
-    }
+  ExactSource(std::string name, Hash content, double doubt_mm)
+      : name_(std::move(name)), content_(content), doubt_(doubt_mm) {}
+
+  void add(const cad::SolidPtr& solid, program::SourceField triangles) {
+    solids_.push_back(std::make_unique<ExactSolid>(solid, std::move(triangles), doubt_));
+    bounds_ = hull(bounds_, solid->bounds);
   }
 
   std::string name() const override { return name_; }
@@ -88,32 +134,36 @@ class ExactSource final : public program::FieldSource {
   }
 
  private:
-  double near_distance(Vec3 p) const { return triangles_->sample(triangle_distance_, p); }
-
+  // What is clear of one solid spares questions about others.
   double inside(Vec3 p) const {
     if (!bounds_.contains(p)) return 0;
-    const double value = near_distance(p);
-    if (std::abs(value) > doubt_) return value < 0 ? 1 : 0;
-    const auto holds = [&](const auto& pool) { return pool->with([&](cad::Query& q) { return q.is_inside(p); }); };
-    return std::any_of(queries_.begin(), queries_.end(), holds) ? 1 : 0;
+    if (std::ranges::any_of(solids_, [&](const auto& solid) { return solid->is_surely_inside(p); })) return 1;
+    return std::ranges::any_of(solids_, [&](const auto& solid) { return solid->is_inside(p); }) ? 1 : 0;
   }
 
-  double distance(Vec3 p) const {
+  double near_distance(Vec3 p) const {
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& pool : queries_)
-      least = std::min(least, pool->with([&](cad::Query& query) {
-        const double distance = query.surface_distance(p);
-        return query.is_inside(p) ? -distance : distance;
-      }));
+    for (const auto& solid : solids_)
+      if (distance_to(solid->box(), p) < least) least = std::min(least, solid->near_distance(p));
+    return least;
+  }
+
+  // Of the solids that may be the nearest.
+  double distance(Vec3 p) const {
+    const double farthest = near_distance(p) + 2 * doubt_;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& solid : solids_) {
+      if (distance_to(solid->box(), p) > std::max(farthest, 0.0)) continue;
+      const double near = solid->near_distance(p);
+      if (near <= farthest) least = std::min(least, solid->distance(p, near));
+    }
     return least;
   }
 
   std::string name_;
   Hash content_;
-  program::SourceField triangles_;
-  int triangle_distance_;
   double doubt_;
-  std::vector<std::unique_ptr<QueryPool>> queries_;
+  std::vector<std::unique_ptr<ExactSolid>> solids_;
   Box bounds_;
 };
 
@@ -122,21 +172,42 @@ void check_distances(const program::FieldSource& source) {
     throw Error("CAD solids are not available: this build has no library for distances to triangles");
 }
 
-}  // namespace
-
-program::SourceField make_triangle_source(const std::string& name, const std::vector<cad::SolidPtr>& solids,
-                                          Hash content, double deflection_mm) {
-  formats::Mesh mesh = mesh_of(solids, deflection_mm);
-  // A seam that the library left open is narrower than the deflection.
-  const InsideRule rule = inspect(mesh).is_closed() ? InsideRule::nonzero : InsideRule::generalized;
+// Closed triangles have the nonzero winding number. A seam that the library left open gets the generalized one.
+program::SourceField source_of(const std::string& name, formats::Mesh mesh, Hash content, bool is_closed) {
+  const InsideRule rule = is_closed ? InsideRule::nonzero : InsideRule::generalized;
   program::SourceField source = make_mesh_source(name, std::move(mesh), content, {rule});
   check_distances(*source);
   return source;
 }
 
-program::SourceField make_exact_source(const std::string& name, const std::vector<cad::SolidPtr>& solids, Hash content,
-                                       double deflection_mm) {
-  return std::make_shared<ExactSource>(name, solids, content, deflection_mm);
+}  // namespace
+
+CadSource make_triangle_source(const std::string& name, const std::vector<cad::SolidPtr>& solids, Hash content,
+                               double deflection_mm) {
+  CadSource made;
+  formats::Mesh all;
+  for (const cad::SolidPtr& solid : solids) {
+    const formats::Mesh mesh = mesh_of(*solid, deflection_mm);
+    if (const auto edges = find_open_edges(mesh)) made.open.push_back({solid->name, *edges});
+    append(all, mesh);
+  }
+  made.source = source_of(name, std::move(all), content, made.open.empty());
+  return made;
+}
+
+CadSource make_exact_source(const std::string& name, const std::vector<cad::SolidPtr>& solids, Hash content,
+                            double deflection_mm) {
+  const double doubt = deflections_of_doubt * deflection_mm;
+  CadSource made;
+  const auto source = std::make_shared<ExactSource>(name, content, doubt);
+  for (const cad::SolidPtr& solid : solids) {
+    formats::Mesh mesh = mesh_of(*solid, deflection_mm);
+    const auto edges = find_open_edges(mesh);
+    if (edges && edges->gap_mm > doubt) made.open.push_back({solid->name, *edges});
+    source->add(solid, source_of(name, std::move(mesh), content, !edges));
+  }
+  made.source = source;
+  return made;
 }
 
 }  // namespace ombre::importing

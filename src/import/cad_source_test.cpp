@@ -32,7 +32,7 @@ class CadSources : public testing::Test {
 }  // namespace
 
 TEST_F(CadSources, ExactOnesHaveTheDistanceOfTheSurface) {
-  const auto source = make_exact_source("ball", ball_, {}, 0.05);
+  const auto source = make_exact_source("ball", ball_, {}, 0.05).source;
   const int inside = source->channel("inside"), distance = source->channel("distance");
   for (int n = 0; n < 200; ++n) {
     const Vec3 p = point(6);
@@ -43,7 +43,7 @@ TEST_F(CadSources, ExactOnesHaveTheDistanceOfTheSurface) {
 
 TEST_F(CadSources, TrianglesAreAsNearAsTheirDeflection) {
   for (const double deflection : {0.1, 0.01}) {
-    const auto source = make_triangle_source("ball", ball_, {}, deflection);
+    const auto source = make_triangle_source("ball", ball_, {}, deflection).source;
     double farthest = 0;
     for (int n = 0; n < 500; ++n) {
       const Vec3 p = point(6);
@@ -55,7 +55,7 @@ TEST_F(CadSources, TrianglesAreAsNearAsTheirDeflection) {
 }
 
 TEST_F(CadSources, RangesHoldPoints) {
-  const auto source = make_exact_source("ball", ball_, {}, 0.05);
+  const auto source = make_exact_source("ball", ball_, {}, 0.05).source;
   for (int n = 0; n < 40; ++n) {
     const Vec3 lo = point(6);
     const double side = number(0, 3);
@@ -67,6 +67,85 @@ TEST_F(CadSources, RangesHoldPoints) {
         EXPECT_TRUE(range.contains(source->sample(channel, p)));
       }
     }
+  }
+}
+
+// A cube of side 2 around `center`, without some of its triangles, as a library might cut it.
+class Cube : public cad::Solid {
+ public:
+  Cube(Vec3 center, size_t left_out) : center_(center), left_out_(left_out) {
+    name = "cube";
+    bounds = Box{center - Vec3{1, 1, 1}, center + Vec3{1, 1, 1}};
+  }
+  cad::Triangles triangulate(double) const override {
+    cad::Triangles cube = cube_triangles();
+    cube.triangles.resize(cube.triangles.size() - left_out_);
+    return cube;
+  }
+  std::unique_ptr<cad::Query> query() const override { return std::make_unique<CubeQuery>(center_); }
+
+ private:
+  struct CubeQuery : cad::Query {
+    explicit CubeQuery(Vec3 at) : center(at) {}
+    bool is_inside(Vec3 p) override { return away(p) <= 0; }
+    double surface_distance(Vec3 p) override { return std::abs(away(p)); }
+    double away(Vec3 p) const {
+      const Vec3 q = p - center;
+      const Vec3 over{std::abs(q.x) - 1, std::abs(q.y) - 1, std::abs(q.z) - 1};
+      const double most = std::max({over.x, over.y, over.z});
+      return most <= 0 ? most : length(Vec3{std::max(over.x, 0.0), std::max(over.y, 0.0), std::max(over.z, 0.0)});
+    }
+    Vec3 center;
+  };
+
+  cad::Triangles cube_triangles() const {
+    cad::Triangles cube;
+    for (int n = 0; n < 8; ++n)
+      cube.vertices.push_back(center_ + Vec3{n & 1 ? 1.0 : -1.0, n & 2 ? 1.0 : -1.0, n & 4 ? 1.0 : -1.0});
+    cube.triangles = {{0, 2, 3}, {0, 3, 1}, {0, 4, 6}, {0, 6, 2}, {0, 1, 5}, {0, 5, 4},
+                      {1, 3, 7}, {1, 7, 5}, {2, 6, 7}, {2, 7, 3}, {4, 5, 7}, {4, 7, 6}};
+    return cube;
+  }
+
+  Vec3 center_;
+  size_t left_out_;
+};
+
+cad::SolidPtr cube(Vec3 center, size_t left_out = 0) { return std::make_shared<Cube>(center, left_out); }
+
+TEST(CadGaps, AreToldOfWithTheirSolid) {
+  EXPECT_TRUE(make_triangle_source("cubes", {cube({}), cube({2, 0, 0})}, {}, 0.1).open.empty());
+  const auto open = make_triangle_source("cubes", {cube({}), cube({0, 0, 3}, 2)}, {}, 0.1).open;
+  ASSERT_EQ(open.size(), 1u);
+  EXPECT_EQ(open[0].name, "cube");
+  EXPECT_EQ(open[0].edges.count, 4u);
+  // The face at z = 4, whose sides lie 2 mm apart, is missing.
+  EXPECT_EQ(open[0].edges.example[0].z, 4);
+  EXPECT_NEAR(open[0].edges.gap_mm, 2, 1e-12);
+}
+
+TEST(CadGaps, OfExactSolidsMatterWhereTheSurfaceIsNotAsked) {
+  EXPECT_EQ(make_exact_source("cube", {cube({}, 2)}, {}, 0.1).open.size(), 1u);
+  // Within four deflections, the surface is asked.
+  EXPECT_TRUE(make_exact_source("cube", {cube({}, 2)}, {}, 1).open.empty());
+}
+
+// Of cubes that touch, that lie apart and that overlap: as each of them says by itself.
+TEST(CadSolids, TogetherAreWhatEachOfThemIs) {
+  const std::vector<cad::SolidPtr> cubes{cube({}), cube({2, 0, 0}), cube({0, 5, 0}), cube({0.5, 0.5, 1.5})};
+  const auto source = make_exact_source("cubes", cubes, {}, 0.05).source;
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> wide(-3, 7);
+  for (int n = 0; n < 2000; ++n) {
+    const Vec3 p{wide(random), wide(random), wide(random)};
+    double least = Box::inf;
+    for (const cad::SolidPtr& one : cubes) {
+      const auto query = one->query();
+      const double distance = query->surface_distance(p);
+      least = std::min(least, query->is_inside(p) ? -distance : distance);
+    }
+    EXPECT_EQ(source->sample(source->channel("distance"), p), least);
+    EXPECT_EQ(source->sample(source->channel("inside"), p), least <= 0 ? 1 : 0);
   }
 }
 
