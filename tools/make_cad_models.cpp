@@ -1,18 +1,26 @@
 // Makes the CAD files of examples and tests: ninja -C build/dev make_cad_models && build/dev/tools/make_cad_models .
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <GeomAPI_PointsToBSpline.hxx>
+#include <Geom_BSplineCurve.hxx>
 #include <IGESCAFControl_Writer.hxx>
 #include <Interface_Static.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Controller.hxx>
+#include <TColgp_Array1OfPnt.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopExp.hxx>
@@ -146,6 +154,26 @@ TopoDS_Shape bushing() {
   return cut(cylinder({-2, 12, 20}, {1, 0, 0}, 6, 8), cylinder({-3, 12, 20}, {1, 0, 0}, 4, 10));
 }
 
+// Planes, a cylinder, a cone, a sphere, a torus and a spline's walls, mirrored.
+TopoDS_Shape all_surfaces() {
+  TopoDS_Shape shape = cut(box({0, 0, 0}, {30, 20, 10}), cylinder({5, 5, -1}, {0, 0, 1}, 3, 12));
+  shape = cut(shape, BRepPrimAPI_MakeCone(gp_Ax2({15, 5, 4}, {0, 0, 1}), 0, 4, 8).Shape());
+  shape = cut(shape, BRepPrimAPI_MakeSphere(gp_Pnt(25, 6, 11), 4).Shape());
+  shape = cut(shape, BRepPrimAPI_MakeTorus(gp_Ax2({8, 14, 10}, {0, 0, 1}), 4, 1.5).Shape());
+  TColgp_Array1OfPnt points(1, 4);
+  points.SetValue(1, {18, 21, -1});
+  points.SetValue(2, {20, 8, -1});
+  points.SetValue(3, {24, 20, -1});
+  points.SetValue(4, {29, 21, -1});
+  const TopoDS_Edge curve = BRepBuilderAPI_MakeEdge(GeomAPI_PointsToBSpline(points).Curve());
+  const TopoDS_Edge back = BRepBuilderAPI_MakeEdge(points.Value(4), points.Value(1));
+  const TopoDS_Face foot = BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakeWire(curve, back).Wire());
+  shape = cut(shape, BRepPrimAPI_MakePrism(foot, gp_Vec(0, 0, 12)).Shape());
+  gp_Trsf mirror;
+  mirror.SetMirror(gp_Ax2({0, 0, 0}, {1, 0, 0}));
+  return BRepBuilderAPI_Transform(shape, mirror).Shape();
+}
+
 TopoDS_Shape without_one_face(const TopoDS_Shape& shape) {
   TopoDS_Compound faces;
   const BRep_Builder builder;
@@ -170,6 +198,7 @@ int main(int argc, char** argv) {
                                {"pin", cylinder({5, 5, 5}, {0, 0, 1}, 2, 10), colour(0, 0, 255)}};
   write(tests + "base_and_pin.step", pair);
   write(tests + "base_and_pin.iges", pair);
+  write(tests + "all_surfaces.step", {{"all surfaces", all_surfaces(), {}}});
   write_assembly(tests + "assembly.step", cylinder({0, 0, 0}, {0, 0, 1}, 2, 10));
   write(tests + "open_box.step", {{"open box", without_one_face(box({0, 0, 0}, {10, 10, 10})), {}}});
 }

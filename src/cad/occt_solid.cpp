@@ -18,6 +18,7 @@
 
 #include "base/byte_pack.h"
 #include "base/helper_process.h"
+#include "cad/occt_faces.h"
 #include "cad/occt_guard.h"
 #include "cad/occt_shapes.h"
 #include "cad/occt_triangles.h"
@@ -48,7 +49,7 @@ TopoDS_Shape skin_of(const TopoDS_Shape& solid) {
 class OcctQuery final : public Query {
  public:
   explicit OcctQuery(const TopoDS_Shape& shape, std::string what)
-      : what_(std::move(what)), classifier_(shape), skin_(skin_of(shape)) {
+      : what_(std::move(what)), classifier_(shape), skin_(skin_of(shape)), faces_(shape) {
     distance_.LoadS2(skin_);
   }
 
@@ -67,11 +68,16 @@ class OcctQuery final : public Query {
     });
   }
 
+  std::optional<FaceSide> side_of_face(uint32_t face, Vec3 p, double least_radius_mm) override {
+    return guarded(what_, [&] { return faces_.side(face, p, least_radius_mm); });
+  }
+
  private:
   std::string what_;
   BRepClass3d_SolidClassifier classifier_;
   TopoDS_Shape skin_;
   BRepExtrema_DistShapeShape distance_;
+  FaceSurfaces faces_;
 };
 
 double volume_of(const TopoDS_Shape& shape) {
@@ -125,6 +131,7 @@ class OcctSolid final : public Solid {
         BytePacker packer;
         packer.add_list(made.vertices);
         packer.add_list(made.triangles);
+        packer.add_list(made.faces);
         return packer.take();
       });
     };
@@ -141,6 +148,7 @@ class OcctSolid final : public Solid {
     Triangles triangles;
     triangles.vertices = unpacker.get_list<Vec3>();
     triangles.triangles = unpacker.get_list<std::array<uint32_t, 3>>();
+    triangles.faces = unpacker.get_list<uint32_t>();
     return triangles;
   }
 

@@ -43,6 +43,7 @@ class Joiner {
     for (Standard_Integer n = 1; n <= mesh->NbNodes(); ++n) number(n);
     const bool is_turned = face.Orientation() == TopAbs_REVERSED;
     for (Standard_Integer t = 1; t <= mesh->NbTriangles(); ++t) add_triangle(mesh->Triangle(t), is_turned);
+    ++face_count_;
     return true;
   }
 
@@ -91,6 +92,7 @@ class Joiner {
     const std::array<uint32_t, 3> corners{number(a), number(b), number(c)};
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
     result_.triangles.push_back(corners);
+    result_.faces.push_back(face_count_);
   }
 
   TopTools_IndexedMapOfShape edges_, corners_;
@@ -101,6 +103,7 @@ class Joiner {
   gp_Trsf move_;
   std::vector<uint32_t> numbers_;  // vertices of its nodes
   Triangles result_;
+  uint32_t face_count_ = 0;  // that were added before
 };
 
 }  // namespace

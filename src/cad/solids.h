@@ -16,6 +16,13 @@ namespace ombre::cad {
 struct Triangles {
   std::vector<Vec3> vertices;                      // each once
   std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside
+  std::vector<uint32_t> faces;                     // of each triangle: the face of the solid that it is cut from
+};
+
+// A point beside a surface.
+struct FaceSide {
+  double distance = 0;  // mm; negative on the side of the solid
+  Vec3 normal;          // of length 1, out of the solid, where the surface is nearest
 };
 
 // Answers one thread at a time.
@@ -24,6 +31,9 @@ class Query {
   virtual ~Query() = default;
   virtual bool is_inside(Vec3 p) = 0;           // or on the surface
   virtual double surface_distance(Vec3 p) = 0;  // mm, not negative
+  // Of the surface that a face is cut from, beyond the face's borders too. Quick, but only for planes, cylinders,
+  // cones, spheres and tori, and nothing where these are curved more tightly than `least_radius_mm`.
+  virtual std::optional<FaceSide> side_of_face(uint32_t face, Vec3 p, double least_radius_mm) = 0;
 };
 
 // Lengths in mm, whatever the file has. Thread-safe; what asks the library throws Error.

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "import/channels.h"
+#include "import/closest_point.h"
 #include "import/mesh_source.h"
 
 namespace ombre::importing {
@@ -15,11 +16,16 @@ namespace {
 // Triangles may be farther from the surface than the library was asked for, but not by so much.
 constexpr double deflections_of_doubt = 4;
 
+// Faces are taken for flat, as their edges and corners need it, where they are curved by radii of so many reaches.
+constexpr double radii_of_reach = 4;
+// Normals of faces that meet, as a cosine: sharper edges are left to the library.
+constexpr double sharpest = -0.9;
+// So close to a face, mm, the library decides.
+constexpr double least_certain = 1e-7;
 // A solid is in its box, but for rounding; mm.
 constexpr double box_rounding = 1e-6;
 
-formats::Mesh mesh_of(const cad::Solid& solid, double deflection_mm) {
-  cad::Triangles part = solid.triangulate(deflection_mm);
+formats::Mesh mesh_of(cad::Triangles part) {
   formats::Mesh mesh;
   mesh.vertices = std::move(part.vertices);
   mesh.triangles = std::move(part.triangles);
@@ -64,6 +70,30 @@ class QueryPool {
   mutable std::vector<std::unique_ptr<cad::Query>> waiting_;
 };
 
+// Which faces of a solid are near.
+class FaceTree {
+ public:
+  FaceTree(const formats::Mesh& mesh, std::vector<uint32_t> face_of)
+      : face_of_(std::move(face_of)), triangles_(std::make_unique<ClosestPoint>(surface_of(mesh))) {}
+
+  // Those with triangles that are no farther away; each once, ascending.
+  std::vector<uint32_t> within(Vec3 p, double distance_mm) const {
+    std::vector<uint32_t> faces;
+    triangles_->visit_within(p, distance_mm, [&](uint32_t triangle) { faces.push_back(face_of_[triangle]); });
+    std::ranges::sort(faces);
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
+  }
+
+ private:
+  static SurfacePtr surface_of(const formats::Mesh& mesh) {
+    return std::make_shared<Surface>(Surface{mesh.vertices, mesh.triangles});
+  }
+
+  std::vector<uint32_t> face_of_;
+  std::unique_ptr<ClosestPoint> triangles_;
+};
+
 // 0 within it.
 double distance_to(const Box& box, Vec3 p) {
   Vec3 beyond;
@@ -74,11 +104,12 @@ double distance_to(const Box& box, Vec3 p) {
 // A solid whose triangles decide what is inside where they leave no doubt.
 class ExactSolid {
  public:
-  ExactSolid(cad::SolidPtr solid, program::SourceField triangles, double doubt_mm)
+  ExactSolid(cad::SolidPtr solid, program::SourceField triangles, std::optional<FaceTree> faces, double doubt_mm)
       : box_(solid->bounds.expanded(box_rounding)),
         pool_(std::move(solid)),
         triangles_(std::move(triangles)),
         distance_channel_(triangles_->channel("distance")),
+        faces_(std::move(faces)),
         doubt_(doubt_mm) {}
 
   const Box& box() const { return box_; }
@@ -98,13 +129,35 @@ class ExactSolid {
  private:
   bool is_inside(Vec3 p, double near) const {
     if (std::abs(near) > doubt_) return near < 0;
-    return pool_.with([&](cad::Query& query) { return query.is_inside(p); });
+    return pool_.with([&](cad::Query& query) {
+      const std::optional<bool> by_faces = faces_ ? inside_faces(p, near, query) : std::nullopt;
+      return by_faces ? *by_faces : query.is_inside(p);
+    });
+  }
+
+  // The surface is nearest to p at one of the faces whose triangles are in reach. At an edge or a corner of several, p
+  // is inside one of them at least if it is inside the solid, and outside of one at least if it is outside. So where
+  // all agree they are right; nothing where they do not, or where faces turn back so sharply that curvature counts.
+  std::optional<bool> inside_faces(Vec3 p, double near, cad::Query& query) const {
+    const double reach = std::abs(near) + 2 * doubt_;
+    std::vector<cad::FaceSide> sides;
+    for (const uint32_t face : faces_->within(p, reach)) {
+      const auto side = query.side_of_face(face, p, radii_of_reach * reach);
+      if (!side || std::abs(side->distance) < least_certain) return std::nullopt;
+      for (const cad::FaceSide& other : sides)
+        if ((other.distance < 0) != (side->distance < 0) || dot(other.normal, side->normal) < sharpest)
+          return std::nullopt;
+      sides.push_back(*side);
+    }
+    if (sides.empty()) return std::nullopt;
+    return sides.front().distance < 0;
   }
 
   Box box_;
   QueryPool pool_;
   program::SourceField triangles_;
   int distance_channel_;
+  std::optional<FaceTree> faces_;  // where triangles close
   double doubt_;
 };
 
@@ -113,8 +166,8 @@ class ExactSource final : public program::FieldSource {
   ExactSource(std::string name, Hash content, double doubt_mm)
       : name_(std::move(name)), content_(content), doubt_(doubt_mm) {}
 
-  void add(const cad::SolidPtr& solid, program::SourceField triangles) {
-    solids_.push_back(std::make_unique<ExactSolid>(solid, std::move(triangles), doubt_));
+  void add(const cad::SolidPtr& solid, program::SourceField triangles, std::optional<FaceTree> faces) {
+    solids_.push_back(std::make_unique<ExactSolid>(solid, std::move(triangles), std::move(faces), doubt_));
     bounds_ = hull(bounds_, solid->bounds);
   }
 
@@ -187,7 +240,7 @@ CadSource make_triangle_source(const std::string& name, const std::vector<cad::S
   CadSource made;
   formats::Mesh all;
   for (const cad::SolidPtr& solid : solids) {
-    const formats::Mesh mesh = mesh_of(*solid, deflection_mm);
+    const formats::Mesh mesh = mesh_of(solid->triangulate(deflection_mm));
     if (const auto edges = find_open_edges(mesh)) made.open.push_back({solid->name, *edges});
     append(all, mesh);
   }
@@ -201,10 +254,14 @@ CadSource make_exact_source(const std::string& name, const std::vector<cad::Soli
   CadSource made;
   const auto source = std::make_shared<ExactSource>(name, content, doubt);
   for (const cad::SolidPtr& solid : solids) {
-    formats::Mesh mesh = mesh_of(*solid, deflection_mm);
+    cad::Triangles triangles = solid->triangulate(deflection_mm);
+    std::vector<uint32_t> face_of = std::move(triangles.faces);
+    formats::Mesh mesh = mesh_of(std::move(triangles));
     const auto edges = find_open_edges(mesh);
     if (edges && edges->gap_mm > doubt) made.open.push_back({solid->name, *edges});
-    source->add(solid, source_of(name, std::move(mesh), content, !edges));
+    std::optional<FaceTree> faces;
+    if (!edges && has_mesh_distance()) faces.emplace(mesh, std::move(face_of));
+    source->add(solid, source_of(name, std::move(mesh), content, !edges), std::move(faces));
   }
   made.source = source;
   return made;

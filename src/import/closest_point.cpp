@@ -67,6 +67,20 @@ bool visit(RTCPointQueryFunctionArguments* arguments) {
   return true;
 }
 
+struct Neighbours {
+  const Surface* surface;
+  Vec3 point;
+  double squared_distance;
+  const std::function<void(uint32_t)>* visit;
+};
+
+bool visit_neighbour(RTCPointQueryFunctionArguments* arguments) {
+  const Neighbours& search = *static_cast<Neighbours*>(arguments->userPtr);
+  if (squared_distance(search.point, search.surface->corners(arguments->primID)) <= search.squared_distance)
+    (*search.visit)(arguments->primID);
+  return false;
+}
+
 }  // namespace
 
 struct ClosestPoint::Tree {
@@ -102,17 +116,29 @@ struct ClosestPoint::Tree {
     embree().attach_geometry(scene.get(), geometry.get());
   }
 
-  double distance(Vec3 p, double at_most) const {
-    const Vec3 at = frame(p);
-    Search search{surface.get(), p, frame.scale, rounding_room * (1 + length(at))};
+  void ask(Vec3 at, double radius, RTCPointQueryFunction answer, void* search) const {
     RTCPointQuery query{};
     query.x = static_cast<float>(at.x);
     query.y = static_cast<float>(at.y);
     query.z = static_cast<float>(at.z);
-    query.radius = static_cast<float>(at_most * frame.scale + search.room);
+    query.radius = static_cast<float>(radius);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    embree().point_query(scene.get(), &query, &context, visit, &search);
+    embree().point_query(scene.get(), &query, &context, answer, search);
+  }
+
+  static double room_at(Vec3 at) { return rounding_room * (1 + length(at)); }
+
+  void visit_within(Vec3 p, double distance_mm, const std::function<void(uint32_t)>& visit) const {
+    const Vec3 at = frame(p);
+    Neighbours search{surface.get(), p, distance_mm * distance_mm, &visit};
+    ask(at, distance_mm * frame.scale + room_at(at), visit_neighbour, &search);
+  }
+
+  double distance(Vec3 p, double at_most) const {
+    const Vec3 at = frame(p);
+    Search search{surface.get(), p, frame.scale, room_at(at)};
+    ask(at, at_most * frame.scale + search.room, visit, &search);
     return std::sqrt(std::isinf(search.best) ? squared_distance_to_all(p) : search.best);
   }
 
@@ -136,6 +162,10 @@ double ClosestPoint::distance(Vec3 p, double at_most) const {
   return is_finite(p) ? tree_->distance(p, at_most) : std::numeric_limits<double>::infinity();
 }
 
+void ClosestPoint::visit_within(Vec3 p, double distance_mm, const std::function<void(uint32_t)>& visit) const {
+  if (is_finite(p)) tree_->visit_within(p, distance_mm, visit);
+}
+
 }  // namespace ombre::importing
 
 #else
@@ -152,6 +182,7 @@ struct ClosestPoint::Tree {};
 ClosestPoint::ClosestPoint(SurfacePtr) { ASSERT(has_mesh_distance()); }
 ClosestPoint::~ClosestPoint() = default;
 double ClosestPoint::distance(Vec3, double) const { return std::numeric_limits<double>::infinity(); }
+void ClosestPoint::visit_within(Vec3, double, const std::function<void(uint32_t)>&) const {}
 
 }  // namespace ombre::importing
 

@@ -1,6 +1,7 @@
 // The distance from a point to a mesh.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 
@@ -24,6 +25,9 @@ class ClosestPoint {
   // In mm, without a sign; infinite for points that are not finite. `at_most`: it is known to be no more, but for
   // rounding; the answer is the same, and comes sooner.
   double distance(Vec3 p, double at_most = std::numeric_limits<double>::infinity()) const;
+
+  // Calls `visit` with all triangles that are no farther away, in any order.
+  void visit_within(Vec3 p, double distance_mm, const std::function<void(uint32_t triangle)>& visit) const;
 
  private:
   struct Tree;

@@ -1,0 +1,28 @@
+// The surfaces of a shape's faces. Only for this folder: it includes the library's headers.
+#pragma once
+
+#include <BRepAdaptor_Surface.hxx>
+
+#include <vector>
+
+#include "cad/solids.h"
+
+namespace ombre::cad {
+
+class FaceSurfaces {
+ public:
+  // In the order of triangles_of().
+  explicit FaceSurfaces(const TopoDS_Shape& shape);
+
+  // As Query::side_of_face() has it.
+  std::optional<FaceSide> side(uint32_t face, Vec3 p, double least_radius_mm) const;
+
+ private:
+  struct Face {
+    BRepAdaptor_Surface surface;
+    bool is_turned;  // the solid lies where the surface's normal points
+  };
+  std::vector<Face> faces_;
+};
+
+}  // namespace ombre::cad
