@@ -174,7 +174,16 @@ void tell_plan(const Console& console, const compile::MeshPlan& plan) {
 
 int mesh(const MeshArguments& a, Session& session) {
   compile::MeshRequest request = mesh_request(a);
-  request.announce = [&](const compile::MeshPlan& plan) { tell_plan(session.console, plan); };
+  Diagnostics diagnostics;
+  size_t told = 0;
+  const auto diagnose = [&] {
+    session.console.diagnose(diagnostics.after(told));
+    told = diagnostics.list().size();
+  };
+  request.announce = [&](const compile::MeshPlan& plan) {
+    diagnose();
+    tell_plan(session.console, plan);
+  };
   const std::vector<SlicerSetting> settings(a.settings.begin(), a.settings.end());
   const std::string stem = std::filesystem::path(a.design.design).stem().string();
   const std::string output = a.output.empty() ? stem + ".3mf" : a.output;
@@ -187,14 +196,13 @@ int mesh(const MeshArguments& a, Session& session) {
     throw WrongArgument("this ombre was built without libzip, which .3mf files need; write -o " + stem + ".amf");
 
   const Stopwatch watch;
-  Diagnostics diagnostics;
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
   std::optional<compile::MeshedDesign> made;
   if (loaded) {
     ProgressLine progress(session.console, Counted::steps);
     made = compile::mesh_design(*loaded, request, diagnostics, &progress, &session.stop);
   }
-  session.console.diagnose(diagnostics);
+  diagnose();
   if (!made || diagnostics.has_errors()) return wrong_input;
   if (made->bodies.empty()) {
     session.console.warn("no cell's corner is inside the design: there is nothing to write; choose a smaller --cell");

@@ -85,6 +85,12 @@ void Diagnostics::add_new(const Diagnostics& others) {
   for (const Diagnostic& diagnostic : others.list_) add_new(diagnostic);
 }
 
+Diagnostics Diagnostics::after(size_t count) const {
+  Diagnostics rest = *this;
+  rest.list_.erase(rest.list_.begin(), rest.list_.begin() + static_cast<ptrdiff_t>(std::min(count, list_.size())));
+  return rest;
+}
+
 void Diagnostics::error(SourceRange where, std::string message, std::string hint) {
   add({Severity::error, std::move(where), std::move(message), std::move(hint)});
 }

@@ -34,6 +34,8 @@ class Diagnostics {
   void note(SourceRange where, std::string message);
 
   const std::vector<Diagnostic>& list() const { return list_; }
+  // All but the first `count`, which were told already.
+  Diagnostics after(size_t count) const;
   size_t error_count() const { return error_count_; }
   bool has_errors() const { return error_count_ > 0; }
 

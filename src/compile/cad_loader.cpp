@@ -1,11 +1,12 @@
 #include "compile/cad_loader.h"
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
 
 #include "base/error.h"
+#include "base/tasks.h"
 #include "base/text.h"
+#include "compile/cad_remarks.h"
 #include "compile/mesh_materials.h"
 #include "formats/file.h"
 #include "import/cad_source.h"
@@ -15,30 +16,11 @@ namespace {
 
 // Triangles stay so near to the solid, in voxels of the job.
 constexpr double voxels_of_tolerance = 0.25;
+// What takes longer is told before, with triangles so near to the solid, in voxels, as the remedy.
+constexpr double least_told_seconds = 20, fast_voxels = 0.02;
 // Without a job: a thousandth of the solid's diagonal. Exact surfaces take triangles for a first look only, the closer
 // the less is left to ask. A millionth is the least.
 constexpr double diagonals_of_tolerance = 1e-3, diagonals_of_first_look = 1e-4, least_diagonals = 1e-6;
-
-std::string point_text(Vec3 p) {
-  return "(" + format_rounded(p.x) + ", " + format_rounded(p.y) + ", " + format_rounded(p.z) + ")";
-}
-
-design::Remark remark_on_gaps(const std::string& path, const std::vector<importing::OpenSolid>& open, double tolerance,
-                              bool is_exact) {
-  const auto& [name, edges] = open.front();
-  std::string message = "the triangles of the CAD file \"" + path + "\"";
-  if (!name.empty()) message += ", of its solid \"" + name + "\",";
-  message += " are open along " + format_count(edges.count) + (edges.count == 1 ? " edge" : " edges") +
-             ", for example from " + point_text(edges.example[0]) + " to " + point_text(edges.example[1]);
-  if (std::isfinite(edges.gap_mm)) message += ", by up to about " + format_rounded(edges.gap_mm, 2) + " mm";
-  if (open.size() > 1)
-    message += ", and so are those of " + format_count(open.size() - 1) + (open.size() == 2 ? " other" : " others");
-  message += "; what is inside near the gaps is a guess, by winding number";
-  if (is_exact) return {Severity::warning, message, "repair the file where it was drawn"};
-  return {Severity::warning, message,
-          "repair the file where it was drawn, or write a tolerance below " + format_rounded(tolerance, 2) +
-              ", or mode=\"exact\""};
-}
 
 class CadPart final : public design::PendingSource {
  public:
@@ -65,10 +47,21 @@ class CadPart final : public design::PendingSource {
     std::vector<design::Remark> remarks;
     if (const auto& open = made_for(tolerance).open; !open.empty())
       remarks.push_back(remark_on_gaps(name_, open, tolerance, is_exact_));
+    if (const auto remark = is_exact_ && voxel_mm ? remark_for(made_for(tolerance), *voxel_mm) : std::nullopt)
+      remarks.push_back(*remark);
     return remarks;
   }
 
  private:
+  // On the time of an exact source, if it is long.
+  std::optional<design::Remark> remark_for(const importing::CadSource& exact, Vec3 voxel_mm) const {
+    if (!doubtful_seconds_) doubtful_seconds_ = importing::measure_doubtful_seconds(exact);
+    const double voxels = exact.doubtful_mm3 / (voxel_mm.x * voxel_mm.y * voxel_mm.z);
+    const double seconds = *doubtful_seconds_ * voxels / core_count();
+    if (seconds < least_told_seconds) return std::nullopt;
+    return remark_on_time(name_, voxels, seconds, fast_voxels * std::min({voxel_mm.x, voxel_mm.y, voxel_mm.z}));
+  }
+
   const importing::CadSource& made_for(double tolerance) const {
     importing::CadSource& made = made_[tolerance];
     if (made.source) return made;
@@ -95,6 +88,7 @@ class CadPart final : public design::PendingSource {
   double tolerance_;
   Box bounds_;
   mutable std::mutex mutex_;
+  mutable std::optional<double> doubtful_seconds_;  // measured once, so that a job says the same each time
   mutable std::map<double, importing::CadSource> made_;
 };
 

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "import/channels.h"
 #include "import/closest_point.h"
 #include "import/mesh_source.h"
@@ -16,6 +17,8 @@ namespace {
 // Triangles may be farther from the surface than the library was asked for, but not by so much.
 constexpr double deflections_of_doubt = 4;
 
+// Points whose time is measured.
+constexpr int sampled_points = 500;
 // Faces are taken for flat, as their edges and corners need it, where they are curved by radii of so many reaches.
 constexpr double radii_of_reach = 4;
 // Normals of faces that meet, as a cosine: sharper edges are left to the library.
@@ -225,6 +228,38 @@ void check_distances(const program::FieldSource& source) {
     throw Error("CAD solids are not available: this build has no library for distances to triangles");
 }
 
+double area_of(const std::array<Vec3, 3>& t) { return length(cross(t[1] - t[0], t[2] - t[0])) / 2; }
+
+// The nth point of an even sequence in the triangle (Roberts 2018), moved along the normal.
+Vec3 point_beside(const std::array<Vec3, 3>& t, int n, double doubt) {
+  constexpr double first_step = 0.7548776662466927, second_step = 0.5698402909980532;
+  double u = n * first_step - std::floor(n * first_step), v = n * second_step - std::floor(n * second_step);
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
+  const Vec3 across = cross(t[1] - t[0], t[2] - t[0]);
+  const double aside = doubt * (n % 8 - 3.5) / 4;
+  return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]) + (aside / length(across)) * across;
+}
+
+// Points at equal steps of the area, on both sides of the triangles.
+void add_doubtful(const formats::Mesh& mesh, double doubt, CadSource& made) {
+  const auto corners = [&](const auto& t) {
+    return std::array<Vec3, 3>{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+  };
+  double area = 0;
+  for (const auto& t : mesh.triangles) area += area_of(corners(t));
+  made.doubtful_mm3 = 2 * doubt * area;
+  const double step = area / sampled_points;
+  double to_next = 0.5 * step;
+  for (const auto& t : mesh.triangles) {
+    to_next -= area_of(corners(t));
+    for (; to_next < 0; to_next += step)
+      made.doubtful_points.push_back(point_beside(corners(t), static_cast<int>(made.doubtful_points.size()), doubt));
+  }
+}
+
 // Closed triangles have the nonzero winding number. A seam that the library left open gets the generalized one.
 program::SourceField source_of(const std::string& name, formats::Mesh mesh, Hash content, bool is_closed) {
   const InsideRule rule = is_closed ? InsideRule::nonzero : InsideRule::generalized;
@@ -248,10 +283,22 @@ CadSource make_triangle_source(const std::string& name, const std::vector<cad::S
   return made;
 }
 
+double measure_doubtful_seconds(const CadSource& exact) {
+  if (exact.doubtful_points.empty()) return 0;
+  const auto ask_all = [&] {
+    const Stopwatch watch;
+    for (const Vec3& p : exact.doubtful_points) exact.source->sample(inside_channel, p);
+    return watch.seconds();
+  };
+  ask_all();  // builds the solids' queries, which later ones find
+  return ask_all() / static_cast<double>(exact.doubtful_points.size());
+}
+
 CadSource make_exact_source(const std::string& name, const std::vector<cad::SolidPtr>& solids, Hash content,
                             double deflection_mm) {
   const double doubt = deflections_of_doubt * deflection_mm;
   CadSource made;
+  formats::Mesh all;
   const auto source = std::make_shared<ExactSource>(name, content, doubt);
   for (const cad::SolidPtr& solid : solids) {
     cad::Triangles triangles = solid->triangulate(deflection_mm);
@@ -259,10 +306,12 @@ CadSource make_exact_source(const std::string& name, const std::vector<cad::Soli
     formats::Mesh mesh = mesh_of(std::move(triangles));
     const auto edges = find_open_edges(mesh);
     if (edges && edges->gap_mm > doubt) made.open.push_back({solid->name, *edges});
+    append(all, mesh);
     std::optional<FaceTree> faces;
     if (!edges && has_mesh_distance()) faces.emplace(mesh, std::move(face_of));
     source->add(solid, source_of(name, std::move(mesh), content, !edges), std::move(faces));
   }
+  add_doubtful(all, doubt, made);
   made.source = source;
   return made;
 }

@@ -20,6 +20,9 @@ struct OpenSolid {
 struct CadSource {
   program::SourceField source;
   std::vector<OpenSolid> open;  // those that matter to the source
+  // Of an exact source: the space where triangles leave a doubt, and points spread over it.
+  double doubtful_mm3 = 0;
+  std::vector<Vec3> doubtful_points = {};
 };
 
 // Their triangles at this deflection, with exact rows.
@@ -30,5 +33,8 @@ CadSource make_triangle_source(const std::string& name, const std::vector<cad::S
 // Gaps between these matter if they are wider than what the library is asked about.
 CadSource make_exact_source(const std::string& name, const std::vector<cad::SolidPtr>& solids, Hash content,
                             double deflection_mm);
+
+// About how long an exact source takes to say whether one of its doubtful points is inside, by a sample of these.
+double measure_doubtful_seconds(const CadSource& exact);
 
 }  // namespace ombre::importing

@@ -167,6 +167,16 @@ TEST(CadGaps, OfExactSolidsMatterWhereTheSurfaceIsNotAsked) {
   EXPECT_TRUE(make_exact_source("cube", {cube({}, 2)}, {}, 1).open.empty());
 }
 
+// The space where a cube's triangles leave a doubt: its area times twice four deflections.
+TEST(CadDoubt, IsAsWideAsTrianglesMayBeOff) {
+  const CadSource made = make_exact_source("cube", {cube({})}, {}, 0.01);
+  EXPECT_NEAR(made.doubtful_mm3, 24 * 2 * 0.04, 1e-12);
+  ASSERT_NEAR(static_cast<double>(made.doubtful_points.size()), 500, 1);
+  for (const Vec3& p : made.doubtful_points)
+    EXPECT_NEAR(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1, 0.04);
+  EXPECT_GT(measure_doubtful_seconds(made), 0);
+}
+
 // Of cubes that touch, that lie apart and that overlap: as each of them says by itself.
 TEST(CadSolids, TogetherAreWhatEachOfThemIs) {
   const std::vector<cad::SolidPtr> cubes{cube({}), cube({2, 0, 0}), cube({0, 5, 0}), cube({0.5, 0.5, 1.5})};

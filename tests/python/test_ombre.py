@@ -569,22 +569,3 @@ def test_every_node_has_a_class_with_its_text():
         assert issubclass(kind, ombre.Solid) and node["sentence"] in kind.__doc__
         for parameter in node["parameters"]:
             assert parameter["doc"] in kind.__doc__
-
-
-def test_types(tmp_path):
-    pytest.importorskip("mypy")
-    good = ("import ombre\nfrom ombre import x\n"
-            "part = ombre.sphere(radius=5).translate(z=3) | ombre.cube(3)\n"
-            "values = part.distance([[0.0, 0.0, 0.0]]) + 1\n"
-            "part.grade({'red': 0.5 + x / 20, 'blue': 0.5}).slice('out', printer='j750', progress=True)\n")
-    (tmp_path / "good.py").write_text(good)
-    (tmp_path / "bad.py").write_text(good + "ombre.sphere(radus=3)\npart.slice('out', prnter='j750')\n")
-    package = pathlib.Path(ombre.__file__).parent.parent
-
-    def check(file):
-        return subprocess.run([sys.executable, "-m", "mypy", "--follow-imports=silent", file], cwd=tmp_path, capture_output=True, text=True,
-                              env={**os.environ, "MYPYPATH": str(package)})
-    assert check("good.py").returncode == 0, check("good.py").stdout
-    assert check("bad.py").stdout.count("error:") == 2
-    for name in ("pyvcad", "pyvcad_compilers", "pyvcad_rendering", "pyvcadviz"):
-        assert check(str(package / name)).returncode == 0, check(str(package / name)).stdout

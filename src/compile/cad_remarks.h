@@ -1,0 +1,19 @@
+// What is told of CAD parts once they are made.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "design/source_loader.h"
+#include "import/cad_source.h"
+
+namespace ombre::compile {
+
+// On solids whose triangles, at this tolerance, do not close; there is one at least.
+design::Remark remark_on_gaps(const std::string& path, const std::vector<importing::OpenSolid>& open,
+                              double tolerance_mm, bool is_exact);
+
+// On an exact part that will be asked about so many voxels; `tolerance_mm` is that of triangles in its place.
+design::Remark remark_on_time(const std::string& path, double voxels, double seconds, double tolerance_mm);
+
+}  // namespace ombre::compile
