@@ -14,8 +14,6 @@
 namespace ombre::compile {
 namespace {
 
-// Triangles stay so near to the solid, in voxels of the job.
-constexpr double voxels_of_tolerance = 0.25;
 // What takes longer is told before, with triangles so near to the solid, in voxels, as the remedy.
 constexpr double least_told_seconds = 20, fast_voxels = 0.02;
 // Without a job: a thousandth of the solid's diagonal. Exact surfaces take triangles for a first look only, the closer
@@ -36,18 +34,18 @@ class CadPart final : public design::PendingSource {
   Hash content() const override { return content_; }
   Box bounds() const override { return bounds_; }
 
-  program::SourceField make(std::optional<Vec3> voxel_mm) const override {
+  program::SourceField make(const std::optional<design::JobScale>& scale) const override {
     const std::lock_guard lock(mutex_);
-    return made_for(tolerance_for(voxel_mm)).source;
+    return made_for(tolerance_for(scale)).source;
   }
 
-  std::vector<design::Remark> remarks(std::optional<Vec3> voxel_mm) const override {
+  std::vector<design::Remark> remarks(const std::optional<design::JobScale>& scale) const override {
     const std::lock_guard lock(mutex_);
-    const double tolerance = tolerance_for(voxel_mm);
+    const double tolerance = tolerance_for(scale);
     std::vector<design::Remark> remarks;
     if (const auto& open = made_for(tolerance).open; !open.empty())
       remarks.push_back(remark_on_gaps(name_, open, tolerance, is_exact_));
-    if (const auto remark = is_exact_ && voxel_mm ? remark_for(made_for(tolerance), *voxel_mm) : std::nullopt)
+    if (const auto remark = is_exact_ && scale ? remark_for(made_for(tolerance), scale->voxel_mm) : std::nullopt)
       remarks.push_back(*remark);
     return remarks;
   }
@@ -71,13 +69,13 @@ class CadPart final : public design::PendingSource {
     return made;
   }
 
-  double tolerance_for(std::optional<Vec3> voxel_mm) const {
+  double tolerance_for(const std::optional<design::JobScale>& scale) const {
     const double diagonal = length(bounds_.size());
     double tolerance = (is_exact_ ? diagonals_of_first_look : diagonals_of_tolerance) * diagonal;
     if (tolerance_ > 0)
       tolerance = tolerance_;
-    else if (voxel_mm && !is_exact_)
-      tolerance = voxels_of_tolerance * std::min({voxel_mm->x, voxel_mm->y, voxel_mm->z});
+    else if (scale && !is_exact_)
+      tolerance = scale->triangles_mm;
     return std::max(tolerance, least_diagonals * diagonal);
   }
 

@@ -85,7 +85,7 @@ std::optional<TileProducer> field_tiles(const LoadedPtr& loaded, const GridJob& 
   wishes.inside = job.has_mark;
   if (job.band_mm > 0) wishes.band_mm = job.band_mm;
   auto program =
-      build_field_program(design::for_voxels(loaded->design, job.request.lattice.voxel_mm()), wishes, diagnostics);
+      build_field_program(design::for_job(loaded->design, job.request.lattice.voxel_mm()), wishes, diagnostics);
   if (!program) return std::nullopt;
   auto evaluator =
       std::make_shared<const voxel::FieldEvaluator>(std::move(*program), job.request.lattice, job.request.evaluator);

@@ -161,7 +161,7 @@ class Studio {
   // As fine as the picture's pixels.
   design::Design design_for(const render::Film& film) const {
     const double pixel = film.pixel_mm * static_cast<double>(request_.samples);
-    return design::for_voxels(loaded_.design, {pixel, pixel, pixel});
+    return design::for_job(loaded_.design, Vec3{pixel, pixel, pixel});
   }
 
   std::optional<Shot> turned_solid(int frame) {

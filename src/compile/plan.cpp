@@ -164,7 +164,7 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   std::optional<Built> built;
   const auto hash = [&] { design_hash = design::hash(design); };
   const auto build = [&] {
-    built = build_flat_program(design::for_voxels(design, lattice->voxel_mm()), diagnostics, options.threads);
+    built = build_flat_program(design::for_job(design, lattice->voxel_mm()), diagnostics, options.threads);
   };
   if (options.threads == 1) {  // one after the other: both take memory
     hash();

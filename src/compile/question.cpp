@@ -25,7 +25,7 @@ std::vector<design::NodePtr> roots(const design::Design& design, const design::N
 Question::Question(const design::Design& design, const QuestionOptions& options)
     : design_(design),
       solid_(whole_solid(design)),
-      context_(design.materials, roots(design, solid_, options.parts), design.voxel_mm(), options.threads),
+      context_(design.materials, roots(design, solid_, options.parts), design.scale(), options.threads),
       lowering_(context_, builder_),
       point_(options.frame(builder_)) {}
 

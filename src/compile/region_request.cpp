@@ -78,7 +78,7 @@ std::optional<Fineness> choose_fineness(const design::Design& design, const Box&
 
 design::Design for_tolerance(const design::Design& design, double tolerance_mm) {
   const double voxel = cells_of_tolerance / 2 * tolerance_mm;
-  return design::for_voxels(design, {voxel, voxel, voxel});
+  return design::for_job(design, {{voxel, voxel, voxel}, triangles_of_tolerance * tolerance_mm});
 }
 
 std::optional<RegionProgram> build_regions(const design::Design& design, const Box& box, const RegionRequest& request,

@@ -25,6 +25,9 @@ struct RegionRequest {
   std::optional<double> cell_mm;       // else cells_of_tolerance times the tolerance
 };
 constexpr double cells_of_tolerance = 4;
+// How near to their solids triangles of CAD files are, in tolerances. Those of two solids that touch are as far apart
+// in places, and what lies between must not count.
+constexpr double triangles_of_tolerance = 0.1;
 
 struct Fineness {
   double tolerance_mm = 0;

@@ -201,9 +201,9 @@ class SupportSource final : public design::PendingSource {
   Hash content() const override { return design::hash(design_); }
   Box bounds() const override { return bounds_; }
 
-  program::SourceField make(std::optional<Vec3> voxel_mm) const override {
+  program::SourceField make(const std::optional<design::JobScale>& scale) const override {
     const std::lock_guard lock(mutex_);
-    const Vec3 cell = cell_for(voxel_mm);
+    const Vec3 cell = cell_for(scale);
     program::SourceField& made = made_[{cell.x, cell.y, cell.z}];
     if (made) return made;
     const auto lattice = lattice_of(bounds_, cell);
@@ -213,16 +213,16 @@ class SupportSource final : public design::PendingSource {
   }
 
  private:
-  Vec3 cell_for(std::optional<Vec3> voxel_mm) const {
+  Vec3 cell_for(const std::optional<design::JobScale>& scale) const {
     if (use_.pitch_mm) return *use_.pitch_mm;
-    if (voxel_mm) return *voxel_mm;
+    if (scale) return scale->voxel_mm;
     const Vec3 size = bounds_.size();
     const double side = std::max({size.x, size.y, size.z}) / cells_of_longest_side;
     return {side, side, side};
   }
 
   program::SourceField sweep(const voxel::Lattice& lattice) const {
-    const design::Design design = design::for_voxels(design_, lattice.voxel_mm());
+    const design::Design design = design::for_job(design_, lattice.voxel_mm());
     Diagnostics diagnostics;
     auto built = build_inside_program(design, diagnostics);
     if (!built) throw Error("support: " + to_text(diagnostics));

@@ -43,13 +43,13 @@ std::vector<NodePtr> Design::roots() const {
   return roots;
 }
 
-std::optional<Vec3> Design::voxel_mm() const {
-  if (job_voxel_mm || !sampling) return job_voxel_mm;
-  return Vec3{sampling->pitch[0].mm(), sampling->pitch[1].mm(), sampling->pitch[2].mm()};
+std::optional<JobScale> Design::scale() const {
+  if (job_scale || !sampling) return job_scale;
+  return JobScale(Vec3{sampling->pitch[0].mm(), sampling->pitch[1].mm(), sampling->pitch[2].mm()});
 }
 
-Design for_voxels(Design design, Vec3 voxel_mm) {
-  design.job_voxel_mm = voxel_mm;
+Design for_job(Design design, const JobScale& scale) {
+  design.job_scale = scale;
   return design;
 }
 

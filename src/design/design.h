@@ -28,16 +28,16 @@ struct Design {
   std::vector<Part> parts;  // at least one; they may overlap
   std::optional<Sampling> sampling;
 
-  // Voxels of the job at hand, mm, for nodes that are made as finely as these ask for. No part of the design: neither
-  // its file nor its hash has them.
-  std::optional<Vec3> job_voxel_mm = {};
+  // Of the job at hand, for nodes that are made as finely as it asks for. No part of the design: neither its file nor
+  // its hash has it.
+  std::optional<JobScale> job_scale = {};
 
   std::vector<NodePtr> roots() const;
-  // The job's, else those to sample; nothing when neither is known.
-  std::optional<Vec3> voxel_mm() const;
+  // The job's, else that of the voxels to sample; nothing when neither is known.
+  std::optional<JobScale> scale() const;
 };
 
-Design for_voxels(Design design, Vec3 voxel_mm);
+Design for_job(Design design, const JobScale& scale);
 
 // The design file: format, version, materials, sampling, nodes (each once), parts.
 Data to_data(const Design& design);

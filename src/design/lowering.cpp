@@ -37,8 +37,8 @@ struct LoweringContext::Body {
 };
 
 LoweringContext::LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots,
-                                 std::optional<Vec3> voxel_mm, int threads)
-    : materials_(materials), roots_(roots), voxel_mm_(voxel_mm), threads_(threads) {
+                                 std::optional<JobScale> scale, int threads)
+    : materials_(materials), roots_(roots), scale_(scale), threads_(threads) {
   std::unordered_map<const Node*, int> uses;
   for (const Node* node : topological(roots)) {
     for (const NodePtr& input : node->inputs())
@@ -53,11 +53,11 @@ LoweringContext::LoweringContext(const MaterialTable& materials, const std::vect
 
 LoweringContext::~LoweringContext() = default;
 
-std::optional<Vec3> LoweringContext::voxel_mm(const Node& node) {
-  if (!voxel_mm_) return std::nullopt;
+std::optional<JobScale> LoweringContext::scale(const Node& node) {
+  if (!scale_) return std::nullopt;
   const std::scoped_lock lock(asked_);
   if (scales_.empty()) find_scales();
-  return scales_.at(&node) * *voxel_mm_;
+  return scales_.at(&node) * *scale_;
 }
 
 void LoweringContext::tell(const Diagnostic& diagnostic) {

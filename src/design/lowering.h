@@ -26,9 +26,9 @@ struct ManyParts;
 // State that all lowerings of one design share: checks and bodies.
 class LoweringContext {
  public:
-  // `voxel_mm` of the job, if it is known. Tables of many parts are made on up to `threads` threads; 0: all cores.
+  // `scale` of the job, if it is known. Tables of many parts are made on up to `threads` threads; 0: all cores.
   LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots,
-                  std::optional<Vec3> voxel_mm = std::nullopt, int threads = 1);
+                  std::optional<JobScale> scale = std::nullopt, int threads = 1);
   ~LoweringContext();
 
   const MaterialTable& materials() const { return materials_; }
@@ -39,7 +39,7 @@ class LoweringContext {
   void tell(const Diagnostic& diagnostic);
   uint32_t register_check(const Node& node, const std::string& message);
   // As the node has them, where transforms above shrink or stretch it; where there are several ways to it, the least.
-  std::optional<Vec3> voxel_mm(const Node& node);
+  std::optional<JobScale> scale(const Node& node);
   // Parts of the node as a table, placed in the frame of the program that will hold it; null where
   // it does not pay.
   const ManyParts* many_parts(const Node& node, const PartList& list, PartQuery query, const Affine& node_from_program,
@@ -57,7 +57,7 @@ class LoweringContext {
 
   const MaterialTable& materials_;
   std::vector<NodePtr> roots_;
-  std::optional<Vec3> voxel_mm_;
+  std::optional<JobScale> scale_;
   int threads_;
   // Lowerings that stand alone may ask at once.
   std::mutex asked_;
@@ -103,7 +103,7 @@ class Lowering {
   bool has_attribute(const Node& node, std::string_view name);
   const AttributeDeclaration* declaration(std::string_view name) const;
   MaterialId material(const MaterialName& name) const;
-  std::optional<Vec3> voxel_mm(const Node& node) { return context_.voxel_mm(node); }
+  std::optional<JobScale> scale(const Node& node) { return context_.scale(node); }
   void tell(const Diagnostic& diagnostic) { context_.tell(diagnostic); }
   uint32_t add_check(const Node& node, const std::string& message);
   program::Builder& builder() { return builder_; }

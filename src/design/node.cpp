@@ -164,7 +164,7 @@ std::vector<Field> Inputs::interiors(const Point& p) const {
 
 MaterialId Inputs::material(const MaterialName& material_name) const { return lowering_->material(material_name); }
 
-std::optional<Vec3> Inputs::voxel_mm() const { return lowering_->voxel_mm(node_); }
+std::optional<JobScale> Inputs::scale() const { return lowering_->scale(node_); }
 
 void Inputs::tell(Severity severity, const std::string& message, const std::string& hint) const {
   lowering_->tell({severity, node_.where(), message, hint});

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "design/job_scale.h"
 #include "design/lowered.h"
 #include "design/values.h"
 
@@ -90,8 +91,8 @@ class Inputs {
   std::vector<Field> interiors(const Point& p) const;
 
   MaterialId material(const MaterialName& name) const;
-  // The size of the job's voxels in this node's space, if it is known.
-  std::optional<Vec3> voxel_mm() const;
+  // How fine the job is in this node's space, if it is known.
+  std::optional<JobScale> scale() const;
   // Told once for each job that lowers the node.
   void tell(Severity severity, const std::string& message, const std::string& hint) const;
   // A mark that is 1 where something is wrong; `message` is told once, with the count of voxels.

@@ -35,11 +35,11 @@ class PendingSource {
   virtual ~PendingSource() = default;
   virtual Hash content() const = 0;  // of what it is made from
   virtual Box bounds() const = 0;    // outside of it, nothing is inside
-  // For voxels of this size, in the source's own space; without one, as finely as its size suggests. With the channels
-  // "inside" and "distance"; the same source for the same size. Throws Error.
-  virtual program::SourceField make(std::optional<Vec3> voxel_mm) const = 0;
+  // For jobs of this scale, in the source's own space; without one, as finely as its size suggests. With the channels
+  // "inside" and "distance"; the same source for the same scale. Throws Error.
+  virtual program::SourceField make(const std::optional<JobScale>& scale) const = 0;
   // What is to be said of that source. It is made if need be.
-  virtual std::vector<Remark> remarks(std::optional<Vec3> /*voxel_mm*/) const { return {}; }
+  virtual std::vector<Remark> remarks(const std::optional<JobScale>& /*scale*/) const { return {}; }
 };
 using PendingSourcePtr = std::shared_ptr<const PendingSource>;
 

@@ -195,8 +195,8 @@ struct Cad {
   Parts made(const Inputs& in) const {
     Parts sources;
     for (const CadPart& part : parts) {
-      sources.push_back({part.material, part.source->make(in.voxel_mm())});
-      for (const Remark& r : part.source->remarks(in.voxel_mm())) in.tell(r.severity, r.message, r.hint);
+      sources.push_back({part.material, part.source->make(in.scale())});
+      for (const Remark& r : part.source->remarks(in.scale())) in.tell(r.severity, r.message, r.hint);
     }
     return sources;
   }

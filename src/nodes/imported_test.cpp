@@ -11,8 +11,8 @@ using namespace design;
 // Has something to say of its source where the job's voxels are small.
 class DoubtfulBall : public test::PendingBall {
  public:
-  std::vector<Remark> remarks(std::optional<Vec3> voxel_mm) const override {
-    if (!voxel_mm || voxel_mm->x > 0.5) return {};
+  std::vector<Remark> remarks(const std::optional<JobScale>& scale) const override {
+    if (!scale || scale->voxel_mm.x > 0.5) return {};
     return {{Severity::warning, "the ball has gaps", "repair it"}};
   }
 };

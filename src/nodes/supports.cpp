@@ -81,7 +81,7 @@ struct Support {
 
  private:
   Field read(const Inputs& in, const char* channel, const Point& p) const {
-    const program::SourceField columns = source->make(in.voxel_mm());
+    const program::SourceField columns = source->make(in.scale());
     return p.builder().source(columns, columns->channel(channel), p.x, p.y, p.z);
   }
 };

@@ -123,7 +123,7 @@ class PendingBall : public design::PendingSource {
  public:
   Hash content() const override { return source_->content(); }
   Box bounds() const override { return source_->bounds(); }
-  program::SourceField make(std::optional<Vec3>) const override { return source_; }
+  program::SourceField make(const std::optional<design::JobScale>&) const override { return source_; }
 
  private:
   program::SourceField source_ = std::make_shared<BallSource>();

@@ -39,7 +39,7 @@ class VoxelScale : public testing::Test {
   }
 
   Vec3 voxel(const NodePtr& root, const NodePtr& node) {
-    return *LoweringContext(materials_, {root}, Vec3{1, 2, 4}).voxel_mm(*node);
+    return LoweringContext(materials_, {root}, Vec3{1, 2, 4}).scale(*node)->voxel_mm;
   }
 
   MaterialTable materials_;
@@ -67,9 +67,15 @@ TEST_F(VoxelScale, IsTheLeastOfSeveralWays) {
   expect_near(voxel(both, ball), {0.2, 0.4, 0.8});
 }
 
+TEST_F(VoxelScale, HoldsForTrianglesToo) {
+  const NodePtr ball = sphere(), large = scaled(10, 10, 10, ball);
+  EXPECT_NEAR(LoweringContext(materials_, {large}, Vec3{1, 2, 4}).scale(*ball)->triangles_mm, 0.025, 1e-12);
+  EXPECT_NEAR(LoweringContext(materials_, {large}, JobScale({1, 2, 4}, 0.3)).scale(*ball)->triangles_mm, 0.03, 1e-12);
+}
+
 TEST_F(VoxelScale, IsUnknownWithoutAJob) {
   const NodePtr ball = sphere();
-  EXPECT_FALSE(LoweringContext(materials_, {ball}).voxel_mm(*ball));
+  EXPECT_FALSE(LoweringContext(materials_, {ball}).scale(*ball));
 }
 
 }  // namespace ombre::nodes
