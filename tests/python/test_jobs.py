@@ -1,0 +1,118 @@
+"""Jobs of the package ombre: what they write, their progress, interrupts."""
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+import ombre
+
+
+def test_jobs_write_files(tmp_path):
+    part = ombre.sphere(3) | ombre.cube(4, "blue")
+    report = part.mesh(tmp_path / "part.3mf", tolerance=0.1, by="materials", force=True)
+    assert (tmp_path / "part.3mf").stat().st_size > 1000 and report.events
+    part.contours(tmp_path / "part.svg", z=0)
+    part.layer(tmp_path / "layer.png", z=1, voxel=0.1)
+    part.write_voxels(tmp_path / "part.nrrd", voxel=0.5)
+    part.render(tmp_path / "part.png", size="80x60", from_=(30, 20), opacity={"blue": 0.5}, cut=["x=0", "z>1"])
+    assert part.render(size="80x60").startswith(b"\x89PNG")
+    assert "data:image/png" in part._repr_html_()
+    with pytest.raises(ombre.MachineError, match="exists already"):
+        part.mesh(tmp_path / "part.3mf")
+
+
+def test_parts_are_shown_without_a_display(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("DISPLAY", "WAYLAND_DISPLAY", "OMBRE_RENDER"):
+        monkeypatch.delenv(name, raising=False)
+    part = ombre.Design(**{"a <b>": ombre.cube(4, "blue")})
+    part.show(size="80x60")
+    assert (tmp_path / "ombre.png").read_bytes().startswith(b"\x89PNG")
+    part.show("page.html", frames=5, size="80x60")
+    page = (tmp_path / "page.html").read_text()
+    assert page.count('"iVBORw0KGgo') == 5 and "<title>a &lt;b&gt;</title>" in page
+    monkeypatch.setenv("OMBRE_RENDER", "other.png")
+    part.show(size="80x60")
+    assert (tmp_path / "other.png").exists()
+    monkeypatch.delenv("OMBRE_RENDER")
+    monkeypatch.setenv("DISPLAY", ":0")
+    opened = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    part.show(size="80x60", frames=3)
+    assert len(opened) == 1 and opened[0].endswith(".html")
+
+
+def test_progress_is_told(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    told = []
+    part = ombre.function("sin(9*x)*cos(9*y) + sin(9*y)*cos(9*z) + sin(9*z)*cos(9*x)", min=(-9, -9, -9), max=(9, 9, 9))
+    part.slice("slow", progress=told.append, voxel=0.011, layers=":200", threads=1)
+    assert all(0 <= share <= 1 for share in told)
+
+    def fail(share):
+        raise RuntimeError("enough")
+    part.slice("slow", progress=True, voxel=0.011, layers=":200", threads=1, force=True)
+    if told:  # there was time to tell
+        with pytest.raises(RuntimeError, match="enough"):
+            part.slice("slow", progress=fail, voxel=0.011, threads=1, force=True)
+
+
+class Bar:
+    """What tqdm's bar is told, and what of it is used."""
+
+    def __init__(self, unit, unit_scale):
+        bars.append(self)
+        self.unit, self.n, self.total = unit, 0, None
+
+    def update(self, more):
+        self.n += more
+
+    def close(self):
+        pass
+
+
+bars = []
+
+
+@pytest.mark.parametrize("job, unit", [("slice", " voxels"), ("mesh", " steps"), ("contours", " steps")])
+def test_progress_of_each_job(job, unit, tmp_path, monkeypatch):
+    from ombre import _commands
+    bars.clear()
+    monkeypatch.setattr(_commands._Progress, "_find_tqdm", staticmethod(lambda: Bar))
+    part = ombre.function("sin(x)*cos(y) + sin(y)*cos(z) + sin(z)*cos(x)", min=(-9, -9, -9), max=(9, 9, 9))
+    options = {"slice": {"voxel": 0.006, "layers": ":600"}, "mesh": {"cell": 0.2},
+               "contours": {"layer_height": 0.08, "cell": 0.03, "tolerance": 0.1}}[job]
+    path = tmp_path / {"slice": "layers", "mesh": "part.stl", "contours": "part.cli"}[job]
+    getattr(part, job)(path, progress=True, threads=1, **options)
+    assert [bar.unit for bar in bars] == [unit], "the job was over before there was anything to tell"
+    assert bars[0].n == bars[0].total > 0
+
+
+def test_interrupts_stop_jobs(tmp_path):
+    script = tmp_path / "long.py"
+    script.write_text("import ombre, sys\n"
+                      "part = ombre.function('sin(x)*cos(y) + sin(y)*cos(z) + sin(z)*cos(x)', min=(-50,)*3, max=(50,)*3)\n"
+                      "print('ready', flush=True)\n"
+                      "try:\n    part.slice('layers', voxel=0.02)\n"
+                      "except KeyboardInterrupt:\n    print('stopped')\n    part.slice('layers', voxel=0.02, resume=True,"
+                      " dry_run=True)\n    print('went on')\n")
+    process = subprocess.Popen([sys.executable, script], cwd=tmp_path, stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "ready\n"
+    time.sleep(1)
+    process.send_signal(2)
+    out, _ = process.communicate(timeout=60)
+    assert out == "stopped\nwent on\n"
+
+
+def test_python_may_exit_during_a_job(tmp_path):
+    code = ("import ombre, threading, time\n"
+            "part = ombre.sphere(5)\n"
+            "threading.Thread(target=lambda: part.slice('layers', voxel=0.005), daemon=True).start()\n"
+            "time.sleep(0.3)\n")
+    result = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert result.returncode == 0, result.stderr
+
+
+# Behaviour as a library.
