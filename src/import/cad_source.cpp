@@ -35,7 +35,7 @@ formats::Mesh mesh_of(cad::Triangles part) {
   return mesh;
 }
 
-void append(formats::Mesh& mesh, const formats::Mesh& part) {
+void append_mesh(formats::Mesh& mesh, const formats::Mesh& part) {
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
   for (const auto& [a, b, c] : part.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
@@ -277,7 +277,7 @@ CadSource make_triangle_source(const std::string& name, const std::vector<cad::S
   for (const cad::SolidPtr& solid : solids) {
     const formats::Mesh mesh = mesh_of(solid->triangulate(deflection_mm));
     if (const auto edges = find_open_edges(mesh)) made.open.push_back({solid->name, *edges});
-    append(all, mesh);
+    append_mesh(all, mesh);
   }
   made.source = source_of(name, std::move(all), content, made.open.empty());
   return made;
@@ -306,7 +306,7 @@ CadSource make_exact_source(const std::string& name, const std::vector<cad::Soli
     formats::Mesh mesh = mesh_of(std::move(triangles));
     const auto edges = find_open_edges(mesh);
     if (edges && edges->gap_mm > doubt) made.open.push_back({solid->name, *edges});
-    append(all, mesh);
+    append_mesh(all, mesh);
     std::optional<FaceTree> faces;
     if (!edges && has_mesh_distance()) faces.emplace(mesh, std::move(face_of));
     source->add(solid, source_of(name, std::move(mesh), content, !edges), std::move(faces));
