@@ -11,7 +11,7 @@ count = int(ombre.option("points", 600))
 most = int(ombre.option("struts", 3289))
 radius = 0.2  # mm
 
-body = ombre.mesh(pathlib.Path(__file__).parent.parent / "models" / "gear.stl", "clear")
+body = ombre.mesh(pathlib.Path(__file__).resolve().parent.parent / "models" / "gear.stl", "clear")
 low, high = body.bounds
 points = numpy.random.default_rng(5).uniform(low, high, (20 * count, 3))
 points = points[body.distance(points) < -2 * radius][:count]
