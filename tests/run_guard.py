@@ -117,6 +117,8 @@ def differences_are_counted(*_):
 
 def times_and_paths_are_taken_out(ombre, scratch):
     runner = guard_run.Runner(ombre, 1, scratch)
+    told = runner.normalised("a\nabout 0:00, 9 KiB of images (gray), at most 2 KiB of memory; nothing was written\n", "x")
+    expect(told == "a\nESTIMATE\n", told)
     told = runner.normalised(f"9 layers written to {scratch}/x/out; 9 KiB in 1.5e-05 s, 2.5 M voxels/s; 3 mm {guard_jobs.ROOT}/a",
                              scratch / "x")
     expect(told == "9 layers written to OUT/out; 9 KiB in TIME s, SPEED voxels/s; 3 mm SOURCE/a", told)

@@ -186,7 +186,7 @@ def tell_differences(comparison, names, tasks, runner, kept):
             folder = kept / task.replace(" ", "/")
             comparison.keep_both(task, folder)
             for part in parts:
-                print(f"  {task.partition(' ')[2]}, {part}: {comparison.described(f'{task} {part}')}")
+                print(f"  {task.partition(' ')[2]}, {part}: {comparison.described(f'{task} {part}')}".rstrip())
             print(f"    both are in {folder}; again:")
             print(f"    {tasks[task].typed(runner, comparison.now.boxes, folder / 'again')}")
 

@@ -16,10 +16,12 @@ HAVE_THREADS = {"slice", "render", "voxels", "mesh", "contours"}
 
 # What is not the same in each run of one program, what stands in its place, and why.
 NORMALISED = [
-    (r"\b(in|written in) [\d.e+-]+ s\b", r"\1 TIME s", "how long a job took"),
+    (r"\bin [\d.e+-]+ s\b", "in TIME s", "how long a job took"),
+    (r'"seconds": ?[\d.e+-]+', '"seconds": TIME', "the same for programs"),
     (r"[\d.,e+-]+ ?[kMG]? voxels/s", "SPEED voxels/s", "how fast a job was"),
-    (r'"(seconds|seconds_left|seconds_estimated)": ?[\d.e+-]+', r'"\1": TIME', "the same for programs"),
-    (r"about \d+:\d\d(:\d\d)?", "about TIME", "what a dry run expects from a few layers' times"),
+    (r"(?m)^(about|more than) .*; nothing was written$", "ESTIMATE",
+     "what a dry run expects from the layers that it had time for, and memory, which grows with the threads"),
+    (r'\{"event":"estimate",.*\}', '{"event":"estimate"}', "the same for programs"),
 ]
 
 
