@@ -19,11 +19,11 @@ class Job:
     """Commands that run one after another, from a design to its outputs.
 
     In a command {design} stands for the design's file with its definitions, {small} for the same with fewer parts where
-    that is needed, {own} for the options that the design's first lines ask for, {out} for an empty folder, and the other names for lengths and points (`values` below).
-    "> FILE" at the end writes the standard output to a file.
+    that is needed, {own} for the options that the design's first lines ask for, {out} for an empty folder, and the other
+    names for lengths and points (`values` below). "> FILE" at the end writes the standard output to a file.
     """
     name: str  # its kind and, after a hyphen, which of them
-    sources: str  # names of SOURCES below
+    sources: str  # of designs, as in the names that `designs` gives them
     commands: tuple
     quick: bool = False
     internal: bool = False  # A form inside the compiler, which may change while all outputs stay.
@@ -53,7 +53,8 @@ JOBS = [
     job("slice-indexed", EVERY, "ombre slice {design} --voxel {voxel} --format indexed -o {out}/layers", quick=True),
     job("slice-json", MANY, "ombre slice {design} --emit json > {out}/design.json",
         "ombre slice {out}/design.json --voxel {voxel} -o {out}/layers"),
-    job("slice-rgba", EVERY, "ombre slice {design} --voxel {voxel} --format rgba --dither blue-noise --seed 7 -o {out}/layers"),
+    job("slice-rgba", EVERY, "ombre slice {design} --voxel {voxel} --format rgba --dither blue-noise --seed 7 "
+        "-o {out}/layers"),
     job("slice-diffusion", MANY, "ombre slice {design} --voxel {voxel} --format gray --dither diffusion -o {out}/layers"),
     job("slice-threshold", MANY, "ombre slice {design} --voxel {voxel} --format mask --dither threshold -o {out}/layers"),
     job("slice-reference", MANY, "ombre slice {design} --voxel {voxel} --evaluator reference -o {out}/layers"),
@@ -66,13 +67,15 @@ JOBS = [
     job("sheet", "examples", "ombre slice {design} --voxel {voxel} -o {out}/layers",
         "ombre sheet {out}/layers --count 6 -o {out}/sheet.png"),
     job("layer-middle", EVERY, "ombre layer {design} --voxel {fine} --z {z} -o {out}/layer.png", quick=True),
-    job("layer-box", "examples", "ombre layer {design} --voxel {fine} --index -3 --box {rectangle} --format rgba -o {out}/layer.png"),
+    job("layer-box", "examples", "ombre layer {design} --voxel {fine} --index -3 --box {rectangle} --format rgba "
+        "-o {out}/layer.png"),
     job("voxels-materials", EVERY, "ombre voxels {design} --voxel {voxel} -o {out}/grid.npy"),
     job("voxels-distance", EVERY, "ombre voxels {design} --voxel {voxel} --what distance -o {out}/grid.nrrd", quick=True),
-    job("voxels-gzip", "examples", "ombre voxels {design} --voxel {coarse} --what distance,fractions --gzip -o {out}/grid.nrrd"),
+    job("voxels-gzip", "examples", "ombre voxels {design} --voxel {coarse} --what distance,fractions --gzip "
+        "-o {out}/grid.nrrd"),
     job("voxels-fractions", MANY, "ombre voxels {design} --voxel {voxel} --what fractions -o {out}/grid.raw"),
-    job("voxels-reference", "examples", "ombre voxels {design} --voxel {coarse} --what distance,fractions --evaluator reference "
-        "-o {out}/grid.npy"),
+    job("voxels-reference", "examples", "ombre voxels {design} --voxel {coarse} --what distance,fractions "
+        "--evaluator reference -o {out}/grid.npy"),
     job("voxels-box", "examples", "ombre voxels {design} --voxel {fine} --what distance --box {box} -o {out}/grid.npy"),
     job("voxels-vdb", MANY, "ombre voxels {design} --voxel {voxel} -o {out}/grid.vdb"),
     job("voxels-nvdb", "examples", "ombre voxels {design} --voxel {voxel} -o {out}/grid.nvdb"),
@@ -80,21 +83,27 @@ JOBS = [
     job("mesh-materials", MANY, "ombre mesh {small} --tolerance {tolerance} --by materials -o {out}/part.3mf"),
     job("mesh-bands", "examples", "ombre mesh {small} --tolerance {tolerance} --bands 3 --flavour prusa "
         "--setting fill_density=10%..60% -o {out}/part.3mf"),
-    job("mesh-bambu", "examples", "ombre mesh {small} --tolerance {tolerance} --by materials --flavour bambu -o {out}/part.3mf"),
+    job("mesh-bambu", "examples", "ombre mesh {small} --tolerance {tolerance} --by materials --flavour bambu "
+        "-o {out}/part.3mf"),
     job("mesh-obj", "examples", "ombre mesh {small} --tolerance {tolerance} --by materials -o {out}/part.obj"),
     job("mesh-ply", "examples", "ombre mesh {small} --tolerance {tolerance} --by materials -o {out}/part.ply"),
     job("mesh-off", "examples", "ombre mesh {small} --tolerance {tolerance} --keep-all -o {out}/part.off"),
     job("mesh-amf", "examples", "ombre mesh {small} --tolerance {tolerance} --by materials -o {out}/part.amf"),
     job("mesh-glb", "examples", "ombre mesh {small} --tolerance {tolerance} --by materials -o {out}/part.glb"),
-    job("contours-svg", MANY, "ombre contours {small} --tolerance {tolerance} --layer-height {height} --by materials -o {out}/layers"),
-    job("contours-cli", "examples", "ombre contours {small} --tolerance {tolerance} --layer-height {height} -o {out}/part.cli",
+    job("contours-svg", MANY, "ombre contours {small} --tolerance {tolerance} --layer-height {height} --by materials "
+        "-o {out}/layers"),
+    job("contours-cli", "examples", "ombre contours {small} --tolerance {tolerance} --layer-height {height} "
+        "-o {out}/part.cli",
         quick=True),
     job("contours-bands", "examples", "ombre contours {small} --tolerance {tolerance} --z {z} --bands 3 -o {out}/layer.svg"),
     job("render-iso", EVERY, "ombre render {design} --size 120x90 -o {out}/picture.png", quick=True),
     job("render-cut", MANY, "ombre render {design} --size 120x90 --cut x={x} --view right -o {out}/picture.png"),
-    job("render-slice", MANY, "ombre render {design} --size 120x90 --slice z={z} --background transparent -o {out}/picture.png"),
-    job("render-box", "examples", "ombre render {design} --size 120x90 --aa 1 --box {box} --background gray -o {out}/picture.png"),
-    job("render-perspective", "examples", "ombre render {design} --size 120x90 --perspective 50 --zoom 1.5 -o {out}/picture.png"),
+    job("render-slice", MANY, "ombre render {design} --size 120x90 --slice z={z} --background transparent "
+        "-o {out}/picture.png"),
+    job("render-box", "examples", "ombre render {design} --size 120x90 --aa 1 --box {box} --background gray "
+        "-o {out}/picture.png"),
+    job("render-perspective", "examples", "ombre render {design} --size 120x90 --perspective 50 --zoom 1.5 "
+        "-o {out}/picture.png"),
     job("render-frames", "examples", "ombre render {design} --size 80x60 --frames 3 -o {out}/picture.png"),
     job("render-annotated", "examples", "ombre render {design} --size 320x240 --annotate -o {out}/picture.png"),
     job("probe", EVERY, "ombre probe {design} --at={centre} --at={corner} --at={aside} --at={above} --at={outside} --json",

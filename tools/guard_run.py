@@ -57,7 +57,8 @@ class Runner:
     def filled_in(self, job, design, box, out):
         """The command lines of a job for a design: words, and the file that takes the standard output or None."""
         file = str(self.design_file(design)) if design.text else design.file
-        several = {"{design}": [file, *design.defines], "{small}": [file, *design.defines, *design.fewer], "{own}": list(design.own)}
+        several = {"{design}": [file, *design.defines], "{small}": [file, *design.defines, *design.fewer],
+                   "{own}": list(design.own)}
         values = {**guard_jobs.values(box), "out": out}
         for text in job.commands:
             words = []
