@@ -58,6 +58,19 @@ void add_job_arguments(CLI::App& app, JobArguments& a) {
   app.add_option("--format", a.image, "Image format: rgba, indexed, gray or mask (default: the printer's)")
       ->check(one_of(voxel::image_format_names()))
       ->type_name("FORMAT");
+  CLI::Option* by = app.add_option("--by", a.by,
+                                   "Images in shades of gray by an attribute or a material's fraction, black outside, "
+                                   "in place of\nmaterials")
+                        ->type_name("NAME");
+  app.add_option("--range", a.range, "The values that are black and white (default: those of the design)")
+      ->needs(by)
+      ->type_name("LO,HI");
+}
+
+Interval parse_range(const std::string& text) {
+  const std::vector<double> ends = parse_numbers(text);
+  if (ends.size() == 2 && ends[0] < ends[1]) return {ends[0], ends[1]};
+  throw WrongArgument("--range " + text + " is not two numbers, the lesser first; write for example --range 0,1");
 }
 
 std::optional<compile::PlanOptions> plan_options(const JobArguments& a, Diagnostics& diagnostics) {
@@ -76,6 +89,11 @@ std::optional<compile::PlanOptions> plan_options(const JobArguments& a, Diagnost
   options.image = voxel::image_format(a.image);
   if (!a.place.empty()) options.place = a.place == "center" ? voxel::Placement::center : voxel::Placement::design;
   options.whole_tray = a.tray;
+  if (a.by.empty()) return options;
+  if (!a.image.empty() && a.image != "gray")
+    throw WrongArgument("--format " + a.image + " holds materials; --by makes gray images: leave --format out");
+  options.value = compile::ValueChoice{a.by, std::nullopt};
+  if (!a.range.empty()) options.value->range = parse_range(a.range);
   return options;
 }
 

@@ -20,7 +20,8 @@ struct DesignArguments {
 void add_design_arguments(CLI::App& app, DesignArguments& arguments);
 
 struct JobArguments : DesignArguments {
-  std::string printer, voxel, dpi, layer_height, dither = "stochastic", evaluator = "batch", seed = "0", image, place;
+  std::string printer, voxel, dpi, layer_height, dither = "stochastic", evaluator = "batch", seed = "0", image, place,
+                                                 by, range;
   bool tray = false;
 };
 
@@ -28,6 +29,9 @@ struct JobArguments : DesignArguments {
 void add_voxel_arguments(CLI::App& app, JobArguments& arguments);
 // The same, and those that decide its images.
 void add_job_arguments(CLI::App& app, JobArguments& arguments);
+
+// Two numbers, the lesser first: "0,1".
+Interval parse_range(const std::string& text);
 
 // Nothing, and diagnostics, when there is no such printer. Throws WrongArgument.
 std::optional<compile::PlanOptions> plan_options(const JobArguments& arguments, Diagnostics& diagnostics);

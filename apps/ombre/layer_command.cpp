@@ -99,8 +99,9 @@ void tell_layer(const Console& console, const compile::SliceRequest& request, in
               " mm, written to " + join(files, ", "));
   DataList materials, names;
   for (size_t i = 0; i < request.materials.size(); ++i) {
-    console.say("  " + request.materials[i].name + ": " + format_count(images.voxels[i]) +
-                " voxels in the whole layer");
+    if (!request.shades)
+      console.say("  " + request.materials[i].name + ": " + format_count(images.voxels[i]) +
+                  " voxels in the whole layer");
     materials.emplace_back(
         DataMembers{{"name", request.materials[i].name}, {"voxels", static_cast<double>(images.voxels[i])}});
   }

@@ -174,13 +174,7 @@ compile::PictureRequest picture_request(const RenderArguments& a) {
     request.opacity.emplace_back(text.substr(0, sign), *value);
   }
   request.by = a.by;
-  if (!a.range.empty()) {
-    const std::vector<double> ends = parse_numbers(a.range);
-    if (ends.size() != 2 || !(ends[0] < ends[1]))
-      throw WrongArgument("--range " + a.range +
-                          " is not two numbers, the lesser first; write for example --range 0,1");
-    request.range = Interval(ends[0], ends[1]);
-  }
+  if (!a.range.empty()) request.range = parse_range(a.range);
   request.annotations = {a.axes || a.annotate, a.scale_bar || a.annotate, a.legend || a.annotate, a.font};
   request.samples = a.samples;
   request.frames = a.frames;

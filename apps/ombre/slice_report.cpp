@@ -20,6 +20,12 @@ double voxel_mm3(const compile::SliceRequest& request) {
   return pitch[0].mm() * pitch[1].mm() * pitch[2].mm();
 }
 
+// "shades: density from 0.2 (black) to 1.1 (white) g/cm3"
+std::string shades_text(const compile::ShadeMeaning& shades) {
+  return "shades: " + shades.of + " from " + format_rounded(shades.range.lo, 4) + " (black) to " +
+         format_rounded(shades.range.hi, 4) + " (white)" + (shades.unit.empty() ? "" : " " + shades.unit);
+}
+
 }  // namespace
 
 std::string mm_text(double mm) { return format_rounded(mm, 6); }
@@ -31,14 +37,15 @@ void tell_plan(const Console& console, const compile::SliceRequest& request, con
   std::vector<std::string> names;
   DataList material_names;
   for (const compile::SliceMaterial& material : request.materials) {
-    names.push_back(material.name);
+    if (!request.shades) names.push_back(material.name);
     material_names.emplace_back(material.name);
   }
+  const std::string shown = request.shades ? shades_text(*request.shades) : "materials: " + join(names, ", ");
   console.say("box " + format_rounded(size.x, 6) + " x " + format_rounded(size.y, 6) + " x " +
               format_rounded(size.z, 6) + " mm, voxels " + format_rounded(pitch[0].mm()) + " x " +
               format_rounded(pitch[1].mm()) + " x " + format_rounded(pitch[2].mm()) + " mm");
   console.say(counted(nz, "layer") + " of " + std::to_string(nx) + " x " + std::to_string(ny) + ", " +
-              format_count(request.lattice.voxels()) + " voxels; materials: " + join(names, ", "));
+              format_count(request.lattice.voxels()) + " voxels; " + shown);
   if (options.layers)
     console.say("layers " + std::to_string(options.layers->begin) + ':' + std::to_string(options.layers->end) +
                 " of these");
@@ -82,8 +89,9 @@ void tell_report(const Console& console, const compile::SliceRequest& request, c
   for (size_t i = 0; i < request.materials.size(); ++i) {
     const uint64_t count = report.material_voxels[i];
     const double volume = static_cast<double>(count) * voxel_mm3(request);
-    console.say("  " + request.materials[i].name + ": " + format_count(count) + " voxels, " + format_rounded(volume) +
-                " mm3");
+    if (!request.shades)
+      console.say("  " + request.materials[i].name + ": " + format_count(count) + " voxels, " + format_rounded(volume) +
+                  " mm3");
     materials.emplace_back(
         DataMembers{{"name", request.materials[i].name}, {"voxels", number(count)}, {"volume_mm3", volume}});
   }

@@ -46,6 +46,11 @@ Data images(const SliceRequest& request) {
                      {"flip", flip}};
 }
 
+Data shades(const ShadeMeaning& meaning) {
+  return DataMembers{
+      {"of", meaning.of}, {"unit", meaning.unit}, {"black", meaning.range.lo}, {"white", meaning.range.hi}};
+}
+
 // In the order of the palette of indexed images.
 Data materials(const SliceRequest& request) {
   DataList list{DataMembers{{"name", "void"}, {"id", 0.0}, {"rgba", colour(request.background)}}};
@@ -68,14 +73,16 @@ std::string member_difference(const std::string& name, const Data* there, const 
 DataMembers describe_job(const SliceRequest& request) {
   DataList checks;
   for (const std::string& text : request.check_texts) checks.emplace_back(text);
-  return {{"format", std::string(job_format) + ", version 1"},
-          {"program", request.program},
-          {"design_hash", request.design_hash},
-          {"printer", request.printer},
-          {"sampling", sampling(request)},
-          {"materials", materials(request)},
-          {"images", images(request)},
-          {"checks", checks}};
+  DataMembers job{{"format", std::string(job_format) + ", version 1"},
+                  {"program", request.program},
+                  {"design_hash", request.design_hash},
+                  {"printer", request.printer},
+                  {"sampling", sampling(request)},
+                  {"materials", materials(request)},
+                  {"images", images(request)},
+                  {"checks", checks}};
+  if (request.shades) job.emplace_back("shades", shades(*request.shades));
+  return job;
 }
 
 Data describe_totals(const SliceRequest& request, const std::vector<JournalEntry>& layers) {

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/pitch.h"
 #include "compile/slice.h"
+#include "compile/value_layers.h"
 #include "design/design.h"
 #include "voxel/printer.h"
 
@@ -56,6 +57,7 @@ struct PlanOptions {
   std::optional<voxel::Placement> place;    // else the printer's; center: the build plate, the part in its middle
   bool whole_tray = false;                  // the build plate, the part where the design has it
   int threads = 0;                          // that read the design; 0: all cores
+  std::optional<ValueChoice> value;         // shades of gray by this in place of materials
 };
 
 struct Plan {

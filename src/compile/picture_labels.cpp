@@ -37,11 +37,8 @@ std::vector<uint8_t> on_background(const std::vector<uint8_t>& part, const rende
 // Some values with their colours, the greatest first.
 std::vector<render::Swatch> value_legend(const design::Design& design, const ValueColours& value) {
   const int lines = value.range.is_point() ? 1 : 5;
-  std::string unit;
-  for (const auto& attribute : declared_attributes(design))
-    if (attribute.name == value.of && !design.materials.find(value.of) && !attribute.unit.empty() &&
-        attribute.unit != "1")
-      unit = " " + attribute.unit;
+  std::string unit = value_unit(design, value.of);
+  if (!unit.empty()) unit.insert(0, " ");
   std::vector<render::Swatch> legend;
   for (int n = lines - 1; n >= 0; --n) {
     const double share = static_cast<double>(n) / std::max(1, lines - 1);

@@ -152,6 +152,39 @@ void warn_of_grays(const SliceRequest& request, const SourceRange& where, Diagno
   }
 }
 
+// What holds for every job on the lattice.
+SliceRequest base_request(const PlanOptions& options, const voxel::Lattice& lattice, const Hash& design_hash) {
+  SliceRequest request;
+  use_printer(request, options.printer, options.image);
+  request.program = options.program;
+  request.design_hash = design_hash.hex();
+  request.lattice = lattice;
+  request.dither = options.dither;
+  request.seed = options.seed;
+  request.evaluator = options.evaluator.evaluator;
+  if (request.evaluator == voxel::Evaluator::batch) request.evaluator = voxel::best_evaluator(lattice);
+  return request;
+}
+
+std::optional<Plan> plan_shades(const LoadedPtr& loaded, PlanOptions options, const Box& box,
+                                const voxel::Lattice& lattice, Diagnostics& diagnostics) {
+  const design::Design design = design::for_job(loaded->design, lattice.voxel_mm());
+  const auto meaning = shade_meaning(design, box, *options.value, diagnostics);
+  if (!meaning) return std::nullopt;
+  options.image = voxel::ImageFormat::gray;
+  Plan plan;
+  plan.request = base_request(options, lattice, design::hash(loaded->design));
+  plan.request.background = {0, 0, 0, 255};
+  plan.request.materials = value_shades();
+  plan.request.shades = *meaning;
+  auto layers = value_layers(design, lattice, *meaning, plan.request.evaluator, diagnostics);
+  if (!layers) return std::nullopt;
+  plan.producer = [loaded, layers = std::move(*layers)](int64_t begin, int64_t end, const StopFlag* stop) {
+    return layers(begin, end, stop);
+  };
+  return plan;
+}
+
 }  // namespace
 
 std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& options, Diagnostics& diagnostics) {
@@ -160,6 +193,8 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   if (!box) return std::nullopt;
   const auto lattice = LatticePlanner(*loaded, options, *box, diagnostics).run();
   if (!lattice) return std::nullopt;
+  warn_of_features(options.printer, box->size(), {loaded->source, 0, 0}, diagnostics);
+  if (options.value) return plan_shades(loaded, options, *box, *lattice, diagnostics);
   Hash design_hash;
   std::optional<Built> built;
   const auto hash = [&] { design_hash = design::hash(design); };
@@ -174,16 +209,9 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   }
   if (!built) return std::nullopt;
   leave_out_impossible(*built, lattice->box(), options.threads);
-  warn_of_features(options.printer, box->size(), {loaded->source, 0, 0}, diagnostics);
 
   Plan plan;
-  SliceRequest& request = plan.request;
-  use_printer(request, options.printer, options.image);
-  request.program = options.program;
-  request.design_hash = design_hash.hex();
-  request.lattice = *lattice;
-  request.dither = options.dither;
-  request.seed = options.seed;
+  SliceRequest& request = plan.request = base_request(options, *lattice, design_hash);
   for (const MaterialId id : built->materials.materials) {
     if (id == 0) continue;
     const design::Material& material = design.materials.all()[id];
@@ -202,8 +230,7 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
     return std::nullopt;
   }
   voxel::EvaluatorOptions how = options.evaluator;
-  if (how.evaluator == voxel::Evaluator::batch) how.evaluator = voxel::best_evaluator(*lattice);
-  request.evaluator = how.evaluator;
+  how.evaluator = request.evaluator;
   auto evaluator =
       std::make_shared<const voxel::LayerEvaluator>(built->materials, *lattice, options.dither, options.seed, how);
   plan.producer = [loaded, evaluator](int64_t begin, int64_t end, const StopFlag* stop) {

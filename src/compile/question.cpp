@@ -82,6 +82,13 @@ std::vector<std::string> attribute_names(const design::Design& design) {
   return names;
 }
 
+std::string value_unit(const design::Design& design, const std::string& name) {
+  if (design.materials.find(name)) return "";
+  for (const auto& attribute : declared_attributes(design))
+    if (attribute.name == name && attribute.unit != "1") return attribute.unit;
+  return "";
+}
+
 void report_unknown_attribute(const design::Design& design, const std::string& name, Diagnostics& diagnostics) {
   const std::vector<std::string> known = attribute_names(design);
   std::string hint = did_you_mean(name, known);

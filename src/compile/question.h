@@ -77,6 +77,9 @@ design::NodePtr whole_solid(const design::Design& design);
 // The attributes that some node of the design declares.
 std::vector<design::AttributeDeclaration> declared_attributes(const design::Design& design);
 std::vector<std::string> attribute_names(const design::Design& design);
+// The unit of what Question::value() gives: that of an attribute, as people write it; empty for fractions and where it
+// has none.
+std::string value_unit(const design::Design& design, const std::string& name);
 // The error that the design has no attribute of that name.
 void report_unknown_attribute(const design::Design& design, const std::string& name, Diagnostics& diagnostics);
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/interval.h"
 #include "base/progress.h"
 #include "formats/png.h"
 #include "voxel/lattice.h"
@@ -20,6 +21,12 @@ struct SliceMaterial {
   std::string name;
   MaterialId id = 1;
   formats::Rgba rgba{};
+};
+
+// What shades of gray mean: black is range.lo or less, or outside, white range.hi or more.
+struct ShadeMeaning {
+  std::string of, unit;  // a material, for its fraction, or an attribute with its unit
+  Interval range;
 };
 
 // Everything that decides the bytes of a job, already resolved.
@@ -38,6 +45,7 @@ struct SliceRequest {
   voxel::NamePattern files;
   int64_t first_index = 0;
   bool drop_empty_layers = false;
+  std::optional<ShadeMeaning> shades;     // where images show a value; then materials are its shades
   std::vector<std::string> check_texts;   // one for each check of the program: what failed, for people
   std::vector<std::string> check_places;  // and where in the design, "part.vcad:3:1"; decides no bytes
 };

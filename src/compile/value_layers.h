@@ -1,0 +1,32 @@
+// Layers of a value in shades of gray, as machines take them that dose light or infill by an image.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/interval.h"
+#include "compile/slice.h"
+#include "design/design.h"
+
+namespace ombre::compile {
+
+struct ValueChoice {
+  std::string of;  // a material, for its fraction, or an attribute
+  std::optional<Interval>
+      range;  // from black to white; nothing: from the least to the greatest inside, of a fraction 0-1
+};
+
+// Nothing, and a diagnostic, when the design has no such value.
+std::optional<ShadeMeaning> shade_meaning(const design::Design& design, const Box& box, const ValueChoice& choice,
+                                          Diagnostics& diagnostics);
+
+// Voxels have the shades 0 to 255 in place of materials: 0 up to range.lo and outside, 255 from range.hi on, linear and
+// to the nearest in between. Nothing, and a diagnostic, when the program would not fit into memory.
+std::optional<LayerProducer> value_layers(const design::Design& design, const voxel::Lattice& lattice,
+                                          const ShadeMeaning& meaning, voxel::Evaluator evaluator,
+                                          Diagnostics& diagnostics);
+
+// The shades but for black, as a job's materials.
+std::vector<SliceMaterial> value_shades();
+
+}  // namespace ombre::compile
