@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "compile/beam_document.h"
 #include "compile/mesh_job.h"
 #include "export/mesh_file.h"
 #include "ombre/arguments.h"
@@ -28,7 +29,7 @@ struct MeshArguments {
   std::vector<std::string> settings;
   std::string memory = "4G";
   int threads = 0;
-  bool keep_all = false, force = false;
+  bool beams = false, keep_all = false, force = false;
 };
 
 constexpr const char* mesh_footer =
@@ -42,6 +43,8 @@ constexpr const char* mesh_footer =
     "  ombre mesh part.vcad -o part.stl                   one body\n"
     "  ombre mesh part.vcad --tolerance 0.01\n"
     "  ombre mesh part.vcad --by materials -o part.3mf    a body for each material\n"
+    "  ombre mesh part.vcad --beams -o part.3mf           struts of lattices as beams of a 3MF file, all else as "
+    "triangles\n"
     "  ombre mesh part.vcad --bands 4                     four bodies by the fraction that varies most\n"
     "  ombre mesh part.vcad --by red --borders 0.2,0.5    three bodies: red below 20 %, to 50 %, from there on\n"
     "  ombre mesh seat.vcad --bands 4 --flavour prusa --setting fill_density=10%..60%\n";
@@ -61,6 +64,7 @@ void add_arguments(CLI::App& app, MeshArguments& a) {
                  "KEY=V1,V2,... one by one; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  app.add_flag("--beams", a.beams, "Write the struts of lattices as beams, where they can be; .3mf only");
   add_threads(app, a.threads);
   app.add_option("--memory", a.memory, "Most memory for the cells at the surface (default 4G)")->type_name("SIZE");
   app.add_flag("--force", a.force, "Replace the file if it is there");
@@ -68,6 +72,7 @@ void add_arguments(CLI::App& app, MeshArguments& a) {
 
 compile::MeshRequest mesh_request(const MeshArguments& a) {
   compile::MeshRequest request{region_request(a.regions)};
+  request.beams = a.beams;
   request.join_flat = !a.keep_all;
   request.threads = a.threads;
   request.memory_bytes = parse_memory(a.memory);
@@ -115,6 +120,7 @@ formats::MeshDocument document_of(compile::MeshedDesign& made, const std::string
 
 void tell_bodies(const Console& console, const compile::MeshedDesign& made) {
   DataList bodies;
+  size_t beams = 0;
   for (const compile::RegionBody& body : made.bodies) {
     const std::string name = body.region.name.empty() ? "body" : body.region.name;
     console.say(name + ": " + format_count(body.body.triangles.size()) + " triangles, " +
@@ -124,7 +130,17 @@ void tell_bodies(const Console& console, const compile::MeshedDesign& made) {
                                  {"volume_mm3", body.volume_mm3},
                                  {"area_mm2", body.area_mm2}});
   }
+  for (const compile::BeamBody& body : made.beams) {
+    const std::string cut = !body.clip                                          ? ""
+                            : body.clipping == formats::LatticeClipping::inside ? ", cut to the inside of a mesh of "
+                                                                                : ", cut to the outside of a mesh of ";
+    console.say("beams: " + format_count(body.beams.size()) + cut +
+                (body.clip ? format_count(made.clips[*body.clip].triangles.size()) + " triangles" : ""));
+    beams += body.beams.size();
+  }
   console.event("bodies", {{"bodies", bodies},
+                           {"beams", static_cast<double>(beams)},
+                           {"clips", static_cast<double>(made.clips.size())},
                            {"tolerance_mm", made.tolerance_mm},
                            {"cell_mm", made.cell_mm},
                            {"intersections", static_cast<double>(made.report.intersections)},
@@ -172,6 +188,17 @@ void tell_plan(const Console& console, const compile::MeshPlan& plan) {
                          {"memory_bytes", plan.memory_bytes}});
 }
 
+void check_beams(const MeshArguments& a, const compile::MeshRequest& request, const std::string& output,
+                 exporting::MeshFormat format) {
+  if (format != exporting::MeshFormat::three_mf)
+    throw WrongArgument("--beams are for .3mf; " + output + " cannot hold them");
+  if (a.flavour != "generic")
+    throw WrongArgument("--flavour " + a.flavour +
+                        " has no beams, which its slicers do not read; leave one of the two out");
+  if (request.bands)
+    throw WrongArgument("beams have a material each, but no bands; write --by materials, or leave --beams out");
+}
+
 int mesh(const MeshArguments& a, Session& session) {
   compile::MeshRequest request = mesh_request(a);
   Diagnostics diagnostics;
@@ -192,6 +219,7 @@ int mesh(const MeshArguments& a, Session& session) {
     throw WrongArgument("-o " + output + " does not say a format; let it end in " + exporting::mesh_endings());
   refuse_to_overwrite(output, a.force);
   if (*format == exporting::MeshFormat::obj) refuse_to_overwrite(exporting::material_library_path(output), a.force);
+  if (a.beams) check_beams(a, request, output, *format);
   if (*format == exporting::MeshFormat::three_mf && !formats::can_write_3mf())
     throw WrongArgument("this ombre was built without libzip, which .3mf files need; write -o " + stem + ".amf");
 
@@ -204,7 +232,7 @@ int mesh(const MeshArguments& a, Session& session) {
   }
   diagnose();
   if (!made || diagnostics.has_errors()) return wrong_input;
-  if (made->bodies.empty()) {
+  if (made->bodies.empty() && made->beams.empty()) {
     session.console.warn("no cell's corner is inside the design: there is nothing to write; choose a smaller --cell");
     return wrong_input;
   }
@@ -212,7 +240,9 @@ int mesh(const MeshArguments& a, Session& session) {
   warn_of_folds(session.console, *made);
   warn_of_distance(session.console, *made);
   warn_of_lost_parts(session.console, *made);
-  exporting::write_mesh_file(output, document_of(*made, stem, settings), *format, flavour_of(a.flavour));
+  formats::MeshDocument document = document_of(*made, stem, settings);
+  compile::add_beams(*made, loaded->design.materials, document);
+  exporting::write_mesh_file(output, document, *format, flavour_of(a.flavour));
   session.console.say(output + " written in " + format_rounded(watch.seconds(), 3) + " s");
   session.console.event("done", {{"file", output}, {"seconds", watch.seconds()}});
   return done;

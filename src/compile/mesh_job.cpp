@@ -53,33 +53,143 @@ bool fits(const MeshPlan& plan, const MeshRequest& request, const Loaded& loaded
   return false;
 }
 
+// One run of the mesher, of a design or of what is left of it.
+class Mesher {
+ public:
+  Mesher(const Loaded& loaded, const MeshRequest& request, Diagnostics& diagnostics, Progress* progress,
+         const StopFlag* stop)
+      : loaded_(loaded), request_(request), diagnostics_(diagnostics), progress_(progress), stop_(stop) {}
+
+  // `shape` is a part of the design; null: all of it.
+  std::optional<MeshedDesign> mesh(const design::Design& whole, const design::NodePtr& shape) {
+    const std::optional<Box> box = design_box(shape ? alone(whole, shape) : whole, diagnostics_);
+    if (!box) return std::nullopt;
+    const auto fineness = choose_fineness(whole, *box, request_, diagnostics_);
+    if (!fineness) return std::nullopt;
+    const design::Design design = for_tolerance(whole, fineness->tolerance_mm);
+    const auto program = build_regions(design, *box, request_, diagnostics_, shape);
+    if (!program) return std::nullopt;
+    const MeshPlan plan = plan_mesh(*program, *box, *fineness, request_.threads);
+    if (request_.announce) request_.announce(plan);
+    if (!fits(plan, request_, loaded_, diagnostics_)) return std::nullopt;
+    MeshedDesign made;
+    made.tolerance_mm = fineness->tolerance_mm;
+    made.cell_mm = fineness->cell.mm();
+    surface::ContourOptions options;
+    options.corners = corners_over(*box, fineness->cell);
+    options.tolerance_mm = made.tolerance_mm;
+    options.join_flat = request_.join_flat;
+    options.threads = request_.threads;
+    options.memory_bytes = request_.memory_bytes;
+    const surface::RegionSurface surface = surface::contour(program->partition, options, progress_, stop_);
+    made.report = surface.report;
+    add_bodies(design, *program, *box, surface, made, diagnostics_);
+    return made;
+  }
+
+  std::optional<MeshedDesign> mesh_beams() {
+    if (!take_fineness()) return std::nullopt;
+    const design::Design& design = loaded_.design;
+    const auto parts = split_beams(design, request_.threads, diagnostics_);
+    if (!parts) return std::nullopt;
+    MeshedDesign made;
+    if (parts->rest && !parts->rest->bounds(design::design_space()).is_empty()) {
+      auto rest = mesh(design, parts->rest);
+      if (!rest) return std::nullopt;
+      made = std::move(*rest);
+    }
+    made.tolerance_mm = *request_.tolerance_mm;
+    made.cell_mm = *request_.cell_mm;
+    for (const BeamSet& set : parts->sets)
+      if (!add_set(set, made)) return std::nullopt;
+    report_graded();
+    return made;
+  }
+
+ private:
+  static design::Design alone(const design::Design& design, const design::NodePtr& solid) {
+    return {design.materials, {{"", solid}}, design.sampling, design.job_voxel_mm};
+  }
+
+  // All surfaces are as fine as one of the whole design would be.
+  bool take_fineness() {
+    const std::optional<Box> box = design_box(loaded_.design, diagnostics_);
+    const auto fineness = box ? choose_fineness(loaded_.design, *box, request_, diagnostics_) : std::nullopt;
+    if (!fineness) return false;
+    request_.tolerance_mm = fineness->tolerance_mm;
+    request_.cell_mm = fineness->cell.mm();
+    return true;
+  }
+
+  bool add_set(const BeamSet& set, MeshedDesign& made) {
+    BeamBody body = beams_of(set);
+    const auto graded = add_materials(loaded_.design, request_.threads, body, diagnostics_, stop_);
+    if (!graded) return false;
+    graded_ += *graded;
+    if (!request_.by_material) body.materials.clear();
+    if (body.beams.empty()) return true;
+    if (set.clip && !add_clip(set, body, made)) return false;
+    made.beams.push_back(std::move(body));
+    return true;
+  }
+
+  bool add_clip(const BeamSet& set, BeamBody& body, MeshedDesign& made) {
+    const design::NodePtr clip = with_end(set);
+    if (!clip) return false;
+    MeshRequest whole = request_;
+    whole.by_material = false;
+    design::Design design = alone(loaded_.design, clip);
+    design.sampling = std::nullopt;
+    auto meshed = Mesher(loaded_, whole, diagnostics_, progress_, stop_).mesh(design, nullptr);
+    if (!meshed) return false;
+    add_report(meshed->report, made.report);
+    if (meshed->bodies.empty()) {
+      diagnostics_.error(set.clip->where(), "the solid that cuts struts is smaller than the cells",
+                         "choose a smaller --cell");
+      return false;
+    }
+    body.clip = made.clips.size();
+    made.clips.push_back(std::move(meshed->bodies[0].body));
+    return true;
+  }
+
+  // Of a clip without end, what is near to the struts.
+  design::NodePtr with_end(const BeamSet& set) {
+    const Box space = design::design_space(), bounds = set.clip->bounds(space);
+    const bool has_end = bounds.lo.x > space.lo.x && bounds.lo.y > space.lo.y && bounds.lo.z > space.lo.z &&
+                         bounds.hi.x < space.hi.x && bounds.hi.y < space.hi.y && bounds.hi.z < space.hi.z;
+    return has_end ? set.clip : clip_near_struts(loaded_.design, set, diagnostics_);
+  }
+
+  static void add_report(const surface::ContourReport& of, surface::ContourReport& all) {
+    all.intersections += of.intersections;
+    all.folded += of.folded;
+    all.farthest_in_tolerances = std::max(all.farthest_in_tolerances, of.farthest_in_tolerances);
+    if (all.lost.places == 0) all.lost.first = of.lost.first;
+    all.lost.places += of.lost.places;
+  }
+
+  void report_graded() {
+    if (graded_ == 0 || !request_.by_material) return;
+    diagnostics_.warning({loaded_.source, 0, 0},
+                         (graded_ == 1 ? "1 beam has" : format_count(graded_) + " beams have") +
+                             " other materials at one end than at the other; each beam is of one, that in its middle");
+  }
+
+  const Loaded& loaded_;
+  MeshRequest request_;
+  Diagnostics& diagnostics_;
+  Progress* progress_;
+  const StopFlag* stop_;
+  size_t graded_ = 0;
+};
+
 }  // namespace
 
 std::optional<MeshedDesign> mesh_design(const Loaded& loaded, const MeshRequest& request, Diagnostics& diagnostics,
                                         Progress* progress, const StopFlag* stop) {
-  const std::optional<Box> box = design_box(loaded.design, diagnostics);
-  if (!box) return std::nullopt;
-  const auto fineness = choose_fineness(loaded.design, *box, request, diagnostics);
-  if (!fineness) return std::nullopt;
-  const design::Design design = for_tolerance(loaded.design, fineness->tolerance_mm);
-  const auto program = build_regions(design, *box, request, diagnostics);
-  if (!program) return std::nullopt;
-  const MeshPlan plan = plan_mesh(*program, *box, *fineness, request.threads);
-  if (request.announce) request.announce(plan);
-  if (!fits(plan, request, loaded, diagnostics)) return std::nullopt;
-  MeshedDesign made;
-  made.tolerance_mm = fineness->tolerance_mm;
-  made.cell_mm = fineness->cell.mm();
-  surface::ContourOptions options;
-  options.corners = corners_over(*box, fineness->cell);
-  options.tolerance_mm = made.tolerance_mm;
-  options.join_flat = request.join_flat;
-  options.threads = request.threads;
-  options.memory_bytes = request.memory_bytes;
-  const surface::RegionSurface surface = surface::contour(program->partition, options, progress, stop);
-  made.report = surface.report;
-  add_bodies(design, *program, *box, surface, made, diagnostics);
-  return made;
+  Mesher mesher(loaded, request, diagnostics, progress, stop);
+  return request.beams ? mesher.mesh_beams() : mesher.mesh(loaded.design, nullptr);
 }
 
 }  // namespace ombre::compile

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "compile/beam_bodies.h"
 #include "compile/load.h"
 #include "compile/region_request.h"
 #include "surface/bodies.h"
@@ -20,10 +21,11 @@ struct MeshPlan {
 };
 
 struct MeshRequest : RegionRequest {
+  bool beams = false;     // struts become beams, where they can; not with bands
   bool join_flat = true;  // cells are joined where the surface is flat
   int threads = 0;
   size_t memory_bytes = 0;                                       // most that cells may take; 0: no limit
-  std::function<void(const MeshPlan& plan)> announce = nullptr;  // called before the work; may be empty
+  std::function<void(const MeshPlan& plan)> announce = nullptr;  // called before each surface; may be empty
 };
 
 struct RegionBody {
@@ -35,7 +37,9 @@ struct RegionBody {
 };
 
 struct MeshedDesign {
-  std::vector<RegionBody> bodies;  // without those that are empty
+  std::vector<RegionBody> bodies;    // without those that are empty
+  std::vector<BeamBody> beams;       // where beams were wanted; not counted among the bodies
+  std::vector<surface::Body> clips;  // which cut the beams
   double tolerance_mm = 0, cell_mm = 0;
   surface::ContourReport report;
 };

@@ -47,8 +47,9 @@ std::string list_names(const std::vector<std::string>& names) {
 
 class RegionBuilder {
  public:
-  RegionBuilder(const design::Design& design, const RegionRule& rule, Diagnostics& diagnostics)
-      : design_(design), rule_(rule), diagnostics_(diagnostics), question_(design) {}
+  RegionBuilder(const design::Design& design, const RegionRule& rule, const design::NodePtr& shape,
+                Diagnostics& diagnostics)
+      : design_(design), rule_(rule), diagnostics_(diagnostics), question_(design, {.shape = shape}) {}
 
   std::optional<RegionProgram> build(const Box& box) {
     if (!add_scores()) return std::nullopt;
@@ -153,8 +154,8 @@ class RegionBuilder {
 }  // namespace
 
 std::optional<RegionProgram> build_region_program(const design::Design& design, const Box& box, const RegionRule& rule,
-                                                  Diagnostics& diagnostics) {
-  return RegionBuilder(design, rule, diagnostics).build(box);
+                                                  Diagnostics& diagnostics, const design::NodePtr& shape) {
+  return RegionBuilder(design, rule, shape, diagnostics).build(box);
 }
 
 }  // namespace ombre::compile

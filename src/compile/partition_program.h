@@ -35,9 +35,9 @@ struct RegionProgram {
   std::vector<Region> regions;
 };
 
-// What lies outside of `box` is void. Nothing, and diagnostics, when the rule names what is not there or the programs
-// would not fit into memory.
+// What lies outside of `box` is void, and outside of `shape`, a part of the design, where one is given. Nothing, and
+// diagnostics, when the rule names what is not there or the programs would not fit into memory.
 std::optional<RegionProgram> build_region_program(const design::Design& design, const Box& box, const RegionRule& rule,
-                                                  Diagnostics& diagnostics);
+                                                  Diagnostics& diagnostics, const design::NodePtr& shape = nullptr);
 
 }  // namespace ombre::compile

@@ -13,10 +13,12 @@ namespace {
 using program::Field;
 using program::Program;
 
-std::vector<design::NodePtr> roots(const design::Design& design, const design::NodePtr& solid, bool parts) {
+std::vector<design::NodePtr> roots(const design::Design& design, const design::NodePtr& solid,
+                                   const QuestionOptions& options) {
   std::vector<design::NodePtr> found;
-  if (parts) found = design.roots();
+  if (options.parts) found = design.roots();
   found.push_back(solid);
+  if (options.shape) found.push_back(options.shape);
   return found;
 }
 
@@ -25,7 +27,8 @@ std::vector<design::NodePtr> roots(const design::Design& design, const design::N
 Question::Question(const design::Design& design, const QuestionOptions& options)
     : design_(design),
       solid_(whole_solid(design)),
-      context_(design.materials, roots(design, solid_, options.parts), design.scale(), options.threads),
+      shape_(options.shape ? options.shape : solid_),
+      context_(design.materials, roots(design, solid_, options), design.scale(), options.threads),
       lowering_(context_, builder_),
       point_(options.frame(builder_)) {}
 

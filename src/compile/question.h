@@ -17,8 +17,9 @@ namespace ombre::compile {
 using Frame = std::function<program::Point(program::Builder& builder)>;
 
 struct QuestionOptions {
-  int threads = 1;     // that make tables of many parts; 0: all cores
-  bool parts = false;  // may part() be called?
+  int threads = 1;                  // that make tables of many parts; 0: all cores
+  bool parts = false;               // may part() be called?
+  design::NodePtr shape = nullptr;  // a part of the design that inside() and distance() are of; null: all of it
   Frame frame = program::Point::origin_frame;
 };
 
@@ -35,8 +36,8 @@ class Question {
   program::Builder& builder() { return builder_; }
   const program::Point& point() const { return point_; }
 
-  program::Field inside() { return lowering_.inside(*solid_, point_); }      // truth value
-  program::Field distance() { return lowering_.distance(*solid_, point_); }  // mm, negative inside
+  program::Field inside() { return lowering_.inside(*shape_, point_); }      // truth value
+  program::Field distance() { return lowering_.distance(*shape_, point_); }  // mm, negative inside
   // Meant inside only, as are attributes.
   design::Composition composition() { return lowering_.composition(*solid_, point_, design::Demand::inside); }
   // Of one part, by its number: a truth value.
@@ -60,7 +61,7 @@ class Question {
 
  private:
   const design::Design& design_;
-  design::NodePtr solid_;
+  design::NodePtr solid_, shape_;
   design::LoweringContext context_;
   program::Builder builder_;
   design::Lowering lowering_;

@@ -82,9 +82,9 @@ design::Design for_tolerance(const design::Design& design, double tolerance_mm) 
 }
 
 std::optional<RegionProgram> build_regions(const design::Design& design, const Box& box, const RegionRequest& request,
-                                           Diagnostics& diagnostics) {
+                                           Diagnostics& diagnostics, const design::NodePtr& shape) {
   const auto rule = region_rule(design, box, request, diagnostics);
-  return rule ? build_region_program(design, box, *rule, diagnostics) : std::nullopt;
+  return rule ? build_region_program(design, box, *rule, diagnostics, shape) : std::nullopt;
 }
 
 voxel::Lattice corners_over(const Box& box, Pitch cell) {

@@ -41,9 +41,9 @@ std::optional<Fineness> choose_fineness(const design::Design& design, const Box&
 // With voxels that are fine enough for surfaces of this tolerance.
 design::Design for_tolerance(const design::Design& design, double tolerance_mm);
 
-// Nothing, and diagnostics, when the design cannot be cut so.
+// Of the whole design, or of `shape`, a part of it. Nothing, and diagnostics, when the design cannot be cut so.
 std::optional<RegionProgram> build_regions(const design::Design& design, const Box& box, const RegionRequest& request,
-                                           Diagnostics& diagnostics);
+                                           Diagnostics& diagnostics, const design::NodePtr& shape = nullptr);
 
 // Corners of cells over the box, with void around it.
 voxel::Lattice corners_over(const Box& box, Pitch cell);

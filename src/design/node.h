@@ -126,6 +126,8 @@ class Node {
   virtual std::optional<Field> attribute(const Inputs& in, std::string_view name, const Point& p,
                                          Demand demand) const = 0;
   virtual std::optional<AttributeDeclaration> declares() const = 0;  // the attribute that it sets
+  // Is it of its one input's shape, to which it gives a material, an attribute or a name?
+  virtual bool keeps_shape() const = 0;
   // Where a node that only moves the question asks its input.
   virtual std::optional<Point> inner(const Point& p) const = 0;
   // Along struts: 0 at their start, 1 at their end. Nothing where the inputs are to be asked.

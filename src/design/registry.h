@@ -60,6 +60,9 @@ class NodeType {
   // Fills in what defaults leave open and checks what involves several parameters.
   virtual bool complete(Node& node, const Reader& reader, const std::vector<NodePtr>& inputs) const = 0;
 
+  // A copy of the node over other inputs. What it computed from its inputs when it was made stays as it is.
+  virtual NodePtr with_inputs(const Node& node, std::vector<NodePtr> others) const = 0;
+
   // Index of the parameter, or -1.
   int parameter(std::string_view parameter_name) const;
   std::vector<std::string> parameter_names() const;

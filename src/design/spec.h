@@ -162,6 +162,8 @@ class NodeOf final : public Node {
       return std::nullopt;
   }
 
+  bool keeps_shape() const override { return passes_on && type_.output == ValueType::solid && inputs().size() == 1; }
+
   std::optional<Point> inner(const Point& p) const override {
     if constexpr (requires { data.inner(p); })
       return data.inner(p);
@@ -291,6 +293,13 @@ class NodeTypeOf final : public NodeType {
       return data.complete(reader);
     else
       return true;
+  }
+
+  NodePtr with_inputs(const Node& node, std::vector<NodePtr> others) const override {
+    const auto copy = std::make_shared<NodeOf<T>>(*this);
+    copy->data = static_cast<const NodeOf<T>&>(node).data;
+    copy->finish(std::move(others), node.where());
+    return copy;
   }
 
   bool has_cell_numbers(const T& data) const {

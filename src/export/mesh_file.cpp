@@ -82,7 +82,8 @@ std::string material_library_path(const std::string& path) { return fs::path(pat
 
 void write_mesh_file(const std::string& path, const MeshDocument& document, MeshFormat format,
                      formats::SlicerFlavour flavour) {
-  if (document.triangle_count() == 0) throw Error("cannot write " + path + ": there are no triangles");
+  if (document.triangle_count() + document.beam_count() == 0)
+    throw Error("cannot write " + path + ": there are no triangles");
   switch (format) {
     case MeshFormat::stl:
       return write_bytes(path, formats::stl_bytes(document));

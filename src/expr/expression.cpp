@@ -235,12 +235,68 @@ bool Expression::uses(std::string_view variable) const {
   return found;
 }
 
-std::optional<double> Expression::constant_value() const {
+namespace {
+
+std::optional<double> constant_of(const Node& node) {
   bool has_variables = false;
-  each_variable(root(), [&](const Node&) { has_variables = true; });
-  if (has_variables || source()) return std::nullopt;
+  each_variable(node, [&](const Node&) { has_variables = true; });
+  if (has_variables || node.source) return std::nullopt;
   Builder builder;
-  return builder.constant_value(lower(Point::origin_frame(builder), nullptr));
+  const Point p = Point::origin_frame(builder);
+  const Variables none;
+  return builder.constant_value(Lowerer(p, none).lower(node));
+}
+
+using Linear = Expression::Linear;
+
+std::optional<Linear> combine_linear(Binary binary, Linear a, Linear b) {
+  if (binary == Binary::add) return Linear{a.constant + b.constant, a.slope + b.slope};
+  if (binary == Binary::subtract) return Linear{a.constant - b.constant, a.slope - b.slope};
+  if (binary == Binary::multiply && b.slope == 0) return Linear{a.constant * b.constant, a.slope * b.constant};
+  if (binary == Binary::multiply && a.slope == 0) return Linear{a.constant * b.constant, a.constant * b.slope};
+  if (binary == Binary::divide && b.slope == 0) return Linear{a.constant / b.constant, a.slope / b.constant};
+  return std::nullopt;
+}
+
+std::optional<Linear> linear(const Node& node, std::string_view variable);
+
+// a + b + c + ... without recursion to the left, as in Lowerer::chain.
+std::optional<Linear> linear_chain(const Node& node, std::string_view variable) {
+  std::vector<const Node*> links{&node};
+  while (links.back()->operands[0]->kind == Kind::binary) links.push_back(links.back()->operands[0].get());
+  std::optional<Linear> value = linear(*links.back()->operands[0], variable);
+  for (size_t i = links.size(); i-- > 0 && value;) {
+    const auto next = linear(*links[i]->operands[1], variable);
+    value = next ? combine_linear(links[i]->binary, *value, *next) : std::nullopt;
+  }
+  return value;
+}
+
+std::optional<Linear> linear(const Node& node, std::string_view variable) {
+  switch (node.kind) {
+    case Kind::number:
+      return Linear{node.number, 0};
+    case Kind::variable:
+      return node.name == variable ? std::optional(Linear{0, 1}) : std::nullopt;
+    case Kind::negate: {
+      const auto value = linear(*node.operands[0], variable);
+      return value ? std::optional(Linear{-value->constant, -value->slope}) : std::nullopt;
+    }
+    case Kind::binary:
+      return linear_chain(node, variable);
+    default: {
+      const auto constant = constant_of(node);
+      return constant ? std::optional(Linear{*constant, 0}) : std::nullopt;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<double> Expression::constant_value() const { return constant_of(root()); }
+
+std::optional<Expression::Linear> Expression::linear_in(std::string_view variable) const {
+  return linear(root(), variable);
 }
 
 Field Expression::lower(const Point& p, const Variables& extra) const { return Lowerer(p, extra).lower(root()); }

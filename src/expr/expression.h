@@ -57,6 +57,12 @@ using Variables = std::function<std::optional<program::Field>(std::string_view n
 // A handle: copies share what was parsed, and so do formulas of one text that a thread parses in a row.
 class Expression {
  public:
+  // constant + slope * variable.
+  struct Linear {
+    double constant = 0, slope = 0;
+    bool operator==(const Linear&) const = default;
+  };
+
   // Nothing, and diagnostics that point into the string, when it is wrong. `where` is the range of
   // the string's characters in its file, if they stand there literally. Unknown functions and wrong
   // argument counts are found here, unknown variables by `check_variables`.
@@ -73,6 +79,8 @@ class Expression {
   const program::SourceField& source() const { return root().source; }  // null: it is a formula
   // The number, if the expression has no variables.
   std::optional<double> constant_value() const;
+  // As it is written: sums, and products and quotients with constants. Nothing where it depends on other variables.
+  std::optional<Linear> linear_in(std::string_view variable) const;
 
   // Spelt in one way: what is the same but for spaces, case and brackets prints the same.
   const std::string& text() const { return parsed_->canonical; }

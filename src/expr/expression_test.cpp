@@ -164,6 +164,25 @@ TEST(Expression, MessagesPointIntoTheString) {
   EXPECT_NE(message(std::string(1000, '(')).find("nests deeper"), std::string::npos);
 }
 
+TEST(Expression, LinearFunctionsAreKnown) {
+  const auto linear = [](const std::string& text) {
+    Diagnostics diagnostics;
+    const auto parsed = Expression::parse(text, {}, diagnostics);
+    return parsed ? parsed->linear_in("t") : std::nullopt;
+  };
+  using Linear = Expression::Linear;
+  EXPECT_EQ(linear("3"), (Linear{3, 0}));
+  EXPECT_EQ(linear("t"), (Linear{0, 1}));
+  EXPECT_EQ(linear("1 - 0.5*t"), (Linear{1, -0.5}));
+  EXPECT_EQ(linear("-(t - 4) / 2 + 2*(3*t + 1)"), (Linear{4, 5.5}));
+  EXPECT_EQ(linear("t * sqrt(4) + max(1, 3)"), (Linear{3, 2}));
+  EXPECT_EQ(linear("sqrt(t)"), std::nullopt);
+  EXPECT_EQ(linear("t*t"), std::nullopt);
+  EXPECT_EQ(linear("1/t"), std::nullopt);
+  EXPECT_EQ(linear("t + x"), std::nullopt);
+  EXPECT_EQ(linear("t < 0.5"), std::nullopt);
+}
+
 TEST(Expression, LongSumsNeitherOverflowNorHang) {
   std::string sum = "x";
   for (int i = 0; i < 100000; ++i) sum += "+x";

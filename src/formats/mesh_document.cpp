@@ -14,4 +14,10 @@ size_t MeshDocument::triangle_count() const {
   return count;
 }
 
+size_t MeshDocument::beam_count() const {
+  size_t count = 0;
+  for (const WrittenBeams& lattice : beams) count += lattice.beams.size();
+  return count;
+}
+
 }  // namespace ombre::formats

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "formats/beam_lattice.h"
 #include "formats/rgba.h"
 
 namespace ombre::formats {
@@ -27,13 +28,27 @@ struct MeshBody {
   std::vector<std::pair<std::string, std::string>> settings = {};  // PrusaSlicer's keys: fill_density, 15%
 };
 
+// Beams between vertices. Only 3MF holds them.
+struct WrittenBeams {
+  std::string name;
+  std::vector<Vec3> vertices;  // mm
+  std::vector<Beam> beams;
+  std::vector<uint32_t> materials;  // one for each beam, indices into the document's; or empty
+  LatticeClipping clipping = LatticeClipping::none;
+  uint32_t clip = 0;  // where there is clipping: an index into the document's clips
+};
+
 struct MeshDocument {
   std::string title;
   std::vector<MeshMaterial> materials;
   std::vector<MeshBody> bodies;
+  std::vector<WrittenBeams> beams = {};
+  std::vector<MeshBody> clips = {};  // solids that are not there themselves
 
+  // Of the bodies.
   size_t vertex_count() const;
   size_t triangle_count() const;
+  size_t beam_count() const;
 };
 
 }  // namespace ombre::formats

@@ -1,5 +1,6 @@
 // 3D/3dmodel.model: materials, colours, objects, and what is built of them.
 #include "formats/append_numbers.h"
+#include "formats/three_mf_beams_text.h"
 #include "formats/three_mf_text.h"
 #include "formats/xml_text.h"
 
@@ -10,7 +11,7 @@ constexpr std::string_view model_begin =
     "<model unit=\"millimeter\" xml:lang=\"en-US\""
     " xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\""
     " xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\""
-    " xmlns:slic3rpe=\"http://schemas.slic3r.org/3mf/2017/06\">\n";
+    " xmlns:slic3rpe=\"http://schemas.slic3r.org/3mf/2017/06\"";
 
 std::string id_text(uint64_t id) { return xml_attribute("id", std::to_string(id)); }
 
@@ -62,6 +63,10 @@ class ModelText {
       if (!body.triangles.empty()) bodies_.push_back(&body);
     materials_id_ = bodies_.size() + 2;
     first_colours_id_ = materials_id_ + 1;
+    for (const WrittenBeams& beams : document.beams)
+      if (!beams.beams.empty()) beams_.push_back(&beams);
+    first_clip_id_ = first_colours_id_ + bodies_.size();
+    first_beams_id_ = first_clip_id_ + document.clips.size();
   }
 
   LazyBytes make() {
@@ -80,6 +85,8 @@ class ModelText {
   void add_begin() {
     std::string text(xml_declaration);
     text += model_begin;
+    if (!beams_.empty()) text += beam_lattice_space;
+    text += ">\n";
     if (flavour_ != SlicerFlavour::bambu) text += "<metadata name=\"slic3rpe:Version3mf\">1</metadata>\n";
     if (!document_.title.empty()) text += "<metadata name=\"Title\">" + xml_escaped(document_.title) + "</metadata>\n";
     bytes_.add(text + "<metadata name=\"Application\">ombre</metadata>\n<resources>\n");
@@ -148,6 +155,11 @@ class ModelText {
       add_part(i);
       components += "<component" + xml_attribute("objectid", std::to_string(i + 1)) + "/>\n";
     }
+    for (size_t i = 0; i < document_.clips.size(); ++i) add_clip(i);
+    for (size_t i = 0; i < beams_.size(); ++i) {
+      add_beams(i);
+      components += "<component" + xml_attribute("objectid", std::to_string(first_beams_id_ + i)) + "/>\n";
+    }
     const uint64_t assembly = bodies_.size() + 1;
     bytes_.add("<object" + id_text(assembly) + " type=\"model\"" + xml_attribute("name", document_.title) +
                ">\n<components>\n" + components + "</components>\n</object>\n");
@@ -167,14 +179,39 @@ class ModelText {
     bytes_.add("</triangles>\n</mesh>\n</object>\n");
   }
 
+  // Not built: only lattices refer to it.
+  void add_clip(size_t index) {
+    const MeshBody& clip = document_.clips[index];
+    bytes_.add("<object" + id_text(first_clip_id_ + index) + " type=\"model\"" + xml_attribute("name", clip.name) +
+               ">\n<mesh>\n<vertices>\n");
+    add_vertices(clip);
+    bytes_.add("</vertices>\n<triangles>\n");
+    add_triangles(clip, 0, {});
+    bytes_.add("</triangles>\n</mesh>\n</object>\n");
+  }
+
+  void add_beams(size_t index) {
+    const WrittenBeams& beams = *beams_[index];
+    const bool is_clipped = beams.clipping != LatticeClipping::none;
+    bytes_.add("<object" + id_text(first_beams_id_ + index) + " type=\"model\"" + xml_attribute("name", beams.name) +
+               ">\n<mesh>\n<vertices>\n");
+    bytes_.add_rows(beams.vertices.size(),
+                    [&beams](std::string& text, size_t vertex) { append_vertex(text, beams.vertices[vertex]); });
+    bytes_.add("</vertices>\n");
+    bytes_.add(beam_lattice_text(beams, is_clipped ? std::optional(first_clip_id_ + beams.clip) : std::nullopt,
+                                 materials_id_));
+    bytes_.add("</mesh>\n</object>\n");
+  }
+
   void add_build(uint64_t object) {
     bytes_.add("</resources>\n<build>\n<item" + xml_attribute("objectid", std::to_string(object)) + "/>\n</build>\n");
   }
 
   const MeshDocument& document_;
   SlicerFlavour flavour_;
-  std::vector<const MeshBody*> bodies_;  // those with triangles
-  uint64_t materials_id_ = 0, first_colours_id_ = 0;
+  std::vector<const MeshBody*> bodies_;     // those with triangles
+  std::vector<const WrittenBeams*> beams_;  // those with beams
+  uint64_t materials_id_ = 0, first_colours_id_ = 0, first_clip_id_ = 0, first_beams_id_ = 0;
   LazyBytes bytes_;
 };
 

@@ -2,6 +2,7 @@
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
 #include "nodes/segments.h"
+#include "nodes/struts.h"
 #include "nodes/unit_cells.h"
 
 namespace ombre::nodes {
@@ -62,6 +63,22 @@ struct Lattice {
   }
 
   size_t own_parts() const { return segments_.size(); }
+
+  // Nothing where they are no conical frusta.
+  std::optional<std::vector<StrutShape>> shapes() const {
+    std::optional<std::array<double, 2>> common;
+    if (const double* constant = radius.constant())
+      common = {*constant, *constant};
+    else if (const auto linear = radius.expression()->linear_in("t"))
+      common = {linear->constant, linear->constant + linear->slope};
+    std::vector<StrutShape> shapes;
+    for (const Strut& strut : segments_) {
+      if (strut.own_radius == 0 && !(common && (*common)[0] > 0 && (*common)[1] > 0)) return std::nullopt;
+      const auto radii = strut.own_radius > 0 ? std::array{strut.own_radius, strut.own_radius} : *common;
+      shapes.push_back({strut.start, strut.end, radii[0], radii[1]});
+    }
+    return shapes;
+  }
 
   std::optional<Vec3> pitch() const { return cell == "none" ? std::nullopt : std::optional(size); }
 
@@ -207,6 +224,16 @@ struct Lattice {
 };
 
 }  // namespace
+
+size_t strut_count(const design::Node& node) {
+  const auto* lattice = dynamic_cast<const NodeOf<Lattice>*>(&node);
+  return lattice ? lattice->data.own_parts() : 0;
+}
+
+std::optional<std::vector<StrutShape>> struts_of(const design::Node& node) {
+  const auto* lattice = dynamic_cast<const NodeOf<Lattice>*>(&node);
+  return lattice ? lattice->data.shapes() : std::nullopt;
+}
 
 void add_lattices(Registry& registry) { registry.add<Lattice>(); }
 

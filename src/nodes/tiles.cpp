@@ -5,6 +5,7 @@
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
 #include "nodes/mixtures.h"
+#include "nodes/struts.h"
 
 namespace ombre::nodes {
 namespace {
@@ -73,6 +74,16 @@ struct Tile {
   }
 
   double repetitions() const { return repetitions_; }
+
+  TileCopies all_copies() const {
+    TileCopies copies;
+    for (int n = 0; n < 3; ++n) {
+      const Axis& axis = axes_[static_cast<size_t>(n)];
+      copies.steps[n] = axis.step;
+      copies.indices[static_cast<size_t>(n)] = axis.step > 0 ? Interval{axis.first, axis.last} : Interval(0);
+    }
+    return copies;
+  }
 
   // The nearest copy is among the neighbours by distance, not by a bound of it.
   Metric metric(const Inputs& in) const {
@@ -239,6 +250,11 @@ struct Tile {
 };
 
 }  // namespace
+
+std::optional<TileCopies> tile_copies_of(const design::Node& node) {
+  const auto* tile = dynamic_cast<const NodeOf<Tile>*>(&node);
+  return tile ? std::optional(tile->data.all_copies()) : std::nullopt;
+}
 
 void add_tiles(Registry& registry) { registry.add<Tile>(); }
 
