@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Writes the sample meshes of examples/models/. Same bytes on every machine.
+beam_lattice.3mf is made by ombre, as beam_lattice.vcad beside it says.
 
     tools/make_models.py [FOLDER]
 """

@@ -17,6 +17,7 @@ trap 'rm -rf "$scratch"' EXIT
 
 # Options of `ombre render`.
 declare -A options=(
+  [beam_lattice]="--from -30,25"
   [calibration_sheet]="--from -20,55"
   [graded_wing]="--from -20,35"
   [keychain]="--from -20,50"

@@ -108,7 +108,7 @@ class Mesher {
 
  private:
   static design::Design alone(const design::Design& design, const design::NodePtr& solid) {
-    return {design.materials, {{"", solid}}, design.sampling, design.job_voxel_mm};
+    return {design.materials, {{"", solid}}, design.sampling, design.job_scale};
   }
 
   // All surfaces are as fine as one of the whole design would be.

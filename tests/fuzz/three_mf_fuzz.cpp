@@ -1,11 +1,13 @@
 // Any bytes as 3MF: an archive, or else the model file or a slicer's settings within one. A mesh that can be used, or a
 // message.
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 
 #include "formats/mesh.h"
 #include "formats/three_mf_model.h"
 #include "formats/three_mf_volumes.h"
+#include "import/beam_source.h"
 #include "import/exercise_mesh.h"
 
 namespace {
@@ -54,6 +56,29 @@ std::optional<ombre::formats::Mesh> read_settings(std::string_view bytes, ombre:
   }
 }
 
+// Asks for rows of sixteen voxels across, whatever the size, and for a distance.
+void exercise(const ombre::formats::PlacedLattice& placed) {
+  using namespace ombre;
+  const program::SourceField source = importing::make_beam_source("fuzz", placed, {});
+  const Box box = source->bounds();
+  source->sample(source->channel("distance"), box.center());
+  const double pitch = std::max({box.size().x, box.size().y, box.size().z, 1e-300}) / 16;
+  const Affine map = Affine::translation(box.lo) * Affine::scaling({pitch, pitch, pitch});
+  const auto rows = source->rows(source->channel("inside"), map);
+  if (!rows) return;
+  std::vector<std::vector<program::Span>> spans;
+  for (int64_t k = -1; k <= 17; ++k) {
+    rows->layer(k, -1, 17, 17, spans);
+    for (const auto& row : spans) {
+      int64_t end = 0;
+      for (const program::Span& span : row) {
+        if (span.begin < end || span.end <= span.begin || span.end > 17) std::abort();
+        end = span.end;
+      }
+    }
+  }
+}
+
 std::optional<ombre::formats::Mesh> read(std::string_view bytes, ombre::Diagnostics& diagnostics) {
   if (bytes.starts_with("PK")) return ombre::formats::read_3mf("fuzz.3mf", bytes, diagnostics);
   return bytes.starts_with("<config") ? read_settings(bytes, diagnostics) : read_model(bytes, diagnostics);
@@ -66,9 +91,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   ombre::Diagnostics diagnostics;
   auto mesh = read(bytes, diagnostics);
   if (mesh.has_value() == diagnostics.has_errors()) std::abort();
-  if (!mesh)
+  if (!mesh) {
     ombre::to_text(diagnostics);
-  else if (mesh->triangles.size() <= most_exercised)
+    return 0;
+  }
+  for (const ombre::formats::PlacedLattice& placed : mesh->lattices)
+    if (placed.lattice->beams.size() + placed.lattice->balls.size() <= most_exercised) exercise(placed);
+  if (!mesh->triangles.empty() && mesh->triangles.size() <= most_exercised)
     ombre::importing::test::exercise(std::move(*mesh));
   return 0;
 }

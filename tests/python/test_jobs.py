@@ -23,6 +23,24 @@ def test_jobs_write_files(tmp_path):
         part.mesh(tmp_path / "part.3mf")
 
 
+def test_struts_are_written_as_beams(tmp_path):
+    struts = ombre.lattice("bcc", (4, 4, 4), 0.5, material="green")
+    ball = ombre.sphere(1).translate(z=5)
+    report = (struts - ombre.cylinder(1, 10) | ball).mesh(tmp_path / "part.3mf", tolerance=0.02, beams=True)
+    (bodies,) = [event for event in report.events if event["event"] == "bodies"]
+    assert (bodies["beams"], bodies["clips"], len(bodies["bodies"])) == (8, 1, 1)
+    read = ombre.mesh(tmp_path / "part.3mf")
+    assert read.inside([[1.5, 1.5, 1.5], [0.1, 0, 0.3], [0, 0, 5], [1.5, 1.5, 0]]).tolist() == [True, False, True, False]
+    with pytest.raises(ombre.DesignError, match="beams are for .3mf"):
+        struts.mesh(tmp_path / "part.stl", beams=True)
+    with pytest.raises(ombre.DesignError, match="flavour prusa has no beams"):
+        struts.mesh(tmp_path / "other.3mf", beams=True, flavour="prusa")
+    with pytest.raises(ombre.DesignError, match="no bands"):
+        struts.mesh(tmp_path / "other.3mf", beams=True, bands=3)
+    with pytest.raises(ombre.DesignError, match="leave --beams out"):
+        ball.mesh(tmp_path / "other.3mf", beams=True)
+
+
 def test_parts_are_shown_without_a_display(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "OMBRE_RENDER"):
