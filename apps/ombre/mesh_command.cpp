@@ -43,7 +43,7 @@ constexpr const char* mesh_footer =
     "  ombre mesh part.vcad -o part.stl                   one body\n"
     "  ombre mesh part.vcad --tolerance 0.01\n"
     "  ombre mesh part.vcad --by materials -o part.3mf    a body for each material\n"
-    "  ombre mesh part.vcad --beams -o part.3mf           struts of lattices as beams of a 3MF file, all else as "
+    "  ombre mesh part.vcad --beams -o part.3mf           struts as beams of a 3MF file, all else as "
     "triangles\n"
     "  ombre mesh part.vcad --bands 4                     four bodies by the fraction that varies most\n"
     "  ombre mesh part.vcad --by red --borders 0.2,0.5    three bodies: red below 20 %, to 50 %, from there on\n"
@@ -64,7 +64,7 @@ void add_arguments(CLI::App& app, MeshArguments& a) {
                  "KEY=V1,V2,... one by one; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  app.add_flag("--beams", a.beams, "Write the struts of lattices as beams, where they can be; .3mf only");
+  app.add_flag("--beams", a.beams, "Write struts and lattices as beams, where they can be; .3mf only");
   add_threads(app, a.threads);
   app.add_option("--memory", a.memory, "Most memory for the cells at the surface (default 4G)")->type_name("SIZE");
   app.add_flag("--force", a.force, "Replace the file if it is there");

@@ -79,7 +79,7 @@ void leave_out_doubled(std::vector<formats::Beam>& beams) {
     const formats::Beam& beam = beams[index];
     const size_t low = beam.ends[0] < beam.ends[1] ? 0 : 1;
     return std::tuple(beam.ends[low], beam.ends[1 - low], static_cast<float>(beam.radii[low]),
-                      static_cast<float>(beam.radii[1 - low]));
+                      static_cast<float>(beam.radii[1 - low]), beam.caps);
   };
   std::vector<uint32_t> order(beams.size());
   for (uint32_t n = 0; n < order.size(); ++n) order[n] = n;
@@ -203,7 +203,9 @@ BeamBody beams_of(const BeamSet& set) {
   body.beams.reserve(set.struts.size());
   for (const nodes::StrutShape& strut : set.struts) {
     formats::Beam beam{{merger.add(strut.start), merger.add(strut.end)}, {strut.start_radius, strut.end_radius}, {}};
-    beam.caps.fill(have_same_radius(beam) ? formats::BeamCap::sphere : formats::BeamCap::hemisphere);
+    beam.caps.fill(strut.has_flat_ends      ? formats::BeamCap::butt
+                   : have_same_radius(beam) ? formats::BeamCap::sphere
+                                            : formats::BeamCap::hemisphere);
     body.beams.push_back(beam);
   }
   body.vertices = merger.take_points();

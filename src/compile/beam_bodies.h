@@ -11,7 +11,7 @@ namespace ombre::compile {
 
 struct BeamBody {
   std::vector<Vec3> vertices;         // mm
-  std::vector<formats::Beam> beams;   // with half balls or, where the radii are equal, balls at their ends
+  std::vector<formats::Beam> beams;   // flat, or with half balls or, where the radii are equal, balls at their ends
   std::vector<MaterialId> materials;  // of the beams, if each has its own
   design::Rgba colour{};              // of the whole
   formats::LatticeClipping clipping = formats::LatticeClipping::none;

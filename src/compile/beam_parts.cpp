@@ -53,7 +53,7 @@ Box reach(const std::vector<StrutShape>& struts) {
 }
 
 StrutShape placed(const StrutShape& strut, const Affine& map, double scale) {
-  return {map(strut.start), map(strut.end), scale * strut.start_radius, scale * strut.end_radius};
+  return {map(strut.start), map(strut.end), scale * strut.start_radius, scale * strut.end_radius, strut.has_flat_ends};
 }
 
 // Lengths all change by one factor.
@@ -160,7 +160,7 @@ class Splitter {
     report_lost(*box);
     if (!parts.sets.empty()) return parts;
     diagnostics_.error(root_->where(), "the design has no struts that can be written as beams",
-                       "leave --beams out; struts are what lattice makes");
+                       "leave --beams out; struts are what lattice and strut make");
     return std::nullopt;
   }
 
@@ -328,10 +328,15 @@ class Splitter {
 
   // Appends the struts within the box to the set of their clips. False where there are too many.
   bool add_piece(const Piece& piece, Box box, BeamParts& parts) {
-    for (const NodePtr& clip : piece.clips.inside) box = intersect(box, clip->bounds(design::design_space()));
     const auto [known, is_new] = sets_.try_emplace(piece.clips, parts.sets.size());
-    if (is_new) parts.sets.push_back(set_of(piece.clips));
+    if (is_new) {
+      parts.sets.push_back(set_of(piece.clips));
+      Box within = Box::everything();
+      for (const NodePtr& clip : piece.clips.inside) within = intersect(within, clip->bounds(design::design_space()));
+      boxes_.push_back(within);
+    }
     BeamSet& set = parts.sets[known->second];
+    box = intersect(box, boxes_[known->second]);
     const Box where = image(inverse(piece.design_from_here), box);
     const TileCopies one;
     const TileCopies& copies = piece.copies ? *piece.copies : one;
@@ -431,6 +436,7 @@ class Splitter {
   std::vector<Lost> lost_;
   std::unordered_map<const Node*, double> counts_;
   std::map<Clips, size_t> sets_;
+  std::vector<Box> boxes_;                                                    // around what the clips of each set leave
   std::map<std::pair<const Node*, std::array<double, 12>>, NodePtr> placed_;  // solids in the frame of the design
   double strut_count_ = 0;
 };

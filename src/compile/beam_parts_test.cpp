@@ -87,6 +87,17 @@ TEST(BeamParts, EdgesMayHaveRadiiOfTheirOwn) {
   EXPECT_EQ(set.struts[1].end_radius, 0.2);
 }
 
+TEST(BeamParts, StrutsOneByOneHaveTheirCaps) {
+  const BeamBody body =
+      beams_of(only_set("union() { strut((0, 0, 0), (9, 0, 0), 1); strut((0, 0, 0), (9, 0, 0), 1, caps=\"round\");"
+                        " strut((0, 0, 0), (9, 0, 0), \"1 + t\", caps=\"round\"); strut((9, 0, 0), (0, 0, 0), 1); }"));
+  ASSERT_EQ(body.beams.size(), 3u);
+  EXPECT_EQ(body.beams[0].caps[0], formats::BeamCap::butt);
+  EXPECT_EQ(body.beams[1].caps[0], formats::BeamCap::sphere);
+  EXPECT_EQ(body.beams[2].caps[1], formats::BeamCap::hemisphere);
+  EXPECT_EQ(body.beams[2].radii, (std::array<double, 2>{1, 2}));
+}
+
 TEST(BeamParts, TilesAreEnumeratedAndJoined) {
   // Centres, and corners of a grid of 4 x 3 x 2 cells.
   const BeamBody bcc =

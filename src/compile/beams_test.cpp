@@ -5,6 +5,7 @@
 #include "compile/sampler.h"
 #include "compile/test_designs.h"
 #include "formats/file.h"
+#include "formats/mesh.h"
 #include "formats/mesh_writers.h"
 
 namespace ombre::compile {
@@ -104,6 +105,10 @@ TEST_F(Beams, OfTaperedStrutsComeBack) {
                      false, 0.02, float_rounding);
 }
 
+TEST_F(Beams, OfStrutsWithFlatEndsComeBack) {
+  expect_same_voxels("strut((-4, -3, 1), (4.1, 2.7, 0.3), \"1.2 - t\");", false, 0.02, float_rounding);
+}
+
 TEST_F(Beams, OfTilesCutByASphereComeBack) {
   expect_same_voxels("intersection() { sphere(5); tile() lattice(\"octet\", (3, 3, 3), 0.3); }", false, 0.02, 0.02);
 }
@@ -133,6 +138,24 @@ TEST_F(Beams, OfSeveralMaterialsComeBack) {
   EXPECT_EQ(made.beams[0].materials.size(), 2u);
   // A mesh of a cube is exact.
   expect_same_voxels(text, true, 0.02, float_rounding);
+}
+
+TEST_F(Beams, OfTheExampleAreThoseOfItsDesign) {
+  const std::string models = OMBRE_SOURCE_DIR "/examples/models/beam_lattice";
+  write(formats::read_file(models + ".vcad"), false, 0.05);
+  Diagnostics diagnostics;
+  const auto made = formats::read_mesh(path_, diagnostics), kept = formats::read_mesh(models + ".3mf", diagnostics);
+  ASSERT_TRUE(made && kept) << to_text(diagnostics);
+  ASSERT_EQ(made->lattices.size(), 1u);
+  ASSERT_EQ(kept->lattices.size(), 1u);
+  const formats::BeamLattice &a = *made->lattices[0].lattice, &b = *kept->lattices[0].lattice;
+  EXPECT_TRUE(a.vertices == b.vertices);
+  ASSERT_EQ(a.beams.size(), b.beams.size());
+  for (size_t n = 0; n < a.beams.size(); ++n) {
+    EXPECT_EQ(a.beams[n].ends, b.beams[n].ends);
+    EXPECT_EQ(a.beams[n].radii, b.beams[n].radii);
+  }
+  EXPECT_TRUE(a.clip->triangles == b.clip->triangles);
 }
 
 TEST_F(Beams, AreTheSameOnAnyNumberOfThreads) {

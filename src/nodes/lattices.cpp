@@ -2,7 +2,7 @@
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
 #include "nodes/segments.h"
-#include "nodes/struts.h"
+#include "nodes/strut_families.h"
 #include "nodes/unit_cells.h"
 
 namespace ombre::nodes {
@@ -66,14 +66,10 @@ struct Lattice {
 
   // Nothing where they are no conical frusta.
   std::optional<std::vector<StrutShape>> shapes() const {
-    std::optional<std::array<double, 2>> common;
-    if (const double* constant = radius.constant())
-      common = {*constant, *constant};
-    else if (const auto linear = radius.expression()->linear_in("t"))
-      common = {linear->constant, linear->constant + linear->slope};
+    const auto common = end_radii(radius);
     std::vector<StrutShape> shapes;
     for (const Strut& strut : segments_) {
-      if (strut.own_radius == 0 && !(common && (*common)[0] > 0 && (*common)[1] > 0)) return std::nullopt;
+      if (strut.own_radius == 0 && !common) return std::nullopt;
       const auto radii = strut.own_radius > 0 ? std::array{strut.own_radius, strut.own_radius} : *common;
       shapes.push_back({strut.start, strut.end, radii[0], radii[1]});
     }
@@ -225,12 +221,12 @@ struct Lattice {
 
 }  // namespace
 
-size_t strut_count(const design::Node& node) {
+size_t lattice_strut_count(const design::Node& node) {
   const auto* lattice = dynamic_cast<const NodeOf<Lattice>*>(&node);
   return lattice ? lattice->data.own_parts() : 0;
 }
 
-std::optional<std::vector<StrutShape>> struts_of(const design::Node& node) {
+std::optional<std::vector<StrutShape>> lattice_struts(const design::Node& node) {
   const auto* lattice = dynamic_cast<const NodeOf<Lattice>*>(&node);
   return lattice ? lattice->data.shapes() : std::nullopt;
 }

@@ -3,6 +3,7 @@
 #include "nodes/all_nodes.h"
 #include "nodes/segments.h"
 #include "nodes/shapes.h"
+#include "nodes/strut_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -202,6 +203,12 @@ struct Strut {
 
   Field along(const Inputs&, const Point& p) const { return share(p); }
 
+  // Nothing where it is no conical frustum.
+  std::optional<StrutShape> shape() const {
+    const auto radii = end_radii(radius);
+    return radii ? std::optional(StrutShape{start, end, (*radii)[0], (*radii)[1], caps == "flat"}) : std::nullopt;
+  }
+
  private:
   Vec3 direction() const { return (1 / length(end - start)) * (end - start); }
 
@@ -235,6 +242,13 @@ struct Strut {
 };
 
 }  // namespace
+
+bool is_single_strut(const design::Node& node) { return dynamic_cast<const NodeOf<Strut>*>(&node) != nullptr; }
+
+std::optional<StrutShape> single_strut(const design::Node& node) {
+  const auto* strut = dynamic_cast<const NodeOf<Strut>*>(&node);
+  return strut ? strut->data.shape() : std::nullopt;
+}
 
 void add_round_solids(Registry& registry) { registry.add<Sphere, Ellipsoid, Cylinder, Cone, Torus, Strut>(); }
 

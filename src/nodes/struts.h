@@ -1,4 +1,4 @@
-// What lattices and tiles say of themselves to those who write struts as beams.
+// What nodes made of struts, and tiles, say of themselves to those who write struts as beams.
 #pragma once
 
 #include <array>
@@ -10,17 +10,18 @@
 
 namespace ombre::nodes {
 
-// A conical frustum, closed at each end by the half ball beyond it. mm.
+// A conical frustum, closed at each end by the half ball beyond it, or flat. mm.
 struct StrutShape {
   Vec3 start, end;
   double start_radius = 0, end_radius = 0;
+  bool has_flat_ends = false;
 };
 
-// Of how many struts the node itself is made: 0 for all that are no lattices.
+// Of how many struts the node itself is made: 0 for all but lattices and struts.
 size_t strut_count(const design::Node& node);
 
-// The struts of a lattice. Nothing for other nodes, and where the radius is no linear function of t or not above 0
-// at both ends.
+// The struts of a lattice, or the one of a strut. Nothing for other nodes, and where the radius is no linear function
+// of t or not above 0 at both ends.
 std::optional<std::vector<StrutShape>> struts_of(const design::Node& node);
 
 // Copies of an input, moved by whole multiples of the steps.
