@@ -215,7 +215,7 @@ BeamBody beams_of(const BeamSet& set) {
 
 std::optional<size_t> add_materials(const design::Design& design, int threads, BeamBody& body, Diagnostics& diagnostics,
                                     const StopFlag* stop) {
-  constexpr size_t at_once = size_t{1} << 16;
+  constexpr size_t at_once = size_t{1} << 18;
   auto sampler = BeamSampler::build(design, threads, stop, diagnostics);
   if (!sampler) return std::nullopt;
   size_t graded = 0;

@@ -23,24 +23,57 @@ uint32_t spread(uint32_t v) {
   return (v | (v << 2)) & 0x09249249U;
 }
 
-// Points in the order of a Z curve: what follows one another lies close together, so that few of many parts reach
-// a block of them.
-std::vector<uint32_t> along_curve(std::span<const Vec3> points) {
-  Box box;
-  for (const Vec3& p : points)
-    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) box = hull(box, Box{p, p});
-  std::vector<uint32_t> keys(points.size(), 0), order(points.size());
-  for (size_t n = 0; n < points.size(); ++n) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double extent = box.hi[axis] - box.lo[axis];
-      const double t = extent > 0 ? (points[n][axis] - box.lo[axis]) / extent * 1023 : 0;
-      keys[n] |= spread(t >= 0 && t <= 1023 ? static_cast<uint32_t>(t) : 0) << axis;
+// Points that are asked together: some of an order.
+struct Block {
+  size_t begin = 0, end = 0;
+};
+
+void add_blocks(size_t begin, size_t end, std::vector<Block>& blocks) {
+  for (; begin < end; begin += block_points) blocks.push_back({begin, std::min(begin + block_points, end)});
+}
+
+// Points in the order of a Z curve, and blocks that each lie in a cell of an octree: so few of many parts reach one.
+class Curve {
+ public:
+  explicit Curve(std::span<const Vec3> points) : keys_(points.size(), 0), order_(points.size()) {
+    Box box;
+    for (const Vec3& p : points)
+      if (is_finite(p)) box = hull(box, Box{p, p});
+    for (size_t n = 0; n < points.size(); ++n) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double extent = box.hi[axis] - box.lo[axis];
+        const double t = extent > 0 ? (points[n][axis] - box.lo[axis]) / extent * 1023 : 0;
+        keys_[n] |= spread(t >= 0 && t <= 1023 ? static_cast<uint32_t>(t) : 0) << axis;
+      }
+    }
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::stable_sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) { return keys_[a] < keys_[b]; });
+    cut(0, order_.size(), 0, first_digit);
+  }
+
+  const std::vector<uint32_t>& order() const { return order_; }
+  const std::vector<Block>& blocks() const { return blocks_; }
+
+ private:
+  static constexpr int first_digit = 27;  // three bits for each of ten levels
+
+  // The points from `begin` to `end` lie in the cell whose keys begin as `key` does, above the digit.
+  void cut(size_t begin, size_t end, uint32_t key, int digit) {
+    if (end - begin <= block_points || digit < 0) return add_blocks(begin, end, blocks_);
+    for (uint32_t n = 0; n < 8 && begin < end; ++n) {
+      const uint32_t last = key + ((n + 1) << digit) - 1;
+      const auto behind = std::partition_point(order_.begin() + static_cast<ptrdiff_t>(begin),
+                                               order_.begin() + static_cast<ptrdiff_t>(end),
+                                               [&](uint32_t point) { return keys_[point] <= last; });
+      const auto next = static_cast<size_t>(behind - order_.begin());
+      cut(begin, next, key + (n << digit), digit - 3);
+      begin = next;
     }
   }
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return keys[a] < keys[b]; });
-  return order;
-}
+
+  std::vector<uint32_t> keys_, order_;
+  std::vector<Block> blocks_;
+};
 
 // The program with those of many parts written out that reach the box.
 program::Program parts_within(const program::Program& program, const Box& box) {
@@ -82,17 +115,19 @@ std::optional<Sampler> Sampler::build(const design::Design& design, const Sample
 void Sampler::sample(std::span<const Vec3> points, std::span<double* const> columns, int threads,
                      const StopFlag* stop) const {
   std::vector<uint32_t> order;
+  std::vector<Block> blocks;
   if (program_.has_parts()) {
-    order = along_curve(points);
+    const Curve curve(points);
+    order = curve.order();
+    blocks = curve.blocks();
   } else {
     order.resize(points.size());
     std::iota(order.begin(), order.end(), 0U);
+    add_blocks(0, points.size(), blocks);
   }
-  const size_t blocks = (points.size() + block_points - 1) / block_points;
-  run_parallel(blocks, threads, [&](size_t block) {
+  run_parallel(blocks.size(), threads, [&](size_t n) {
     if (stop && stop->requested()) throw Cancelled();
-    const size_t begin = block * block_points;
-    sample_block(points, order.data() + begin, std::min(block_points, points.size() - begin), columns);
+    sample_block(points, order.data() + blocks[n].begin, blocks[n].end - blocks[n].begin, columns);
   });
 }
 

@@ -11,10 +11,10 @@
 namespace ombre::formats {
 namespace {
 
-constexpr std::string_view cap_words[]{"sphere", "hemisphere", "butt"};
-constexpr std::string_view clipping_words[]{"none", "inside", "outside"};
+constexpr std::string_view cap_texts[]{"sphere", "hemisphere", "butt"};
+constexpr std::string_view clipping_texts[]{"none", "inside", "outside"};
 
-std::string_view word(BeamCap cap) { return cap_words[static_cast<size_t>(cap)]; }
+std::string_view word(BeamCap cap) { return cap_texts[static_cast<size_t>(cap)]; }
 
 // What most beams have, the least of equally frequent values.
 template <class T>
@@ -105,7 +105,7 @@ LazyBytes beam_lattice_text(const WrittenBeams& written, std::optional<uint64_t>
   append_length(begin, "minlength", least_length(written));
   append_length(begin, "radius", usual.radius);
   if (clip) {
-    begin += xml_attribute("clippingmode", clipping_words[static_cast<size_t>(written.clipping)]);
+    begin += xml_attribute("clippingmode", clipping_texts[static_cast<size_t>(written.clipping)]);
     append_index(begin, "clippingmesh", *clip);
   }
   if (!written.materials.empty()) {
