@@ -1,5 +1,5 @@
-// Mesh files from a document, one writer per format. Lengths are mm, z is up; bodies without triangles are left out, and
-// beams from all formats but 3MF.
+// Mesh files from a document, one writer per format. Lengths are mm, z is up; bodies without triangles are left out,
+// and beams from all formats but 3MF.
 //
 // The bytes are made while they are read, from the document, which must live as long. Equal documents give equal
 // bytes. Coordinates are rounded to floats. All but write_3mf throw Error for what a format cannot hold.
