@@ -5,7 +5,7 @@
 
 #include "base/text.h"
 #include "compile/possible_outputs.h"
-#include "program/passes/passes.h"
+#include "program/passes/narrow.h"
 
 namespace ombre::compile {
 namespace {
@@ -88,8 +88,6 @@ void leave_out_impossible(Built& built, const Box& box, int threads) {
   std::vector<bool> possible = possible_outputs(m.program, box, threads);
   const auto first = possible.begin() + 1, behind = first + static_cast<ptrdiff_t>(m.materials.size());
   if (std::find(first, behind, true) == behind) *first = true;  // a program has a material, also where all is void
-  std::vector<Interval> values;
-  program::evaluate_intervals(m.program, box, values);
   program::Program kept = m.program;
   std::vector<MaterialId> materials;
   std::vector<design::Check> checks;
@@ -104,7 +102,7 @@ void leave_out_impossible(Built& built, const Box& box, int threads) {
     else
       checks.push_back(built.checks[n - 1 - m.materials.size()]);
   }
-  m.program = program::shorten(kept, values);
+  m.program = program::narrow(kept, box).program;
   m.materials = std::move(materials);
   m.check_count = checks.size();
   built.checks = std::move(checks);

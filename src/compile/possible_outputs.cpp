@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/tasks.h"
-#include "program/passes/passes.h"
+#include "program/passes/narrow.h"
 #include "program/passes/prepare.h"
 
 namespace ombre::compile {
@@ -24,7 +24,10 @@ class Search {
  public:
   // `first_counts`: where the first output is 0 the others do not count.
   Search(const program::Program& program, bool first_counts, int threads)
-      : program_(program), batch_(program::prepare(program, program::Purpose::ranges)), first_counts_(first_counts), threads_(threads) {
+      : program_(program),
+        batch_(program::prepare(program, program::Purpose::ranges)),
+        first_counts_(first_counts),
+        threads_(threads) {
     for (size_t n = first_counts ? 1 : 0; n < program.outputs.size(); ++n) open_.push_back(n);
   }
 
@@ -125,9 +128,7 @@ bool is_zero_everywhere(const program::Program& program, size_t output, const Bo
   program::Program alone = program;
   alone.outputs = {program.outputs[output]};
   alone.output_names = {program.output_names[output]};
-  std::vector<Interval> values;
-  program::evaluate_intervals(alone, box, values);
-  return Search(program::shorten(alone, values), false, threads).run(box)[0] == Answer::no;
+  return Search(program::narrow(alone, box).program, false, threads).run(box)[0] == Answer::no;
 }
 
 }  // namespace

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 
-#include "program/passes/passes.h"
+#include "program/passes/narrow.h"
 
 namespace ombre::surface {
 
 program::Program shortened_for(const program::Program& details, const Box& box, size_t many) {
-  std::vector<Interval> values, kept;
-  program::evaluate_intervals(details, box, values);
-  program::Program shorter = program::shorten(details, values, &kept);
-  if (!shorter.has_parts() || (many != all_parts && program::parts_in_reach(shorter, kept, many) >= many))
-    return shorter;
-  return program::expand_parts(shorter, kept, program::Precision::reference);
+  program::Remainder left = program::narrow(details, box);
+  const auto has_many = [&] { return program::parts_in_reach(left.program, left.ranges, many) >= many; };
+  if (!left.program.has_parts() || (many != all_parts && has_many())) return std::move(left.program);
+  return program::expand_parts(left.program, left.ranges, program::Precision::reference);
 }
 
 void PointAsker::begin(const Partition& partition, const program::Program& program) {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "eval/batch/batch.h"
-#include "program/passes/passes.h"
+#include "program/passes/narrow.h"
 #include "voxel/draws.h"
 #include "voxel/leaf.h"
 #include "voxel/part_rows.h"
@@ -300,12 +300,8 @@ class BatchLeaf : public LeafEvaluator {
   }
 
   void shorten_reference() {
-    std::vector<Interval> ranges;
-    evaluate_intervals(job_.selector.reference, centers(job_.lattice, tile_), ranges, rows_.sources->ranges(tile_));
-    std::vector<Interval> kept;
-    reference_program_ = program::shorten(job_.selector.reference, ranges, &kept);
-    if (reference_program_.has_parts())
-      reference_program_ = program::expand_parts(reference_program_, kept, program::Precision::reference);
+    reference_program_ = program::narrow_to_parts(job_.selector.reference, centers(job_.lattice, tile_),
+                                                  program::Precision::reference, rows_.sources->ranges(tile_));
   }
 
   const VoxelJob& job_;

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "eval/batch/batch.h"
 #include "eval/rows.h"
-#include "program/passes/passes.h"
+#include "program/passes/narrow.h"
 #include "program/passes/prepare.h"
 #include "voxel/place_sources.h"
 #include "voxel/tile_points.h"
@@ -143,11 +143,8 @@ class FieldWalk {
   }
 
   void redo_unknown(FieldTile& made) {
-    std::vector<Interval> values, kept;
-    const auto ranges = sources_->ranges(made.box);
-    evaluate_intervals(parts_.reference, centers(parts_.lattice, made.box), values, ranges);
-    program::Program left = program::shorten(parts_.reference, values, &kept);
-    if (left.has_parts()) left = program::expand_parts(left, kept, program::Precision::reference);
+    const program::Program left = program::narrow_to_parts(parts_.reference, centers(parts_.lattice, made.box),
+                                                           program::Precision::reference, sources_->ranges(made.box));
     compute_by_reference(left, made, true);
   }
 

@@ -5,7 +5,7 @@
 
 #include "base/assert.h"
 #include "base/error.h"
-#include "program/passes/passes.h"
+#include "program/passes/narrow.h"
 #include "voxel/place_sources.h"
 #include "voxel/strip_diffusion.h"
 #include "voxel/walk.h"
@@ -14,12 +14,6 @@ namespace ombre::voxel {
 namespace {
 
 constexpr int64_t strip_rows = 64;
-
-// What is left of a program in a region.
-struct Remainder {
-  program::Program program;
-  std::vector<Interval> ranges;
-};
 
 // Floats carry 24 bits; a hundredth of a voxel should still be seen at the far end.
 bool floats_resolve(const Lattice& lattice) {
@@ -77,13 +71,9 @@ struct LayerEvaluator::Parts {
   }
 
   // What is left of the program in a slab.
-  Remainder remainder(const TileBox& slab) const {
+  program::Remainder remainder(const TileBox& slab) const {
     const program::Program& whole = is_batch() ? job.selector.batch : job.selector.reference;
-    Remainder rest;
-    std::vector<Interval> values;
-    program::evaluate_intervals(whole, centers(job.lattice, slab), values, nullptr, precision());
-    rest.program = program::shorten(whole, values, &rest.ranges);
-    return rest;
+    return program::narrow(whole, centers(job.lattice, slab), precision());
   }
 };
 
@@ -161,7 +151,7 @@ std::vector<LayerResult> LayerEvaluator::layers(int64_t begin, int64_t end, cons
   std::vector<std::vector<CheckHits>> checks(results.size(), std::vector<CheckHits>(check_count));
   for (LayerResult& layer : results)
     layer.runs = RunLayer(static_cast<uint32_t>(count[0]), static_cast<uint32_t>(count[1]));
-  const Remainder slab = parts_->remainder({{0, 0, begin}, {count[0], count[1], end}});
+  const program::Remainder slab = parts_->remainder({{0, 0, begin}, {count[0], count[1], end}});
   const auto leaf = parts_->make_leaf();
   TileWalk walk(parts_->job, parts_->precision(), parts_->walk_options(), *leaf);
   RowSink sink(*parts_, results, begin);
