@@ -90,7 +90,7 @@ std::vector<std::string> output_files(const LayerArguments& a, const compile::Sl
   return files;
 }
 
-void tell_layer(const Console& console, const compile::SliceRequest& request, int64_t layer,
+void tell_layer(const Console& console, const compile::SliceRequest& request, int64_t layer, bool is_part,
                 const compile::LayerImages& images, const std::vector<std::string>& files) {
   const auto face = [&](int64_t index) {
     return request.lattice.origin.z + request.lattice.pitch[2].times(static_cast<double>(index));
@@ -100,8 +100,8 @@ void tell_layer(const Console& console, const compile::SliceRequest& request, in
   DataList materials, names;
   for (size_t i = 0; i < request.materials.size(); ++i) {
     if (!request.shades)
-      console.say("  " + request.materials[i].name + ": " + format_count(images.voxels[i]) +
-                  " voxels in the whole layer");
+      console.say("  " + request.materials[i].name + ": " + format_count(images.voxels[i]) + " voxels" +
+                  (is_part ? " in the box" : ""));
     materials.emplace_back(
         DataMembers{{"name", request.materials[i].name}, {"voxels", static_cast<double>(images.voxels[i])}});
   }
@@ -121,12 +121,12 @@ int write_layer(const LayerArguments& a, const compile::Plan& plan, Session& ses
   if (!to_stdout)
     for (const std::string& file : files) refuse_to_overwrite(file, a.force);
 
-  const compile::LayerImages images = compile::make_layer(request, plan.producer, layer, window);
+  const compile::LayerImages images = compile::make_layer(request, plan.regions, layer, window);
   if (to_stdout) {
     session.console.print(images.bytes.front());
   } else {
     for (size_t i = 0; i < files.size(); ++i) exporting::write_file(files[i], images.bytes[i]);
-    tell_layer(session.console, request, layer, images, files);
+    tell_layer(session.console, request, layer, window.has_value(), images, files);
   }
   tell_checks(session.console, images.checks);
   return done;

@@ -17,47 +17,30 @@ namespace {
 using voxel::FieldTile;
 using voxel::TileBox;
 
-// The part of a row's stretch that lies in the region: a tile of one row.
-class RowTiles {
- public:
-  RowTiles(const TileBox& region, std::vector<FieldTile>& tiles) : region_(region), tiles_(tiles) {}
-
-  void add_row(const RowView& row, int64_t j, int64_t k) {
-    int64_t i = 0;
-    const MaterialId* dense = row.dense.data();
-    for (const Run& run : row.runs) {
-      add({{i, j, k}, {i + run.length, j + 1, k + 1}}, run, dense);
-      if (run.is_dense) dense += run.length;
-      i += run.length;
-    }
-  }
-
- private:
-  void add(TileBox box, const Run& run, const MaterialId* dense) {
-    const int64_t begin = std::max(box.lo[0], region_.lo[0]), end = std::min(box.hi[0], region_.hi[0]);
-    if (begin >= end) return;
-    const MaterialId* from = dense + (begin - box.lo[0]);
-    box.lo[0] = begin;
-    box.hi[0] = end;
+// Each stretch of a row as a tile.
+void add_row(const RowView& row, std::array<int64_t, 3> at, std::vector<FieldTile>& tiles) {
+  const MaterialId* dense = row.dense.data();
+  for (const Run& run : row.runs) {
+    const TileBox box{at, {at[0] + run.length, at[1] + 1, at[2] + 1}};
     if (run.is_dense)
-      tiles_.push_back({box, false, std::vector<float>(from, from + (end - begin))});
+      tiles.push_back({box, false, std::vector<float>(dense, dense + run.length)});
     else
-      tiles_.push_back({box, true, {static_cast<float>(run.material)}});
+      tiles.push_back({box, true, {static_cast<float>(run.material)}});
+    if (run.is_dense) dense += run.length;
+    at[0] += run.length;
   }
-
-  const TileBox& region_;
-  std::vector<FieldTile>& tiles_;
-};
+}
 
 // What slicing puts into the voxels, run by run.
-TileProducer material_tiles(const LayerProducer& layers) {
-  return [layers](const TileBox& region, const StopFlag* stop) {
+TileProducer material_tiles(const RegionProducer& regions) {
+  return [regions](const TileBox& region, const StopFlag* stop) {
     std::vector<FieldTile> tiles;
-    RowTiles rows(region, tiles);
-    const auto made = layers(region.lo[2], region.hi[2], stop);
+    const auto made = regions(region, stop);
     for (int64_t k = region.lo[2]; k < region.hi[2]; ++k)
-      for (int64_t j = region.lo[1]; j < region.hi[1]; ++j)
-        rows.add_row(made[static_cast<size_t>(k - region.lo[2])].runs.row(static_cast<uint32_t>(j)), j, k);
+      for (int64_t j = region.lo[1]; j < region.hi[1]; ++j) {
+        const RunLayer& layer = made[static_cast<size_t>(k - region.lo[2])].runs;
+        add_row(layer.row(static_cast<uint32_t>(j - region.lo[1])), {region.lo[0], j, k}, tiles);
+      }
     return tiles;
   };
 }
@@ -167,7 +150,7 @@ std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, con
   job.grids.insert(job.grids.end(), attributes->begin(), attributes->end());
   job.metric = whole_solid(loaded->design)->metric();
   if (wishes.materials) {
-    job.tiles = material_tiles(plan.producer);
+    job.tiles = material_tiles(plan.regions);
     return job;
   }
   if (wishes.narrow_band && wishes.distance) {

@@ -30,7 +30,7 @@ struct Grid {
 // Which grids are wanted. Materials go alone.
 struct GridWishes {
   bool materials = false, fractions = false, distance = false;
-  bool narrow_band = false;             // distances beyond a few voxels are cut off
+  bool narrow_band = false;                  // distances beyond a few voxels are cut off
   std::vector<std::string> attributes = {};  // by name
   bool all_attributes = false;
 };

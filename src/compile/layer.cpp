@@ -18,16 +18,6 @@ double in_voxels(const voxel::Lattice& lattice, size_t axis, double mm) {
   return std::clamp(voxels, -2.0, static_cast<double>(lattice.count[axis]) + 2);
 }
 
-RunLayer cut(const RunLayer& layer, const LayerWindow& window) {
-  RunLayer part(static_cast<uint32_t>(window.hi[0] - window.lo[0]));
-  std::vector<MaterialId> row(layer.width());
-  for (int64_t j = window.lo[1]; j < window.hi[1]; ++j) {
-    layer.row(static_cast<uint32_t>(j)).unpack(row.data());
-    part.append_row(row.data() + window.lo[0]);
-  }
-  return part;
-}
-
 }  // namespace
 
 std::optional<int64_t> layer_at(const voxel::Lattice& lattice, double z_mm) {
@@ -52,16 +42,16 @@ std::optional<LayerWindow> window_over(const voxel::Lattice& lattice, double x0,
   return LayerWindow{{x->first, y->first}, {x->second, y->second}};
 }
 
-LayerImages make_layer(const SliceRequest& request, const LayerProducer& producer, int64_t layer,
+LayerImages make_layer(const SliceRequest& request, const RegionProducer& regions, int64_t layer,
                        const std::optional<LayerWindow>& window) {
   SliceRequest kept = request;
   kept.drop_empty_layers = false;
-  const LayerProducer cutting = [&](int64_t begin, int64_t end, const StopFlag* stop) {
-    std::vector<voxel::LayerResult> layers = producer(begin, end, stop);
-    for (voxel::LayerResult& result : layers) result.runs = cut(result.runs, *window);
-    return layers;
+  const auto& count = request.lattice.count;
+  const LayerWindow pixels = window.value_or(LayerWindow{{0, 0}, {count[0], count[1]}});
+  const LayerProducer producer = [&](int64_t begin, int64_t end, const StopFlag* stop) {
+    return regions({{pixels.lo[0], pixels.lo[1], begin}, {pixels.hi[0], pixels.hi[1], end}}, stop);
   };
-  std::vector<EncodedLayer> made = make_slab(kept, window ? cutting : producer, image_stack(kept), {layer, layer + 1});
+  std::vector<EncodedLayer> made = make_slab(kept, producer, image_stack(kept), {layer, layer + 1});
   EncodedLayer& only = made.front();
   CheckSums checks(request);
   checks.add(only.entry.checks);

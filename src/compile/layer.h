@@ -31,13 +31,13 @@ std::optional<LayerWindow> window_over(const voxel::Lattice& lattice, double x0,
 
 struct LayerImages {
   std::vector<std::string> bytes;   // of its PNG files: one, or one for each material
-  std::vector<uint64_t> voxels;     // of each of the job's materials, in the whole layer
-  std::vector<CheckReport> checks;  // those that failed in the whole layer
+  std::vector<uint64_t> voxels;     // of each of the job's materials
+  std::vector<CheckReport> checks;  // those that failed
 };
 
 // Without a window, the files that slicing writes for this layer (also where it would drop an empty one);
-// with one, those of their pixels.
-LayerImages make_layer(const SliceRequest& request, const LayerProducer& producer, int64_t layer,
+// with one, those of their pixels, with counts and checks of the window.
+LayerImages make_layer(const SliceRequest& request, const RegionProducer& regions, int64_t layer,
                        const std::optional<LayerWindow>& window);
 
 }  // namespace ombre::compile

@@ -62,7 +62,8 @@ struct PlanOptions {
 
 struct Plan {
   SliceRequest request;
-  LayerProducer producer;
+  RegionProducer regions;
+  LayerProducer producer;  // of whole layers, by `regions`
 };
 
 // Nothing, and diagnostics, when the design cannot be sliced so (does not fit, too many materials).

@@ -166,6 +166,12 @@ SliceRequest base_request(const PlanOptions& options, const voxel::Lattice& latt
   return request;
 }
 
+LayerProducer whole_layers(const RegionProducer& regions, const voxel::Lattice& lattice) {
+  return [regions, count = lattice.count](int64_t begin, int64_t end, const StopFlag* stop) {
+    return regions({{0, 0, begin}, {count[0], count[1], end}}, stop);
+  };
+}
+
 std::optional<Plan> plan_shades(const LoadedPtr& loaded, PlanOptions options, const Box& box,
                                 const voxel::Lattice& lattice, Diagnostics& diagnostics) {
   const design::Design design = design::for_job(loaded->design, lattice.voxel_mm());
@@ -177,11 +183,12 @@ std::optional<Plan> plan_shades(const LoadedPtr& loaded, PlanOptions options, co
   plan.request.background = {0, 0, 0, 255};
   plan.request.materials = value_shades();
   plan.request.shades = *meaning;
-  auto layers = value_layers(design, lattice, *meaning, plan.request.evaluator, diagnostics);
-  if (!layers) return std::nullopt;
-  plan.producer = [loaded, layers = std::move(*layers)](int64_t begin, int64_t end, const StopFlag* stop) {
-    return layers(begin, end, stop);
+  auto regions = value_layers(design, lattice, *meaning, plan.request.evaluator, diagnostics);
+  if (!regions) return std::nullopt;
+  plan.regions = [loaded, regions = std::move(*regions)](const voxel::TileBox& region, const StopFlag* stop) {
+    return regions(region, stop);
   };
+  plan.producer = whole_layers(plan.regions, lattice);
   return plan;
 }
 
@@ -233,9 +240,10 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   how.evaluator = request.evaluator;
   auto evaluator =
       std::make_shared<const voxel::LayerEvaluator>(built->materials, *lattice, options.dither, options.seed, how);
-  plan.producer = [loaded, evaluator](int64_t begin, int64_t end, const StopFlag* stop) {
-    return evaluator->layers(begin, end, stop);
+  plan.regions = [loaded, evaluator](const voxel::TileBox& region, const StopFlag* stop) {
+    return evaluator->region(region, stop);
   };
+  plan.producer = whole_layers(plan.regions, *lattice);
   return plan;
 }
 

@@ -63,6 +63,11 @@ struct LayerRange {
 // Nothing when the text is none of these or selects no layer.
 std::optional<LayerRange> parse_layer_range(std::string_view text, int64_t layer_count);
 
+// A box of the job's voxels, layer by layer, lowest first; results have its width and height. Called from several
+// threads. Throws Cancelled when asked to stop.
+using RegionProducer =
+    std::function<std::vector<voxel::LayerResult>(const voxel::TileBox& region, const StopFlag* stop)>;
+
 // Layers [begin, end), lowest first. Called from several threads. Throws Cancelled when asked to stop.
 using LayerProducer = std::function<std::vector<voxel::LayerResult>(int64_t begin, int64_t end, const StopFlag* stop)>;
 

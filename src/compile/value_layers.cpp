@@ -55,18 +55,20 @@ class Strip {
   std::vector<MaterialId> shades_;
 };
 
-std::vector<LayerResult> layers_of(const voxel::FieldEvaluator& evaluator, const voxel::Lattice& lattice, int64_t begin,
-                                   int64_t end, const StopFlag* stop) {
-  std::vector<LayerResult> layers(static_cast<size_t>(end - begin));
-  for (LayerResult& layer : layers) layer.runs = RunLayer(static_cast<uint32_t>(lattice.count[0]));
-  for (int64_t j = 0; j < lattice.count[1]; j += strip_rows) {
+std::vector<LayerResult> layers_of(const voxel::FieldEvaluator& evaluator, const TileBox& region,
+                                   const StopFlag* stop) {
+  std::vector<LayerResult> layers(static_cast<size_t>(region.size(2)));
+  for (LayerResult& layer : layers) layer.runs = RunLayer(static_cast<uint32_t>(region.size(0)));
+  for (int64_t j = region.lo[1]; j < region.hi[1]; j += strip_rows) {
     if (stop && stop->requested()) throw Cancelled();
-    const TileBox box{{0, j, begin}, {lattice.count[0], std::min(j + strip_rows, lattice.count[1]), end}};
+    TileBox box = region;
+    box.lo[1] = j;
+    box.hi[1] = std::min(j + strip_rows, region.hi[1]);
     Strip strip(box);
     for (const FieldTile& tile : evaluator.tiles(box, stop)) strip.take(tile);
-    for (int64_t k = begin; k < end; ++k)
+    for (int64_t k = region.lo[2]; k < region.hi[2]; ++k)
       for (int64_t row = box.lo[1]; row < box.hi[1]; ++row)
-        layers[static_cast<size_t>(k - begin)].runs.append_row(strip.row(row, k));
+        layers[static_cast<size_t>(k - region.lo[2])].runs.append_row(strip.row(row, k));
   }
   for (LayerResult& layer : layers) layer.material_counts = count_materials(layer.runs);
   return layers;
@@ -85,18 +87,16 @@ std::optional<ShadeMeaning> shade_meaning(const design::Design& design, const Bo
   return meaning;
 }
 
-std::optional<LayerProducer> value_layers(const design::Design& design, const voxel::Lattice& lattice,
-                                          const ShadeMeaning& meaning, voxel::Evaluator evaluator,
-                                          Diagnostics& diagnostics) {
+std::optional<RegionProducer> value_layers(const design::Design& design, const voxel::Lattice& lattice,
+                                           const ShadeMeaning& meaning, voxel::Evaluator evaluator,
+                                           Diagnostics& diagnostics) {
   Question question(design);
   const auto value = question.value(meaning.of, diagnostics);
   if (!value) return std::nullopt;
   auto program = question.program({{meaning.of, shade_of(question, *value, meaning.range)}}, diagnostics);
   if (!program) return std::nullopt;
   auto fields = std::make_shared<const voxel::FieldEvaluator>(std::move(*program), lattice, evaluator);
-  return [fields, lattice](int64_t begin, int64_t end, const StopFlag* stop) {
-    return layers_of(*fields, lattice, begin, end, stop);
-  };
+  return [fields](const TileBox& region, const StopFlag* stop) { return layers_of(*fields, region, stop); };
 }
 
 std::vector<SliceMaterial> value_shades() {

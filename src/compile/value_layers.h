@@ -22,9 +22,9 @@ std::optional<ShadeMeaning> shade_meaning(const design::Design& design, const Bo
 
 // Voxels have the shades 0 to 255 in place of materials: 0 up to range.lo and outside, 255 from range.hi on, linear and
 // to the nearest in between. Nothing, and a diagnostic, when the program would not fit into memory.
-std::optional<LayerProducer> value_layers(const design::Design& design, const voxel::Lattice& lattice,
-                                          const ShadeMeaning& meaning, voxel::Evaluator evaluator,
-                                          Diagnostics& diagnostics);
+std::optional<RegionProducer> value_layers(const design::Design& design, const voxel::Lattice& lattice,
+                                           const ShadeMeaning& meaning, voxel::Evaluator evaluator,
+                                           Diagnostics& diagnostics);
 
 // The shades but for black, as a job's materials.
 std::vector<SliceMaterial> value_shades();

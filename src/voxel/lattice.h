@@ -30,4 +30,11 @@ struct Lattice {
 // A box of size s at pitch v has ceil(s / v - 1e-6) voxels, at least one.
 int64_t voxels_along(double size_mm, Pitch pitch);
 
+// Voxels [lo, hi) on each axis.
+struct TileBox {
+  std::array<int64_t, 3> lo{}, hi{};
+  int64_t size(int axis) const { return hi[static_cast<size_t>(axis)] - lo[static_cast<size_t>(axis)]; }
+  int64_t voxels() const { return size(0) * size(1) * size(2); }
+};
+
 }  // namespace ombre::voxel

@@ -77,9 +77,25 @@ struct LayerEvaluator::Parts {
   }
 };
 
+// The part of whole layers that lies in a box.
+std::vector<LayerResult> cut(std::vector<LayerResult> layers, const TileBox& box) {
+  for (LayerResult& layer : layers) {
+    RunLayer part(static_cast<uint32_t>(box.size(0)), static_cast<uint32_t>(box.size(1)));
+    std::vector<MaterialId> row(layer.runs.width());
+    for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
+      layer.runs.row(static_cast<uint32_t>(j)).unpack(row.data());
+      part.append_row(row.data() + box.lo[0]);
+    }
+    layer.runs = std::move(part);
+    layer.material_counts = count_materials(layer.runs);
+  }
+  return layers;
+}
+
 // Takes the rows of strips to the layers' runs, where errors are diffused by way of that.
 class RowSink {
  public:
+  // `begin` is the number of the first layer.
   RowSink(const LayerEvaluator::Parts& parts, std::vector<LayerResult>& layers, int64_t begin) : layers_(layers) {
     if (parts.job.dither != Dither::diffusion) return;
     kept_thresholds_ = parts.job.selector.threshold_count;
@@ -95,7 +111,7 @@ class RowSink {
     for (int64_t k = strip.lo[2]; k < strip.hi[2]; ++k) {
       const auto layer = static_cast<size_t>(k - strip.lo[2]);
       for (int64_t j = strip.lo[1]; j < strip.hi[1]; ++j) {
-        const MaterialId* row = voxels.touched() ? voxels.at(0, j, k) : empty.data();
+        const MaterialId* row = voxels.touched() ? voxels.at(strip.lo[0], j, k) : empty.data();
         if (!diffusions_.empty())
           diffusions_[layer].add(row, thresholds(voxels, j, k), [&](const MaterialId* made) { append(layer, made); });
         else if (voxels.touched())
@@ -146,19 +162,28 @@ size_t working_bytes(const Lattice& lattice, int64_t slab_layers, Dither dither,
 
 std::vector<LayerResult> LayerEvaluator::layers(int64_t begin, int64_t end, const StopFlag* stop) const {
   const auto& count = parts_->job.lattice.count;
-  std::vector<LayerResult> results(static_cast<size_t>(end - begin));
+  return region({{0, 0, begin}, {count[0], count[1], end}}, stop);
+}
+
+std::vector<LayerResult> LayerEvaluator::region(const TileBox& box, const StopFlag* stop) const {
+  const auto& count = parts_->job.lattice.count;
+  const bool is_whole = box.size(0) == count[0] && box.size(1) == count[1];
+  if (parts_->job.dither == Dither::diffusion && !is_whole) return cut(layers(box.lo[2], box.hi[2], stop), box);
+  std::vector<LayerResult> results(static_cast<size_t>(box.size(2)));
   const size_t check_count = parts_->job.selector.check_count;
   std::vector<std::vector<CheckHits>> checks(results.size(), std::vector<CheckHits>(check_count));
   for (LayerResult& layer : results)
-    layer.runs = RunLayer(static_cast<uint32_t>(count[0]), static_cast<uint32_t>(count[1]));
-  const program::Remainder slab = parts_->remainder({{0, 0, begin}, {count[0], count[1], end}});
+    layer.runs = RunLayer(static_cast<uint32_t>(box.size(0)), static_cast<uint32_t>(box.size(1)));
+  const program::Remainder slab = parts_->remainder(box);
   const auto leaf = parts_->make_leaf();
   TileWalk walk(parts_->job, parts_->precision(), parts_->walk_options(), *leaf);
-  RowSink sink(*parts_, results, begin);
+  RowSink sink(*parts_, results, box.lo[2]);
   StripVoxels voxels;
-  for (int64_t j = 0; j < count[1]; j += strip_rows) {
+  for (int64_t j = box.lo[1]; j < box.hi[1]; j += strip_rows) {
     if (stop && stop->requested()) throw Cancelled();
-    const TileBox strip{{0, j, begin}, {count[0], std::min(j + strip_rows, count[1]), end}};
+    TileBox strip = box;
+    strip.lo[1] = j;
+    strip.hi[1] = std::min(j + strip_rows, box.hi[1]);
     const StripSources sources(parts_->samplers, strip);
     voxels.begin(strip, checks, sink.kept_thresholds());
     walk.run(slab.program, slab.ranges, strip, sources, voxels);

@@ -39,7 +39,7 @@ struct CheckHits {
 };
 
 struct LayerResult {
-  RunLayer runs;                                // of the whole width and height of the lattice
+  RunLayer runs;                                // of the whole width and height of the lattice, or of a region's
   std::array<uint64_t, 256> material_counts{};  // by MaterialId
   std::vector<CheckHits> checks;
 };
@@ -70,6 +70,9 @@ class LayerEvaluator {
   // Layers [begin, end) of the lattice, lowest first. Works best on 4 to 16 at a time. Throws Cancelled soon
   // after it is asked to stop.
   std::vector<LayerResult> layers(int64_t begin, int64_t end, const StopFlag* stop = nullptr) const;
+  // The same voxels as far as they lie in a box of the lattice, whose size decides the work (but for error diffusion,
+  // which goes through whole layers). Counts and checks are those of the box; checks then of whole layers.
+  std::vector<LayerResult> region(const TileBox& box, const StopFlag* stop = nullptr) const;
 
   struct Parts;
 

@@ -142,4 +142,38 @@ TEST(Layers, StopBetweenStrips) {
   EXPECT_THROW(evaluator.layers(0, 6, &stop), Cancelled);
 }
 
+// Any box of the lattice has the voxels of the whole layers, however it lies among their tiles.
+TEST(Layers, RegionsAreCutFromTheWhole) {
+  std::mt19937 random(11);
+  Lattice lattice;
+  lattice.origin = {-5, -5, -5};
+  lattice.pitch.fill(Pitch{1, 16});
+  lattice.count = {160, 150, 12};
+  for (int round = 0; round < 12; ++round) {
+    const MaterialProgram program = random_solid(random);
+    for (const Dither dither : {Dither::stochastic, Dither::blue_noise, Dither::threshold, Dither::diffusion}) {
+      const LayerEvaluator evaluator(program, lattice, dither, 7);
+      const std::vector<LayerResult> whole = evaluator.layers(0, 12);
+      TileBox box;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        box.lo[axis] = static_cast<int64_t>(random() % static_cast<uint32_t>(lattice.count[axis]));
+        box.hi[axis] = box.lo[axis] + 1 +
+                       static_cast<int64_t>(random() % static_cast<uint32_t>(lattice.count[axis] - box.lo[axis]));
+      }
+      const std::vector<LayerResult> part = evaluator.region(box);
+      ASSERT_EQ(static_cast<int64_t>(part.size()), box.size(2));
+      std::vector<MaterialId> row(160), of_part(static_cast<size_t>(box.size(0)));
+      for (int64_t k = box.lo[2]; k < box.hi[2]; ++k)
+        for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
+          whole[static_cast<size_t>(k)].runs.row(static_cast<uint32_t>(j)).unpack(row.data());
+          part[static_cast<size_t>(k - box.lo[2])]
+              .runs.row(static_cast<uint32_t>(j - box.lo[1]))
+              .unpack(of_part.data());
+          ASSERT_TRUE(std::equal(of_part.begin(), of_part.end(), row.begin() + box.lo[0]))
+              << name(dither) << ' ' << j << ' ' << k;
+        }
+    }
+  }
+}
+
 }  // namespace ombre::voxel

@@ -10,13 +10,6 @@
 
 namespace ombre::voxel {
 
-// Voxels [lo, hi) on each axis.
-struct TileBox {
-  std::array<int64_t, 3> lo{}, hi{};
-  int64_t size(int axis) const { return hi[static_cast<size_t>(axis)] - lo[static_cast<size_t>(axis)]; }
-  int64_t voxels() const { return size(0) * size(1) * size(2); }
-};
-
 // The greatest multiple of `unit` that is at most `index`, which may be negative.
 inline int64_t multiple_below(int64_t index, int64_t unit) {
   const int64_t rest = index % unit;
