@@ -131,7 +131,8 @@ def slips_get_remedies(grid):
     for arguments, message in [(["b.stl"], "let it end in .npy, .nrrd, .raw, .vdb or .nvdb"),
                                (["b"], "does not say a format"),
                                (["b.raw", "--gzip"], "--gzip is for .nrrd files"),
-                               (["b.raw", "--what", "colour"], "write materials, fractions, distance"),
+                               (["b.raw", "--what", "colour"], "the design has no attribute"),
+                               (["b.raw", "--what", "distance,"], "write materials, fractions, distance, attributes"),
                                (["b.raw", "--what", "materials,distance"], "goes alone"),
                                (["b.raw", "--box", "1,2,3"], "write for example --box")]:
         error = grid.voxels(*arguments, status=1).stderr
