@@ -87,7 +87,8 @@ struct Mesh {
   static Spec<Mesh> spec() {
     return {"mesh",
             "imported",
-            "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF (with its beams) or AMF in their own "
+            "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF (with its beams) or AMF in "
+            "their own "
             "unit.",
             {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
              {"material", &Mesh::material, "Its material; beside the file's materials, that of what has none there"},
