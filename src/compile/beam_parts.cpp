@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -25,7 +26,8 @@ constexpr double most_struts = 1e8;  // some ten gigabytes
 // What is left of struts: what lies inside of all the ones and outside of all the others. In the design's frame.
 struct Clips {
   std::vector<NodePtr> inside, outside;
-  auto operator<=>(const Clips&) const = default;
+  bool operator==(const Clips&) const = default;
+  bool operator<(const Clips& other) const { return std::tie(inside, outside) < std::tie(other.inside, other.outside); }
 };
 
 // Struts in a frame of their own, perhaps repeated there.

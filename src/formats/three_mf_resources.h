@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "formats/mesh.h"
@@ -15,7 +16,10 @@ namespace ombre::formats {
 // A resource of properties, and an index in it.
 struct PropertyReference {
   std::optional<uint64_t> resource, index;
-  auto operator<=>(const PropertyReference&) const = default;
+  bool operator==(const PropertyReference&) const = default;
+  bool operator<(const PropertyReference& other) const {
+    return std::tie(resource, index) < std::tie(other.resource, other.index);
+  }
 };
 
 // The base materials and the colour groups of a model file.
