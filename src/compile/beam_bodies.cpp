@@ -84,8 +84,8 @@ void leave_out_doubled(std::vector<formats::Beam>& beams) {
   std::vector<uint32_t> order(beams.size());
   for (uint32_t n = 0; n < order.size(); ++n) order[n] = n;
   std::ranges::sort(order, [&](uint32_t a, uint32_t b) { return std::pair(key(a), a) < std::pair(key(b), b); });
-  const auto doubled = std::ranges::unique(order, [&](uint32_t a, uint32_t b) { return key(a) == key(b); });
-  order.erase(doubled.begin(), doubled.end());
+  const auto is_double = [&](uint32_t a, uint32_t b) { return key(a) == key(b); };
+  order.erase(std::unique(order.begin(), order.end(), is_double), order.end());
   std::ranges::sort(order);
   for (size_t n = 0; n < order.size(); ++n) beams[n] = beams[order[n]];
   beams.resize(order.size());
