@@ -26,7 +26,7 @@ class Diagnostics {
 
   void add(Diagnostic diagnostic);
   void add_all(const Diagnostics& others);
-  // Those that are not there yet: a job may find the same each time it lowers a design.
+  // Adds diagnostics that are not in the list yet; a job may find the same ones each time it lowers a design.
   void add_new(const Diagnostic& diagnostic);
   void add_new(const Diagnostics& others);
   void error(SourceRange where, std::string message, std::string hint = "");

@@ -11,10 +11,10 @@ namespace ombre::cad {
 
 class FaceSurfaces {
  public:
-  // In the order of triangles_of().
+  // The faces are in the order of triangles_of().
   explicit FaceSurfaces(const TopoDS_Shape& shape);
 
-  // As Query::side_of_face() has it.
+  // The answer is that of Query::side_of_face().
   std::optional<FaceSide> side(uint32_t face, Vec3 p, double least_radius_mm) const;
 
  private:

@@ -65,7 +65,7 @@ std::optional<double> scale_of_similarity(const Affine& map) {
   return greatest - least <= rounding * greatest ? std::optional(greatest) : std::nullopt;
 }
 
-// Of a node that only moves the question, and does so by an affine map.
+// The map from the input's space to the node's, where the node only moves the question by an affine map.
 std::optional<Affine> here_from_input(const Node& node) {
   program::Builder builder;
   const auto inner = node.inner(program::Point::origin_frame(builder));

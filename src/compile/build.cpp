@@ -39,7 +39,7 @@ bool report_beyond_limit(const design::Node& solid, Diagnostics& diagnostics) {
 
 namespace {
 
-// Where is material, and which?
+// The outputs say where there is material, and which.
 program::Outputs ask_for_materials(Question& question, Built& built) {
   program::Outputs outputs{{"inside", question.inside()}};
   const design::Composition composition = question.composition();
