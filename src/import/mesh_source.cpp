@@ -135,9 +135,7 @@ class MeshSource final : public program::FieldSource {
   }
   // Of a closed mesh.
   const WindingCells& cells() const {
-    return cells_.get([&](std::optional<WindingCells>& value) {
-      value.emplace(*surface_, [&](Vec3 p) { return windings().at(p); });
-    });
+    return cells_.get([&](std::optional<WindingCells>& value) { value.emplace(windings()); });
   }
   const std::shared_ptr<const GeneralizedWinding>& generalized() const {
     return generalized_.get([&](std::optional<std::shared_ptr<const GeneralizedWinding>>& value) {

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "import/crossings.h"
-
 namespace ombre::importing {
 namespace {
 
@@ -47,13 +45,7 @@ PointWinding::PointWinding(SurfacePtr surface) : surface_(std::move(surface)), b
 
 int64_t PointWinding::at(Vec3 p) const {
   int64_t sum = 0;
-  by_yz_.at(p.y, p.z, [&](uint32_t id) {
-    if (!reaches_[id].meets(p)) return;
-    const auto segment = slice(surface_->corners(id), p.z);
-    if (!segment) return;
-    const int here = winding(*segment, p.y);
-    if (here != 0 && cross_row(*segment, p.y) <= p.x) sum += here;
-  });
+  by_yz_.at(p.y, p.z, [&](uint32_t id) { sum += crossing(id, p).way; });
   return sum;
 }
 

@@ -1,6 +1,7 @@
 // How often a mesh winds around a point.
 #pragma once
 
+#include "import/crossings.h"
 #include "import/dyadic_bins.h"
 #include "import/surface.h"
 
@@ -13,6 +14,22 @@ class PointWinding {
 
   // Exact for closed meshes; 0 for points that are not finite.
   int64_t at(Vec3 p) const;
+
+  // Where the ray crosses a triangle, and which way: 1 or -1, or 0 where it misses it.
+  struct Crossing {
+    int way = 0;
+    double x = 0;
+  };
+  Crossing crossing(uint32_t triangle, Vec3 p) const {
+    if (!reaches_[triangle].meets(p)) return {};
+    const auto segment = slice(surface_->corners(triangle), p.z);
+    if (!segment) return {};
+    const int way = winding(*segment, p.y);
+    if (way == 0) return {};
+    const double x = cross_row(*segment, p.y);
+    return x <= p.x ? Crossing{way, x} : Crossing{};
+  }
+  const Surface& surface() const { return *surface_; }
 
  private:
   // What a ray must meet to cross a triangle: most of those in its bins are told by this little memory.

@@ -33,7 +33,7 @@ struct Share {
 Share compare(const Mesh& mesh) {
   const SurfacePtr surface = surface_of(mesh);
   const PointWinding exact(surface);
-  const WindingCells cells(*surface, [&](Vec3 p) { return exact.at(p); });
+  const WindingCells cells(exact);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> part(-0.02, 1.02);
   const Box box = bounds(*surface);
@@ -69,7 +69,7 @@ TEST(WindingCells, CountHowOftenMeshesWind) {
   EXPECT_GT(compare(two).value(), 0.7);
   const SurfacePtr surface = surface_of(two);
   const PointWinding exact(surface);
-  EXPECT_EQ(WindingCells(*surface, [&](Vec3 p) { return exact.at(p); }).at({3, 0, 1}), 2);
+  EXPECT_EQ(WindingCells(exact).at({3, 0, 1}), 2);
 }
 
 TEST(WindingCells, AreSafeFarFromTheOrigin) {
@@ -78,10 +78,9 @@ TEST(WindingCells, AreSafeFarFromTheOrigin) {
 }
 
 TEST(WindingCells, NothingIsKnownOfNothing) {
-  const auto never = [](Vec3) -> int64_t { throw std::logic_error("asked"); };
-  EXPECT_FALSE(WindingCells({}, never).at({0, 0, 0}));
-  Mesh flat = cuboid({0, 0, 0}, {1, 1, 0});
-  EXPECT_FALSE(WindingCells(*surface_of(flat), never).at({0.5, 0.5, 0}));
+  const PointWinding nothing(surface_of({})), flat(surface_of(cuboid({0, 0, 0}, {1, 1, 0})));
+  EXPECT_FALSE(WindingCells(nothing).at({0, 0, 0}));
+  EXPECT_FALSE(WindingCells(flat).at({0.5, 0.5, 0}));
 }
 
 // Their boxes would be marked a billion times.
