@@ -14,7 +14,7 @@
 namespace ombre::cad {
 namespace {
 
-// Where a surface is nearest to a point, and how tightly it is curved there.
+// The place on a surface that is nearest to a point, and how tightly the surface is curved there.
 struct Foot {
   double u = 0, v = 0;
   double radius_mm = std::numeric_limits<double>::infinity();

@@ -23,7 +23,7 @@ using nodes::TileCopies;
 
 constexpr double most_struts = 1e8;  // some ten gigabytes
 
-// What is left of struts: what lies inside of all the ones and outside of all the others. In the design's frame.
+// Struts keep what lies inside of all of `inside` and outside of all of `outside`. In the design's frame.
 struct Clips {
   std::vector<NodePtr> inside, outside;
   bool operator==(const Clips&) const = default;
@@ -177,7 +177,7 @@ class Splitter {
     if (!with_struts_.contains(node.get()) || strut_count_ > most_struts) return {{}, node};
     const size_t lost = lost_.size();
     if (auto split = split_known(node, design_from_here)) return std::move(*split);
-    // What was lost below is lost here too; a tile repeats what was.
+    // A node loses what its inputs lost; a tile repeats that.
     const bool is_known = lost_.size() > lost && nodes::tile_copies_of(*node);
     const Node* cause = is_known ? lost_[lost].cause : node.get();
     lost_.resize(lost);

@@ -28,7 +28,7 @@ struct BeamParts {
 // struts, or too many.
 std::optional<BeamParts> split_beams(const design::Design& design, int threads, Diagnostics& diagnostics);
 
-// What the set's clip leaves of the space around its struts: the same clip for them, with an end.
+// A bounded solid that clips the struts as the set's clip does: the clip, cut off around them.
 design::NodePtr clip_near_struts(const design::Design& design, const BeamSet& set, Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

@@ -14,7 +14,7 @@
 namespace ombre::compile {
 namespace {
 
-// What takes longer is told before, with triangles so near to the solid, in voxels, as the remedy.
+// Jobs that take longer are announced. The remedy named is triangles so near to the solid, in voxels.
 constexpr double least_told_seconds = 20, fast_voxels = 0.02;
 // Without a job: a thousandth of the solid's diagonal. Exact surfaces take triangles for a first look only, the closer
 // the less is left to ask. A millionth is the least.
