@@ -44,6 +44,7 @@ Command add_render(CLI::App& program, OutputOptions& output);
 Command add_voxels(CLI::App& program, OutputOptions& output);
 Command add_mesh(CLI::App& program, OutputOptions& output);
 Command add_contours(CLI::App& program, OutputOptions& output);
+Command add_fea(CLI::App& program, OutputOptions& output);
 Command add_probe(CLI::App& program, OutputOptions& output);
 Command add_sheet(CLI::App& program, OutputOptions& output);
 Command add_nodes(CLI::App& program, OutputOptions& output);

@@ -1,0 +1,56 @@
+// The stiffness of a mesh of bricks as an operator, without a matrix.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "base/progress.h"
+#include "fea/brick_stiffness.h"
+#include "fea/bricks.h"
+
+namespace ombre::fea {
+
+// Shear and bulk modulus of a brick, MPa.
+struct Moduli {
+  float shear = 0, bulk = 0;
+};
+
+// A number for each degree of freedom: x, y, z of node 0, and so on.
+using Vector = std::vector<double>;
+
+class BrickOperator {
+ public:
+  // `free` is 1 for degrees of freedom that are solved for, else 0; the others count as held at zero.
+  BrickOperator(Bricks bricks, std::vector<Moduli> moduli, std::vector<uint8_t> free, int threads);
+
+  const Bricks& bricks() const { return bricks_; }
+  const std::vector<Moduli>& moduli() const { return moduli_; }
+  const std::vector<uint8_t>& free() const { return free_; }
+  size_t size() const { return free_.size(); }
+  int threads() const { return threads_; }
+
+  // The forces of these displacements; at all degrees of freedom, of all displacements.
+  void all_forces(const Vector& displacements, Vector& forces) const;
+  // The same between free ones alone; 0 at the others.
+  void forces(const Vector& displacements, Vector& forces) const;
+  // One over the diagonal; 0 where it is held.
+  const Vector& inverse_diagonal() const { return inverse_diagonal_; }
+
+ private:
+  Bricks bricks_;
+  std::vector<Moduli> moduli_;
+  std::vector<uint8_t> free_;
+  int threads_;
+  BrickStiffness stiffness_;
+  // Bricks of one colour share no node, so their forces can be added at the same time, in any order.
+  std::array<std::vector<uint32_t>, 8> colours_;
+  Vector inverse_diagonal_;
+};
+
+// Work on long vectors; sums are made in one order, whatever the number of threads.
+double dot(const Vector& a, const Vector& b, int threads);
+// body(begin, end) for pieces of [0, count).
+void for_pieces(size_t count, int threads, const std::function<void(size_t, size_t)>& body);
+
+}  // namespace ombre::fea

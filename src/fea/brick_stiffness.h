@@ -1,0 +1,33 @@
+// The stiffness of a brick, for moduli of one.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "base/vec.h"
+
+namespace ombre::fea {
+
+// Three displacements for each of a brick's nodes: x, y, z of the first, and so on.
+using BrickVector = std::array<double, 24>;
+
+struct BrickStiffness {
+  // Stiffness = shear modulus * shear + bulk modulus * volume * dilation dilation^T.
+  std::array<BrickVector, 24> shear{};
+  BrickVector dilation{};  // the mean divergence of the displacements, 1/mm
+  double volume_mm3 = 0;
+
+  // forces += the stiffness of these moduli (MPa) times `u`.
+  void add_forces(double shear_mpa, double bulk_mpa, const BrickVector& u, BrickVector& forces) const;
+  // The diagonal of the stiffness.
+  double diagonal(double shear_mpa, double bulk_mpa, size_t n) const {
+    return shear_mpa * shear[n][n] + bulk_mpa * volume_mm3 * dilation[n] * dilation[n];
+  }
+};
+
+BrickStiffness brick_stiffness(Vec3 size_mm);
+
+// The gradients of the eight shape functions, 1/mm, at a place in the brick; each coordinate goes from 0 to 1.
+std::array<Vec3, 8> shape_gradients(Vec3 size_mm, Vec3 at);
+
+}  // namespace ombre::fea

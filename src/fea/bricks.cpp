@@ -1,0 +1,98 @@
+#include "fea/bricks.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace ombre::fea {
+namespace {
+
+// In the order in which cells and nodes are kept.
+bool is_before(const Cell& a, const Cell& b) { return std::array{a[2], a[1], a[0]} < std::array{b[2], b[1], b[0]}; }
+
+template <class List>
+size_t find(const List& list, const Cell& cell) {
+  const auto place = std::ranges::lower_bound(list, cell, is_before);
+  return place != list.end() && *place == cell ? static_cast<size_t>(place - list.begin()) : list.size();
+}
+
+Cell corner_of(const Cell& cell, const Cell& offset) {
+  return {cell[0] + offset[0], cell[1] + offset[1], cell[2] + offset[2]};
+}
+
+// Number n's representative in a forest of numbers.
+uint32_t root_of(std::vector<uint32_t>& parents, uint32_t n) {
+  while (parents[n] != n) n = parents[n] = parents[parents[n]];
+  return n;
+}
+
+}  // namespace
+
+Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells) {
+  Bricks bricks{origin, size_mm, std::move(cells), {}, {}};
+  bricks.corners.reserve(bricks.cells.size() * 2);
+  // Layer by layer, so that no more than two layers' corners are there several times.
+  std::vector<Cell> found;
+  const auto take = [&](int32_t below) {
+    std::ranges::sort(found, is_before);
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    const auto rest = std::ranges::find_if(found, [&](const Cell& corner) { return corner[2] >= below; });
+    bricks.corners.insert(bricks.corners.end(), found.begin(), rest);
+    found.erase(found.begin(), rest);
+  };
+  for (size_t n = 0; n < bricks.cells.size(); ++n) {
+    if (n > 0 && bricks.cells[n][2] != bricks.cells[n - 1][2]) take(bricks.cells[n][2]);
+    for (const Cell& offset : brick_corners) found.push_back(corner_of(bricks.cells[n], offset));
+  }
+  take(std::numeric_limits<int32_t>::max());
+  bricks.nodes.resize(bricks.cells.size());
+  for (size_t n = 0; n < bricks.cells.size(); ++n)
+    for (size_t c = 0; c < 8; ++c)
+      bricks.nodes[n][c] = static_cast<uint32_t>(find(bricks.corners, corner_of(bricks.cells[n], brick_corners[c])));
+  return bricks;
+}
+
+std::vector<OuterFace> outer_faces(const Bricks& bricks) {
+  std::vector<OuterFace> faces;
+  for (size_t n = 0; n < bricks.count(); ++n)
+    for (uint8_t axis = 0; axis < 3; ++axis)
+      for (const bool is_upper : {false, true}) {
+        Cell beside = bricks.cells[n];
+        beside[axis] += is_upper ? 1 : -1;
+        if (find(bricks.cells, beside) == bricks.count()) faces.push_back({static_cast<uint32_t>(n), axis, is_upper});
+      }
+  return faces;
+}
+
+std::array<uint32_t, 4> face_nodes(const Bricks& bricks, const OuterFace& face) {
+  std::array<uint32_t, 4> nodes{};
+  size_t count = 0;
+  for (size_t c = 0; c < 8; ++c)
+    if (brick_corners[c][face.axis] == static_cast<int32_t>(face.is_upper))
+      nodes[count++] = bricks.nodes[face.brick][c];
+  return nodes;
+}
+
+double face_area_mm2(const Bricks& bricks, const OuterFace& face) {
+  return bricks.volume_mm3() / bricks.size_mm[face.axis];
+}
+
+std::vector<uint32_t> pieces_of(const Bricks& bricks) {
+  std::vector<uint32_t> parents(bricks.node_count());
+  std::iota(parents.begin(), parents.end(), 0U);
+  for (const auto& nodes : bricks.nodes)
+    for (size_t c = 1; c < 8; ++c) {
+      const uint32_t a = root_of(parents, nodes[0]), b = root_of(parents, nodes[c]);
+      parents[std::max(a, b)] = std::min(a, b);
+    }
+  constexpr auto unknown = ~uint32_t{0};
+  std::vector<uint32_t> numbers(bricks.node_count(), unknown), pieces;
+  uint32_t next = 0;
+  for (const auto& nodes : bricks.nodes) {
+    uint32_t& number = numbers[root_of(parents, nodes[0])];
+    if (number == unknown) number = next++;
+    pieces.push_back(number);
+  }
+  return pieces;
+}
+
+}  // namespace ombre::fea

@@ -1,0 +1,58 @@
+// Meshes of equal bricks: the cells of a grid that are inside a solid, with the nodes at their corners.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/box.h"
+
+namespace ombre::fea {
+
+// A cell's place in its grid.
+using Cell = std::array<int32_t, 3>;
+
+// Brick n has its nodes in the order of Abaqus' C3D8 and of VTK's hexahedron: around the lower face, counter-clockwise
+// as seen from above, then around the upper one.
+struct Bricks {
+  Vec3 origin;   // the corner of cell (0, 0, 0) with the least x, y and z; mm
+  Vec3 size_mm;  // of a brick
+  std::vector<Cell> cells;
+  std::vector<Cell> corners;  // a node's place: its coordinates in bricks from the origin
+  std::vector<std::array<uint32_t, 8>> nodes;
+
+  size_t count() const { return cells.size(); }
+  size_t node_count() const { return corners.size(); }
+  Vec3 node(size_t n) const { return at(corners[n], 0); }      // mm
+  Vec3 centroid(size_t n) const { return at(cells[n], 0.5); }  // mm
+  double volume_mm3() const { return size_mm.x * size_mm.y * size_mm.z; }
+
+ private:
+  Vec3 at(const Cell& cell, double offset) const {
+    return {origin.x + (cell[0] + offset) * size_mm.x, origin.y + (cell[1] + offset) * size_mm.y,
+            origin.z + (cell[2] + offset) * size_mm.z};
+  }
+};
+
+// Where a brick's corner n lies in it: 0 or 1 along each axis.
+inline constexpr std::array<Cell, 8> brick_corners{
+    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+
+// Of cells in ascending order of z, then y, then x. Nodes are numbered in the same order, and none is there twice.
+Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells);
+
+// One of a brick's six faces that no other brick touches.
+struct OuterFace {
+  uint32_t brick = 0;
+  uint8_t axis = 0;       // that it is perpendicular to
+  bool is_upper = false;  // at the greater coordinate
+};
+// In the order of bricks, then axes, the lower one first.
+std::vector<OuterFace> outer_faces(const Bricks& bricks);
+std::array<uint32_t, 4> face_nodes(const Bricks& bricks, const OuterFace& face);
+double face_area_mm2(const Bricks& bricks, const OuterFace& face);
+
+// For each brick the number of its piece, from 0: bricks that share a node belong together.
+std::vector<uint32_t> pieces_of(const Bricks& bricks);
+
+}  // namespace ombre::fea

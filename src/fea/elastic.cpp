@@ -1,0 +1,162 @@
+#include "fea/elastic.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "fea/brick_operator.h"
+#include "fea/multigrid.h"
+
+namespace ombre::fea {
+namespace {
+
+Moduli moduli_of(const Elastic& elastic) {
+  const double e = elastic.modulus_mpa, nu = elastic.poissons_ratio;
+  return {static_cast<float>(e / (2 * (1 + nu))), static_cast<float>(e / (3 * (1 - 2 * nu)))};
+}
+
+BrickOperator operator_of(const Model& model, const Conditions& conditions, int threads) {
+  std::vector<Moduli> of_sections, moduli;
+  for (const Section& section : model.sections) of_sections.push_back(moduli_of(section.elastic));
+  moduli.reserve(model.bricks.count());
+  for (const uint16_t section : model.section_of) moduli.push_back(of_sections[section]);
+  std::vector<uint8_t> free(3 * model.bricks.node_count(), 1);
+  for (const Prescribed& held : conditions.displacements) free[3 * size_t{held.node} + held.axis] = 0;
+  return {model.bricks, std::move(moduli), std::move(free), threads};
+}
+
+// Conjugate gradients (Hestenes and Stiefel, 1952) from the displacements that are given.
+class Gradients {
+ public:
+  Gradients(const BrickOperator& stiffness, const SolveOptions& options, Progress* progress, const StopFlag* stop)
+      : stiffness_(stiffness), options_(options), progress_(progress), stop_(stop), multigrid_(stiffness) {}
+
+  // `residual` is what the forces lack; 0 where it is held.
+  void run(Vector residual, Vector& x, Solution& solution) {
+    const int threads = stiffness_.threads();
+    const double scale = std::sqrt(dot(residual, residual, threads));
+    if (!(scale > 0)) return;
+    Vector z, p, q;
+    multigrid_.apply(residual, z);
+    p = z;
+    double rz = dot(residual, z, threads);
+    for (solution.iterations = 1;; ++solution.iterations) {
+      if (stop_ && stop_->requested()) throw Cancelled();
+      stiffness_.forces(p, q);
+      const double alpha = rz / dot(p, q, threads);
+      for_pieces(x.size(), threads, [&](size_t begin, size_t end) {
+        for (size_t n = begin; n < end; ++n) {
+          x[n] += alpha * p[n];
+          residual[n] -= alpha * q[n];
+        }
+      });
+      solution.residual = std::sqrt(dot(residual, residual, threads)) / scale;
+      tell(solution.residual);
+      if (solution.residual <= options_.tolerance) return;
+      if (!std::isfinite(solution.residual) || solution.iterations >= options_.most_iterations) fail(solution);
+      multigrid_.apply(residual, z);
+      const double next = dot(residual, z, threads), beta = next / rz;
+      rz = next;
+      for_pieces(x.size(), threads, [&](size_t begin, size_t end) {
+        for (size_t n = begin; n < end; ++n) p[n] = z[n] + beta * p[n];
+      });
+    }
+  }
+
+ private:
+  void tell(double residual) {
+    constexpr double parts = 1000;
+    if (!progress_ || !(residual > 0)) return;
+    const double way = std::clamp(std::log(residual) / std::log(options_.tolerance), 0.0, 1.0);
+    farthest_ = std::max(farthest_, static_cast<uint64_t>(parts * way));
+    HowFar how_far{farthest_, static_cast<uint64_t>(parts)};
+    if (farthest_ > 0) how_far.seconds_left = watch_.seconds() * (parts / static_cast<double>(farthest_) - 1);
+    progress_->update(how_far);
+  }
+
+  [[noreturn]] static void fail(const Solution& solution) {
+    throw Error("the equations did not converge: after " + format_count(solution.iterations) +
+                " iterations the forces are still off by " + format_rounded(solution.residual, 2) +
+                " of the loads; parts that hang together at an edge or a corner may turn about it, or moduli differ " +
+                "too much: choose smaller bricks, or support more of the part");
+  }
+
+  const BrickOperator& stiffness_;
+  const SolveOptions& options_;
+  Progress* progress_;
+  const StopFlag* stop_;
+  Multigrid multigrid_;
+  Stopwatch watch_;
+  uint64_t farthest_ = 0;
+};
+
+std::array<double, 6> strain_at_middle(const Bricks& bricks, size_t brick, const std::array<Vec3, 8>& gradients,
+                                       const Vector& x) {
+  std::array<double, 6> strain{};
+  for (size_t c = 0; c < 8; ++c) {
+    const double* const u = x.data() + 3 * size_t{bricks.nodes[brick][c]};
+    const Vec3 g = gradients[c];
+    strain[0] += g.x * u[0];
+    strain[1] += g.y * u[1];
+    strain[2] += g.z * u[2];
+    strain[3] += g.y * u[0] + g.x * u[1];
+    strain[4] += g.z * u[1] + g.y * u[2];
+    strain[5] += g.z * u[0] + g.x * u[2];
+  }
+  return strain;
+}
+
+std::array<double, 6> stress_of(const std::array<double, 6>& strain, const Moduli& moduli) {
+  const double dilation = strain[0] + strain[1] + strain[2];
+  std::array<double, 6> stress{};
+  for (size_t n = 0; n < 3; ++n) {
+    stress[n] = 2.0 * moduli.shear * (strain[n] - dilation / 3) + moduli.bulk * dilation;
+    stress[3 + n] = moduli.shear * strain[3 + n];
+  }
+  return stress;
+}
+
+}  // namespace
+
+double von_mises(const std::array<double, 6>& s) {
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
+
+Solution solve(const Model& model, const Conditions& conditions, const SolveOptions& options, Progress* progress,
+               const StopFlag* stop) {
+  const BrickOperator stiffness = operator_of(model, conditions, options.threads);
+  Vector x(stiffness.size()), forces;
+  for (const Prescribed& held : conditions.displacements) x[3 * size_t{held.node} + held.axis] = held.value;
+  stiffness.all_forces(x, forces);
+  Vector residual(x.size()), loads(x.size());
+  for (const Prescribed& force : conditions.forces) loads[3 * size_t{force.node} + force.axis] = force.value;
+  for (size_t n = 0; n < x.size(); ++n) residual[n] = stiffness.free()[n] != 0 ? loads[n] - forces[n] : 0;
+  Solution solution;
+  Gradients(stiffness, options, progress, stop).run(std::move(residual), x, solution);
+
+  stiffness.all_forces(x, forces);
+  solution.energy_mj = 0.5 * dot(x, forces, options.threads);
+  for (const Prescribed& held : conditions.displacements) {
+    const size_t n = 3 * size_t{held.node} + held.axis;
+    solution.reactions_n.push_back({held.node, held.axis, forces[n] - loads[n]});
+  }
+  for (size_t n = 0; n < x.size(); n += 3) solution.displacement_mm.push_back({x[n], x[n + 1], x[n + 2]});
+  const auto gradients = shape_gradients(model.bricks.size_mm, {0.5, 0.5, 0.5});
+  for (size_t n = 0; n < model.bricks.count(); ++n) {
+    solution.strain.push_back(strain_at_middle(model.bricks, n, gradients, x));
+    solution.stress_mpa.push_back(stress_of(solution.strain.back(), stiffness.moduli()[n]));
+  }
+  return solution;
+}
+
+double solve_bytes(const Bricks& bricks) {
+  // Of a node, 8 + 1/7 vectors of three doubles and the parents; of a brick, what it is made of, twice.
+  constexpr double of_node = 16 * 3 * sizeof(double) + 24, of_brick = 2 * (sizeof(Cell) + 32 + 8) + 100;
+  constexpr double all_levels = 8.0 / 7;
+  return all_levels *
+         (of_node * static_cast<double>(bricks.node_count()) + of_brick * static_cast<double>(bricks.count()));
+}
+
+}  // namespace ombre::fea

@@ -1,0 +1,29 @@
+// A multigrid preconditioner for bricks (Briggs, Henson and McCormick: A Multigrid Tutorial, 2000): each level joins
+// two by two by two bricks, whose moduli are means, of void as 0.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fea/brick_operator.h"
+
+namespace ombre::fea {
+
+class Multigrid {
+ public:
+  // The operator must live as long.
+  explicit Multigrid(const BrickOperator& finest);
+  ~Multigrid();
+
+  // About the displacements that these forces make: one V-cycle, a symmetric and positive operator.
+  void apply(const Vector& forces, Vector& displacements);
+  size_t levels() const { return levels_.size(); }
+
+ private:
+  struct Level;
+  void cycle(size_t level, const Vector& forces, Vector& displacements);
+
+  std::vector<std::unique_ptr<Level>> levels_;
+};
+
+}  // namespace ombre::fea

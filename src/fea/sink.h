@@ -1,0 +1,11 @@
+// Where text and bytes of a file go, piece by piece.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+namespace ombre::fea {
+
+using Sink = std::function<void(std::string_view bytes)>;
+
+}  // namespace ombre::fea

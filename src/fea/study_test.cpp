@@ -1,0 +1,123 @@
+#include "fea/study.h"
+
+#include <gtest/gtest.h>
+
+#include "base/json.h"
+#include "fea/test_models.h"
+
+namespace ombre::fea {
+namespace {
+
+using namespace test;
+
+std::optional<Study> study_of(const std::string& text, Diagnostics& diagnostics) {
+  const auto data = parse_json(make_source("study.json", text), diagnostics);
+  return data ? read_study(*data, diagnostics) : std::nullopt;
+}
+
+// What is said of a wrong study.
+std::string complaint(const std::string& text) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(study_of(text, diagnostics));
+  return to_text(diagnostics);
+}
+
+Model cube() { return model_of(block({2, 2, 2}, {1, 1, 1}), {1000, 0.3, 2e-9}); }
+
+std::optional<Conditions> conditions_in(const std::string& text, const Model& model, Diagnostics& diagnostics) {
+  const auto study = study_of(text, diagnostics);
+  return study ? conditions_of(*study, model, diagnostics) : std::nullopt;
+}
+
+Vec3 sum(const std::vector<Prescribed>& values) {
+  Vec3 total;
+  for (const Prescribed& value : values) total[value.axis] += value.value;
+  return total;
+}
+
+const char* const held_below = R"("supports": [{"on": "zmin", "fix": "xyz"}])";
+
+TEST(Study, PropertiesHaveUnits) {
+  Diagnostics diagnostics;
+  const auto study = study_of(
+      R"({"materials": {"Soft": {"modulus_mpa": 1.5, "poissons_ratio": 0.4, "density_kg_m3": 1100}}})", diagnostics);
+  ASSERT_TRUE(study) << to_text(diagnostics);
+  EXPECT_EQ(study->materials.at("soft"), (Elastic{1.5, 0.4, 1.1e-9}));
+}
+
+TEST(Study, ForcesAreSharedByArea) {
+  Diagnostics diagnostics;
+  const Model model = cube();
+  const auto conditions = conditions_in(
+      std::string("{") + held_below + R"(, "loads": [{"on": "zmax", "force_n": [1, 2, -16]}]})", model, diagnostics);
+  ASSERT_TRUE(conditions) << to_text(diagnostics);
+  EXPECT_EQ(conditions->displacements.size(), 27U);
+  EXPECT_NEAR(length(sum(conditions->forces) - Vec3{1, 2, -16}), 0, 1e-12);
+  // A corner of the four faces has a quarter of one, the middle all four quarters.
+  for (const Prescribed& force : conditions->forces) {
+    if (force.axis != 2) continue;
+    const Vec3 p = model.bricks.node(force.node);
+    EXPECT_DOUBLE_EQ(force.value, (p.x == 1 ? 2 : 1) * (p.y == 1 ? 2 : 1) * -1.0);
+  }
+}
+
+TEST(Study, PressurePushesInwardsAndWeightPullsAll) {
+  Diagnostics diagnostics;
+  const auto pressed = conditions_in(
+      std::string("{") + held_below + R"(, "loads": [{"on": "xmax", "pressure_mpa": 0.5}]})", cube(), diagnostics);
+  ASSERT_TRUE(pressed) << to_text(diagnostics);
+  EXPECT_EQ(sum(pressed->forces), (Vec3{-2, 0, 0}));
+  const auto heavy =
+      conditions_in(std::string("{") + held_below + R"(, "gravity_mm_s2": [0, 0, -9810]})", cube(), diagnostics);
+  ASSERT_TRUE(heavy);
+  EXPECT_NEAR(sum(heavy->forces).z, -2e-9 * 8 * 9810, 1e-12);  // tonne mm/s2: N
+}
+
+TEST(Study, BoxesChooseNodesAndLaterSupportsCount) {
+  Diagnostics diagnostics;
+  const auto conditions = conditions_in(std::string("{") + R"("supports": [{"on": "zmin", "fix": "xyz"},
+    {"on": {"box": [0, 0, 2, 0, 2, 2]}, "displacement_mm": [null, 0.5, null]},
+    {"on": {"box": [0, 0, 0, 0, 0, 0]}, "displacement_mm": [0.1, null, null]}]})",
+                                        cube(), diagnostics);
+  ASSERT_TRUE(conditions) << to_text(diagnostics);
+  EXPECT_EQ(conditions->displacements.size(), 30U);
+  EXPECT_EQ(conditions->displacements.front().value, 0.1);
+}
+
+TEST(Study, WrongOnesAreToldWhereAndWhatToWrite) {
+  EXPECT_NE(complaint("[]").find("expected a study in braces"), std::string::npos);
+  EXPECT_NE(complaint(R"({"suports": []})").find("did you mean \"supports\"?"), std::string::npos);
+  EXPECT_NE(complaint(R"({"supports": [{"on": "top", "fix": "z"}]})").find("there is no side \"top\""),
+            std::string::npos);
+  EXPECT_NE(complaint(R"({"supports": [{"fix": "z"}]})").find("\"on\" is missing"), std::string::npos);
+  EXPECT_NE(complaint(R"({"supports": [{"on": "zmin", "fix": "w"}]})").find("expected axes"), std::string::npos);
+  EXPECT_NE(complaint(R"({"supports": [{"on": "zmin"}]})").find("neither"), std::string::npos);
+  EXPECT_NE(complaint(R"({"loads": [{"on": "zmin"}]})").find("either a force or a pressure"), std::string::npos);
+  EXPECT_NE(complaint(R"({"loads": [{"on": {"box": [1, 0, 0, 0, 1, 1]}, "force_n": [1, 0, 0]}]})").find("empty"),
+            std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {"a": {"modulus_mpa": -1, "poissons_ratio": 0.3}}})").find("out of its range"),
+            std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {"a": {"modulus_mpa": 1}}})").find("poissons_ratio is missing"),
+            std::string::npos);
+}
+
+TEST(Study, LoosePartsAndEmptySelectionsAreErrors) {
+  const auto error = [](const std::string& text, const Model& model) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(conditions_in(text, model, diagnostics));
+    return to_text(diagnostics);
+  };
+  EXPECT_NE(error("{}", cube()).find("free to move"), std::string::npos);
+  // Held along z only, it may still slide and turn about z; held in two corners, turn about the line between them.
+  EXPECT_NE(error(R"({"supports": [{"on": "zmin", "fix": "z"}]})", cube()).find("free to move"), std::string::npos);
+  EXPECT_NE(error(R"({"supports": [{"on": {"box": [0, 0, 0, 2, 0, 0]}, "fix": "xyz"}]})", cube()).find("free to move"),
+            std::string::npos);
+  EXPECT_NE(error(R"({"supports": [{"on": {"box": [5, 5, 5, 6, 6, 6]}, "fix": "xyz"}]})", cube())
+                .find("from (0, 0, 0) to (2, 2, 2) mm"),
+            std::string::npos);
+  const Model two = model_of(make_bricks({}, {1, 1, 1}, {{0, 0, 0}, {0, 0, 5}}), {1000, 0.3, 0});
+  EXPECT_NE(error(std::string("{") + held_below + "}", two).find("1 of the mesh's 2 pieces"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ombre::fea
