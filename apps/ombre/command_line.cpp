@@ -91,7 +91,8 @@ class CommandLine {
   }
 
   int run(const Command& command, const StopFlag& stop) {
-    Session session{console_, stop, host_.load ? host_.load : compile::load_design};
+    sources::SourceCache own;
+    Session session{console_, stop, host_.load ? host_.load : compile::load_design, host_.cache ? *host_.cache : own};
     try {
       return command.run(session);
     } catch (const WrongArgument& error) {

@@ -17,6 +17,10 @@ struct Loaded;
 struct LoadOptions;
 }  // namespace ombre::compile
 
+namespace ombre::sources {
+class SourceCache;
+}
+
 namespace ombre::cli {
 
 // Exit codes.
@@ -35,6 +39,7 @@ struct Host {
   DesignLoader load;                                 // reads designs
   std::function<void(const DataMembers&)> on_event;  // takes what --json would print
   std::function<void(const std::string&)> on_data;   // takes what else would go to stdout
+  sources::SourceCache* cache = nullptr;             // of the files that designs name; null: one for each command
   const StopFlag* stop = nullptr;                    // asks a command to stop, in place of Ctrl-C
 };
 

@@ -16,6 +16,7 @@ struct Session {
   Console& console;
   const StopFlag& stop;
   DesignLoader load;
+  sources::SourceCache& cache;  // of the files that designs name
 };
 
 // Returns an exit code.

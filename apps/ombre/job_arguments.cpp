@@ -102,6 +102,7 @@ compile::LoadedPtr load_design(const DesignArguments& a, Session& session, Diagn
   options.echo = [&](const std::string& text) { session.console.say(text); };
   options.stop = &session.stop;
   options.threads = threads;
+  options.cache = &session.cache;
   return session.load(a.design, options, diagnostics);
 }
 

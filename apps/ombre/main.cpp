@@ -8,6 +8,7 @@
 #include "base/large_array.h"
 #include "ombre/command_line.h"
 #include "ombre/python_designs.h"
+#include "sources/source_cache.h"
 
 namespace {
 
@@ -34,5 +35,8 @@ int main(int argc, char** argv) {
   mallopt(M_MMAP_THRESHOLD, most_kept_bytes);
   mallopt(M_TRIM_THRESHOLD, 8 * most_kept_bytes);
   if (ombre::cli::needs_python(argc, argv)) return ombre::cli::become_python(argc, argv);
-  return ombre::cli::run(argc, argv);
+  ombre::sources::SourceCache cache;
+  ombre::cli::Host host;
+  host.cache = &cache;
+  return ombre::cli::run(argc, argv, host);
 }

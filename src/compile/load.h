@@ -14,6 +14,7 @@
 #include "compile/slice.h"
 #include "compile/value_layers.h"
 #include "design/design.h"
+#include "sources/source_cache.h"
 #include "voxel/printer.h"
 
 namespace ombre::compile {
@@ -23,7 +24,8 @@ struct LoadOptions {
   std::vector<std::string> definitions;                    // "name=value", set before the script runs
   std::function<void(const std::string&)> echo = nullptr;  // where the script's echo goes; may be empty
   const StopFlag* stop = nullptr;
-  int threads = 0;  // 0: all cores
+  int threads = 0;                        // 0: all cores
+  sources::SourceCache* cache = nullptr;  // of the running program; null: one that lasts as long as the call
 };
 
 // A design that was read and checked.
@@ -36,6 +38,10 @@ using LoadedPtr = std::shared_ptr<const Loaded>;
 
 // Null, and diagnostics, when the design is wrong. Throws Error for files that cannot be read.
 LoadedPtr load_design(const std::string& path, const LoadOptions& options, Diagnostics& diagnostics);
+
+// The same of a design that is no file. `path` is the one that it would have: its ending says the language, and
+// relative paths in the design begin in its folder.
+LoadedPtr load_text(std::string text, const std::string& path, const LoadOptions& options, Diagnostics& diagnostics);
 
 // The materials file at `path`, or the default set when it is empty.
 std::optional<design::MaterialTable> load_materials(const std::string& path, Diagnostics& diagnostics);

@@ -1,12 +1,13 @@
 // Nodes made one by one by a program, as the calls of a .vcad file make them.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "compile/mesh_loader.h"
+#include "compile/design_sources.h"
 #include "design/design.h"
 
 namespace ombre::compile {
@@ -14,7 +15,8 @@ namespace ombre::compile {
 // Thread-safe, but for what the materials' owner does.
 class NodeFactory {
  public:
-  explicit NodeFactory(design::MaterialTable materials) : materials_(std::move(materials)) {}
+  NodeFactory(design::MaterialTable materials, std::shared_ptr<sources::SourceCache> cache)
+      : materials_(std::move(materials)), cache_(std::move(cache)), loader_(*cache_) {}
 
   const design::MaterialTable& materials() const { return materials_; }
 
@@ -26,7 +28,8 @@ class NodeFactory {
 
  private:
   design::MaterialTable materials_;
-  MeshLoader loader_;
+  std::shared_ptr<sources::SourceCache> cache_;
+  DesignSources loader_;
 };
 
 }  // namespace ombre::compile

@@ -1,24 +1,35 @@
-// How nodes get at what lies in files or needs more than formulas: they ask, somebody else reads and builds.
+// Sources: what lies in files, or needs more than formulas. A node fills in a request, and somebody else reads and
+// builds.
 #pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "base/polygons.h"
 #include "design/node.h"
 #include "program/field_source.h"
 
+namespace ombre::sources {
+class Loading;
+}
+
 namespace ombre::design {
 
-// What of a mesh file is meant, and which materials it gets.
+// What of a file with several bodies is meant, and which materials these get.
 struct MeshUse {
   std::string object;                         // the name of one of the file's objects; empty: all
-  Choice inside;                              // "nonzero", "parity" or "generalized"
-  Choice materials;                           // "one", "names" or "colours"
+  Choice inside = "nonzero";                  // or "parity", "generalized"
+  Choice materials = "one";                   // or "names", "colours"
   MaterialName material;                      // of all, or of what has none in the file
   std::vector<MaterialForName> material_map;  // before the names in the table of materials
 };
 
 // The triangles and lattices of one material.
 struct MeshPart {
-  MaterialName material;
+  std::string material;         // its name in the design; empty: the use's own
   program::SourceField source;  // with the channels "inside" and "distance"
   bool is_exact = true;         // "distance" is the one to the surface everywhere
 };
@@ -43,19 +54,77 @@ class PendingSource {
 };
 using PendingSourcePtr = std::shared_ptr<const PendingSource>;
 
-// What of a CAD file is meant, and how near to it the solid must be.
-struct CadUse {
-  MeshUse parts;            // `inside` does not matter
-  bool is_exact = false;    // its surfaces, not triangles
-  double tolerance_mm = 0;  // of triangles; 0: a quarter of a voxel
-};
-
 // The solids of one material.
 struct CadPart {
-  MaterialName material;
+  std::string material;  // as for meshes
   PendingSourcePtr source;
   bool is_single = true;  // one solid, not several
 };
+
+// An image as a field: channel "value", 0 for black to 1 for white, in pixels from its left lower corner.
+struct HeightImage {
+  program::SourceField source;
+  double columns = 0, rows = 0;         // pixels
+  double step_across = 0, step_up = 0;  // the greatest differences between neighbours
+};
+
+// Requests. A node fills one in; its members, and the content of its file, decide what `load` gives: null, and
+// diagnostics, where something is missing or wrong. Each kind's `load` is written in a file of its own in src/sources.
+// A file's path becomes the one where it was found, with the hash of its content.
+
+// A mesh by its materials, each once, in the order in which the file comes to them; with "one" a single part. Open
+// meshes are errors unless the rule can do without.
+struct MeshRequest {
+  using Result = std::vector<MeshPart>;
+  FilePath file;
+  MeshUse use;
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
+// A CAD file in the same way.
+struct CadRequest {
+  using Result = std::vector<CadPart>;
+  FilePath file;
+  MeshUse use;              // `inside` does not matter
+  bool is_exact = false;    // its surfaces, not triangles
+  double tolerance_mm = 0;  // how near triangles must be; 0: a quarter of a voxel
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
+// What polygons bound, whatever z: channels "inside" and "distance". A warning for a ring that crosses itself.
+struct PolygonsRequest {
+  using Result = program::FieldSource;
+  Polygons polygons;
+  bool turns = false;  // about x = 0: edges there are no walls to what is inside
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
+// The straight lines between points: channel "distance".
+struct PathRequest {
+  using Result = program::FieldSource;
+  std::vector<Vec3> points;
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
+struct ImageRequest {
+  using Result = HeightImage;
+  FilePath file;
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
+// The outlines of a text, as of polygons; sizes in mm.
+struct TextRequest {
+  using Result = program::FieldSource;
+  FontName font;  // its content becomes that of the font that was found
+  std::string text;
+  Choice style = "regular", h_align = "center", v_align = "center", measure = "capitals";
+  double height_mm = 10, line_spacing = 1;
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
+// The kinds of sources there are.
+using SourceRequest =
+    std::variant<MeshRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*, TextRequest*>;
 
 // Which parts of a solid need support, on which grid.
 struct SupportUse {
@@ -63,40 +132,21 @@ struct SupportUse {
   std::optional<Vec3> pitch_mm;  // else the job's
 };
 
-// How a text is set; sizes in mm.
-struct TextUse {
-  std::string text;
-  Choice style = "regular", h_align = "center", v_align = "center", measure = "capitals";
-  double height_mm = 10, line_spacing = 1;
-};
-
-// An image as a field: channel "value", 0 for black to 1 for white, in pixels from its left lower corner.
-struct HeightImage {
-  program::SourceField source;          // null: it could not be read
-  double columns = 0, rows = 0;         // pixels
-  double step_across = 0, step_up = 0;  // the greatest differences between neighbours
-};
-
 class SourceLoader {
  public:
   virtual ~SourceLoader() = default;
-  // A mesh by its materials, each once, in the order in which the file comes to them; with "one" a single part. `path`
-  // is made relative to what was found. Nothing, and diagnostics, when it is missing, wrong or open.
-  virtual std::vector<MeshPart> mesh(std::string& path, const MeshUse& use, const Reader& reader) = 0;
-  // A CAD file in the same way.
-  virtual std::vector<CadPart> cad(std::string& path, const CadUse& use, const Reader& reader) = 0;
+  // What is requested, perhaps shared with others who requested the same; null, and diagnostics, if it cannot be had.
+  template <class Request>
+  std::shared_ptr<const typename Request::Result> source(Request& request, const Reader& reader) {
+    return std::static_pointer_cast<const typename Request::Result>(find(&request, reader));
+  }
   // What stands under a solid that has bounds, in a printer that builds it layer by layer. It reaches up into the solid
   // by part of a cell.
   virtual PendingSourcePtr support(const NodePtr& solid, const SupportUse& use, const Reader& reader) = 0;
-  // What polygons bound, whatever z: channels "inside" and "distance". Where it turns about x = 0, edges there are no
-  // walls to what is inside. A warning for a ring that crosses itself.
-  virtual program::SourceField polygons(Polygons polygons, bool turns, const Reader& reader) = 0;
-  // The straight lines between points: channel "distance".
-  virtual program::SourceField path(const std::vector<Vec3>& points) = 0;
-  // The file's content is noted in `path`.
-  virtual HeightImage heights(FilePath& path, const Reader& reader) = 0;
-  // The outlines of a text, as of polygons; `font` is told which font was found. Null, and diagnostics, without one.
-  virtual program::SourceField text(FontName& font, const TextUse& use, const Reader& reader) = 0;
+
+ protected:
+  // The `Result` of the request that the variant holds.
+  virtual std::shared_ptr<const void> find(SourceRequest request, const Reader& reader) = 0;
 };
 
 }  // namespace ombre::design

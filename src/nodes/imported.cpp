@@ -12,9 +12,19 @@ namespace {
 
 using namespace design;
 
-using Parts = std::vector<MeshPart>;
+// What a file has of one material.
+struct SolidPart {
+  MaterialName material;
+  program::SourceField source;
+};
+using Parts = std::vector<SolidPart>;
 
-Field read(const MeshPart& part, const char* channel, const Point& p) {
+// A part's material, where the use of the file says the one for parts without a name.
+MaterialName material_of(const std::string& name, const MaterialName& otherwise, const Reader& reader) {
+  return name.empty() ? otherwise : MaterialName{reader.materials.find(name)};
+}
+
+Field read(const SolidPart& part, const char* channel, const Point& p) {
   const int number = part.source->channel(channel);
   ASSERT(number >= 0);
   return p.builder().source(part.source, number, p.x, p.y, p.z);
@@ -22,13 +32,13 @@ Field read(const MeshPart& part, const char* channel, const Point& p) {
 
 std::vector<Field> distances(const Parts& parts, const Point& p) {
   std::vector<Field> fields;
-  for (const MeshPart& part : parts) fields.push_back(read(part, "distance", p));
+  for (const SolidPart& part : parts) fields.push_back(read(part, "distance", p));
   return fields;
 }
 
 std::vector<Field> insides(const Parts& parts, const Point& p) {
   std::vector<Field> fields;
-  for (const MeshPart& part : parts) fields.push_back(truth(read(part, "inside", p)));
+  for (const SolidPart& part : parts) fields.push_back(truth(read(part, "inside", p)));
   return fields;
 }
 
@@ -82,7 +92,8 @@ struct Mesh {
   std::string object;
   Choice materials = "one";
   std::vector<MaterialForName> material_map;
-  Parts parts;  // read when the node is made
+  std::shared_ptr<const std::vector<MeshPart>> loaded;  // when the node is made
+  Parts parts;
 
   static Spec<Mesh> spec() {
     return {"mesh",
@@ -116,14 +127,17 @@ struct Mesh {
     if (materials == "one" && !material_map.empty())
       return fail("material_map of mesh: the materials of the file are not asked for",
                   "write materials=\"names\" or materials=\"colours\" too");
-    parts = reader.loader->mesh(path.path, {object, inside_rule, materials, material, material_map}, reader);
-    if (parts.empty()) return false;
+    MeshRequest request{path, {object, inside_rule, materials, material, material_map}};
+    loaded = reader.loader->source(request, reader);
+    if (!loaded) return false;
+    path.path = request.file.path;
+    for (const MeshPart& part : *loaded) parts.push_back({material_of(part.material, material, reader), part.source});
     path.content = content_of(parts);
     return true;
   }
 
   // Walls between two parts are nearer than the surface of the whole.
-  Metric metric() const { return parts.size() == 1 && parts[0].is_exact ? Metric::exact() : Metric::bounded(); }
+  Metric metric() const { return parts.size() == 1 && loaded->front().is_exact ? Metric::exact() : Metric::bounded(); }
 
   Box bounds(const Box&) const { return bounds_of(parts); }
   Field distance(const Point& p) const { return least_distance(parts, p); }
@@ -142,7 +156,8 @@ struct Cad {
   std::string object;
   Choice materials = "one";
   std::vector<MaterialForName> material_map;
-  std::vector<CadPart> parts;  // read when the node is made
+  std::shared_ptr<const std::vector<CadPart>> parts;  // read when the node is made
+  std::vector<MaterialName> part_materials;
 
   static Spec<Cad> spec() {
     return {"cad",
@@ -175,16 +190,18 @@ struct Cad {
     if (materials == "one" && !material_map.empty())
       return fail("material_map of cad: the materials of the file are not asked for",
                   "write materials=\"names\" or materials=\"colours\" too");
-    const CadUse use{{object, "nonzero", materials, material, material_map}, mode == "exact", tolerance};
-    parts = reader.loader->cad(path.path, use, reader);
-    if (parts.empty()) return false;
-    path.content = content_of(parts);
+    CadRequest request{path, {object, "nonzero", materials, material, material_map}, mode == "exact", tolerance};
+    parts = reader.loader->source(request, reader);
+    if (!parts) return false;
+    for (const CadPart& part : *parts) part_materials.push_back(material_of(part.material, material, reader));
+    path.path = request.file.path;
+    path.content = content_of(*parts);
     return true;
   }
 
   // Walls between two solids are nearer than the surface of the whole.
-  Metric metric() const { return parts.size() == 1 && parts[0].is_single ? Metric::exact() : Metric::bounded(); }
-  Box bounds(const Box&) const { return bounds_of(parts); }
+  Metric metric() const { return parts->size() == 1 && parts->front().is_single ? Metric::exact() : Metric::bounded(); }
+  Box bounds(const Box&) const { return bounds_of(*parts); }
   Field distance(const Inputs& in, const Point& p) const { return least_distance(made(in), p); }
   Field inside(const Inputs& in, const Point& p) const { return inside_any(made(in), p); }
   Field interior(const Inputs& in, const Point& p) const { return inside(in, p); }
@@ -195,8 +212,9 @@ struct Cad {
  private:
   Parts made(const Inputs& in) const {
     Parts sources;
-    for (const CadPart& part : parts) {
-      sources.push_back({part.material, part.source->make(in.scale())});
+    for (size_t n = 0; n < parts->size(); ++n) {
+      const CadPart& part = (*parts)[n];
+      sources.push_back({part_materials[n], part.source->make(in.scale())});
       for (const Remark& r : part.source->remarks(in.scale())) in.tell(r.severity, r.message, r.hint);
     }
     return sources;

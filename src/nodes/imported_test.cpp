@@ -19,9 +19,7 @@ class DoubtfulBall : public test::PendingBall {
 
 class DoubtfulLoader : public test::BallLoader {
  public:
-  std::vector<CadPart> cad(std::string&, const CadUse& use, const Reader&) override {
-    return {{use.parts.material, std::make_shared<DoubtfulBall>()}};
-  }
+  PendingSourcePtr pending() const override { return std::make_shared<DoubtfulBall>(); }
 };
 
 NodePtr cad_ball() {

@@ -114,8 +114,9 @@ struct Tube {
                   " points, found " + std::to_string(corners.size()));
     path = curve == "smooth" ? smooth_path(corners) : corners;
     if (closed && curve != "smooth") path.push_back(corners.front());
-    line = reader.loader->path(path);
-    return true;
+    PathRequest request{path};
+    line = reader.loader->source(request, reader);
+    return line != nullptr;
   }
 
   // Behind bends the surface is farther away than the middle line says.

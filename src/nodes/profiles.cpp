@@ -65,7 +65,8 @@ struct PolygonExtrude {
     auto plane = PlanePolygons::read(vertices, holes, reader);
     if (!plane) return false;
     here_from_plane = plane->here_from_plane;
-    outline = reader.loader->polygons(std::move(plane->polygons), false, reader);
+    PolygonsRequest request{std::move(plane->polygons), false};
+    outline = reader.loader->source(request, reader);
     return outline != nullptr;
   }
 
@@ -147,7 +148,8 @@ struct Revolve {
     }
     const auto checked = checked_ring(std::move(ring), "revolve", reader);
     if (!checked) return false;
-    outline = reader.loader->polygons({{*checked}, {}}, true, reader);
+    PolygonsRequest request{{{*checked}, {}}, true};
+    outline = reader.loader->source(request, reader);
     return outline != nullptr;
   }
 

@@ -17,7 +17,7 @@ struct Relief {
   double width = 40, height = 2, base = 1;
   MaterialName material;
   double length_y = 0;
-  HeightImage image;  // read when the node is made
+  std::shared_ptr<const HeightImage> image;  // read when the node is made
 
   static Spec<Relief> spec() {
     return {"relief",
@@ -41,8 +41,10 @@ struct Relief {
       reader.diagnostics.error(reader.where, "images cannot be read here");
       return false;
     }
-    image = reader.loader->heights(path, reader);
-    return image.source != nullptr;
+    ImageRequest request{path};
+    image = reader.loader->source(request, reader);
+    path = request.file;
+    return image != nullptr;
   }
 
   // Steep slopes are nearer than they are high.
@@ -54,20 +56,20 @@ struct Relief {
   }
 
   Field distance(const Point& p) const {
-    const int channel = image.source->channel("value");
+    const int channel = image->source->channel("value");
     ASSERT(channel >= 0);
-    const Field column = (p.x + width / 2) * (image.columns / width);
-    const Field row = (p.y + length_mm() / 2) * (image.rows / length_mm());
-    const Field top = p.builder().source(image.source, channel, column, row, p.constant(0)) * height + base;
+    const Field column = (p.x + width / 2) * (image->columns / width);
+    const Field row = (p.y + length_mm() / 2) * (image->rows / length_mm());
+    const Field top = p.builder().source(image->source, channel, column, row, p.constant(0)) * height + base;
     const Field sides = max(abs(p.x) - width / 2, abs(p.y) - length_mm() / 2);
     return max(max(sides, -p.z), (p.z - top) * (1 / steepness()));
   }
 
  private:
-  double length_mm() const { return length_y > 0 ? length_y : width * image.rows / image.columns; }
+  double length_mm() const { return length_y > 0 ? length_y : width * image->rows / image->columns; }
   // How much faster z - top changes than the point moves, at most.
   double steepness() const {
-    const double across = image.step_across * image.columns / width, up = image.step_up * image.rows / length_mm();
+    const double across = image->step_across * image->columns / width, up = image->step_up * image->rows / length_mm();
     return std::sqrt(1 + height * height * (across * across + up * up)) * (1 + 1e-12);
   }
 };

@@ -10,13 +10,9 @@
 
 namespace ombre::nodes::test {
 
-using design::FilePath;
-using design::FontName;
 using design::HeightImage;
 using design::MeshPart;
-using design::MeshUse;
 using design::Reader;
-using design::TextUse;
 
 // A ball that knows its distance exactly, in place of a file.
 class BallSource : public program::FieldSource {
@@ -131,29 +127,42 @@ class PendingBall : public design::PendingSource {
 
 class BallLoader : public design::SourceLoader {
  public:
-  std::vector<design::CadPart> cad(std::string&, const design::CadUse& use, const Reader& reader) override {
-    std::vector<design::CadPart> parts{{use.parts.material, std::make_shared<PendingBall>()}};
-    if (use.parts.materials != "one") parts.push_back({{reader.materials.find("clear")}, parts[0].source});
-    return parts;
-  }
   design::PendingSourcePtr support(const design::NodePtr&, const design::SupportUse&, const Reader&) override {
     return std::make_shared<PendingBall>();
   }
-  program::SourceField polygons(Polygons polygons, bool turns, const Reader&) override {
-    return std::make_shared<EdgeSource>(std::move(polygons), turns);
+
+ protected:
+  std::shared_ptr<const void> find(design::SourceRequest request, const Reader&) override {
+    return std::visit([&](auto* kind) -> std::shared_ptr<const void> { return make(*kind); }, request);
   }
-  program::SourceField path(const std::vector<Vec3>& points) override { return std::make_shared<PathSource>(points); }
-  HeightImage heights(FilePath&, const Reader&) override {
-    return {std::make_shared<WaveSource>(), 20, 10, 0.25 / 8, 0.25 / 4};
+  virtual design::PendingSourcePtr pending() const { return std::make_shared<PendingBall>(); }
+
+ private:
+  using CadParts = std::vector<design::CadPart>;
+  using MeshParts = std::vector<MeshPart>;
+
+  std::shared_ptr<const CadParts> make(const design::CadRequest& request) const {
+    CadParts parts{{"", pending()}};
+    if (request.use.materials != "one") parts.push_back({"clear", parts[0].source});
+    return std::make_shared<CadParts>(std::move(parts));
   }
-  program::SourceField text(FontName&, const TextUse& use, const Reader&) override {
-    const double h = use.height_mm;
+  static std::shared_ptr<const MeshParts> make(const design::MeshRequest& request) {
+    MeshParts parts{{"", std::make_shared<BallSource>()}};
+    if (request.use.materials != "one") parts.push_back({"clear", std::make_shared<BallSource>()});
+    return std::make_shared<MeshParts>(std::move(parts));
+  }
+  static program::SourceField make(const design::PolygonsRequest& request) {
+    return std::make_shared<EdgeSource>(request.polygons, request.turns);
+  }
+  static program::SourceField make(const design::PathRequest& request) {
+    return std::make_shared<PathSource>(request.points);
+  }
+  static std::shared_ptr<const HeightImage> make(const design::ImageRequest&) {
+    return std::make_shared<HeightImage>(HeightImage{std::make_shared<WaveSource>(), 20, 10, 0.25 / 8, 0.25 / 4});
+  }
+  static program::SourceField make(const design::TextRequest& request) {
+    const double h = request.height_mm;
     return std::make_shared<EdgeSource>(Polygons{{{{0, 0}, {h, 0}, {h / 3, h / 3}, {0, h}}}, {}}, false);
-  }
-  std::vector<MeshPart> mesh(std::string&, const MeshUse& use, const Reader& reader) override {
-    std::vector<MeshPart> parts{{use.material, std::make_shared<BallSource>()}};
-    if (use.materials != "one") parts.push_back({{reader.materials.find("clear")}, std::make_shared<BallSource>()});
-    return parts;
   }
 };
 

@@ -54,7 +54,9 @@ struct Letters {
       reader.diagnostics.error(reader.where, "texts cannot be made here");
       return false;
     }
-    outline = reader.loader->text(font, {text, style, h_align, v_align, measure, height, line_spacing}, reader);
+    TextRequest request{font, text, style, h_align, v_align, measure, height, line_spacing};
+    outline = reader.loader->source(request, reader);
+    font = request.font;
     return outline != nullptr;
   }
 

@@ -458,3 +458,37 @@ def test_every_node_has_a_class_with_its_text():
         assert issubclass(kind, ombre.Solid) and node["sentence"] in kind.__doc__
         for parameter in node["parameters"]:
             assert parameter["doc"] in kind.__doc__
+
+
+# Designs that are texts; files that are loaded again.
+
+TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n{0} 0 0\n0 {0} 0\n0 0 {0}\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
+
+
+def test_load_text_reads_files_beside_it(tmp_path):
+    (tmp_path / "a.off").write_text(TETRAHEDRON.format(6))
+    design = ombre.load_text('n = 1; scale(n) mesh("a.off", "red");', folder=tmp_path, n=2)
+    assert design.volume(0.1) == pytest.approx(12 ** 3 / 6, rel=0.01)
+    again = ombre.load_text(design.to_json(), name="design.json")
+    assert again.hash == design.hash
+    with pytest.raises(ombre.DesignError, match="here.vcad:1"):
+        ombre.load_text("sphere(", name="here.vcad")
+    with pytest.raises(ValueError, match="end it with .vcad or .json"):
+        ombre.load_text("sphere(1);", name="design.py")
+
+
+def test_files_are_read_again_only_when_they_change(tmp_path):
+    mesh, script = tmp_path / "a.off", tmp_path / "a.vcad"
+    script.write_text('mesh("a.off", "red");')
+    mesh.write_text(TETRAHEDRON.format(6))
+    for file in (mesh, script):
+        os.utime(file, (1e9, 1e9))
+    assert ombre.load(script).bounds[1] == (6, 6, 6)
+    reads = ombre.source_memory()["file_reads"]
+    assert ombre.load(script).bounds[1] == (6, 6, 6)
+    assert ombre.source_memory()["file_reads"] == reads
+    mesh.write_text(TETRAHEDRON.format(7))
+    assert ombre.load(script).bounds[1] == (7, 7, 7)
+    limit = ombre.source_memory()["most_bytes"]
+    assert ombre.source_memory(0)["bytes"] == 0
+    assert ombre.source_memory(limit)["most_bytes"] == limit

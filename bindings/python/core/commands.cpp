@@ -29,6 +29,7 @@ std::vector<const char*> pointers(const std::vector<std::string>& arguments) {
 struct RunningCommand {
   std::vector<std::string> arguments;
   compile::LoadedPtr design;
+  CachePtr cache;
   StopFlag stop;
   std::mutex mutex;
   std::condition_variable changed;
@@ -41,6 +42,7 @@ struct RunningCommand {
 void work(RunningCommand& command) {
   cli::Host host;
   host.stop = &command.stop;
+  host.cache = command.cache.get();
   host.on_event = [&](const DataMembers& event) {
     const std::scoped_lock lock(command.mutex);
     command.events.push_back(event);
@@ -104,9 +106,11 @@ void wait_for(RunningCommand& command, const py::object& on_event) {
 }
 
 // (exit code, what would go to stdout); a design in memory stands for the argument that names one.
-py::tuple run_command(const std::vector<std::string>& arguments, DesignHandle* design, const py::object& on_event) {
+py::tuple run_command(const CachePtr& cache, const std::vector<std::string>& arguments, DesignHandle* design,
+                      const py::object& on_event) {
   const auto command = std::make_shared<RunningCommand>();
   command->arguments = arguments;
+  command->cache = cache;
   if (design) command->design = design->loaded();
   std::thread([command] { work(*command); }).detach();
   wait_for(*command, on_event);
@@ -116,8 +120,9 @@ py::tuple run_command(const std::vector<std::string>& arguments, DesignHandle* d
 
 // The whole command line, on this process's own streams. `load_script` gives the design of a .py file, or None once
 // it told what is wrong.
-int run_main(const std::vector<std::string>& arguments, const py::function& load_script) {
+int run_main(const std::vector<std::string>& arguments, const py::function& load_script, const CachePtr& cache) {
   cli::Host host;
+  host.cache = cache.get();
   py::object script_design = py::none();
   host.load = [&](const std::string& path, const compile::LoadOptions& options, Diagnostics& diagnostics) {
     if (!path.ends_with(".py")) return compile::load_design(path, options, diagnostics);
@@ -139,10 +144,16 @@ int run_main(const std::vector<std::string>& arguments, const py::function& load
 
 }  // namespace
 
-void add_commands(py::module_& module) {
-  module.def("run_command", &run_command, py::arg("arguments"), py::arg("design") = nullptr,
-             py::arg("on_event") = py::none());
-  module.def("run_main", &run_main);
+void add_commands(py::module_& module, const CachePtr& cache) {
+  module.def(
+      "run_command",
+      [cache](const std::vector<std::string>& arguments, DesignHandle* design, const py::object& on_event) {
+        return run_command(cache, arguments, design, on_event);
+      },
+      py::arg("arguments"), py::arg("design") = nullptr, py::arg("on_event") = py::none());
+  module.def("run_main", [cache](const std::vector<std::string>& arguments, const py::function& load_script) {
+    return run_main(arguments, load_script, cache);
+  });
   module.def("commands", [] { return to_python(cli::describe_commands()); });
   module.def("functions", [] {
     py::list list;

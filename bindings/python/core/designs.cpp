@@ -79,11 +79,11 @@ py::list sample(DesignHandle& handle, const Points& points, const std::string& q
   return result;
 }
 
-FactoryPtr make_factory(const std::string& path) {
+FactoryPtr make_factory(const CachePtr& cache, const std::string& path) {
   Diagnostics diagnostics;
   auto materials = compile::load_materials(path, diagnostics);
   raise_errors(diagnostics);
-  return std::make_shared<compile::NodeFactory>(std::move(*materials));
+  return std::make_shared<compile::NodeFactory>(std::move(*materials), cache);
 }
 
 NodeHandle make_node(const FactoryPtr& factory, const std::string& type, const py::tuple& positional,
@@ -174,31 +174,44 @@ std::unique_ptr<DesignHandle> make_design(const PartList& parts,
   return std::make_unique<DesignHandle>(std::move(loaded), factory);
 }
 
-std::unique_ptr<DesignHandle> load(const std::string& path, const std::string& materials,
-                                   const std::vector<std::string>& definitions) {
+// `text` in place of the file's, if there is one.
+std::unique_ptr<DesignHandle> load(const CachePtr& cache, const std::string& path, const std::string& materials,
+                                   const std::vector<std::string>& definitions,
+                                   const std::optional<std::string>& text) {
   Diagnostics diagnostics;
   compile::LoadOptions options;
   options.materials = materials;
   options.definitions = definitions;
+  options.cache = cache.get();
   compile::LoadedPtr loaded;
   {
     const py::gil_scoped_release unlocked;
-    loaded = compile::load_design(path, options, diagnostics);
+    loaded =
+        text ? compile::load_text(*text, path, options, diagnostics) : compile::load_design(path, options, diagnostics);
   }
   raise_errors(diagnostics);
-  return std::make_unique<DesignHandle>(loaded, std::make_shared<compile::NodeFactory>(loaded->design.materials));
+  return std::make_unique<DesignHandle>(loaded,
+                                        std::make_shared<compile::NodeFactory>(loaded->design.materials, cache));
 }
 
-std::unique_ptr<DesignHandle> from_json(const std::string& text) {
+py::dict about(sources::SourceCache& cache) {
+  py::dict result;
+  result["bytes"] = cache.bytes();
+  result["most_bytes"] = cache.most_bytes();
+  result["file_reads"] = cache.files().reads();
+  return result;
+}
+
+std::unique_ptr<DesignHandle> from_json(const CachePtr& cache, const std::string& text) {
   const SourcePtr source = make_source("design.json", text);
   Diagnostics diagnostics;
-  compile::MeshLoader loader;
+  compile::DesignSources loader(*cache);
   std::optional<design::Design> design;
   if (const auto data = parse_json(source, diagnostics))
     design = design::read_design(*data, compile::node_registry(), &loader, diagnostics);
   if (design) design::check_cells(*design, diagnostics);
   raise_errors(diagnostics);
-  const auto factory = std::make_shared<compile::NodeFactory>(design->materials);
+  const auto factory = std::make_shared<compile::NodeFactory>(design->materials, cache);
   auto loaded = std::make_shared<const compile::Loaded>(compile::Loaded{"design.json", source, std::move(*design)});
   return std::make_unique<DesignHandle>(std::move(loaded), factory);
 }
@@ -267,9 +280,9 @@ void DesignHandle::raise_failures() const {
   for (const design::Part& part : design().parts) raise_below(*part.solid, part.name, seen);
 }
 
-void add_designs(py::module_& module) {
+void add_designs(py::module_& module, const CachePtr& cache) {
   py::class_<compile::NodeFactory, FactoryPtr>(module, "Factory", "Makes nodes that name one table of materials.")
-      .def(py::init(&make_factory), py::arg("path"))
+      .def(py::init([cache](const std::string& path) { return make_factory(cache, path); }), py::arg("path"))
       .def("make", &make_node, py::arg("type"), py::arg("positional"), py::arg("named"), py::arg("inputs"),
            py::arg("place") = py::none())
       .def_property_readonly("materials", [](const FactoryPtr& f) { return materials_list(f->materials()); });
@@ -284,9 +297,13 @@ void add_designs(py::module_& module) {
   py::class_<DesignHandle>(module, "Design", "Parts, materials, perhaps a box to sample; never changes.")
       .def(py::init(&make_design), py::arg("parts"), py::arg("box") = py::none(),
            py::arg("voxel") = std::vector<std::string>{})
-      .def_static("load", &load, py::arg("path"), py::arg("materials") = "",
-                  py::arg("definitions") = std::vector<std::string>{})
-      .def_static("from_json", &from_json)
+      .def_static(
+          "load",
+          [cache](const std::string& path, const std::string& materials, const std::vector<std::string>& definitions,
+                  const std::optional<std::string>& text) { return load(cache, path, materials, definitions, text); },
+          py::arg("path"), py::arg("materials") = "", py::arg("definitions") = std::vector<std::string>{},
+          py::arg("text") = py::none())
+      .def_static("from_json", [cache](const std::string& text) { return from_json(cache, text); })
       .def("to_json", &to_json)
       .def("tree", [](const DesignHandle& h) { return design::to_tree(h.design()); })
       .def("hash", [](const DesignHandle& h) { return design::hash(h.design()).hex(); })
@@ -303,6 +320,8 @@ void add_designs(py::module_& module) {
                                return parts;
                              })
       .def("sample", &sample, py::arg("points"), py::arg("question"), py::arg("threads") = 0);
+  module.def("source_memory", [cache] { return about(*cache); });
+  module.def("set_source_memory", [cache](size_t bytes) { cache->set_most_bytes(bytes); });
 }
 
 }  // namespace ombre::python

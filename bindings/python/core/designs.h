@@ -42,8 +42,11 @@ class DesignHandle {
   std::map<std::string, std::shared_ptr<const compile::Sampler>> samplers_;
 };
 
-void add_designs(py::module_& module);
-void add_commands(py::module_& module);
+// The cache of the process.
+using CachePtr = std::shared_ptr<sources::SourceCache>;
+
+void add_designs(py::module_& module, const CachePtr& cache);
+void add_commands(py::module_& module, const CachePtr& cache);
 void add_point_sets(py::module_& module);
 
 }  // namespace ombre::python

@@ -23,8 +23,9 @@ PYBIND11_MODULE(_core, module) {
       PyErr_SetNone(PyExc_KeyboardInterrupt);
     }
   });
-  add_designs(module);
-  add_commands(module);
+  const auto cache = std::make_shared<sources::SourceCache>();
+  add_designs(module, cache);
+  add_commands(module, cache);
   add_point_sets(module);
 }
 

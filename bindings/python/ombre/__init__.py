@@ -16,7 +16,7 @@ from . import _core
 
 _core.set_package_folder(_os.path.dirname(_os.path.abspath(__file__)))
 
-from ._design import Design, Voxels, _document_jobs, load
+from ._design import Design, Voxels, _document_jobs, load, load_text, source_memory
 from ._errors import CheckError, DesignError, DesignWarning, FunctionError, MachineError
 from ._expressions import Expression, d, t, where
 from ._expressions import coordinates as _coordinates, functions as _functions
@@ -34,7 +34,8 @@ _document_jobs()
 globals().update({**{n: f for n, f in _functions.items() if n != "if"},
                   **_coordinates, **_nodes})
 
-__all__ = ["Design", "Voxels", "load", "CheckError", "DesignError", "DesignWarning", "FunctionError", "MachineError",
+__all__ = ["Design", "Voxels", "load", "load_text", "source_memory",
+           "CheckError", "DesignError", "DesignWarning", "FunctionError", "MachineError",
            "Expression", "d", "t", "where", "pointwise", "Materials", "delaunay_edges", "voronoi_edges", "option", "Solid",
            *_coordinates, *_nodes,
            *(n for n in _functions if n != "if" and n not in _builtin_names)]

@@ -345,6 +345,38 @@ def load(path, materials=None, **variables):
     return Design._of(_core.Design.load(path, "" if materials is None else os.fspath(materials), definitions))
 
 
+def load_text(text, name="design.vcad", folder="", materials=None, **variables):
+    """The design of a text that is no file.
+
+    Args:
+        text: a script, or a design file.
+        name: what messages call it; its ending, .vcad or .json, says which of both it is.
+        folder: where relative paths in it begin; the working folder if it is empty.
+        materials, variables: as for `load`.
+    """
+    if not name.endswith((".vcad", ".json")):
+        raise ValueError(f"the name {name!r} does not say what the text is; end it with .vcad or .json")
+    path = os.path.join(os.fspath(folder), name)
+    definitions = [f"{key}={_definition(value)}" for key, value in variables.items()]
+    return Design._of(_core.Design.load(path, "" if materials is None else os.fspath(materials), definitions, text))
+
+
+def source_memory(limit=None):
+    """What this process keeps of the files that designs have loaded, so that they load quickly again.
+
+    What was used least recently is dropped first. The sizes are estimates.
+
+    Args:
+        limit: how many bytes to keep from now on; at first a gibibyte.
+
+    Returns:
+        A dict: bytes kept, most_bytes to keep, and file_reads, how often a file was read.
+    """
+    if limit is not None:
+        _core.set_source_memory(limit)
+    return _core.source_memory()
+
+
 def _definition(value):
     import json
     return value if isinstance(value, str) else json.dumps(value)

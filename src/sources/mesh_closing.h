@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "compile/mesh_materials.h"
+#include "sources/mesh_materials.h"
 
-namespace ombre::compile {
+namespace ombre::sources {
 
 // The mesh of a file, for messages.
 std::string mesh_called(const std::string& path);
@@ -22,4 +22,4 @@ bool check_part_closed(const std::string& path, const MaterialMesh& part, std::s
 // The same for the meshes that its lattices are clipped by.
 bool close_clips(const std::string& path, formats::Mesh& mesh, std::string_view rule, const design::Reader& reader);
 
-}  // namespace ombre::compile
+}  // namespace ombre::sources

@@ -1,8 +1,8 @@
-#include "compile/cad_remarks.h"
+#include "sources/cad_remarks.h"
 
 #include <gtest/gtest.h>
 
-namespace ombre::compile {
+namespace ombre::sources {
 
 TEST(CadRemarks, SayWhereTrianglesAreOpenAndWhatToDo) {
   std::vector<importing::OpenSolid> open{{"lid", {14, {Vec3{3, 0, 2}, Vec3{3, 0.5, 2}}, 0.02}}};
@@ -34,4 +34,4 @@ TEST(CadRemarks, SayHowLongExactPartsTake) {
   EXPECT_EQ(remark.hint, "where triangles will do, write mode=\"fast\" with tolerance=0.01");
 }
 
-}  // namespace ombre::compile
+}  // namespace ombre::sources

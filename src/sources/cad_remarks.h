@@ -7,7 +7,7 @@
 #include "design/source_loader.h"
 #include "import/cad_source.h"
 
-namespace ombre::compile {
+namespace ombre::sources {
 
 // On solids whose triangles, at this tolerance, do not close; there is one at least.
 design::Remark remark_on_gaps(const std::string& path, const std::vector<importing::OpenSolid>& open,
@@ -16,4 +16,4 @@ design::Remark remark_on_gaps(const std::string& path, const std::vector<importi
 // On an exact part that will be asked about so many voxels; `tolerance_mm` is that of triangles in its place.
 design::Remark remark_on_time(const std::string& path, double voxels, double seconds, double tolerance_mm);
 
-}  // namespace ombre::compile
+}  // namespace ombre::sources

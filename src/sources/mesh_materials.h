@@ -7,8 +7,9 @@
 
 #include "design/source_loader.h"
 #include "formats/mesh.h"
+#include "sources/loading.h"
 
-namespace ombre::compile {
+namespace ombre::sources {
 
 // The triangles of one material.
 struct MaterialMesh {
@@ -36,4 +37,10 @@ std::optional<std::vector<const design::Material*>> find_materials(const Grouped
 std::optional<std::vector<MaterialMesh>> by_material(const std::string& path, const formats::Mesh& mesh,
                                                      const design::MeshUse& use, const design::Reader& reader);
 
-}  // namespace ombre::compile
+// What of a use decides the parts that a file gives, the design's materials included if they do.
+void add_use(Key& key, const design::MeshUse& use, const design::Reader& reader);
+
+// ".stl": what tells the formats apart that their content does not.
+std::string ending_of(const std::string& path);
+
+}  // namespace ombre::sources

@@ -1,11 +1,11 @@
 // What is told of CAD parts once they are made.
-#include "compile/cad_remarks.h"
+#include "sources/cad_remarks.h"
 
 #include <cmath>
 
 #include "base/text.h"
 
-namespace ombre::compile {
+namespace ombre::sources {
 namespace {
 
 std::string place_text_of(Vec3 p) {
@@ -45,4 +45,4 @@ design::Remark remark_on_time(const std::string& path, double voxels, double sec
           "where triangles will do, write mode=\"fast\" with tolerance=" + format_rounded(tolerance, 2)};
 }
 
-}  // namespace ombre::compile
+}  // namespace ombre::sources

@@ -6,10 +6,10 @@
 
 #include "base/diagnostic.h"
 
-namespace ombre::compile {
+namespace ombre::sources {
 
 // Where the path leads: beside the script first, then beside what it links to, then in the working directory. Nothing,
 // and a diagnostic, when no file is there.
 std::optional<std::string> find_file(const std::string& path, const SourceRange& where, Diagnostics& diagnostics);
 
-}  // namespace ombre::compile
+}  // namespace ombre::sources

@@ -1,17 +1,13 @@
-#include "compile/shape_loader.h"
-
-#include "base/error.h"
+// Texts of designs as field sources.
 #include "base/text.h"
 #include "base/utf8.h"
-#include "compile/find_file.h"
 #include "draw/font_files.h"
 #include "draw/font_search.h"
 #include "draw/text_outlines.h"
-#include "formats/file.h"
 #include "import/polygon_source.h"
-#include "import/polygon_walls.h"
+#include "sources/loading.h"
 
-namespace ombre::compile {
+namespace ombre::design {
 namespace {
 
 constexpr const char* usual_font = "DejaVu Sans";
@@ -24,21 +20,21 @@ struct Font {
   double slant = 0;
 };
 
-bool wants_bold(const design::TextUse& use) { return use.style == "bold" || use.style == "bold_italic"; }
-bool wants_italic(const design::TextUse& use) { return use.style == "italic" || use.style == "bold_italic"; }
+bool wants_bold(const TextRequest& use) { return use.style == "bold" || use.style == "bold_italic"; }
+bool wants_italic(const TextRequest& use) { return use.style == "italic" || use.style == "bold_italic"; }
 
 bool is_font_file(const std::string& name) {
   const std::string lower = to_lower(name);
   return lower.ends_with(".ttf") || lower.ends_with(".otf") || lower.ends_with(".ttc");
 }
 
-void no_font(const std::string& name, const design::Reader& reader) {
+void no_font(const std::string& name, const Reader& reader) {
   reader.diagnostics.error(reader.where, "there is no font \"" + name + "\", and none to take its place",
                            "install fonts-dejavu-core, or give the path of a .ttf or .otf file");
 }
 
 // A font of the system, with a warning for what it is not.
-std::optional<Font> system_font(const std::string& name, const design::TextUse& use, const design::Reader& reader) {
+std::optional<Font> system_font(const std::string& name, const TextRequest& use, const Reader& reader) {
   auto found = draw::search_font(name, wants_bold(use), wants_italic(use));
   if (found && !found->has_name) {
     const auto usual = draw::search_font(usual_font, wants_bold(use), wants_italic(use));
@@ -55,19 +51,21 @@ std::optional<Font> system_font(const std::string& name, const design::TextUse& 
   return Font{found->file, found->index, wants_italic(use) && !found->is_italic ? slant_of_italics : 0};
 }
 
-std::optional<Font> find_font(const std::string& name, const design::TextUse& use, const design::Reader& reader) {
+std::optional<Font> find_font(const TextRequest& use, sources::Loading& loading) {
+  const Reader& reader = loading.reader();
+  const std::string& name = use.font.name;
   if (!is_font_file(name)) return system_font(name, use, reader);
-  const auto file = find_file(name, reader.where, reader.diagnostics);
-  if (!file) return std::nullopt;
+  FilePath file{name, {}};
+  if (!loading.find(file)) return std::nullopt;
   if (use.style != "regular") {
     reader.diagnostics.error(reader.where, "a font that is a file has one style",
                              "leave style out, or give the file with these letters");
     return std::nullopt;
   }
-  return Font{*file};
+  return Font{file.path};
 }
 
-draw::TextLayout layout_of(const design::TextUse& use, double slant) {
+draw::TextLayout layout_of(const TextRequest& use, double slant) {
   draw::TextLayout layout{use.height_mm, use.measure == "capitals", use.line_spacing, slant};
   layout.side = use.h_align == "left"    ? draw::TextSide::left
                 : use.h_align == "right" ? draw::TextSide::right
@@ -79,7 +77,13 @@ draw::TextLayout layout_of(const design::TextUse& use, double slant) {
   return layout;
 }
 
-void warn_of_missing(const std::vector<std::string>& missing, const std::string& font, const design::Reader& reader) {
+Hash key_of_text(const TextRequest& use, double slant) {
+  sources::Key key("text of a font");
+  for (const Choice choice : {use.style, use.h_align, use.v_align, use.measure}) key.add(choice.text());
+  return key.add(use.font.content).add(use.text).add(use.height_mm).add(use.line_spacing).add(slant).hash();
+}
+
+void warn_of_missing(const std::vector<std::string>& missing, const std::string& font, const Reader& reader) {
   if (missing.empty()) return;
   constexpr size_t most_named = 10;
   std::vector<std::string> named(missing.begin(), missing.begin() + std::min(missing.size(), most_named));
@@ -91,39 +95,31 @@ void warn_of_missing(const std::vector<std::string>& missing, const std::string&
 
 }  // namespace
 
-program::SourceField load_polygons(Polygons polygons, bool turns, const design::Reader& reader) {
-  for (const auto* rings : {&polygons.solid, &polygons.holes})
-    for (const Ring& ring : *rings) {
-      const auto edges = importing::find_self_crossing(ring);
-      if (!edges) continue;
-      reader.diagnostics.warning(reader.where,
-                                 "the polygon crosses itself: its edges behind points " +
-                                     std::to_string((*edges)[0] + 1) + " and " + std::to_string((*edges)[1] + 1) +
-                                     " meet",
-                                 "all that it goes round counts as inside");
-    }
-  return importing::make_polygon_source("polygon", std::move(polygons), {turns});
-}
-
-program::SourceField load_text(design::FontName& font, const design::TextUse& use, const design::Reader& reader) {
-  const auto fail = [&](const std::string& message, const std::string& hint = "") {
+std::shared_ptr<const program::FieldSource> TextRequest::load(sources::Loading& loading) {
+  const auto fail = [](const Reader& reader, const std::string& message, const std::string& hint = "") {
     reader.diagnostics.error(reader.where, message, hint);
     return nullptr;
   };
   if (!draw::can_outline_text())
-    return fail("this ombre was built without HarfBuzz and fontconfig, which texts need",
+    return fail(loading.reader(), "this ombre was built without HarfBuzz and fontconfig, which texts need",
                 "install libharfbuzz-dev and libfontconfig-dev, configure with -DOMBRE_TEXT=ON and build again");
-  if (count_code_points(use.text) > most_letters)
-    return fail("a text has at most " + format_count(most_letters) + " letters");
-  const auto found = find_font(font.name, use, reader);
-  if (!found) return nullptr;
-  const std::string bytes = formats::read_file(found->file);
-  font.content = hash_bytes(hash_bytes(bytes).hex() + std::to_string(found->index));
-  auto outlines = draw::outline_text(bytes, found->index, use.text, layout_of(use, found->slant));
-  if (!outlines) return fail(found->file + " is not a font with outlines that can be read");
-  if (outlines->rings.empty()) return fail("text has no letters that can be seen", "write for example text(\"A1\")");
-  warn_of_missing(outlines->missing, font.name, reader);
-  return importing::make_polygon_source("text", {std::move(outlines->rings), {}});
+  if (count_code_points(text) > most_letters)
+    return fail(loading.reader(), "a text has at most " + format_count(most_letters) + " letters");
+  const auto found = find_font(*this, loading);
+  FilePath file{found ? found->file : "", {}};
+  if (!found || !loading.look_at(file)) return nullptr;
+  font.content = hash_bytes(file.content.hex() + std::to_string(found->index));
+
+  using Made = sources::Loading::Made<Result>;
+  return loading.cached<Result>(key_of_text(*this, found->slant), font.name, [&](const Reader& reader) -> Made {
+    auto outlines = draw::outline_text(*loading.bytes(file), found->index, text, layout_of(*this, found->slant));
+    if (!outlines) return {fail(reader, found->file + " is not a font with outlines that can be read"), 0};
+    if (outlines->rings.empty())
+      return {fail(reader, "text has no letters that can be seen", "write for example text(\"A1\")"), 0};
+    warn_of_missing(outlines->missing, font.name, reader);
+    constexpr size_t bytes_per_letter = 20'000;
+    return {importing::make_polygon_source("text", {std::move(outlines->rings), {}}), bytes_per_letter * text.size()};
+  });
 }
 
-}  // namespace ombre::compile
+}  // namespace ombre::design

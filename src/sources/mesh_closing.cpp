@@ -1,4 +1,4 @@
-#include "compile/mesh_closing.h"
+#include "sources/mesh_closing.h"
 
 #include <map>
 
@@ -7,7 +7,7 @@
 #include "import/mesh_source.h"
 #include "import/shells.h"
 
-namespace ombre::compile {
+namespace ombre::sources {
 namespace {
 
 std::string point_text(Vec3 p) {
@@ -104,4 +104,4 @@ bool close_clips(const std::string& path, formats::Mesh& mesh, std::string_view 
   return true;
 }
 
-}  // namespace ombre::compile
+}  // namespace ombre::sources

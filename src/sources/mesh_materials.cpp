@@ -1,12 +1,14 @@
-#include "compile/mesh_materials.h"
+#include "sources/mesh_materials.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
+#include "base/json.h"
 #include "base/text.h"
 #include "formats/mesh_objects.h"
 
-namespace ombre::compile {
+namespace ombre::sources {
 namespace {
 
 using design::Material;
@@ -169,4 +171,13 @@ std::optional<std::vector<MaterialMesh>> by_material(const std::string& path, co
   return parts;
 }
 
-}  // namespace ombre::compile
+void add_use(Key& key, const design::MeshUse& use, const design::Reader& reader) {
+  key.add(use.object).add(use.materials.text());
+  if (use.materials == "one") return;
+  key.add(print_json_line(reader.materials.to_data())).add(use.material.material->name);
+  for (const auto& [name, material] : use.material_map) key.add(name).add(material.material->name);
+}
+
+std::string ending_of(const std::string& path) { return to_lower(std::filesystem::path(path).extension().string()); }
+
+}  // namespace ombre::sources

@@ -1,11 +1,11 @@
-#include "compile/find_file.h"
+#include "sources/find_file.h"
 
 #include <filesystem>
 
 #include "base/named_files.h"
 #include "base/text.h"
 
-namespace ombre::compile {
+namespace ombre::sources {
 
 namespace fs = std::filesystem;
 
@@ -19,4 +19,4 @@ std::optional<std::string> find_file(const std::string& path, const SourceRange&
   return std::nullopt;
 }
 
-}  // namespace ombre::compile
+}  // namespace ombre::sources

@@ -1,0 +1,18 @@
+// What the nodes of a design may request.
+#pragma once
+
+#include "compile/support_source.h"
+#include "sources/loading.h"
+
+namespace ombre::compile {
+
+class DesignSources final : public sources::Loader {
+ public:
+  using Loader::Loader;
+  design::PendingSourcePtr support(const design::NodePtr& solid, const design::SupportUse& use,
+                                   const design::Reader& reader) override {
+    return make_support_source(solid, use, reader);
+  }
+};
+
+}  // namespace ombre::compile

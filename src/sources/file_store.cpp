@@ -1,0 +1,61 @@
+#include "sources/file_store.h"
+
+#include <sys/stat.h>
+
+#include <chrono>
+
+#include "base/error.h"
+#include "formats/file.h"
+
+namespace ombre::sources {
+namespace {
+
+// Clocks of file systems tick every few milliseconds: two changes within a tick have one time.
+constexpr auto longest_tick = std::chrono::milliseconds(50);
+
+}  // namespace
+
+FileStore::Stamp FileStore::stamp_of(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
+  return {static_cast<int64_t>(status.st_dev), static_cast<int64_t>(status.st_ino), status.st_size,
+          status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+bool FileStore::is_settled(const Stamp& stamp) {
+  const auto modified = std::chrono::seconds(stamp[3]) + std::chrono::nanoseconds(stamp[4]);
+  return std::chrono::system_clock::now().time_since_epoch() - modified > longest_tick;
+}
+
+FileStore::Content FileStore::content(const std::string& path) {
+  const Stamp stamp = stamp_of(path);
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto known = known_.find(path);
+    if (known != known_.end() && known->second.stamp == stamp) return {known->second.hash, nullptr};
+  }
+  const bool may_be_kept = stamp != Stamp{} && is_settled(stamp);
+  Content content = read(path);
+  const std::scoped_lock lock(mutex_);
+  if (may_be_kept && stamp_of(path) == stamp)
+    known_[path] = {stamp, content.hash};
+  else
+    known_.erase(path);
+  return content;
+}
+
+std::shared_ptr<const std::string> FileStore::bytes(const std::string& path, const Content& content) {
+  if (content.bytes) return content.bytes;
+  const Content now = read(path);
+  if (now.hash != content.hash) throw Error("cannot read " + path + ": it changes while it is read");
+  return now.bytes;
+}
+
+FileStore::Content FileStore::read(const std::string& path) {
+  ++reads_;
+  auto bytes = std::make_shared<const std::string>(formats::read_file(path));
+  const Hash hash = hash_bytes(*bytes);
+  return {hash, std::move(bytes)};
+}
+
+}  // namespace ombre::sources

@@ -1,0 +1,80 @@
+#include "sources/loading.h"
+
+#include "base/assert.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "sources/find_file.h"
+
+namespace ombre::sources {
+
+bool Loader::is_new(const Hash& key) {
+  const std::scoped_lock lock(mutex_);
+  return told_.insert(key).second;
+}
+
+std::shared_ptr<const void> Loader::find(design::SourceRequest request, const design::Reader& reader) {
+  Loading loading(*this, reader);
+  return std::visit([&](auto* kind) -> std::shared_ptr<const void> { return kind->load(loading); }, request);
+}
+
+Key& Key::add(std::string_view word) {
+  text_.append(std::to_string(word.size())).append(" ").append(word);
+  return *this;
+}
+
+Key& Key::add(double number) { return add(format_number(number)); }
+
+bool Loading::find(design::FilePath& file) {
+  const auto found = find_file(file.path, reader_.where, reader_.diagnostics);
+  if (found) file.path = *found;
+  return found.has_value();
+}
+
+bool Loading::look_at(design::FilePath& file) {
+  try {
+    content_ = loader_.cache().files().content(file.path);
+  } catch (const Error& error) {
+    reader_.diagnostics.error(reader_.where, error.what());
+    return false;
+  }
+  looked_at_ = file.path;
+  file.content = content_.hash;
+  return true;
+}
+
+std::shared_ptr<const std::string> Loading::bytes(const design::FilePath& file) {
+  ASSERT(file.path == looked_at_);
+  return loader_.cache().files().bytes(file.path, content_);
+}
+
+CacheEntryPtr Loading::entry_for(const Hash& key, const std::string& name, const MakeAny& make) {
+  CacheEntryPtr known = loader_.cache().find(key);
+  // Remarks that call it by another name are of no use here.
+  const bool is_usable = known && (known->name == name || known->remarks.list().empty());
+  const bool is_new = loader_.is_new(key);
+  if (is_usable) {
+    if (is_new) tell_again(*known);
+    return known;
+  }
+  CacheEntry entry{nullptr, 0, name, reader_.where, {}};
+  const design::Reader reader{reader_.materials, entry.remarks, reader_.loader,
+                              reader_.where,     reader_.node,  reader_.name};
+  try {
+    std::tie(entry.value, entry.bytes) = make(reader);
+  } catch (const Error& error) {
+    reader.diagnostics.error(reader.where, error.what());
+  }
+  reader_.diagnostics.add_all(entry.remarks);
+  if (!entry.value || entry.remarks.has_errors()) return nullptr;
+  if (known) return std::make_shared<const CacheEntry>(std::move(entry));
+  return loader_.cache().add(key, std::move(entry));
+}
+
+void Loading::tell_again(const CacheEntry& entry) const {
+  for (Diagnostic remark : entry.remarks.list()) {
+    if (remark.where == entry.where) remark.where = reader_.where;
+    reader_.diagnostics.add(std::move(remark));
+  }
+}
+
+}  // namespace ombre::sources

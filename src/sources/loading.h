@@ -1,0 +1,94 @@
+// What a kind of source works with while it loads what was requested.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "base/progress.h"
+#include "design/source_loader.h"
+#include "sources/source_cache.h"
+
+namespace ombre::sources {
+
+// Loads what one design requests. Thread-safe.
+class Loader : public design::SourceLoader {
+ public:
+  // `stop`, which may be null, ends what takes long. Both outlive the loader.
+  explicit Loader(SourceCache& cache, const StopFlag* stop = nullptr) : cache_(cache), stop_(stop) {}
+
+  SourceCache& cache() { return cache_; }
+  const StopFlag* stop() const { return stop_; }
+  // Is this the first time that the design gets what has this key?
+  bool is_new(const Hash& key);
+
+ protected:
+  std::shared_ptr<const void> find(design::SourceRequest request, const design::Reader& reader) override;
+
+ private:
+  SourceCache& cache_;
+  const StopFlag* stop_;
+  std::mutex mutex_;
+  std::set<Hash> told_;
+};
+
+// Text in which what decides a source stands, each word ended so that no two lists of words are alike.
+class Key {
+ public:
+  explicit Key(std::string_view kind) { add(kind); }
+  Key& add(std::string_view word);
+  Key& add(double number);
+  Key& add(const Hash& content) { return add(content.hex()); }
+  Hash hash() const { return hash_bytes(text_); }
+
+ private:
+  std::string text_;
+};
+
+// One request.
+class Loading {
+ public:
+  Loading(Loader& loader, const design::Reader& reader) : loader_(loader), reader_(reader) {}
+
+  const design::Reader& reader() const { return reader_; }
+  const StopFlag* stop() const { return loader_.stop(); }
+
+  // The file that a design names: beside the script first, then beside what this links to, then in the working
+  // directory. False, and a diagnostic, when there is none.
+  bool find(design::FilePath& file);
+  // False, and a diagnostic, when it cannot be read. Notes its content.
+  bool look_at(design::FilePath& file);
+  // Of a file that was looked at. Throws Error.
+  std::shared_ptr<const std::string> bytes(const design::FilePath& file);
+
+  // What is made for a key, and the memory that it takes; null, and diagnostics, where that fails.
+  template <class T>
+  struct Made {
+    std::shared_ptr<const T> value;
+    size_t bytes = 0;
+  };
+  // What was made for the key before, else what `make` returns for a reader. What was said then is said again, once
+  // for each design; `name` is the one that it calls the source by. An Error becomes a diagnostic.
+  template <class T, class Make>
+  std::shared_ptr<const T> cached(const Hash& key, const std::string& name, const Make& make) {
+    const CacheEntryPtr entry = entry_for(key, name, [&](const design::Reader& reader) {
+      Made<T> made = make(reader);
+      return std::pair(std::shared_ptr<const void>(std::move(made.value)), made.bytes);
+    });
+    if (!entry) return nullptr;
+    return {entry, static_cast<const T*>(entry->value.get())};
+  }
+
+ private:
+  using MakeAny = std::function<std::pair<std::shared_ptr<const void>, size_t>(const design::Reader&)>;
+  CacheEntryPtr entry_for(const Hash& key, const std::string& name, const MakeAny& make);
+  void tell_again(const CacheEntry& entry) const;
+
+  Loader& loader_;
+  const design::Reader& reader_;
+  std::string looked_at_;
+  FileStore::Content content_;  // of that file
+};
+
+}  // namespace ombre::sources

@@ -1,0 +1,204 @@
+#include "sources/loading.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+namespace ombre::sources {
+namespace {
+
+namespace fs = std::filesystem;
+using design::MeshRequest;
+using design::PolygonsRequest;
+
+// A folder that is removed with its files.
+class Folder {
+ public:
+  explicit Folder(const std::string& name) : path_(fs::path(testing::TempDir()) / name) {
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+  }
+  ~Folder() { fs::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  // Last modified so many seconds ago.
+  std::string write(const std::string& name, const std::string& text, int seconds_ago = 100) const {
+    const fs::path path = path_ / name;
+    std::ofstream(path, std::ios::binary) << text;
+    fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::seconds(seconds_ago));
+    return path.string();
+  }
+
+ private:
+  fs::path path_;
+};
+
+// A tetrahedron with a corner at the origin; its edges along the axes have this length.
+std::string tetrahedron(int length) {
+  const std::string l = std::to_string(length);
+  return "OFF\n4 4 0\n0 0 0\n" + l + " 0 0\n0 " + l + " 0\n0 0 " + l + "\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+}
+
+// With another that overlaps it and faces inward, which is a warning.
+std::string with_inverted_shell() {
+  return "OFF\n8 8 0\n0 0 0\n3 0 0\n0 3 0\n0 0 3\n1 0.5 0.5\n4 0.5 0.5\n1 3.5 0.5\n1 0.5 3.5\n"
+         "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n3 4 5 6\n3 4 7 5\n3 4 6 7\n3 5 7 6\n";
+}
+
+class DesignOfTest : public Loader {
+ public:
+  explicit DesignOfTest(SourceCache& cache) : Loader(cache) {}
+  design::PendingSourcePtr support(const design::NodePtr&, const design::SupportUse&, const design::Reader&) override {
+    return nullptr;
+  }
+
+  auto mesh(const std::string& path, design::MeshUse use = {}) {
+    MeshRequest request{{path, {}}, std::move(use)};
+    return source(request, reader());
+  }
+  auto square(double side) {
+    PolygonsRequest request{{{{{0, 0}, {side, 0}, {side, side}, {0, side}}}, {}}, false};
+    return source(request, reader());
+  }
+
+  design::Reader reader() { return {materials_, diagnostics, this, {}, "", ""}; }
+
+  Diagnostics diagnostics;
+
+ private:
+  design::MaterialTable materials_;
+};
+
+}  // namespace
+
+TEST(SourceCache, SecondDesignReadsNoFile) {
+  const Folder folder("ombre_sources_second");
+  const std::string path = folder.write("a.off", tetrahedron(3));
+  SourceCache cache;
+  const auto first = DesignOfTest(cache).mesh(path);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(cache.files().reads(), 1u);
+  EXPECT_EQ(DesignOfTest(cache).mesh(path), first);
+  EXPECT_EQ(cache.files().reads(), 1u);
+}
+
+TEST(SourceCache, SameContentAndOptionsAreTheSameSource) {
+  const Folder folder("ombre_sources_same");
+  const std::string a = folder.write("a.off", tetrahedron(3)), b = folder.write("b.off", tetrahedron(3));
+  SourceCache cache;
+  DesignOfTest one(cache), other(cache);
+  EXPECT_EQ(one.mesh(a), other.mesh(b));
+  design::MeshUse parity;
+  parity.inside = "parity";
+  EXPECT_NE(one.mesh(a), one.mesh(a, parity));
+  EXPECT_EQ(one.square(3), other.square(3));
+  EXPECT_NE(one.square(3), one.square(4));
+}
+
+TEST(SourceCache, ReadsAgainWhatHasChanged) {
+  const Folder folder("ombre_sources_changed");
+  const std::string path = folder.write("a.off", tetrahedron(3));
+  SourceCache cache;
+  const auto before = DesignOfTest(cache).mesh(path);
+  folder.write("a.off", tetrahedron(5), 50);
+  const auto after = DesignOfTest(cache).mesh(path);
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(before->front().source->bounds().hi.x, 3);
+  EXPECT_EQ(after->front().source->bounds().hi.x, 5);
+  // Touched only: read again, and found to be the same.
+  const size_t reads = cache.files().reads();
+  folder.write("a.off", tetrahedron(5), 20);
+  EXPECT_EQ(DesignOfTest(cache).mesh(path), after);
+  EXPECT_EQ(cache.files().reads(), reads + 1);
+}
+
+TEST(SourceCache, TrustsNoTimeThatIsTooRecent) {
+  const Folder folder("ombre_sources_recent");
+  const std::string path = folder.write("a.off", tetrahedron(3), -3600);
+  SourceCache cache;
+  ASSERT_TRUE(DesignOfTest(cache).mesh(path));
+  folder.write("a.off", tetrahedron(5), -3600);
+  const auto after = DesignOfTest(cache).mesh(path);
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->front().source->bounds().hi.x, 5);
+}
+
+TEST(SourceCache, DropsWhatWasUsedLeastRecently) {
+  SourceCache cache;
+  const auto key = [](int n) { return hash_bytes(std::to_string(n)); };
+  const auto add = [&](int n) { cache.add(key(n), {std::make_shared<int>(n), 100, "", {}, {}}); };
+  cache.set_most_bytes(250);
+  add(1);
+  add(2);
+  EXPECT_TRUE(cache.find(key(1)));
+  add(3);
+  EXPECT_TRUE(cache.find(key(1)));
+  EXPECT_FALSE(cache.find(key(2)));
+  EXPECT_TRUE(cache.find(key(3)));
+  EXPECT_EQ(cache.bytes(), 200u);
+  cache.set_most_bytes(100);
+  EXPECT_EQ(cache.bytes(), 100u);
+  EXPECT_TRUE(cache.find(key(3)));
+}
+
+TEST(SourceCache, FindsWhatADesignStillUses) {
+  SourceCache cache(50);
+  const Hash key = hash_bytes("large");
+  CacheEntryPtr used = cache.add(key, {std::make_shared<int>(1), 100, "", {}, {}});
+  EXPECT_EQ(cache.bytes(), 0u);
+  EXPECT_EQ(cache.find(key), used);
+  used.reset();
+  EXPECT_FALSE(cache.find(key));
+}
+
+TEST(SourceCache, SaysAgainToEachDesignWhatThereIsToSay) {
+  const Folder folder("ombre_sources_remarks");
+  const std::string a = folder.write("a.off", with_inverted_shell()), b = folder.write("b.off", with_inverted_shell());
+  SourceCache cache;
+  DesignOfTest first(cache), second(cache), third(cache);
+  ASSERT_TRUE(first.mesh(a));
+  ASSERT_EQ(first.diagnostics.list().size(), 1u);
+  const auto known = second.mesh(a);
+  ASSERT_EQ(second.diagnostics.list().size(), 1u);
+  EXPECT_EQ(second.diagnostics.list()[0], first.diagnostics.list()[0]);
+  EXPECT_EQ(second.mesh(a), known);
+  EXPECT_EQ(second.diagnostics.list().size(), 1u);
+  // By the name that the file has there.
+  ASSERT_TRUE(third.mesh(b));
+  ASSERT_EQ(third.diagnostics.list().size(), 1u);
+  EXPECT_NE(third.diagnostics.list()[0].message.find("b.off"), std::string::npos);
+}
+
+TEST(SourceCache, ThreadsShareWhatTheyLoad) {
+  const Folder folder("ombre_sources_threads");
+  std::vector<std::string> paths;
+  for (int n = 1; n <= 8; ++n) paths.push_back(folder.write(std::to_string(n) + ".off", tetrahedron(n)));
+  SourceCache cache;
+  using Parts = std::vector<design::MeshPart>;
+  std::vector<std::vector<std::shared_ptr<const Parts>>> found(4);
+  std::vector<std::thread> threads;
+  for (auto& mine : found)
+    threads.emplace_back([&] {
+      DesignOfTest own(cache);
+      for (const std::string& path : paths) mine.push_back(own.mesh(path));
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& others : found) EXPECT_EQ(others, found[0]);
+}
+
+TEST(SourceCache, FailuresAreNotKept) {
+  const Folder folder("ombre_sources_failures");
+  const std::string path = folder.write("a.off", "OFF\n1 1 0\n0 0 0\n3 0 1 2\n");
+  SourceCache cache;
+  DesignOfTest first(cache), second(cache);
+  EXPECT_FALSE(first.mesh(path));
+  EXPECT_FALSE(second.mesh(path));
+  EXPECT_TRUE(second.diagnostics.has_errors());
+  EXPECT_EQ(cache.bytes(), 0u);
+}
+
+}  // namespace ombre::sources

@@ -1,0 +1,130 @@
+// Mesh files of designs.
+#include "cad/solids.h"
+
+#include "base/text.h"
+#include "formats/mesh_objects.h"
+#include "import/beam_source.h"
+#include "import/combined_source.h"
+#include "import/mesh_source.h"
+#include "sources/loading.h"
+#include "sources/mesh_closing.h"
+#include "sources/mesh_materials.h"
+
+namespace ombre::design {
+namespace {
+
+importing::InsideRule rule_of(std::string_view name) {
+  if (name == "parity") return importing::InsideRule::parity;
+  return name == "generalized" ? importing::InsideRule::generalized : importing::InsideRule::nonzero;
+}
+
+// False, and a diagnostic, when the file has no object of that name.
+bool choose_object(const std::string& path, formats::Mesh& mesh, const std::string& object, const Reader& reader) {
+  if (object.empty() || formats::keep_object(mesh, object)) return true;
+  constexpr size_t most_listed = 20;
+  std::vector<std::string> names = formats::object_names(mesh);
+  std::string hint = did_you_mean(object, names);
+  const bool is_cut = names.size() > most_listed;
+  if (is_cut) names.resize(most_listed);
+  if (hint.empty())
+    hint = names.empty() ? "its objects have no names: leave object out"
+                         : "there are \"" + join(names, "\", \"") + '"' + (is_cut ? " and more" : "");
+  reader.diagnostics.error(reader.where, "the mesh \"" + path + "\" has no object \"" + object + '"', hint);
+  return false;
+}
+
+formats::Mesh moved(formats::Mesh mesh, const Affine& map) {
+  for (Vec3& p : mesh.vertices) p = map(p);
+  if (determinant(map) < 0)
+    for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+  return mesh;
+}
+
+program::SourceField source_of(const std::string& path, const formats::PlacedLattice& placed, Hash content,
+                               importing::InsideRule rule) {
+  program::SourceField beams = importing::make_beam_source(path, placed, content);
+  const formats::BeamLattice& lattice = *placed.lattice;
+  if (!lattice.clip) return beams;
+  program::SourceField clip =
+      importing::make_mesh_source(path, moved(*lattice.clip, placed.mm_from_lattice), content, {rule});
+  return importing::make_clipped_source(beams, clip, lattice.clipping == formats::LatticeClipping::inside);
+}
+
+// The triangles and the lattices of one material. `content` is the hash of what they are.
+MeshPart part_of(const std::string& path, const std::string& material, formats::Mesh mesh, Hash content,
+                 importing::InsideRule rule) {
+  std::vector<program::SourceField> sources;
+  const std::vector<formats::PlacedLattice> lattices = std::move(mesh.lattices);
+  if (!mesh.triangles.empty()) sources.push_back(importing::make_mesh_source(path, std::move(mesh), content, {rule}));
+  for (size_t n = 0; n < lattices.size(); ++n)
+    sources.push_back(source_of(path, lattices[n], hash_bytes(content.hex() + " lattice " + std::to_string(n)), rule));
+  return {material, importing::make_union_source(std::move(sources)), lattices.empty()};
+}
+
+std::optional<std::vector<sources::MaterialMesh>> read_parts(const std::string& path, std::string_view bytes,
+                                                             const MeshUse& use, const Reader& reader) {
+  auto mesh = formats::read_mesh(path, bytes, reader.diagnostics);
+  if (!mesh) {
+    reader.diagnostics.note(reader.where, "the file is used here");
+    return std::nullopt;
+  }
+  if (!choose_object(path, *mesh, use.object, reader)) return std::nullopt;
+  if (!sources::make_closed(sources::mesh_called(path), *mesh, use.inside.text(), reader)) return std::nullopt;
+  if (!sources::close_clips(path, *mesh, use.inside.text(), reader)) return std::nullopt;
+  std::vector<sources::MaterialMesh> parts;
+  if (use.materials == "one") {
+    parts.push_back({use.material, std::move(*mesh)});
+    return parts;
+  }
+  auto found = sources::by_material(path, *mesh, use, reader);
+  if (!found) return std::nullopt;
+  for (const sources::MaterialMesh& part : *found)
+    if (!sources::check_part_closed(path, part, use.inside.text(), reader)) return std::nullopt;
+  return found;
+}
+
+// An estimate: the mesh, and the trees for distances and for what is inside.
+size_t bytes_of(const formats::Mesh& mesh) {
+  constexpr size_t per_vertex = 24, per_triangle = 250, per_beam = 300;
+  size_t bytes = per_vertex * mesh.vertices.size() + per_triangle * mesh.triangles.size();
+  for (const formats::PlacedLattice& placed : mesh.lattices) bytes += per_beam * placed.lattice->beams.size();
+  return bytes;
+}
+
+sources::Loading::Made<std::vector<MeshPart>> make_parts(const MeshRequest& request, std::string_view bytes,
+                                                         const Reader& reader) {
+  const auto& [file, use] = request;
+  auto meshes = read_parts(file.path, bytes, use, reader);
+  if (!meshes) return {};
+  const Hash content = use.object.empty() ? file.content : hash_bytes(file.content.hex() + use.object);
+  auto parts = std::make_shared<std::vector<MeshPart>>();
+  size_t size = 0;
+  for (sources::MaterialMesh& part : *meshes) {
+    size += bytes_of(part.mesh);
+    const std::string material = use.materials == "one" ? "" : part.material.material->name;
+    const Hash own = material.empty() ? content : hash_bytes(content.hex() + material);
+    parts->push_back(part_of(file.path, material, std::move(part.mesh), own, rule_of(use.inside.text())));
+  }
+  if (parts->front().source->channel("distance") >= 0) return {std::move(parts), size};
+  reader.diagnostics.error(reader.where, "meshes are not available: this build has no library for their distances");
+  return {};
+}
+
+}  // namespace
+
+std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading& loading) {
+  if (!loading.find(file)) return nullptr;
+  if (cad::is_cad_file(file.path)) {
+    loading.reader().diagnostics.error(loading.reader().where, "\"" + file.path + "\" is no mesh but a CAD file",
+                                       "write cad in place of mesh");
+    return nullptr;
+  }
+  if (!loading.look_at(file)) return nullptr;
+  sources::Key key("mesh");
+  key.add(file.content).add(sources::ending_of(file.path)).add(use.inside.text());
+  sources::add_use(key, use, loading.reader());
+  return loading.cached<Result>(key.hash(), file.path,
+                                [&](const Reader& reader) { return make_parts(*this, *loading.bytes(file), reader); });
+}
+
+}  // namespace ombre::design

@@ -1,0 +1,62 @@
+// What designs have loaded, kept for those that load it again.
+#pragma once
+
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "base/diagnostic.h"
+#include "base/hash.h"
+#include "sources/file_store.h"
+
+namespace ombre::sources {
+
+// What is kept, with what was said when it was made.
+struct CacheEntry {
+  std::shared_ptr<const void> value;
+  size_t bytes = 0;     // that it takes, all that is built on first use included; an estimate
+  std::string name;     // by which the remarks call it
+  SourceRange where;    // of the call that it was made for
+  Diagnostics remarks;  // no errors
+};
+using CacheEntryPtr = std::shared_ptr<const CacheEntry>;
+
+// One for a running program, which passes it to what loads designs. Keys are hashes of contents and options. What was
+// used least recently is dropped first; what a design still uses is found as long as it does. Thread-safe.
+class SourceCache {
+ public:
+  static constexpr size_t usual_bytes = size_t{1} << 30;
+  explicit SourceCache(size_t most_bytes = usual_bytes) : most_bytes_(most_bytes) {}
+
+  // Null if it is not there.
+  CacheEntryPtr find(const Hash& key);
+  // Of several for one key the first counts, and is returned.
+  CacheEntryPtr add(const Hash& key, CacheEntry entry);
+  // The bytes of a small file that is needed each time, such as a script. Throws Error.
+  std::shared_ptr<const std::string> text(const std::string& path);
+
+  FileStore& files() { return files_; }
+  size_t bytes() const;  // of what is kept
+  size_t most_bytes() const;
+  void set_most_bytes(size_t bytes);
+
+ private:
+  struct Slot {
+    std::weak_ptr<const CacheEntry> known;  // as long as somebody uses it
+    std::list<std::pair<Hash, CacheEntryPtr>>::iterator kept;
+    bool is_kept = false;
+  };
+  void keep(const Hash& key, Slot& slot, const CacheEntryPtr& entry);
+  void drop_beyond(size_t bytes);
+  void forget_unused();
+
+  mutable std::mutex mutex_;
+  FileStore files_;
+  std::map<Hash, Slot> slots_;
+  std::list<std::pair<Hash, CacheEntryPtr>> kept_;  // the most recently used first
+  size_t most_bytes_, bytes_ = 0, next_sweep_ = 1024;
+};
+
+}  // namespace ombre::sources
