@@ -27,6 +27,14 @@ math::RowFunction row_function(Op op) {
   }
 }
 
+// How far behind an instruction its source's other channels are looked for.
+constexpr size_t channel_reach = 32;
+
+bool is_other_channel(const Program& program, const Instruction& in, const Instruction& other) {
+  return other.op == Op::source && other.a == in.a && other.b == in.b && other.c == in.c &&
+         program.reads[other.aux].source == program.reads[in.aux].source;
+}
+
 }  // namespace
 
 void RowEvaluator::set_row(std::span<const double> xs, double y, double z) {
@@ -55,6 +63,7 @@ void RowEvaluator::run_input(int axis, double* out) const {
 void RowEvaluator::run(const Program& program, size_t begin, size_t end, const SourceRow& source_row) {
   if (values_.size() < program.code.size() * width_) values_.resize(program.code.size() * width_);
   const size_t n = xs_.size();
+  if (!program.reads.empty()) done_.assign(program.code.size(), false);
   for (size_t i = begin; i < end; ++i) {
     const Instruction& in = program.code[i];
     double* out = row(static_cast<program::ValueId>(i));
@@ -76,7 +85,7 @@ void RowEvaluator::run(const Program& program, size_t begin, size_t end, const S
         break;
       }
       case Op::source:
-        run_source(program, in, {out, n}, source_row);
+        run_source(program, i, end, source_row);
         break;
       case Op::call:
       case Op::parts:
@@ -98,14 +107,27 @@ void RowEvaluator::run(const Program& program, size_t begin, size_t end, const S
   }
 }
 
-void RowEvaluator::run_source(const Program& program, const Instruction& in, std::span<double> out,
-                              const SourceRow& source_row) {
+void RowEvaluator::run_source(const Program& program, size_t i, size_t end, const SourceRow& source_row) {
+  if (done_[i]) return;
+  const Instruction& in = program.code[i];
   const program::Read& read = program.reads[in.aux];
-  if (source_row && source_row(read, out)) return;
+  const size_t n = xs_.size();
+  if (source_row && source_row(read, {row(static_cast<program::ValueId>(i)), n})) return;
+  channels_.assign(1, read.channel);
+  channel_rows_.assign(1, row(static_cast<program::ValueId>(i)));
+  for (size_t other = i + 1; other < std::min(end, i + channel_reach); ++other) {
+    double* const out = row(static_cast<program::ValueId>(other));
+    if (!is_other_channel(program, in, program.code[other])) continue;
+    done_[other] = true;
+    const program::Read& its = program.reads[program.code[other].aux];
+    if (source_row && source_row(its, {out, n})) continue;
+    channels_.push_back(its.channel);
+    channel_rows_.push_back(out);
+  }
   const double *a = row(in.a), *b = row(in.b), *c = row(in.c);
   points_.clear();
-  for (size_t p = 0; p < out.size(); ++p) points_.push_back({a[p], b[p], c[p]});
-  read.source->sample_all(read.channel, points_, out);
+  for (size_t p = 0; p < n; ++p) points_.push_back({a[p], b[p], c[p]});
+  read.source->sample_channels(channels_, points_, channel_rows_);
 }
 
 }  // namespace ombre::eval

@@ -28,8 +28,8 @@ class RowEvaluator {
 
  private:
   void run_input(int axis, double* out) const;
-  void run_source(const program::Program& program, const program::Instruction& in, std::span<double> out,
-                  const SourceRow& source_row);
+  // Instruction i, and those like it before `end` that ask the same source at the same points for other channels.
+  void run_source(const program::Program& program, size_t i, size_t end, const SourceRow& source_row);
   double* row(program::ValueId id) { return values_.data() + id * width_; }
 
   size_t width_;
@@ -37,6 +37,9 @@ class RowEvaluator {
   double y_ = 0, z_ = 0;
   std::vector<double> values_;
   std::vector<Vec3> points_;  // of a source
+  std::vector<bool> done_;    // together with another channel
+  std::vector<int> channels_;
+  std::vector<double*> channel_rows_;
 };
 
 }  // namespace ombre::eval

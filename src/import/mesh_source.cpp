@@ -77,6 +77,20 @@ class MeshSource final : public program::FieldSource {
     }
   }
 
+  // The sign of a distance says what is inside.
+  void sample_channels(std::span<const int> channels, std::span<const Vec3> points,
+                       std::span<double* const> values) const override {
+    const auto distance = std::ranges::find(channels, distance_channel);
+    if (distance == channels.end()) return FieldSource::sample_channels(channels, points, values);
+    const double* const distances = values[static_cast<size_t>(distance - channels.begin())];
+    sample_all(distance_channel, points, {values[static_cast<size_t>(distance - channels.begin())], points.size()});
+    for (size_t c = 0; c < channels.size(); ++c) {
+      if (values[c] == distances) continue;
+      for (size_t n = 0; n < points.size(); ++n)
+        values[c][n] = channels[c] == distance_channel ? distances[n] : std::signbit(distances[n]) ? 1 : 0;
+    }
+  }
+
   Interval range(int channel, const Box& box) const override {
     if (channel == distance_channel) return distance_range(box);
     return intersect(box, bounds_).is_empty() ? Interval(0) : Interval(0, 1);

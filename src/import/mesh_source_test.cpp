@@ -111,6 +111,23 @@ TEST(MeshSource, ManyPointsAtOnceGetTheSameBits) {
   }
 }
 
+TEST(MeshSource, ChannelsTogetherGetTheSameBits) {
+  if (!has_mesh_distance()) GTEST_SKIP() << "built without OMBRE_MESH_DISTANCE";
+  std::mt19937 random(9);
+  const auto source = make_mesh_source("m", torus(7, 2, 60, 30), {});
+  const std::vector<Vec3> points = walks(random);
+  const std::array channels{0, 1, 0};
+  std::array<std::vector<double>, 3> values;
+  std::array<double*, 3> rows{};
+  for (size_t c = 0; c < channels.size(); ++c) {
+    values[c].resize(points.size());
+    rows[c] = values[c].data();
+  }
+  source->sample_channels(channels, points, rows);
+  for (size_t c = 0; c < channels.size(); ++c)
+    for (size_t n = 0; n < points.size(); ++n) ASSERT_EQ(values[c][n], source->sample(channels[c], points[n])) << n;
+}
+
 TEST(MeshSource, DistanceToASphereIsAnalyticWithinItsFacets) {
   if (!has_mesh_distance()) GTEST_SKIP() << "built without OMBRE_MESH_DISTANCE";
   const auto source = make_mesh_source("m", sphere(10, 5), {});

@@ -1,6 +1,7 @@
 // Field sources: how anything not written in ops (meshes, volumes, results) enters a program.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -19,14 +20,35 @@ struct Span {
   bool operator==(const Span&) const = default;
 };
 
-// Answers "which voxels of this row are inside" for one placement of a source on one voxel lattice.
+// Voxels from lo on and before hi, on each axis.
+struct VoxelBox {
+  std::array<int64_t, 3> lo{}, hi{};
+};
+
+// What a channel of a source is along the voxels' rows, for one placement of the source on one voxel lattice.
 // Thread-safe.
 class RowSampler {
  public:
   virtual ~RowSampler() = default;
-  // rows[j - j_begin] gets the spans of row j of layer k that lie in [0, width): sorted, disjoint, not empty.
+  // Of channels that are 1 or 0: rows[j - j_begin] gets the spans of row j of layer k that lie in [0, width) and are 1:
+  // sorted, disjoint, not empty.
   virtual void layer(int64_t k, int64_t j_begin, int64_t j_end, int64_t width,
                      std::vector<std::vector<Span>>& rows) const = 0;
+  // Other channels have values in place of spans; the two methods below are theirs alone.
+  virtual bool has_values() const { return false; }
+  // Of the voxels from (i, j, k) on, along x.
+  virtual void values(int64_t /*i*/, int64_t /*j*/, int64_t /*k*/, std::span<float> /*values*/) const {}
+  // Encloses the values in a box.
+  virtual Interval range(const VoxelBox&) const { return Interval::everything(); }
+};
+
+// For channels with values.
+class ValueSampler : public RowSampler {
+ public:
+  void layer(int64_t, int64_t, int64_t, int64_t, std::vector<std::vector<Span>>&) const final {}
+  bool has_values() const final { return true; }
+  void values(int64_t i, int64_t j, int64_t k, std::span<float> values) const override = 0;
+  Interval range(const VoxelBox& box) const override = 0;
 };
 
 // Rows that meet in an eye, as the rays of a picture do. Voxel (i, j, k) has its centre at i * step + first: a depth
@@ -51,9 +73,15 @@ class FieldSource : public HostObject {
   virtual void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const {
     for (size_t n = 0; n < points.size(); ++n) values[n] = sample(channel, points[n]);
   }
+  // Several channels at once, for which a source may find its place only once; values[c] has room for all points. The
+  // bits are those of sample_all.
+  virtual void sample_channels(std::span<const int> channels, std::span<const Vec3> points,
+                               std::span<double* const> values) const {
+    for (size_t c = 0; c < channels.size(); ++c) sample_all(channels[c], points, {values[c], points.size()});
+  }
   virtual Interval range(int, const Box&) const { return Interval::everything(); }
-  // For a channel that is 1 inside and 0 outside: exact row spans under an affine map from index
-  // coordinates (voxel (i, j, k) has its centre at index (i, j, k)) to the source's space.
+  // For a channel that is 1 inside and 0 outside exact row spans, for others values where they need no rounding, under
+  // an affine map from index coordinates (voxel (i, j, k) has its centre at index (i, j, k)) to the source's space.
   // Null if the source cannot.
   virtual std::unique_ptr<RowSampler> rows(int, const Affine& /*source_from_index*/) const { return nullptr; }
   // The same for rays; nothing is said of what lies within a two-hundredth of the way from the eye to the picture

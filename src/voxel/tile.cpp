@@ -8,9 +8,9 @@ Box centers(const Lattice& lattice, const TileBox& tile) {
 }
 
 StripSources::StripSources(const std::vector<std::unique_ptr<program::RowSampler>>& samplers, const TileBox& strip)
-    : strip_(strip), spans_(samplers.size()) {
+    : samplers_(samplers), strip_(strip), spans_(samplers.size()) {
   for (size_t tag = 0; tag < samplers.size(); ++tag) {
-    if (!samplers[tag]) continue;
+    if (!samplers[tag] || samplers[tag]->has_values()) continue;
     spans_[tag].resize(static_cast<size_t>(strip.size(2)));
     for (int64_t k = strip.lo[2]; k < strip.hi[2]; ++k) {
       auto& rows = spans_[tag][static_cast<size_t>(k - strip.lo[2])];
@@ -24,13 +24,25 @@ static std::vector<program::Span>::const_iterator span_at(const std::vector<prog
   return std::upper_bound(spans.begin(), spans.end(), i, [](int64_t at, const program::Span& s) { return at < s.end; });
 }
 
-bool StripSources::inside(uint32_t tag, int64_t i, int64_t j, int64_t k) const {
-  const auto& spans = row(tag, j, k);
-  const auto span = span_at(spans, i);
-  return span != spans.end() && span->begin <= i;
+float StripSources::value(uint32_t tag, int64_t i, int64_t j, int64_t k) const {
+  float value = 0;
+  fill(tag, i, j, k, std::span(&value, 1));
+  return value;
+}
+
+void StripSources::copy_values(const program::RowSampler& sampler, int64_t i, int64_t j, int64_t k,
+                               std::span<double> values) {
+  std::vector<float> row(values.size());
+  sampler.values(i, j, k, row);
+  std::ranges::copy(row, values.begin());
 }
 
 Interval StripSources::range(uint32_t tag, const TileBox& tile) const {
+  const program::RowSampler& sampler = *samplers_[tag];
+  return sampler.has_values() ? sampler.range({tile.lo, tile.hi}) : span_range(tag, tile);
+}
+
+Interval StripSources::span_range(uint32_t tag, const TileBox& tile) const {
   bool some_inside = false, some_outside = false;
   for (int64_t k = tile.lo[2]; k < tile.hi[2]; ++k) {
     for (int64_t j = tile.lo[1]; j < tile.hi[1]; ++j) {

@@ -22,18 +22,19 @@ Box centers(const Lattice& lattice, const TileBox& tile);
 // What the sources that know their rows say in a strip of rows of a few layers.
 class StripSources {
  public:
-  // `samplers` by tag; null for sources that are asked point by point.
+  // `samplers` by tag, null for sources that are asked point by point; they outlive this.
   StripSources(const std::vector<std::unique_ptr<program::RowSampler>>& samplers, const TileBox& strip);
 
-  bool has(uint32_t tag) const { return tag < spans_.size() && !spans_[tag].empty(); }
-  bool inside(uint32_t tag, int64_t i, int64_t j, int64_t k) const;
-  // 1 or 0 where the whole tile is inside or outside, else both.
+  bool has(uint32_t tag) const { return tag < samplers_.size() && samplers_[tag]; }
+  float value(uint32_t tag, int64_t i, int64_t j, int64_t k) const;
+  // Of spans, 1 or 0 where the whole tile is inside or outside, else both.
   Interval range(uint32_t tag, const TileBox& tile) const;
   // The same as evaluate_intervals asks for it; valid as long as this and the tile.
   program::SourceRanges ranges(const TileBox& tile) const;
-  // values[n] = 1 where voxel i_begin + n of the row is inside.
+  // values[n] is that of voxel i_begin + n of the row; of spans, 1 inside and 0 outside.
   template <class T>
   void fill(uint32_t tag, int64_t i_begin, int64_t j, int64_t k, std::span<T> values) const {
+    if (samplers_[tag]->has_values()) return copy_values(*samplers_[tag], i_begin, j, k, values);
     std::fill(values.begin(), values.end(), T{0});
     const int64_t i_end = i_begin + static_cast<int64_t>(values.size());
     for (const program::Span& span : row(tag, j, k)) {
@@ -43,12 +44,20 @@ class StripSources {
   }
 
  private:
+  static void copy_values(const program::RowSampler& sampler, int64_t i, int64_t j, int64_t k,
+                          std::span<float> values) {
+    sampler.values(i, j, k, values);
+  }
+  static void copy_values(const program::RowSampler& sampler, int64_t i, int64_t j, int64_t k,
+                          std::span<double> values);
+  Interval span_range(uint32_t tag, const TileBox& tile) const;
   const std::vector<program::Span>& row(uint32_t tag, int64_t j, int64_t k) const {
     return spans_[tag][static_cast<size_t>(k - strip_.lo[2])][static_cast<size_t>(j - strip_.lo[1])];
   }
 
+  const std::vector<std::unique_ptr<program::RowSampler>>& samplers_;
   TileBox strip_;
-  std::vector<std::vector<std::vector<std::vector<program::Span>>>> spans_;  // [tag][layer][row]
+  std::vector<std::vector<std::vector<std::vector<program::Span>>>> spans_;  // [tag][layer][row]; empty for values
 };
 
 // The materials of a strip's voxels, x fastest, then y, then z. Nothing is written until a voxel is.

@@ -58,6 +58,7 @@ void BatchEvaluator::compile(const program::Program& program, const std::vector<
   classify();
   find_order();
   pair_sines();
+  link_channels();
   reserve();
   take_constants_and_inputs();
   for (const ValueId id : order_)
@@ -198,6 +199,37 @@ void BatchEvaluator::pair_sines() {
   }
 }
 
+// Channels that are asked for at the same points, for the same outputs, are sampled together.
+void BatchEvaluator::link_channels() {
+  channels_.clear();
+  if (program_->reads.empty()) return;
+  seen_.assign(facts_.size(), none);
+  for (const ValueId i : order_) {
+    const Instruction& in = program_->code[i];
+    if (in.op != Op::source) continue;
+    facts_[i].next_channel = none;
+    const ValueId before = seen_[in.a];
+    seen_[in.a] = i;
+    if (before == none) continue;
+    const Instruction& other = program_->code[before];
+    const bool is_same = other.b == in.b && other.c == in.c && facts_[before].mask == facts_[i].mask &&
+                         facts_[before].early == facts_[i].early &&
+                         program_->reads[other.aux].source == program_->reads[in.aux].source &&
+                         !sources_->has(program_->reads[other.aux]) && !sources_->has(program_->reads[in.aux]);
+    if (is_same) facts_[before].next_channel = i;
+  }
+}
+
+void BatchEvaluator::add_channels(ValueId first, Step& step) {
+  step.channels = static_cast<uint32_t>(channels_.size());
+  channels_.emplace_back(step.read->channel, step.out);
+  for (ValueId i = facts_[first].next_channel; i != none; i = facts_[i].next_channel) {
+    facts_[i].done = true;
+    channels_.emplace_back(program_->reads[program_->code[i].aux].channel, take(i));
+  }
+  step.channel_count = static_cast<uint32_t>(channels_.size()) - step.channels;
+}
+
 // Of the largest box.
 size_t BatchEvaluator::row_length(uint8_t mask) const {
   switch (row_axis(mask)) {
@@ -307,6 +339,7 @@ void BatchEvaluator::compile_one(ValueId id, const std::vector<Interval>& ranges
   } else if (in.op == Op::source) {
     step.read = &program_->reads[in.aux];
     step.kind = sources_->has(*step.read) ? Step::Kind::fill : Step::Kind::sample;
+    if (step.kind == Step::Kind::sample) add_channels(id, step);
   } else if (fact.partner != none && !facts_[fact.partner].done) {
     facts_[fact.partner].done = true;
     step.kind = Step::Kind::sine_cosine;
@@ -348,21 +381,34 @@ RowsToFill BatchEvaluator::rows_of(const Step& step, size_t j, size_t count) con
 
 void BatchEvaluator::sample(const Step& step, size_t j, size_t count) const {
   const float *a = step.a.at(j), *b = step.b.at(j), *c = step.c.at(j);
-  float* out = step.out.at(j);
   const auto value = [&](const float* row, size_t n, unsigned number) {
     return static_cast<double>(row[step.numbers & number ? 0 : n]);
   };
-  constexpr size_t most = 128;
+  constexpr size_t most = 128, most_channels = 8;
   std::array<Vec3, most> points;
-  std::array<double, most> values{};
+  std::array<double, most * most_channels> values;  // NOLINT: those that are read are set before
+  std::array<int, most_channels> channels{};
+  std::array<double*, most_channels> rows{};
   for (size_t begin = 0; begin < count; begin += most) {
     const size_t here = std::min(most, count - begin);
     for (size_t i = 0; i < here; ++i) {
       const size_t n = begin + i;
       points[i] = {value(a, n, a_is_number), value(b, n, b_is_number), value(c, n, c_is_number)};
     }
-    step.read->source->sample_all(step.read->channel, std::span(points).first(here), std::span(values).first(here));
-    for (size_t i = 0; i < here; ++i) out[begin + i] = static_cast<float>(values[i]);
+    for (size_t first = 0; first < step.channel_count; first += most_channels) {
+      const size_t together = std::min<size_t>(most_channels, step.channel_count - first);
+      const auto* const asked = channels_.data() + step.channels + first;
+      for (size_t m = 0; m < together; ++m) {
+        channels[m] = asked[m].first;
+        rows[m] = values.data() + m * most;
+      }
+      step.read->source->sample_channels(std::span(channels).first(together), std::span(points).first(here),
+                                         std::span(rows).first(together));
+      for (size_t m = 0; m < together; ++m) {
+        float* const out = asked[m].second.at(j) + begin;
+        for (size_t i = 0; i < here; ++i) out[i] = static_cast<float>(rows[m][i]);
+      }
+    }
   }
 }
 

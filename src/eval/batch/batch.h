@@ -105,6 +105,8 @@ class BatchEvaluator {
     Kernel kernel = nullptr;
     Place a, b, c, out, second_out;
     const program::Read* read = nullptr;
+    uint32_t channels = 0;  // of a sample: where its list begins in channels_, which `channel_count` says the length of
+    uint32_t channel_count = 0;
     const program::Instruction* parts = nullptr;
   };
   // What the compiler knows of an instruction.
@@ -115,6 +117,7 @@ class BatchEvaluator {
     bool outlives = false;  // read by instructions of other axes, or an output
     bool done = false;
     program::ValueId last_use = 0, partner = 0;
+    program::ValueId next_channel = 0;  // another one of its source at the same points
     float* base = nullptr;
   };
 
@@ -132,6 +135,8 @@ class BatchEvaluator {
   void classify();
   void find_order();
   void pair_sines();
+  void link_channels();
+  void add_channels(program::ValueId first, Step& step);
   void reserve();
   void compile_one(program::ValueId id, const std::vector<Interval>& ranges);
   void take_constants_and_inputs();
@@ -156,6 +161,7 @@ class BatchEvaluator {
   std::array<std::vector<float*>, 8> free_;               // rows by mask
   std::array<std::vector<Step>, 9> steps_;                // by mask; [8]: all axes, and not needed by output 0
   std::vector<std::pair<float*, float*>> layer_numbers_;  // from where values of z lie to where rows read them
+  std::vector<std::pair<int, Place>> channels_;           // of samples, and where their values go
   LargeArray<float> memory_;
   size_t memory_floats_ = 0;
   float* next_ = nullptr;

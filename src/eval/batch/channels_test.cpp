@@ -1,0 +1,89 @@
+// Channels of one source at the same points are asked for together.
+#include <gtest/gtest.h>
+
+#include "eval/batch/batch.h"
+#include "eval/rows.h"
+#include "program/field.h"
+
+namespace ombre::eval {
+namespace {
+
+using program::Builder;
+
+// Channel n is x + n * y; remembers how many channels each call asked for.
+class FourChannels : public program::FieldSource {
+ public:
+  std::string name() const override { return "four channels"; }
+  Hash content() const override { return {1, 4}; }
+  Box bounds() const override { return Box::centered({9, 9, 9}); }
+  int channel(std::string_view) const override { return 0; }
+  double sample(int channel, Vec3 p) const override { return p.x + channel * p.y; }
+  void sample_channels(std::span<const int> channels, std::span<const Vec3> points,
+                       std::span<double* const> values) const override {
+    asked.push_back(channels.size());
+    FieldSource::sample_channels(channels, points, values);
+  }
+
+  mutable std::vector<size_t> asked;
+};
+
+// All channels at (x, y, z), and one at (y, x, z).
+program::Program program_of(const std::shared_ptr<FourChannels>& source) {
+  Builder builder;
+  const auto x = builder.input(0), y = builder.input(1), z = builder.input(2);
+  std::vector<std::pair<std::string, program::Field>> outputs;
+  outputs.emplace_back("inside", builder.constant(1));
+  for (int channel = 0; channel < 4; ++channel) outputs.emplace_back("c", builder.source(source, channel, x, y, z));
+  outputs.emplace_back("other", builder.source(source, 1, y, x, z));
+  return builder.finish(outputs);
+}
+
+class AskedByPoints : public SourceRows {
+ public:
+  bool has(const program::Read&) const override { return false; }
+  void fill(const program::Read&, const RowsToFill&) const override {}
+};
+
+}  // namespace
+
+TEST(Channels, ReferenceAsksForThemTogether) {
+  const auto source = std::make_shared<FourChannels>();
+  const program::Program program = program_of(source);
+  RowEvaluator rows(3);
+  const std::vector<double> xs{1, 2, 4};
+  rows.set_row(xs, 0.5, 7);
+  rows.run(program, 0, program.code.size(), nullptr);
+  EXPECT_EQ(source->asked, (std::vector<size_t>{4, 1}));
+  for (int channel = 0; channel < 4; ++channel)
+    for (size_t n = 0; n < xs.size(); ++n)
+      EXPECT_EQ(rows.values(program.outputs[static_cast<size_t>(channel) + 1])[n], xs[n] + channel * 0.5);
+  for (size_t n = 0; n < xs.size(); ++n) EXPECT_EQ(rows.values(program.outputs[5])[n], 0.5 + xs[n]);
+}
+
+TEST(Channels, BatchesAskForThemTogether) {
+  if (kernel_sets().empty()) GTEST_SKIP() << "no instruction set for batches";
+  const auto source = std::make_shared<FourChannels>();
+  const program::Program program = program_of(source);
+  std::vector<float> xs, ys, zs;
+  for (size_t n = 0; n < padded(200); ++n) {
+    xs.push_back(static_cast<float>(n));
+    ys.push_back(static_cast<float>(n % 7));
+    zs.push_back(0);
+  }
+  std::vector<Interval> ranges(program.code.size(), Interval::everything());
+  BatchEvaluator batch(kernel_sets().front());
+  const AskedByPoints none;
+  batch.compile_for_list(program, ranges, xs.size(), none);
+  batch.place(PointList{xs, ys, zs});
+  batch.begin_layer(0);
+  batch.begin_row(0);
+  batch.finish_row();
+  // 128 points at a time.
+  EXPECT_EQ(source->asked, (std::vector<size_t>{4, 4, 1, 1}));
+  for (size_t channel = 0; channel < 4; ++channel)
+    for (size_t n = 0; n < xs.size(); ++n)
+      ASSERT_EQ(batch.output(channel + 1)[n], xs[n] + static_cast<float>(channel) * ys[n]);
+  for (size_t n = 0; n < xs.size(); ++n) ASSERT_EQ(batch.output(5)[n], ys[n] + xs[n]);
+}
+
+}  // namespace ombre::eval
