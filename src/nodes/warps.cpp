@@ -282,6 +282,17 @@ Box searched(const Box& where, const Condition& may_reach) {
   return hull_of(boxes);
 }
 
+// Where a formula is constant, what is asked for is flat, and a child's transforms could lose it to rounding.
+Box thickened(Box box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.lo[axis] != box.hi[axis]) continue;
+    const double room = 1e-9 * (1 + std::abs(box.lo[axis]));
+    box.lo[axis] -= room;
+    box.hi[axis] += room;
+  }
+  return box;
+}
+
 struct FormulaWarp {
   Number x, y, z;
   std::optional<Vec3> min, max;
@@ -314,7 +325,7 @@ struct FormulaWarp {
 
   Box reach(const Inputs& in, const Box& where, double margin) const {
     const Box box = min ? intersect(Box{*min, *max}.expanded(margin), where) : where;
-    const Box child = in.reach(0, asked_box(*this, box), margin);
+    const Box child = in.reach(0, thickened(asked_box(*this, box)), margin);
     return searched(box, [&](const Box& part) { return !intersect(asked_box(*this, part), child).is_empty(); });
   }
 
