@@ -48,6 +48,7 @@ Command add_contours(CLI::App& program, OutputOptions& output);
 Command add_fea(CLI::App& program, OutputOptions& output);
 Command add_probe(CLI::App& program, OutputOptions& output);
 Command add_sheet(CLI::App& program, OutputOptions& output);
+Command add_info(CLI::App& program, OutputOptions& output);
 Command add_nodes(CLI::App& program, OutputOptions& output);
 Command add_printers(CLI::App& program, OutputOptions& output);
 Command add_materials(CLI::App& program, OutputOptions& output);

@@ -2,6 +2,7 @@
 // builds.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -122,9 +123,28 @@ struct TextRequest {
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
+// The frame of a volume's places; L is left, P posterior, S superior, R right, A anterior.
+enum class PatientSpace : uint8_t { unknown, ras, lps, las, left_handed };
+
+// A grid of numbers in the space of its voxels' indices: channels "value" (trilinear) and "nearest".
+struct VolumeGrid {
+  program::SourceField source;
+  std::optional<Affine> space_from_index;  // in mm, where the file says it
+  PatientSpace space = PatientSpace::unknown;
+  // Encloses the places where a channel may have a value of the interval.
+  std::function<Box(int channel, Interval values)> places;
+};
+
+// NRRD, NPY, or raw numbers with a description beside them.
+struct VolumeRequest {
+  using Result = VolumeGrid;
+  FilePath file;
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
 // The kinds of sources there are.
-using SourceRequest =
-    std::variant<MeshRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*, TextRequest*>;
+using SourceRequest = std::variant<MeshRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*,
+                                   TextRequest*, VolumeRequest*>;
 
 // Which parts of a solid need support, on which grid.
 struct SupportUse {

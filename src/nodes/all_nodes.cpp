@@ -13,6 +13,7 @@ const design::Registry& registry() {
     add_implicit_solids(r);
     add_imported(r);
     add_relief(r);
+    add_volumes(r);
     add_lattices(r);
     add_tiles(r);
     add_tpms(r);

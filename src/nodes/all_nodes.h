@@ -13,6 +13,7 @@ void add_text(design::Registry& registry);
 void add_implicit_solids(design::Registry& registry);
 void add_imported(design::Registry& registry);
 void add_relief(design::Registry& registry);
+void add_volumes(design::Registry& registry);
 void add_lattices(design::Registry& registry);
 void add_tiles(design::Registry& registry);
 void add_tpms(design::Registry& registry);

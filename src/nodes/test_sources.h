@@ -115,6 +115,21 @@ class WaveSource : public program::FieldSource {
   double sample(int, Vec3 p) const override { return 0.5 + 0.25 * (std::sin(p.x / 8) + std::sin(p.y / 4)); }
 };
 
+// In voxels' indices, 9 along each axis: 110 in the middle, less by 10 for each voxel away from it.
+class HillSource : public program::FieldSource {
+ public:
+  std::string name() const override { return "hill"; }
+  Hash content() const override { return {9, 10}; }
+  Box bounds() const override { return {{-0.5, -0.5, -0.5}, {8.5, 8.5, 8.5}}; }
+  int channel(std::string_view channel_name) const override {
+    return channel_name == "value" ? 0 : channel_name == "nearest" ? 1 : -1;
+  }
+  double sample(int channel, Vec3 p) const override {
+    if (channel == 1) p = {std::floor(p.x + 0.5), std::floor(p.y + 0.5), std::floor(p.z + 0.5)};
+    return 110 - 10 * length(p - Vec3{4, 4, 4});
+  }
+};
+
 class PendingBall : public design::PendingSource {
  public:
   Hash content() const override { return source_->content(); }
@@ -159,6 +174,13 @@ class BallLoader : public design::SourceLoader {
   }
   static std::shared_ptr<const HeightImage> make(const design::ImageRequest&) {
     return std::make_shared<HeightImage>(HeightImage{std::make_shared<WaveSource>(), 20, 10, 0.25 / 8, 0.25 / 4});
+  }
+  static std::shared_ptr<const design::VolumeGrid> make(const design::VolumeRequest&) {
+    auto grid = std::make_shared<design::VolumeGrid>();
+    grid->source = std::make_shared<HillSource>();
+    grid->space_from_index = Affine::scaling({0.5, 0.5, 1});
+    grid->places = [box = grid->source->bounds()](int, Interval) { return box; };
+    return grid;
   }
   static program::SourceField make(const design::TextRequest& request) {
     const double h = request.height_mm;

@@ -32,19 +32,20 @@ bool Loading::find(design::FilePath& file) {
 
 bool Loading::look_at(design::FilePath& file) {
   try {
-    content_ = loader_.cache().files().content(file.path);
+    const auto content = loader_.cache().files().content(file.path);
+    looked_at_[file.path] = content;
+    file.content = content.hash;
+    return true;
   } catch (const Error& error) {
     reader_.diagnostics.error(reader_.where, error.what());
     return false;
   }
-  looked_at_ = file.path;
-  file.content = content_.hash;
-  return true;
 }
 
 std::shared_ptr<const std::string> Loading::bytes(const design::FilePath& file) {
-  ASSERT(file.path == looked_at_);
-  return loader_.cache().files().bytes(file.path, content_);
+  const auto content = looked_at_.find(file.path);
+  ASSERT(content != looked_at_.end());
+  return loader_.cache().files().bytes(file.path, content->second);
 }
 
 CacheEntryPtr Loading::entry_for(const Hash& key, const std::string& name, const MakeAny& make) {

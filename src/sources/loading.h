@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -87,8 +88,7 @@ class Loading {
 
   Loader& loader_;
   const design::Reader& reader_;
-  std::string looked_at_;
-  FileStore::Content content_;  // of that file
+  std::map<std::string, FileStore::Content> looked_at_;
 };
 
 }  // namespace ombre::sources

@@ -1,0 +1,129 @@
+// ombre info: what a grid of numbers in a file holds.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "base/text.h"
+#include "formats/file.h"
+#include "formats/volume.h"
+#include "ombre/command_line.h"
+#include "ombre/commands.h"
+
+namespace ombre::cli {
+namespace {
+
+struct ValueCounts {
+  double least = 0, greatest = 0;
+  std::vector<double> counts;  // of as many equal parts of the range
+};
+
+ValueCounts count_values(const formats::VoxelValues& values, size_t parts) {
+  return std::visit(
+      [&](const auto& list) {
+        const auto [least, greatest] = std::ranges::minmax(list);
+        ValueCounts result{static_cast<double>(least), static_cast<double>(greatest), std::vector<double>(parts, 0)};
+        const double width = result.greatest - result.least;
+        for (const auto value : list) {
+          const double share = width > 0 ? (static_cast<double>(value) - result.least) / width : 0;
+          ++result.counts[std::min(static_cast<size_t>(share * static_cast<double>(parts)), parts - 1)];
+        }
+        return result;
+      },
+      values);
+}
+
+DataList to_list(Vec3 v) { return {v.x, v.y, v.z}; }
+
+// The step from voxel to voxel along an axis of the grid.
+Vec3 step_of(const Affine& map, int axis) { return {map.rows[0][axis], map.rows[1][axis], map.rows[2][axis]}; }
+
+std::string vector_text(Vec3 v) {
+  return "(" + format_rounded(v.x, 6) + ", " + format_rounded(v.y, 6) + ", " + format_rounded(v.z, 6) + ")";
+}
+
+std::string placement_text(const formats::VoxelVolume& volume) {
+  if (!volume.space_from_index) return "  voxels    the file does not say how large they are\n";
+  const Affine& map = *volume.space_from_index;
+  std::string text = "  voxels    ";
+  for (int axis = 0; axis < 3; ++axis) text += (axis > 0 ? " x " : "") + format_rounded(length(step_of(map, axis)), 6);
+  text += " mm\n  origin    " + vector_text(map.offset) + " mm, the centre of the first voxel\n";
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 step = step_of(map, axis);
+    text += "  axis " + std::to_string(axis + 1) + "    along " + vector_text((1 / length(step)) * step) + "\n";
+  }
+  return text;
+}
+
+std::string histogram_text(const ValueCounts& values) {
+  constexpr double longest_bar = 40;
+  const double most = std::ranges::max(values.counts), parts = static_cast<double>(values.counts.size());
+  std::string text;
+  for (size_t n = 0; n < values.counts.size(); ++n) {
+    const double from = values.least + static_cast<double>(n) * (values.greatest - values.least) / parts;
+    std::string line = "  " + format_rounded(from, 5);
+    line.resize(std::max<size_t>(line.size() + 1, 14), ' ');
+    line += format_count(static_cast<unsigned long long>(values.counts[n]));
+    line.resize(std::max<size_t>(line.size() + 1, 30), ' ');
+    text += line + std::string(static_cast<size_t>(std::ceil(longest_bar * values.counts[n] / most)), '#') + "\n";
+  }
+  return text;
+}
+
+std::string volume_text(const std::string& path, const formats::VoxelVolume& volume, const ValueCounts& values) {
+  const auto& [nx, ny, nz] = volume.count;
+  return path + ": a volume\n  size      " + std::to_string(nx) + " x " + std::to_string(ny) + " x " +
+         std::to_string(nz) + " voxels, " + volume.type + "\n" + placement_text(volume) + "  space     " +
+         std::string(formats::name(volume.space)) + "\n  values    " + format_rounded(values.least, 9) + " to " +
+         format_rounded(values.greatest, 9) + "\n\n  from        voxels\n" + histogram_text(values);
+}
+
+DataMembers volume_members(const std::string& path, const formats::VoxelVolume& volume, const ValueCounts& values) {
+  DataList counts, histogram, steps;
+  for (const int64_t count : volume.count) counts.emplace_back(static_cast<double>(count));
+  for (const double count : values.counts) histogram.emplace_back(count);
+  DataMembers members{{"file", path},
+                      {"size", std::move(counts)},
+                      {"data_type", volume.type},
+                      {"space", std::string(formats::name(volume.space))},
+                      {"least", values.least},
+                      {"greatest", values.greatest},
+                      {"histogram", std::move(histogram)}};
+  if (!volume.space_from_index) return members;
+  for (int axis = 0; axis < 3; ++axis) steps.emplace_back(to_list(step_of(*volume.space_from_index, axis)));
+  members.emplace_back("steps_mm", std::move(steps));
+  members.emplace_back("origin_mm", to_list(volume.space_from_index->offset));
+  return members;
+}
+
+int show_volume(const std::string& path, Session& session) {
+  const std::string bytes = formats::read_file(path);
+  const std::string beside = formats::companion_of(path, bytes);
+  std::error_code ignored;
+  std::optional<std::string> companion;
+  if (!beside.empty() && std::filesystem::exists(beside, ignored)) companion = formats::read_file(beside);
+  const formats::VoxelVolume volume = formats::read_volume(path, bytes, companion ? &*companion : nullptr);
+  constexpr size_t parts = 16;
+  const ValueCounts values = count_values(volume.values, parts);
+  if (session.console.voice() == Voice::programs)
+    session.console.event("volume", volume_members(path, volume, values));
+  else
+    session.console.print(volume_text(path, volume, values));
+  return done;
+}
+
+}  // namespace
+
+Command add_info(CLI::App& program, OutputOptions& output) {
+  CLI::App* app = program.add_subcommand(
+      "info", "Say what a volume (NRRD, NPY, raw) holds: size, voxels, orientation, values and how often they occur");
+  auto file = std::make_shared<std::string>();
+  app->add_option("file", *file, "A volume: .nrrd, .nhdr, .npy, or raw numbers with a .json beside them")
+      ->required()
+      ->type_name("FILE");
+  add_output_options(*app, output);
+  app->footer("Example:\n  ombre info models/two_lobes.nrrd\n");
+  return {app, [file](Session& session) { return show_volume(*file, session); }};
+}
+
+}  // namespace ombre::cli

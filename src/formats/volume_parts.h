@@ -1,0 +1,49 @@
+// What the readers of grids share.
+#pragma once
+
+#include "base/error.h"
+#include "formats/volume.h"
+
+namespace ombre::formats {
+
+[[noreturn]] inline void fail_volume(const std::string& path, const std::string& message) {
+  throw Error("the volume \"" + path + "\" " + message);
+}
+
+// An empty list of that type ("uint8", "int16", "float", ...); throws Error for others.
+VoxelValues values_of_type(const std::string& path, const std::string& type);
+size_t bytes_per_value(const VoxelValues& values);
+
+// All voxels' bytes, once the counts are found to be possible. Throws Error.
+uint64_t voxel_bytes(const std::string& path, const std::array<int64_t, 3>& count, size_t bytes_per_value);
+
+// The numbers of the first bytes; the type is that of `values`. Throws Error where there are too few, or some are not
+// finite.
+void take_numbers(const std::string& path, std::string_view bytes, bool is_big_endian, VoxelVolume& volume);
+
+// Lengths of a voxel and the first one's place, along the axes. Throws Error where nobody can mean them.
+Affine placed_along_axes(const std::string& path, Vec3 spacing_mm, Vec3 origin_mm);
+void check_placement(const std::string& path, const Affine& space_from_index);
+void check_finite(const std::string& path, const VoxelVolume& volume);
+
+VoxelVolume read_nrrd(const std::string& path, std::string_view bytes, const std::string* data);
+// The path of the file that holds the numbers; empty where the header's own does.
+std::string nrrd_data_path(const std::string& path, std::string_view bytes);
+VoxelVolume read_npy(const std::string& path, std::string_view bytes, const std::string* description);
+VoxelVolume read_raw(const std::string& path, std::string_view bytes, const std::string& description);
+
+// What a description says; members that it leaves out are empty.
+struct VolumeDescription {
+  std::string type;
+  std::optional<std::array<int64_t, 3>> count;
+  bool is_big_endian = false;
+  uint64_t header_bytes = 0;
+  std::optional<Affine> space_from_index;
+  VolumeSpace space = VolumeSpace::unknown;
+};
+VolumeDescription read_description(const std::string& path, const std::string& json);
+
+// Of NRRD's "space" or its short form, in small letters; nothing for what is no space of three dimensions.
+std::optional<VolumeSpace> space_called(const std::string& name);
+
+}  // namespace ombre::formats

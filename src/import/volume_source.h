@@ -1,0 +1,26 @@
+// Grids of numbers as field sources.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "formats/volume.h"
+#include "program/field_source.h"
+
+namespace ombre::importing {
+
+struct VolumeSource {
+  program::SourceField source;
+  Interval range;  // of all values
+  // Encloses the places, within the voxels, where a channel may have a value of the interval.
+  std::function<Box(int channel, Interval values)> places;
+  size_t bytes = 0;
+};
+
+// In the space of voxel indices: voxel (i, j, k) has its centre there. Channels:
+//   "value"    between centres by trilinear interpolation
+//   "nearest"  that of the nearest voxel; half way between two, of the one with the greater index
+// Beyond the grid they are what they are at its side. On lattices whose points are centres the rows are copies.
+VolumeSource make_volume_source(std::string name, formats::VoxelVolume volume, Hash content);
+
+}  // namespace ombre::importing
