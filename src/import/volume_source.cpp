@@ -16,9 +16,10 @@ struct Grid {
   VoxelCorner count;
   std::vector<T> values;
 
-  double at(int64_t i, int64_t j, int64_t k) const {
-    return static_cast<double>(values[static_cast<size_t>((k * count[1] + j) * count[0] + i)]);
+  const T* row(int64_t j, int64_t k) const {
+    return values.data() + static_cast<size_t>((k * count[1] + j) * count[0]);
   }
+  double at(int64_t i, int64_t j, int64_t k) const { return static_cast<double>(row(j, k)[i]); }
 };
 
 // A place between voxels along an axis: one of them, the next, and how far it is from the first to that.
@@ -57,6 +58,7 @@ class GridRows final : public program::ValueSampler {
 
   void values(int64_t i, int64_t j, int64_t k, std::span<float> values) const override {
     VoxelCorner at = place(i, j, k);
+    if (steps_[0][0] == 1 && steps_[1][0] == 0 && steps_[2][0] == 0) return copy_row(at, values);
     for (float& value : values) {
       value = static_cast<float>(grid_->at(clamped(at[0], 0), clamped(at[1], 1), clamped(at[2], 2)));
       for (size_t axis = 0; axis < 3; ++axis) at[axis] += steps_[axis][0];
@@ -82,6 +84,17 @@ class GridRows final : public program::ValueSampler {
     for (size_t axis = 0; axis < 3; ++axis) at[axis] += steps_[axis][0] * i + steps_[axis][1] * j + steps_[axis][2] * k;
     return at;
   }
+  // A piece of a row of the grid, between what goes on beyond its ends.
+  void copy_row(const VoxelCorner& at, std::span<float> values) const {
+    const auto count = static_cast<int64_t>(values.size()), length = grid_->count[0];
+    const T* const row = grid_->row(clamped(at[1], 1), clamped(at[2], 2));
+    const int64_t begin = std::clamp<int64_t>(-at[0], 0, count),
+                  end = std::clamp<int64_t>(length - at[0], begin, count);
+    float* to = std::fill_n(values.data(), begin, static_cast<float>(row[0]));
+    for (int64_t n = begin; n < end; ++n) *to++ = static_cast<float>(row[at[0] + n]);
+    std::fill_n(to, count - end, static_cast<float>(row[length - 1]));
+  }
+
   int64_t clamped(int64_t at, size_t axis) const { return std::clamp<int64_t>(at, 0, grid_->count[axis] - 1); }
 
   std::shared_ptr<const Grid<T>> grid_;

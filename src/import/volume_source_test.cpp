@@ -74,8 +74,9 @@ TEST(VolumeSource, RangesHoldAllValues) {
 TEST(VolumeSource, RowsOnCentresAreCopies) {
   const auto volume = grid_of<uint16_t>(scattered);
   const Affine copies = Affine::translation({2, -1, 3});
+  const Affine far_away = Affine::translation({100, 0, 0}), far_before = Affine::translation({-100, 0, 0});
   const Affine mirrored{{Vec3{-1, 0, 0}, Vec3{0, 0, 2}, Vec3{0, 1, 0}}, {6, 0, 0}};
-  for (const Affine& map : {copies, mirrored})
+  for (const Affine& map : {copies, far_away, far_before, mirrored})
     for (const int channel : {0, 1}) {
       const auto rows = volume.source->rows(channel, map);
       ASSERT_TRUE(rows && rows->has_values());

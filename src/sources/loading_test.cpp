@@ -60,6 +60,10 @@ class DesignOfTest : public Loader {
     MeshRequest request{{path, {}}, std::move(use)};
     return source(request, reader());
   }
+  auto volume(const std::string& path) {
+    design::VolumeRequest request{{path, {}}};
+    return source(request, reader());
+  }
   auto square(double side) {
     PolygonsRequest request{{{{{0, 0}, {side, 0}, {side, side}, {0, side}}}, {}}, false};
     return source(request, reader());
@@ -114,6 +118,23 @@ TEST(SourceCache, ReadsAgainWhatHasChanged) {
   folder.write("a.off", tetrahedron(5), 20);
   EXPECT_EQ(DesignOfTest(cache).mesh(path), after);
   EXPECT_EQ(cache.files().reads(), reads + 1);
+}
+
+TEST(SourceCache, DescriptionsBesideAFileCountToo) {
+  const Folder folder("ombre_sources_volume");
+  const std::string start = R"({"data_type": "uint8", "dimensions": [2, 2, 1], "spacing_mm": [)";
+  const std::string path = folder.write("a.raw", "0123");
+  folder.write("a.raw.json", start + "1, 1, 1]}");
+  SourceCache cache;
+  const auto first = DesignOfTest(cache).volume(path);
+  ASSERT_TRUE(first);
+  const size_t reads = cache.files().reads();
+  EXPECT_EQ(DesignOfTest(cache).volume(path), first);
+  EXPECT_EQ(cache.files().reads(), reads);
+  folder.write("a.raw.json", start + "1, 2, 1]}", 50);
+  const auto second = DesignOfTest(cache).volume(path);
+  ASSERT_TRUE(second && second->space_from_index);
+  EXPECT_EQ((*second->space_from_index)({0, 1, 0}), (Vec3{0, 2, 0}));
 }
 
 TEST(SourceCache, TrustsNoTimeThatIsTooRecent) {
