@@ -31,6 +31,7 @@ std::shared_ptr<const std::string> SourceCache::text(const std::string& path) {
   CacheEntryPtr entry = find(key);
   if (!entry) {
     const auto bytes = files_.bytes(path, content);
+    if (bytes->size() > largest_kept_text) return bytes;
     entry = add(key, {bytes, bytes->size(), path, {}, {}});
   }
   return std::static_pointer_cast<const std::string>(entry->value);

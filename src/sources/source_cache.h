@@ -27,14 +27,14 @@ using CacheEntryPtr = std::shared_ptr<const CacheEntry>;
 // used least recently is dropped first; what a design still uses is found as long as it does. Thread-safe.
 class SourceCache {
  public:
-  static constexpr size_t usual_bytes = size_t{1} << 30;
+  static constexpr size_t usual_bytes = size_t{1} << 30, largest_kept_text = size_t{1} << 20;
   explicit SourceCache(size_t most_bytes = usual_bytes) : most_bytes_(most_bytes) {}
 
   // Null if it is not there.
   CacheEntryPtr find(const Hash& key);
   // Of several for one key the first counts, and is returned.
   CacheEntryPtr add(const Hash& key, CacheEntry entry);
-  // The bytes of a small file that is needed each time, such as a script. Throws Error.
+  // The bytes of a file that is needed each time, such as a script; kept if they are at most a mebibyte. Throws Error.
   std::shared_ptr<const std::string> text(const std::string& path);
 
   FileStore& files() { return files_; }
