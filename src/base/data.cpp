@@ -29,7 +29,7 @@ std::string describe(const Data& data) {
   if (const bool* b = data.boolean()) return *b ? "true" : "false";
   if (const double* n = data.number()) return "the number " + format_number(*n);
   if (const std::string* s = data.string()) return "the text \"" + shortened(*s) + '"';
-  if (data.host_object()) return "a function";
+  if (const HostObjectPtr object = data.host_object()) return object->describe();
   if (const DataList* l = data.list()) return "a list of " + std::to_string(l->size());
   return "an object";
 }

@@ -16,6 +16,7 @@ struct Data;
 // Something of the program around us that data only carries, such as a function of a host language.
 struct HostObject {
   virtual ~HostObject() = default;
+  virtual std::string describe() const { return "a function"; }  // for messages
 };
 using HostObjectPtr = std::shared_ptr<const HostObject>;
 

@@ -10,12 +10,17 @@
 namespace ombre::design {
 namespace {
 
-constexpr double format_version = 1;
+// The least version that has all of a design: values of nodes are new in 2.
+constexpr double version_without_values = 1, version_with_values = 2;
 
-Data node_parameters(const Node& node, bool for_hash) {
+using NodeName = std::function<std::string(const Node&)>;
+
+Data node_parameters(const Node& node, bool for_hash, const NodeName& name) {
   DataMembers members;
-  for (size_t i = 0; i < node.type().parameters.size(); ++i)
-    members.emplace_back(node.type().parameters[i].name, node.type().get(node, i, for_hash));
+  for (size_t i = 0; i < node.type().parameters.size(); ++i) {
+    Data value = node.type().get(node, i, for_hash);
+    members.emplace_back(node.type().parameters[i].name, node.values().empty() ? value : with_names(value, name));
+  }
   return Data(std::move(members));
 }
 
@@ -56,10 +61,13 @@ Design for_job(Design design, const JobScale& scale) {
 Data to_data(const Design& design) {
   const auto nodes = topological(design.roots());
   const auto ids = node_ids(nodes);
+  const auto id_of = [&](const Node& node) { return ids.at(&node); };
+  const bool has_values = std::ranges::any_of(nodes, [](const Node* node) { return !node->values().empty(); });
   DataList node_list, part_list;
   for (const Node* node : nodes) {
-    DataMembers entry{
-        {"id", Data(ids.at(node))}, {"type", Data(node->type().name)}, {"parameters", node_parameters(*node, false)}};
+    DataMembers entry{{"id", Data(ids.at(node))},
+                      {"type", Data(node->type().name)},
+                      {"parameters", node_parameters(*node, false, id_of)}};
     if (!node->inputs().empty()) {
       DataList inputs;
       for (const NodePtr& input : node->inputs()) inputs.emplace_back(ids.at(input.get()));
@@ -70,7 +78,8 @@ Data to_data(const Design& design) {
   for (const Part& part : design.parts)
     part_list.emplace_back(DataMembers{{"name", Data(part.name)}, {"node", Data(ids.at(part.solid.get()))}});
 
-  DataMembers members{{"format", Data("ombre-design")}, {"version", Data(format_version)}};
+  DataMembers members{{"format", Data("ombre-design")},
+                      {"version", Data(has_values ? version_with_values : version_without_values)}};
   members.push_back(design.materials.to_data().members()->front());
   if (design.sampling) members.emplace_back("sampling", sampling_data(*design.sampling));
   members.emplace_back("nodes", Data(std::move(node_list)));
@@ -87,8 +96,8 @@ class NodeHasher {
     const std::vector<const Node*> nodes = topological(roots);
     for (const NodePtr& root : roots) shared_[root.get()];
     for (const Node* node : nodes)
-      for (const NodePtr& input : node->inputs())
-        if (input.use_count() > 1) shared_[input.get()];
+      for (const NodePtr& other : node->dependencies())
+        if (other.use_count() > 1) shared_[other.get()];
     for (const Node* node : nodes) add(*node);
   }
 
@@ -96,7 +105,8 @@ class NodeHasher {
 
  private:
   void add(const Node& node) {
-    std::string text = node.type().name + print_json_line(node_parameters(node, true));
+    const auto name = [&](const Node& value) { return shared_.at(&value).hex(); };
+    std::string text = node.type().name + print_json_line(node_parameters(node, true, name));
     const auto inputs = node.inputs();
     const auto is_single = [&](const NodePtr& input) { return !shared_.contains(input.get()); };
     auto single = waiting_.end() - std::count_if(inputs.begin(), inputs.end(), is_single);
@@ -125,8 +135,9 @@ Hash hash(const Design& design) {
   DataList parts;
   for (const Part& part : design.parts)
     parts.emplace_back(DataList{Data(part.name), Data(hashes.of_root(part.solid).hex())});
-  DataMembers members{
-      {"version", Data(format_version)}, {"materials", design.materials.to_data()}, {"parts", Data(std::move(parts))}};
+  DataMembers members{{"version", Data(version_without_values)},
+                      {"materials", design.materials.to_data()},
+                      {"parts", Data(std::move(parts))}};
   if (design.sampling) members.emplace_back("sampling", sampling_data(*design.sampling));
   return hash_bytes(print_json_line(Data(std::move(members))));
 }
@@ -135,7 +146,7 @@ namespace {
 
 bool holds_host_object(const Data& data) {
   if (const DataList* list = data.list()) return std::any_of(list->begin(), list->end(), holds_host_object);
-  return data.host_object() != nullptr;
+  return data.host_object() && !is_value(data);
 }
 
 bool has_host_function(const Node& node) {
@@ -157,11 +168,11 @@ bool check_cells(const Design& design, Diagnostics& diagnostics) {
   for (const Part& part : design.parts) {
     const Node* user = part.solid.get();
     if (!user->uses_cell()) continue;
-    const auto uses_cell = [](const NodePtr& input) { return input->uses_cell(); };
+    const auto uses_cell = [](const NodePtr& other) { return other->uses_cell(); };
     for (;;) {
-      const auto inputs = user->inputs();
-      const auto next = std::ranges::find_if(inputs, uses_cell);
-      if (next == inputs.end()) break;
+      const auto below = user->dependencies();
+      const auto next = std::ranges::find_if(below, uses_cell);
+      if (next == below.end()) break;
       user = next->get();
     }
     diagnostics.error(user->where(),
@@ -181,14 +192,15 @@ class TreePrinter {
   void print(const Node& node, size_t indent) {
     text.append(indent, ' ');
     text += node.type().name + "(" + parameters(node) + ")";
-    if (node.type().output == ValueType::solid) text += "  [" + std::string(name(node.metric().kind)) + "]";
-    if (!numbers_.try_emplace(&node, numbers_.size() + 1).second && !node.inputs().empty()) {
+    if (node.type().is_solid()) text += "  [" + std::string(name(node.metric().kind)) + "]";
+    const bool has_number = !node.dependencies().empty() || !node.type().is_solid();
+    if (!numbers_.try_emplace(&node, numbers_.size() + 1).second && has_number) {
       text += "  as above, #" + std::to_string(numbers_.at(&node)) + "\n";
       return;
     }
-    if (!node.inputs().empty()) text += "  #" + std::to_string(numbers_.at(&node));
+    if (has_number) text += "  #" + std::to_string(numbers_.at(&node));
     text += '\n';
-    for (const NodePtr& input : node.inputs()) print(*input, indent + 2);
+    for (const NodePtr& other : node.dependencies()) print(*other, indent + 2);
   }
 
  private:
@@ -196,7 +208,7 @@ class TreePrinter {
     std::string list;
     for (size_t i = 0; i < node.type().parameters.size(); ++i) {
       const ParameterInfo& parameter = node.type().parameters[i];
-      const Data value = node.type().get(node, i, false);
+      const Data value = with_names(node.type().get(node, i, false), [](const Node& n) { return n.type().name; });
       if (value == parameter.default_value) continue;
       list += (list.empty() ? "" : ", ") + parameter.name + "=" + print_json_line(value);
     }

@@ -1,4 +1,5 @@
 // Reads design files. Files of nodes may refer to one another in any order, but not in a circle.
+#include <algorithm>
 #include <unordered_map>
 
 #include "base/text.h"
@@ -11,7 +12,8 @@ struct Entry {
   const Data* data = nullptr;
   NodePtr node;
   enum class State : uint8_t { unseen, open, done } state = State::unseen;
-  size_t inputs_made = 0;  // the first ones of its list
+  std::vector<const Data*> uses = {};  // its references to nodes, once it was open
+  size_t uses_made = 0;                // the first ones of these
 };
 
 class DesignReader {
@@ -44,11 +46,12 @@ class DesignReader {
       return false;
     }
     const Data* version = data_.find("version");
-    if (!version || !version->number() || *version->number() != 1) {
+    if (!version || !version->number() || (*version->number() != 1 && *version->number() != 2)) {
       error(version ? *version : data_, "this design file has a version that is not known here",
-            "expected \"version\": 1");
+            "expected \"version\": 1 or 2");
       return false;
     }
+    may_have_values_ = *version->number() >= 2;
     static const std::vector<std::string> known{"format", "version", "materials", "sampling", "nodes", "parts"};
     check_keys(data_, known);
     return true;
@@ -116,8 +119,7 @@ class DesignReader {
       if (!solid) continue;
       for (const Part& other : design_.parts)
         if (other.name == *name->string()) error(*name, "there are two parts with the name \"" + other.name + "\"");
-      if (solid->type().output != ValueType::solid)
-        error(*node, "a part must be a solid, " + solid->type().name + " is not");
+      if (!solid->type().is_solid()) error(*node, "a part must be a solid, " + solid->type().name + " is not");
       design_.parts.push_back({*name->string(), solid});
     }
   }
@@ -156,27 +158,71 @@ class DesignReader {
     return entries_.at(*reference.string()).node;
   }
 
-  // The first input that is not made yet. False when the inputs lead back to a node that waits for them.
+  // The first node among the inputs and in the parameters that is not made yet. False when they lead back to a node
+  // that waits for them.
   bool find_pending(Entry& entry, const Data*& pending) {
-    const Data* inputs = entry.data->find("inputs");
-    if (!inputs) return true;
-    if (!inputs->list()) {
-      error(*inputs, "expected a list of node ids");
-      return false;
-    }
-    for (; entry.inputs_made < inputs->list()->size(); ++entry.inputs_made) {
-      const Data& input = (*inputs->list())[entry.inputs_made];
-      const auto found = input.string() ? entries_.find(*input.string()) : entries_.end();
+    if (entry.uses.empty() && !find_uses(entry)) return false;
+    for (; entry.uses_made < entry.uses.size(); ++entry.uses_made) {
+      const Data& used = *entry.uses[entry.uses_made];
+      const auto found = used.string() ? entries_.find(*used.string()) : entries_.end();
       if (found != entries_.end() && found->second.state == Entry::State::open) {
-        error(input, "the node \"" + *input.string() + "\" is, through its inputs, an input of itself");
+        error(used, "the node \"" + *used.string() + "\" is, through its inputs, an input of itself");
         return false;
       }
       if (found == entries_.end() || found->second.state == Entry::State::unseen || !found->second.node) {
-        pending = &input;
+        pending = &used;
         return true;
       }
     }
     return true;
+  }
+
+  bool find_uses(Entry& entry) {
+    if (const Data* parameters = entry.data->find("parameters"))
+      if (!find_values(*parameters, entry.uses)) return false;
+    const Data* inputs = entry.data->find("inputs");
+    if (!inputs) return true;
+    if (inputs->list())
+      for (const Data& input : *inputs->list()) entry.uses.push_back(&input);
+    else
+      error(*inputs, "expected a list of node ids");
+    return inputs->list() != nullptr;
+  }
+
+  // References such as {"from": "n3", "output": "value"}.
+  bool find_values(const Data& data, std::vector<const Data*>& uses) {
+    if (const DataList* list = data.list())
+      return std::ranges::all_of(*list, [&](const Data& element) { return find_values(element, uses); });
+    if (!data.members()) return true;
+    for (const auto& [key, value] : *data.members()) {
+      if (key == "from") uses.push_back(&value);
+      if ((key == "from" || key == "formula") && !may_have_values_) {
+        error(data, "values of nodes are new in version 2 of design files", "write \"version\": 2");
+        return false;
+      }
+      if (!find_values(value, uses)) return false;
+    }
+    return true;
+  }
+
+  // With the nodes in the place of their ids.
+  Data with_nodes(const Data& data) const {
+    if (const DataList* list = data.list()) {
+      DataList result;
+      for (const Data& element : *list) result.push_back(with_nodes(element));
+      return {std::move(result), data.where};
+    }
+    if (!data.members()) return data;
+    DataMembers result;
+    for (const auto& [key, value] : *data.members()) {
+      if (key != "from") {
+        result.emplace_back(key, with_nodes(value));
+        continue;
+      }
+      const HostObjectPtr object = std::make_shared<NodeObject>(entries_.at(*value.string()).node);
+      result.emplace_back(key, Data(object, value.where));
+    }
+    return {std::move(result), data.where};
   }
 
   NodePtr make(const Entry& entry) {
@@ -217,7 +263,8 @@ class DesignReader {
         error(value, type.name + " has no parameter \"" + key + "\"", did_you_mean(key, type.parameter_names()));
         return false;
       }
-      if (!value.is_null()) values.push_back({&type.parameters[static_cast<size_t>(index)], value});
+      if (!value.is_null())
+        values.push_back({&type.parameters[static_cast<size_t>(index)], may_have_values_ ? with_nodes(value) : value});
     }
     return true;
   }
@@ -229,6 +276,7 @@ class DesignReader {
   Design design_;
   std::unordered_map<std::string, Entry> entries_;
   std::vector<std::string> ids_;
+  bool may_have_values_ = false;
 };
 
 }  // namespace

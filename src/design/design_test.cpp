@@ -11,22 +11,31 @@
 namespace ombre::design {
 namespace {
 
-// A node that gives a field, and one that takes it: no mechanism of their own is needed.
+// Gives values of each type.
 struct Ramp {
-  double slope = 1;
-  static Spec<Ramp> spec() {
-    return {"ramp", "test", "A field.", {{"slope", &Ramp::slope, "Its slope"}}, no_inputs, "", ValueType::field};
-  }
-  Field value(const Inputs&, const Point& p) const { return p.x * slope; }
-};
+  Number slope = 1;
+  MaterialName low, high;
 
-struct Below {
-  static Spec<Below> spec() {
-    return {"below", "test", "Where a field is 0 or less.", {}, {ValueType::field, 1, 1}, ""};
+  static Spec<Ramp> spec() {
+    return {"ramp",
+            "test",
+            "Rises along x.",
+            {{"slope", &Ramp::slope, "Its slope"}, {"low", &Ramp::low, ""}, {"high", &Ramp::high, ""}},
+            no_inputs,
+            "",
+            {{"value", &Ramp::value, "Its height"},
+             {"share", &Ramp::share, "Its height from 0 to 1", Interval(0, 1)},
+             {"gradient", &Ramp::gradient, "Its slopes"},
+             {"mixture", &Ramp::mixture, "Of low and high"}}};
   }
-  Box reach(const Inputs&, const Box& where, double) const { return where; }
-  Metric metric(const Inputs&) const { return Metric::implicit(); }
-  Field distance(const Inputs& in, const Point& p) const { return in.value(0, p); }
+
+  Field value(const Ask& ask) const { return ask.p.x * slope(ask.p); }
+  Field share(const Ask& ask) const { return min(max(value(ask), 0.0), ask.p.constant(1)); }
+  VectorField gradient(const Ask& ask) const { return {slope(ask.p), ask.p.constant(0), ask.p.constant(0)}; }
+  Composition mixture(const Ask& ask) const {
+    const Field t = share(ask);
+    return {{{ask.in.material(low), 1.0 - t}, {ask.in.material(high), t}}, {}};
+  }
 };
 
 struct Ball {
@@ -68,10 +77,12 @@ struct Any {
 class Designs : public testing::Test {
  protected:
   Designs() {
-    registry_.add<Ramp, Below, Ball, Shift, Any>();
-    materials_ = *MaterialTable::read(
-        *parse_json(make_source("m", R"({"materials": [{"name": "Red", "r": 1, "g": 2, "b": 3}]})"), diagnostics_),
-        diagnostics_);
+    registry_.add<Ramp, Ball, Shift, Any>();
+    materials_ =
+        *MaterialTable::read(*parse_json(make_source("m", R"({"materials": [{"name": "Red", "r": 1, "g": 2, "b": 3},
+                                                            {"name": "Blue", "r": 3, "g": 2, "b": 1}]})"),
+                                         diagnostics_),
+                             diagnostics_);
   }
 
   NodePtr make(const std::string& type, const std::vector<std::pair<std::string, Data>>& values,
@@ -97,6 +108,20 @@ class Designs : public testing::Test {
     return values[flat.outputs[0]];
   }
 
+  // An output of a node, as a parameter takes it.
+  static Data output(const NodePtr& node, const std::string& name) {
+    return Data(DataMembers{{"from", Data(HostObjectPtr(std::make_shared<NodeObject>(node)))}, {"output", Data(name)}});
+  }
+
+  static Data formula(const std::string& text, const NodePtr& node, const std::string& name) {
+    return Data(DataMembers{{"formula", Data(text)}, {"with", Data(DataMembers{{"v", output(node, name)}})}});
+  }
+
+  // A ball of radius 5 + x/2, from x = 0 on.
+  NodePtr egg() { return make("ball", {{"radius", formula("5 + v/2", make("ramp", {}), "value")}}); }
+
+  Data json_of(const NodePtr& node) { return to_data({materials_, {{"part", node}}, std::nullopt}); }
+
   Registry registry_;
   MaterialTable materials_;
   Diagnostics diagnostics_;
@@ -104,15 +129,92 @@ class Designs : public testing::Test {
 
 }  // namespace
 
-TEST_F(Designs, NodesMayGiveAndTakeFields) {
-  const NodePtr solid = make("below", {}, {make("ramp", {{"slope", Data(2.0)}})});
-  ASSERT_TRUE(solid);
-  EXPECT_EQ(distance(solid, {3, 0, 0}), 6);
+TEST_F(Designs, NumbersMayBeOutputsOfNodes) {
+  const NodePtr ramp = make("ramp", {{"slope", Data(2.0)}});
+  const NodePtr ball = make("ball", {{"radius", output(ramp, "value")}});
+  ASSERT_TRUE(ball) << to_text(diagnostics_);
+  EXPECT_EQ(distance(ball, {3, 4, 0}), 5 - 6);
+  EXPECT_EQ(distance(make("ball", {{"radius", formula("1 + v^2", ramp, "value")}}), {3, 4, 0}), 5 - 37);
+  EXPECT_EQ(distance(make("ball", {{"radius", output(ramp, "gradient.x")}}), {3, 4, 0}), 5 - 2);
 }
 
-TEST_F(Designs, InputsOfTheWrongTypeAreErrors) {
-  EXPECT_FALSE(make("shift", {}, {make("ramp", {})}));
-  EXPECT_EQ(to_text(diagnostics_), "error: shift takes a solid, ramp gives a field\n");
+TEST_F(Designs, ValuesAreEvaluatedWhereTheirSolidIs) {
+  const NodePtr moved = make("shift", {{"by", Data(DataList{Data(1.0), Data(0.0), Data(0.0)})}}, {egg()});
+  EXPECT_EQ(distance(moved, {4, 4, 0}), 5 - 6.5);
+}
+
+TEST_F(Designs, ValuesMayUseValues) {
+  const NodePtr steep = make("ramp", {{"slope", output(make("ramp", {}), "value")}});  // x^2
+  const NodePtr ball = make("ball", {{"radius", output(steep, "value")}});
+  EXPECT_EQ(distance(ball, {3, 4, 0}), 5 - 9);
+  EXPECT_EQ(ball->depth(), 3);
+}
+
+TEST_F(Designs, MaterialsMayBeMixtures) {
+  const NodePtr ramp = make("ramp", {{"slope", Data(0.25)}, {"low", Data("red")}, {"high", Data("blue")}});
+  const NodePtr ball = make("ball", {{"material", output(ramp, "mixture")}});
+  ASSERT_TRUE(ball) << to_text(diagnostics_);
+  LoweringContext context(materials_, {ball});
+  program::Builder builder;
+  Lowering lowering(context, builder);
+  const Composition mixed = lowering.composition(*ball, Point::origin_frame(builder), Demand::inside);
+  ASSERT_EQ(mixed.fractions.size(), 2u);
+  const program::Program program =
+      builder.finish({{"red", mixed.fractions[0].second}, {"blue", mixed.fractions[1].second}});
+  std::vector<double> values;
+  evaluate_point(program, {1, 0, 0}, values);
+  EXPECT_EQ(values[program.outputs[0]], 0.75);
+  EXPECT_EQ(values[program.outputs[1]], 0.25);
+}
+
+TEST_F(Designs, BoundsUseTheRangesOfValues) {
+  // x is at most 8 within the box, so the radius is at most 9.
+  const Box box{{-8, -20, -20}, {8, 20, 20}};
+  EXPECT_EQ(egg()->bounds(box), (Box{{-8, -9, -9}, {8, 9, 9}}));
+  // A declared range holds everywhere.
+  const NodePtr ball = make("ball", {{"radius", formula("5 + v", make("ramp", {}), "share")}});
+  EXPECT_EQ(ball->bounds(design_space()), Box::centered({6, 6, 6}));
+}
+
+TEST_F(Designs, ValuesAreWrittenInVersion2) {
+  EXPECT_EQ(json_of(make("ball", {})).find("version")->number()[0], 1);
+  const NodePtr ramp = make("ramp", {{"low", Data("blue")}});
+  const NodePtr ball =
+      make("ball", {{"radius", formula("5 + v/2", ramp, "value")}, {"material", output(ramp, "mixture")}});
+  const std::string text = print_json(json_of(ball));
+  EXPECT_NE(text.find("\"version\": 2"), std::string::npos) << text;
+  EXPECT_NE(text.find(R"({"from": "n1", "output": "mixture"})"), std::string::npos) << text;
+  const auto again = read_design(*parse_json(make_source("d", text), diagnostics_), registry_, nullptr, diagnostics_);
+  ASSERT_TRUE(again) << to_text(diagnostics_);
+  EXPECT_EQ(print_json(to_data(*again)), text);
+  EXPECT_EQ(hash(*again), hash({materials_, {{"part", ball}}, std::nullopt}));
+  EXPECT_EQ(distance(again->parts[0].solid, {4, 3, 0}), 5 - 7);
+}
+
+TEST_F(Designs, HashesTellValuesApart) {
+  const auto hash_of = [&](const Data& slope, const std::string& text) {
+    const NodePtr ball = make("ball", {{"radius", formula(text, make("ramp", {{"slope", slope}}), "value")}});
+    return hash({materials_, {{"part", ball}}, std::nullopt});
+  };
+  EXPECT_EQ(hash_of(Data(1.0), "5 + v"), hash_of(Data(1.0), "5+V"));
+  EXPECT_NE(hash_of(Data(1.0), "5 + v"), hash_of(Data(2.0), "5 + v"));
+  EXPECT_NE(hash_of(Data(1.0), "5 + v"), hash_of(Data(1.0), "6 + v"));
+}
+
+TEST_F(Designs, ValuesInTheWrongPlaceAreErrors) {
+  const NodePtr ramp = make("ramp", {});
+  EXPECT_FALSE(make("shift", {}, {ramp}));
+  EXPECT_FALSE(make("ball", {{"radius", output(ramp, "gradient")}}));
+  EXPECT_FALSE(make("ball", {{"radius", output(ramp, "vlaue")}}));
+  EXPECT_FALSE(make("ball", {{"material", output(ramp, "value")}}));
+  EXPECT_FALSE(make("shift", {{"by", Data(HostObjectPtr(std::make_shared<NodeObject>(ramp)))}}, {egg()}));
+  EXPECT_EQ(to_text(diagnostics_),
+            R"(error: shift takes solids, ramp gives values; give it as a parameter, for example sphere(5 + noise());
+error: expected a number, found the vector "gradient" of ramp; write one of its parts: .gradient.x
+error: this ramp has no output "vlaue"; ramp gives value, share, gradient, mixture
+error: material of ball: expected a material or a mixture of materials, found a number that varies in space; write for example mix(white, black, t)
+error: by of shift: expected three numbers (x, y, z), found a value of ramp; this varies in space, so it is known only where the job evaluates it; write a constant
+)");
 }
 
 TEST_F(Designs, ASolidUnderSeveralFramesIsOneBody) {

@@ -34,6 +34,12 @@ struct LoweringContext::Body {
     if (const auto constant = builder.constant_value(field)) return p.constant(*constant);
     return p.builder().call(program, number(name, field), p.x, p.y, p.z);
   }
+
+  Composition call(const LoweringContext& context, Composition own, const Point& p) {
+    for (auto& [id, fraction] : own.fractions) fraction = call(context.materials().all()[id].name, fraction, p);
+    for (auto& [check, mark] : own.checks) mark = call("check " + std::to_string(check), mark, p);
+    return own;
+  }
 };
 
 LoweringContext::LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots,
@@ -41,7 +47,7 @@ LoweringContext::LoweringContext(const MaterialTable& materials, const std::vect
     : materials_(materials), roots_(roots), scale_(scale), threads_(threads) {
   std::unordered_map<const Node*, int> uses;
   for (const Node* node : topological(roots)) {
-    for (const NodePtr& input : node->inputs())
+    for (const NodePtr& input : node->dependencies())
       if (node->repetitions() > 1 || (input.use_count() > 1 && ++uses[input.get()] == 2)) shared_.insert(input.get());
     if (const auto declared = node->declares()) {
       bool known = false;
@@ -74,11 +80,13 @@ void LoweringContext::find_scales() {
     const auto inner = node->inner(Point::origin_frame(builder));
     const auto input_from_node = inner ? inner->from_inputs() : std::nullopt;
     const double shrinks = input_from_node ? stretch(*input_from_node).least : 1;
-    const double scale = scales_.at(node) * (shrinks > 0 ? shrinks : 1);
-    for (const NodePtr& input : node->inputs()) {
-      const auto [known, is_new] = scales_.emplace(input.get(), scale);
+    const double own = scales_.at(node), of_inputs = own * (shrinks > 0 ? shrinks : 1);
+    const auto set = [&](const NodePtr& other, double scale) {
+      const auto [known, is_new] = scales_.emplace(other.get(), scale);
       if (!is_new) known->second = std::min(known->second, scale);
-    }
+    };
+    for (const NodePtr& input : node->inputs()) set(input, of_inputs);
+    for (const NodePtr& value : node->values()) set(value, own);
   }
 }
 
@@ -103,7 +111,8 @@ void LoweringContext::finish_bodies() {
 
 size_t Lowering::KeyHash::operator()(const Key& key) const {
   size_t h = std::hash<const void*>()(key.node);
-  for (const size_t part : {size_t{key.x}, size_t{key.y}, size_t{key.z}, static_cast<size_t>(key.query)})
+  const size_t question = static_cast<size_t>(key.query) + (size_t{key.output} << 8);
+  for (const size_t part : {size_t{key.x}, size_t{key.y}, size_t{key.z}, question})
     h = (h ^ part) * 0x9E3779B97F4A7C15ull + (h >> 29);
   return h;
 }
@@ -141,9 +150,35 @@ Field Lowering::interior(const Node& node, const Point& p) {
   return once(node, p, Query::interior, &Lowering::make_interior);
 }
 
-Field Lowering::value(const Node& node, const Point& p) {
-  if (auto* body = body_for(node)) return body->call("value", body->lowering.value(node, body->frame()), p);
-  return once(node, p, Query::value, &Lowering::make_value);
+Field Lowering::number(const NodeOutput& output, const Point& p) {
+  return numbers(*output.node, output.output, p)[std::max(output.axis, 0)];
+}
+
+VectorField Lowering::numbers(const Node& node, size_t output, const Point& p) {
+  if (auto* body = body_for(node)) {
+    const std::string& name = node.type().outputs[output].name;
+    VectorField own = body->lowering.numbers(node, output, body->frame());
+    for (Field* field : {&own.x, &own.y, &own.z})
+      if (*field) *field = body->call(name, *field, p);
+    return own;
+  }
+  Key key = key_of(node, p, Query::numbers);
+  key.output = static_cast<uint32_t>(output);
+  if (const auto known = numbers_.find(key); known != numbers_.end()) return known->second;
+  const Inputs in(node, this);
+  const VectorField made = node.numbers(output, {in, p});
+  numbers_.emplace(key, made);
+  return made;
+}
+
+Composition Lowering::mixture(const Node& node, const Point& p) {
+  if (auto* body = body_for(node)) return body->call(context_, body->lowering.mixture(node, body->frame()), p);
+  const Key key = key_of(node, p, Query::mixture);
+  if (const auto known = compositions_.find(key); known != compositions_.end()) return known->second;
+  const Inputs in(node, this);
+  Composition made = node.mixture({in, p});
+  compositions_.emplace(key, made);
+  return made;
 }
 
 Field Lowering::make_distance(const Node& node, const Point& p) { return node.distance(Inputs(node, this), p); }
@@ -174,15 +209,9 @@ Field Lowering::along(const Node& node, const Point& p) {
   return result ? result : p.constant(0);
 }
 
-Field Lowering::make_value(const Node& node, const Point& p) { return node.value(Inputs(node, this), p); }
-
 Composition Lowering::composition(const Node& node, const Point& p, Demand demand) {
-  if (auto* body = body_for(node)) {
-    Composition own = body->lowering.composition(node, body->frame(), demand);
-    for (auto& [id, fraction] : own.fractions) fraction = body->call(context_.materials().all()[id].name, fraction, p);
-    for (auto& [number, mark] : own.checks) mark = body->call("check " + std::to_string(number), mark, p);
-    return own;
-  }
+  if (auto* body = body_for(node))
+    return body->call(context_, body->lowering.composition(node, body->frame(), demand), p);
   const Key key = key_of(node, p, demand == Demand::inside ? Query::composition_inside : Query::composition_everywhere);
   if (const auto known = compositions_.find(key); known != compositions_.end()) return known->second;
   Composition made = make_composition(node, p, demand);
@@ -243,7 +272,8 @@ const AttributeDeclaration* Lowering::declaration(std::string_view name) const {
 }
 
 MaterialId Lowering::material(const MaterialName& name) const {
-  ASSERT(name.material == context_.materials().find(name.material->id) && "parameters hold materials of the table");
+  ASSERT(name.material && name.material == context_.materials().find(name.material->id) &&
+         "parameters hold materials of the table");
   return name.material->id;
 }
 

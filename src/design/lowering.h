@@ -76,16 +76,22 @@ class LoweringContext {
 
 // Lowers nodes into one builder. A node that is used more than once becomes a body, a sub-program
 // that is called at each point where it is asked for.
-class Lowering {
+class Lowering : public OutputFields {
  public:
-  Lowering(LoweringContext& context, program::Builder& builder) : context_(context), builder_(builder) {}
+  Lowering(LoweringContext& context, program::Builder& builder) : context_(context), builder_(builder) {
+    builder.set_user(this);
+  }
+  ~Lowering() override { builder_.set_user(nullptr); }
+  Lowering(const Lowering&) = delete;
+  Lowering& operator=(const Lowering&) = delete;
 
   Field distance(const Node& node, const Point& p);
   Field inside(const Node& node, const Point& p);
   Field interior(const Node& node, const Point& p);
   Composition composition(const Node& node, const Point& p, Demand demand);
   Field attribute(const Node& node, std::string_view name, const Point& p, Demand demand);
-  Field value(const Node& node, const Point& p);
+  Field number(const NodeOutput& output, const Point& p) override;
+  Composition mixture(const Node& node, const Point& p);
   Field along(const Node& node, const Point& p);
 
   // Parts of a node as rows of a table; nothing if they are few. A node has one list and one falloff.
@@ -109,11 +115,20 @@ class Lowering {
   program::Builder& builder() { return builder_; }
 
  private:
-  enum class Query : uint8_t { distance, inside, interior, composition_inside, composition_everywhere, value };
+  enum class Query : uint8_t {
+    distance,
+    inside,
+    interior,
+    composition_inside,
+    composition_everywhere,
+    numbers,
+    mixture,
+  };
   struct Key {
     const Node* node;
     program::ValueId x, y, z;
     Query query;
+    uint32_t output = 0;
     bool operator==(const Key&) const = default;
   };
   struct KeyHash {
@@ -125,7 +140,7 @@ class Lowering {
   Field make_distance(const Node& node, const Point& p);
   Field make_inside(const Node& node, const Point& p);
   Field make_interior(const Node& node, const Point& p);
-  Field make_value(const Node& node, const Point& p);
+  VectorField numbers(const Node& node, size_t output, const Point& p);
   Composition make_composition(const Node& node, const Point& p, Demand demand);
   Field make_attribute(const Node& node, std::string_view name, const Point& p, Demand demand);
   LoweringContext::Body* body_for(const Node& node);
@@ -136,7 +151,8 @@ class Lowering {
   bool stands_alone_ = false;
   std::vector<LocalCheck> local_checks_;
   std::unordered_map<Key, Field, KeyHash> fields_;
-  std::unordered_map<Key, Composition, KeyHash> compositions_;
+  std::unordered_map<Key, VectorField, KeyHash> numbers_;
+  std::unordered_map<Key, Composition, KeyHash> compositions_;  // and mixtures
 
   friend class LoweringContext;
 };

@@ -9,18 +9,17 @@
 
 namespace ombre::design {
 
-std::string_view name(ValueType type) { return type == ValueType::solid ? "solid" : "field"; }
-
-void Node::finish(std::vector<NodePtr> inputs, SourceRange where) {
+void Node::finish(std::vector<NodePtr> inputs, const std::vector<NodePtr>& values, SourceRange where) {
   where_ = std::move(where);
   input_count_ = static_cast<uint32_t>(inputs.size());
-  if (input_count_ > 0) inputs_ = std::make_unique<NodePtr[]>(input_count_);
-  std::move(inputs.begin(), inputs.end(), inputs_.get());
+  value_count_ = static_cast<uint32_t>(values.size());
+  if (input_count_ + value_count_ > 0) inputs_ = std::make_unique<NodePtr[]>(size_t{input_count_} + value_count_);
+  std::copy(values.begin(), values.end(), std::move(inputs.begin(), inputs.end(), inputs_.get()));
   int depth = 1;
-  for (const NodePtr& input : this->inputs()) depth = std::max(depth, input->depth() + 1);
+  for (const NodePtr& other : dependencies()) depth = std::max(depth, other->depth() + 1);
   depth_ = static_cast<int16_t>(depth);
-  uses_cell_ = !gives_cell() && (has_cell_numbers() || std::ranges::any_of(this->inputs(), [](const NodePtr& input) {
-                                   return input->uses_cell();
+  uses_cell_ = !gives_cell() && (has_cell_numbers() || std::ranges::any_of(dependencies(), [](const NodePtr& other) {
+                                   return other->uses_cell();
                                  }));
   const Metric metric = find_metric(Inputs(*this, nullptr));
   lipschitz_ = metric.lipschitz;
@@ -33,6 +32,12 @@ bool Node::has_along() const {
 }
 
 bool Node::is_nothing() const { return type().is_nothing; }
+
+size_t Node::first_output() const {
+  size_t output = 0;
+  while (!gives(output)) ++output;
+  return output;
+}
 
 Box BoundsMemory::of(const Node& node, const Box& where, double margin) {
   // What is only a few nodes in a row is asked again: remembering it would cost more.
@@ -53,7 +58,7 @@ Box Node::bounds(const Box& where) const {
 Node::~Node() {
   std::vector<NodePtr> open;
   const auto take_inputs = [&open](Node& node) {
-    for (uint32_t i = 0; i < node.input_count_; ++i) open.push_back(std::move(node.inputs_[i]));
+    for (uint32_t i = 0; i < node.input_count_ + node.value_count_; ++i) open.push_back(std::move(node.inputs_[i]));
   };
   take_inputs(*this);
   while (!open.empty()) {
@@ -77,13 +82,13 @@ std::vector<const Node*> topological(const std::vector<NodePtr>& roots) {
     if (is_new(root)) stack.push_back({root.get(), 0});
     while (!stack.empty()) {
       Visit& visit = stack.back();
-      if (visit.next == visit.node->inputs().size()) {
+      if (visit.next == visit.node->dependencies().size()) {
         order.push_back(visit.node);
         stack.pop_back();
         continue;
       }
-      const NodePtr& input = visit.node->inputs()[visit.next++];
-      if (is_new(input)) stack.push_back({input.get(), 0});
+      const NodePtr& next = visit.node->dependencies()[visit.next++];
+      if (is_new(next)) stack.push_back({next.get(), 0});
     }
   }
   return order;
@@ -109,7 +114,6 @@ AttributeDeclaration Inputs::declaration(std::string_view attribute_name) const 
   const AttributeDeclaration* found = lowering_->declaration(attribute_name);
   return found ? *found : AttributeDeclaration{std::string(attribute_name), "", 0, Overlap::first};
 }
-Field Inputs::value(size_t i, const Point& p) const { return lowering_->value(input(i), p); }
 Field Inputs::along(size_t i, const Point& p) const { return lowering_->along(input(i), p); }
 
 namespace {
@@ -163,6 +167,10 @@ std::vector<Field> Inputs::interiors(const Point& p) const {
 }
 
 MaterialId Inputs::material(const MaterialName& material_name) const { return lowering_->material(material_name); }
+
+Composition Inputs::composition_of(const MaterialName& name, const Point& p) const {
+  return name.mixture ? lowering_->mixture(*name.mixture, p) : Composition::pure(material(name), p.constant(1));
+}
 
 std::optional<JobScale> Inputs::scale() const { return lowering_->scale(node_); }
 

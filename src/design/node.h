@@ -11,18 +11,13 @@
 
 #include "design/job_scale.h"
 #include "design/lowered.h"
+#include "design/outputs.h"
 #include "design/values.h"
 
 namespace ombre::design {
 
-class Node;
 class Lowering;
 class NodeType;
-using NodePtr = std::shared_ptr<const Node>;
-
-// What nodes take and give.
-enum class ValueType : uint8_t { solid, field };
-std::string_view name(ValueType type);
 
 // Bounds already asked for: a sub-design may be reached in very many ways.
 class BoundsMemory {
@@ -76,7 +71,6 @@ class Inputs {
   Composition composition(size_t i, const Point& p, Demand demand) const;
   Field attribute(size_t i, std::string_view attribute_name, const Point& p, Demand demand) const;
   bool has_attribute(size_t i, std::string_view attribute_name) const;
-  Field value(size_t i, const Point& p) const;  // of an input that is a field
   Field along(size_t i, const Point& p) const;
   AttributeDeclaration declaration(std::string_view attribute_name) const;
 
@@ -90,7 +84,9 @@ class Inputs {
   std::vector<Field> insides(const Point& p) const;
   std::vector<Field> interiors(const Point& p) const;
 
-  MaterialId material(const MaterialName& name) const;
+  MaterialId material(const MaterialName& name) const;  // which is no mixture
+  // Of a material alone, or the mixture at the point.
+  Composition composition_of(const MaterialName& name, const Point& p) const;
   // How fine the job is in this node's space, if it is known.
   std::optional<JobScale> scale() const;
   // Told once for each job that lowers the node.
@@ -104,6 +100,13 @@ class Inputs {
   BoundsMemory* memory_;  // set where bounds are asked for
 };
 
+// What a node's outputs are evaluated with. Where only ranges of numbers are evaluated, `in` has no lowering: it knows
+// the inputs' bounds, and nothing else.
+struct Ask {
+  const Inputs& in;
+  const Point& p;
+};
+
 // Its parameters, and what they mean, are in the type that is made from a plain struct (spec.h). One piece of
 // memory holds all of it but lists: designs may have millions.
 class Node {
@@ -113,7 +116,7 @@ class Node {
   Node& operator=(const Node&) = delete;
   virtual ~Node();  // without recursion: chains may be long
   // What a node gets when its parameters are set; from then on it stays as it is.
-  void finish(std::vector<NodePtr> inputs, SourceRange where);
+  void finish(std::vector<NodePtr> inputs, const std::vector<NodePtr>& values, SourceRange where);
 
   virtual const NodeType& type() const = 0;
   // Encloses the points of `where` at which g is `margin` (mm, not negative) or less.
@@ -141,10 +144,18 @@ class Node {
   virtual double repetitions() const = 0;
   // Of how many solids that are not its inputs it is made, if it may keep them in a table; else 1.
   virtual size_t own_parts() const = 0;
-  // Field nodes give this.
-  virtual Field value(const Inputs& in, const Point& p) const = 0;
+
+  // Value nodes have outputs, in the order of their type's list.
+  virtual bool gives(size_t output) const = 0;                           // do its parameters allow this one?
+  virtual VectorField numbers(size_t output, const Ask& ask) const = 0;  // of a number x alone
+  virtual Composition mixture(const Ask& ask) const = 0;
+  size_t first_output() const;  // that it gives
 
   std::span<const NodePtr> inputs() const { return {inputs_.get(), input_count_}; }
+  // The nodes whose outputs its parameters hold, each once.
+  std::span<const NodePtr> values() const { return {inputs_.get() + input_count_, value_count_}; }
+  // Both.
+  std::span<const NodePtr> dependencies() const { return {inputs_.get(), size_t{input_count_} + value_count_}; }
   const SourceRange& where() const { return where_; }
 
   bool is_nothing() const;  // a solid without a point
@@ -164,8 +175,9 @@ class Node {
   virtual bool gives_cell() const = 0;
 
   SourceRange where_;
-  std::unique_ptr<NodePtr[]> inputs_;
+  std::unique_ptr<NodePtr[]> inputs_;  // and then the values
   uint32_t input_count_ = 0;
+  uint32_t value_count_ = 0;
   int16_t depth_ = 1;
   // The metric in parts, with which a node takes less memory.
   Metric::Kind kind_ = Metric::Kind::exact;
@@ -173,7 +185,7 @@ class Node {
   double lipschitz_ = 1;
 };
 
-// All nodes below and including the roots, each once, inputs before the nodes that use them.
+// All nodes below and including the roots, each once, inputs and values before the nodes that use them.
 std::vector<const Node*> topological(const std::vector<NodePtr>& roots);
 
 }  // namespace ombre::design

@@ -7,6 +7,15 @@
 
 namespace ombre::design {
 
+std::string_view name(ValueType type) {
+  return type == ValueType::number ? "number" : type == ValueType::vector ? "vector" : "mixture";
+}
+
+size_t NodeType::mixture_output() const {
+  const auto found = std::ranges::find(outputs, ValueType::mixture, &OutputInfo::type);
+  return static_cast<size_t>(found - outputs.begin());
+}
+
 int NodeType::parameter(std::string_view parameter_name) const {
   const std::string folded = fold_name(parameter_name);
   for (size_t i = 0; i < parameters.size(); ++i)
@@ -23,6 +32,7 @@ std::vector<std::string> NodeType::parameter_names() const {
 void Registry::add_type(std::unique_ptr<NodeType> type) {
   const bool is_new = by_name_.emplace(fold_name(type->name), type.get()).second;
   ASSERT(is_new && "two nodes have one name");
+  ASSERT(std::ranges::count(type->outputs, ValueType::mixture, &OutputInfo::type) <= 1);
   if (type->is_nothing) nothing_ = type.get();
   for (const auto& other : types_) other->nothing = nothing_;
   type->nothing = nothing_;
@@ -39,6 +49,20 @@ std::vector<std::string> Registry::names() const {
   for (const auto& type : types_) names.push_back(type->name);
   return names;
 }
+
+namespace {
+
+std::vector<std::string> names_of(const std::vector<std::unique_ptr<NodeType>>& types, bool are_solids) {
+  std::vector<std::string> names;
+  for (const auto& type : types)
+    if (type->is_solid() == are_solids) names.push_back(type->name);
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> Registry::solid_names() const { return names_of(types_, true); }
+std::vector<std::string> Registry::value_names() const { return names_of(types_, false); }
 
 namespace {
 
@@ -60,10 +84,9 @@ bool check_inputs(const NodeType& type, const std::vector<NodePtr>& inputs, cons
                     std::to_string(inputs.size()) + " were given",
                 "join them with union");
   for (const NodePtr& input : inputs)
-    if (input->type().output != wanted.type)
-      return fail(type.name + " takes a " + std::string(name(wanted.type)) + ", " + input->type().name + " gives a " +
-                      std::string(name(input->type().output)),
-                  "");
+    if (!input->type().is_solid())
+      return fail(type.name + " takes solids, " + input->type().name + " gives values",
+                  "give it as a parameter, for example sphere(5 + noise());");
   return true;
 }
 
@@ -81,12 +104,20 @@ NodePtr nothing_of(const NodeType& type, std::vector<NodePtr>& inputs) {
   return inputs.empty() ? nothing : nullptr;
 }
 
+std::vector<NodePtr> each_once(const std::vector<std::vector<NodePtr>>& lists) {
+  std::vector<NodePtr> all;
+  for (const std::vector<NodePtr>& list : lists)
+    for (const NodePtr& node : list)
+      if (std::ranges::find(all, node) == all.end()) all.push_back(node);
+  return all;
+}
+
 }  // namespace
 
 NodePtr make_nothing(const NodeType& type, const SourceRange& where) {
   if (!type.nothing) return nullptr;
   const std::shared_ptr<Node> node = type.nothing->create();
-  node->finish({}, where);
+  node->finish({}, {}, where);
   return node;
 }
 
@@ -95,10 +126,12 @@ NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, s
   const std::shared_ptr<Node> node = type.create();
   bool good = true;
   std::vector<bool> given(type.parameters.size(), false);
+  std::vector<std::vector<NodePtr>> used(type.parameters.size());  // of which values, by parameters
   for (const auto& [parameter, data] : values) {
     const auto index = static_cast<size_t>(parameter - type.parameters.data());
     given[index] = true;
-    const Reader one{reader.materials, reader.diagnostics, reader.loader, reader.where, type.name, parameter->name};
+    const Reader one{reader.materials, reader.diagnostics, reader.loader, reader.where,
+                     type.name,        parameter->name,    reader.names,  &used[index]};
     good = type.set(*node, index, data, one) && good;
   }
   const bool has_unwanted = type.inputs.most == 0 && !inputs.empty();
@@ -117,12 +150,13 @@ NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, s
   if (NodePtr nothing = nothing_of(type, inputs)) return nothing;
   const Reader whole{reader.materials, reader.diagnostics, reader.loader, reader.where, type.name, ""};
   if (!type.complete(*node, whole, inputs)) return nullptr;
-  for (const NodePtr& input : inputs) {
-    if (input->depth() < deepest_design) continue;
+  const std::vector<NodePtr> nodes = each_once(used);
+  const auto is_too_deep = [](const NodePtr& other) { return other->depth() >= deepest_design; };
+  if (std::ranges::any_of(inputs, is_too_deep) || std::ranges::any_of(nodes, is_too_deep)) {
     reader.diagnostics.error(reader.where, "the design nests deeper than " + std::to_string(deepest_design) + " nodes");
     return nullptr;
   }
-  node->finish(std::move(inputs), reader.where);
+  node->finish(std::move(inputs), nodes, reader.where);
   return node;
 }
 

@@ -26,19 +26,27 @@ enum class OfNothing : uint8_t {
   asked,          // they are inputs like any others
 };
 
-// How many inputs a node takes, and of which type.
+// What a node's output is.
+enum class ValueType : uint8_t { number, vector, mixture };
+std::string_view name(ValueType type);
+
+struct OutputInfo {
+  std::string name, doc;
+  ValueType type = ValueType::number;
+  Interval range = Interval::everything();  // of a number
+};
+
+// How many solids a node takes.
 struct InputInfo {
-  ValueType type = ValueType::solid;
   size_t least = 0, most = 0;
   bool grouped = false;  // what one statement of a script makes (a loop, a module) is one input, its union
   OfNothing of_nothing = OfNothing::gives_nothing;
 };
 inline constexpr InputInfo no_inputs{};
-inline constexpr InputInfo one_solid{ValueType::solid, 1, 1};
-inline constexpr InputInfo many_solids{ValueType::solid, 1, std::numeric_limits<size_t>::max(), false,
-                                       OfNothing::left_out};
+inline constexpr InputInfo one_solid{1, 1};
+inline constexpr InputInfo many_solids{1, std::numeric_limits<size_t>::max(), false, OfNothing::left_out};
 inline constexpr InputInfo grouped_solids(OfNothing of_nothing) {
-  return {ValueType::solid, 1, std::numeric_limits<size_t>::max(), true, of_nothing};
+  return {1, std::numeric_limits<size_t>::max(), true, of_nothing};
 }
 
 class NodeType {
@@ -47,10 +55,15 @@ class NodeType {
 
   std::string name, category, sentence, example;  // `example` is .vcad
   InputInfo inputs;
-  ValueType output = ValueType::solid;
   std::vector<ParameterInfo> parameters;
+  std::vector<OutputInfo> outputs;    // of value nodes; at most one is a mixture
   bool is_nothing = false;            // its nodes are solids without a point
   const NodeType* nothing = nullptr;  // the type of its registry that is nothing; null: there is none
+
+  // Else its nodes give values.
+  bool is_solid() const { return outputs.empty(); }
+  // The place of the output that is a mixture, or one beyond the last.
+  size_t mixture_output() const;
 
   virtual std::shared_ptr<Node> create() const = 0;
   virtual bool set(Node& node, size_t parameter, const Data& data, const Reader& reader) const = 0;
@@ -78,6 +91,8 @@ class Registry {
   // Matches without regard to case, '-' and '_'.
   const NodeType* find(std::string_view name) const;
   std::vector<std::string> names() const;
+  std::vector<std::string> solid_names() const;
+  std::vector<std::string> value_names() const;
 
  private:
   void add_type(std::unique_ptr<NodeType> type);

@@ -8,8 +8,13 @@
 //   Point inner(Point) const                  where the input is asked, with `scale()` for its distance
 // and where the defaults do not fit
 //   Metric metric([Inputs]) const             default: exact for leaves with constant numbers
-//   inside, interior, composition, attribute, declares, value, complete, along, pitch,
+//   inside, interior, composition, attribute, declares, complete, along, pitch,
 //   nearest_copy_is_enough, repetitions, own_parts, makes_nothing
+//
+// A node that gives values has outputs in its spec instead of a shape. Each is a method of the struct, whose return
+// type is the output's type:
+//   Field number(Ask) const, VectorField vector(Ask) const, Composition mixture(Ask) const
+//   bool gives(output) const    default: all of them, whatever the parameters are
 #pragma once
 
 #include <algorithm>
@@ -18,11 +23,21 @@
 
 namespace ombre::design {
 
+// Has the solid a composition of its own, besides the one of its material?
+template <class T>
+concept HasComposition = requires(const T& t, const Inputs& in, const Point& p) {
+  t.composition(in, p, Demand::inside);
+};
+
 template <class T>
 struct Parameter {
   template <class M>
   Parameter(std::string_view name_, M T::*member, std::string_view doc_, Domain domain_ = {})
       : name(name_), doc(doc_), kind(kind_name<M>()), domain(std::move(domain_)) {
+    if constexpr (std::is_same_v<M, MaterialName> && !HasComposition<T>) {
+      domain.may_mix = true;
+      kind = "material or mixture";
+    }
     set = [member, limits = domain](T& value, const Data& data, const Reader& reader) {
       return read(data, limits, value.*member, reader);
     };
@@ -34,6 +49,8 @@ struct Parameter {
         const Numbers3& n = value.*member;
         return n.x.constant() && n.y.constant() && n.z.constant();
       };
+    if constexpr (std::is_same_v<M, NumberOrMaterial>)
+      uses_cell = [member](const T& value) { return (value.*member).number.uses_cell(); };
     if constexpr (std::is_same_v<M, Number>)
       uses_cell = [member](const T& value) { return (value.*member).uses_cell(); };
     if constexpr (std::is_same_v<M, Numbers3>)
@@ -45,7 +62,7 @@ struct Parameter {
       uses_cell = [member](const T& value) { return std::ranges::any_of(value.*member, &Number::uses_cell); };
     if constexpr (std::is_same_v<M, MaterialName>)
       fill = [member](T& value, const Reader& reader) {
-        if (!(value.*member).material) (value.*member).material = &reader.materials.first();
+        if (!(value.*member).is_given()) (value.*member).material = &reader.materials.first();
       };
   }
 
@@ -58,13 +75,38 @@ struct Parameter {
   std::function<void(T&, const Reader&)> fill;  // what is meant where nothing is given
 };
 
+// A method that gives an output; its return type is the output's type. `range_` of a number is what all its values lie
+// in.
+template <class T>
+struct OutputSpec {
+  OutputSpec(std::string_view name, Field (T::*method)(const Ask&) const, std::string_view doc,
+             const Interval& range = Interval::everything())
+      : info{std::string(name), std::string(doc), ValueType::number, range},
+        numbers([method](const T& t, const Ask& ask) {
+          return VectorField{(t.*method)(ask), {}, {}};
+        }) {}
+  OutputSpec(std::string_view name, VectorField (T::*method)(const Ask&) const, std::string_view doc)
+      : info{std::string(name), std::string(doc), ValueType::vector},
+        numbers([method](const T& t, const Ask& ask) { return (t.*method)(ask); }) {}
+  OutputSpec(std::string_view name, Composition (T::*method)(const Ask&) const, std::string_view doc)
+      : info{std::string(name), std::string(doc), ValueType::mixture},
+        mixture([method](const T& t, const Ask& ask) { return (t.*method)(ask); }) {}
+
+  OutputInfo info;
+  std::function<VectorField(const T&, const Ask&)> numbers;
+  std::function<Composition(const T&, const Ask&)> mixture;
+};
+
+template <class T>
+using outputs = std::vector<OutputSpec<T>>;
+
 template <class T>
 struct Spec {
   std::string_view name, category, sentence;
   std::vector<Parameter<T>> parameters;
   InputInfo inputs = no_inputs;
   std::string_view example;
-  ValueType output = ValueType::solid;
+  outputs<T> values = {};  // none: it is a solid
 };
 
 // The box that `within` gives for `where`. Where it depends on fields it is better within its last answer, since what
@@ -114,9 +156,7 @@ class NodeOf final : public Node {
     else if constexpr (requires { data.scale(); }) {
       const Field inner_distance = in.distance(0, data.inner(p));
       return data.scale() == 1 ? inner_distance : inner_distance * data.scale();
-    } else if constexpr (requires { data.value(in, p); })
-      return data.value(in, p);
-    else
+    } else
       return in.distance(0, p);
   }
 
@@ -142,7 +182,7 @@ class NodeOf final : public Node {
     if constexpr (requires { data.composition(in, p, demand); })
       return data.composition(in, p, demand);
     else if constexpr (requires { data.material; })
-      return Composition::pure(in.material(data.material), p.constant(1));
+      return in.composition_of(data.material, p);
     else
       return std::nullopt;
   }
@@ -162,7 +202,7 @@ class NodeOf final : public Node {
       return std::nullopt;
   }
 
-  bool keeps_shape() const override { return passes_on && type_.output == ValueType::solid && inputs().size() == 1; }
+  bool keeps_shape() const override { return passes_on && type_.is_solid() && inputs().size() == 1; }
 
   std::optional<Point> inner(const Point& p) const override {
     if constexpr (requires { data.inner(p); })
@@ -212,11 +252,19 @@ class NodeOf final : public Node {
       return 1;
   }
 
-  Field value(const Inputs& in, const Point& p) const override {
-    if constexpr (requires { data.value(in, p); })
-      return data.value(in, p);
+  bool gives(size_t output) const override {
+    if constexpr (requires { data.gives(output); })
+      return data.gives(output);
     else
-      return p.constant(0);
+      return output < type_.outputs.size();
+  }
+
+  VectorField numbers(size_t output, const Ask& ask) const override {
+    return type_.output_spec(output).numbers(data, ask);
+  }
+
+  Composition mixture(const Ask& ask) const override {
+    return type_.output_spec(type_.mixture_output()).mixture(data, ask);
   }
 
  private:
@@ -258,7 +306,7 @@ class NodeTypeOf final : public NodeType {
     sentence = spec_.sentence;
     example = spec_.example;
     inputs = spec_.inputs;
-    output = spec_.output;
+    for (const OutputSpec<T>& output : spec_.values) outputs.push_back(output.info);
     is_nothing = requires { T::is_nothing_itself; };
     const T defaults{};
     for (const Parameter<T>& parameter : spec_.parameters)
@@ -273,7 +321,8 @@ class NodeTypeOf final : public NodeType {
   }
 
   Data get(const Node& node, size_t parameter, bool for_hash) const override {
-    return spec_.parameters[parameter].get(static_cast<const NodeOf<T>&>(node).data, for_hash);
+    Data data = spec_.parameters[parameter].get(static_cast<const NodeOf<T>&>(node).data, for_hash);
+    return node.values().empty() ? data : with_held_nodes(data, node.values());
   }
 
   bool makes_nothing(const Node& node) const override {
@@ -298,9 +347,11 @@ class NodeTypeOf final : public NodeType {
   NodePtr with_inputs(const Node& node, std::vector<NodePtr> others) const override {
     const auto copy = std::make_shared<NodeOf<T>>(*this);
     copy->data = static_cast<const NodeOf<T>&>(node).data;
-    copy->finish(std::move(others), node.where());
+    copy->finish(std::move(others), {node.values().begin(), node.values().end()}, node.where());
     return copy;
   }
+
+  const OutputSpec<T>& output_spec(size_t output) const { return spec_.values[output]; }
 
   bool has_cell_numbers(const T& data) const {
     for (const Parameter<T>& parameter : spec_.parameters)

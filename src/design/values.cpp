@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "base/assert.h"
 #include "base/text.h"
+#include "design/outputs.h"
 
 namespace ombre::design {
 
@@ -11,20 +13,6 @@ program::Field Number::at(const program::Point& p, const expr::Variables& extra)
   return expression()->lower(p, extra);
 }
 
-namespace {
-
-// Stands for what is not known where only ranges are asked for.
-class Anything : public program::FieldSource {
- public:
-  std::string name() const override { return "anything"; }
-  Hash content() const override { return {}; }
-  Box bounds() const override { return Box::everything(); }
-  int channel(std::string_view) const override { return 0; }
-  double sample(int, Vec3) const override { return std::numeric_limits<double>::quiet_NaN(); }
-};
-
-}  // namespace
-
 bool Number::uses_cell() const {
   return expression() && std::ranges::any_of(expr::cell_names(), [&](auto name) { return expression()->uses(name); });
 }
@@ -32,14 +20,13 @@ bool Number::uses_cell() const {
 Interval Number::range(const Box& where, const std::map<std::string_view, Interval>& extra) const {
   if (const double* value = constant()) return *value;
   program::Builder builder;
-  const program::Point p = program::Point::origin_frame(builder);
+  const OutputsAlone outputs(builder, true);
+  program::Point p = program::Point::origin_frame(builder);
+  p.cell = {anything(p), anything(p), anything(p)};
   const auto known = [&](std::string_view name) -> std::optional<program::Field> {
     const auto it = extra.find(name);
-    const bool is_cell = std::ranges::count(expr::cell_names(), name) > 0;
-    if (it == extra.end() && !is_cell) return std::nullopt;
-    const program::Field anything = builder.source(std::make_shared<Anything>(), 0, p.x, p.y, p.z);
-    if (it == extra.end()) return anything;
-    return min(max(anything, it->second.lo), p.constant(it->second.hi));
+    if (it == extra.end()) return std::nullopt;
+    return min(max(anything(p), it->second.lo), p.constant(it->second.hi));
   };
   const program::Field field = expression()->lower(p, known);
   const program::Program program = builder.finish({{"value", field}});
@@ -48,7 +35,21 @@ Interval Number::range(const Box& where, const std::map<std::string_view, Interv
   return values[program.outputs[0]];
 }
 
-bool Reader::fail(const Data& data, const std::string& expected, const std::string& hint) const {
+std::vector<std::string> known_variables(const Domain& domain) {
+  std::vector<std::string> known = expr::coordinate_names();
+  known.insert(known.end(), domain.variables.begin(), domain.variables.end());
+  return known;
+}
+
+void Reader::keep(const NodePtr& value) const {
+  ASSERT(values && "parameters of nodes alone hold outputs");
+  if (std::ranges::find(*values, value) == values->end()) values->push_back(value);
+}
+
+bool Reader::fail(const Data& data, const std::string& expected, const std::string& given_hint) const {
+  std::string hint = given_hint;
+  if (hint.empty() && is_value(data) && data.host_object())
+    hint = "this varies in space, so it is known only where the job evaluates it; write a constant";
   std::string message = std::string(name) + " of " + std::string(node) + ": expected " + expected;
   if (!data.is_null()) message += ", found " + describe(data);
   diagnostics.error(data.where.source ? data.where : where, message, hint);
@@ -108,6 +109,69 @@ bool read(const Data& data, const Domain& domain, double& value, const Reader& r
   return true;
 }
 
+namespace {
+
+void warn_of_two_meanings(const std::string& name, const SourceRange& where, const Reader& reader) {
+  reader.diagnostics.add_new(
+      {Severity::warning, where,
+       "\"" + name + "\" is the formula's own variable here, not the script's variable of that name",
+       "give the script's variable another name if you mean that one"});
+}
+
+// With the script's numbers and values in the place of variables that formulas do not have themselves.
+std::optional<expr::Expression> with_named_values(const expr::Expression& expression, const Data& data,
+                                                  const std::vector<std::string>& known, const Domain& domain,
+                                                  const Reader& reader) {
+  const std::string& text = *data.string();
+  bool good = true;
+  auto result = expression.with_substitutes([&](const expr::Node& variable) -> std::optional<expr::Expression> {
+    const std::string spelling = text.substr(variable.begin, variable.end - variable.begin);
+    const auto value = (*reader.names)(spelling);
+    if (!value || !(value->number() || is_value(*value))) return std::nullopt;
+    if (std::ranges::find(known, variable.name) != known.end()) {
+      warn_of_two_meanings(spelling, expr::Expression::place(variable, text, data.where), reader);
+      return std::nullopt;
+    }
+    if (const double* number = value->number()) return expr::Expression::constant(*number);
+    auto formula = read_formula(*value, domain, reader);
+    good = good && formula;
+    return formula;
+  });
+  return good ? std::optional(std::move(result)) : std::nullopt;
+}
+
+// The expression of a text, with the values that it calls by names.
+std::optional<expr::Expression> read_expression(const Data& data, const Domain& domain, const Reader& reader) {
+  const std::string& text = *data.string();
+  auto expression = expr::Expression::parse(text, data.where, reader.diagnostics);
+  if (!expression) return std::nullopt;
+  const std::vector<std::string> known = known_variables(domain);
+  if (reader.names) {
+    const auto named = with_named_values(*expression, data, known, domain, reader);
+    if (!named) return std::nullopt;
+    expression = *named;
+  }
+  if (!expression->check_variables(known, text, data.where, reader.diagnostics)) return std::nullopt;
+  return expression;
+}
+
+bool set_expression(expr::Expression expression, const Data& data, const Domain& domain, Number& value,
+                    const Reader& reader) {
+  const auto constant = expression.constant_value();
+  // An infinite one is left to the job, which counts where it matters.
+  if (!constant || (!std::isfinite(*constant) && !std::isfinite(domain.least))) {
+    for (const NodePtr& node : nodes_of(expression)) reader.keep(node);
+    value = std::move(expression);
+    return true;
+  }
+  double number = 0;
+  if (!read(Data(*constant, data.where), domain, number, reader)) return false;
+  value = number;
+  return true;
+}
+
+}  // namespace
+
 bool read(const Data& data, const Domain& domain, Number& value, const Reader& reader) {
   double number = 0;
   if (const std::string* text = data.string()) {
@@ -116,23 +180,12 @@ bool read(const Data& data, const Domain& domain, Number& value, const Reader& r
       value = number;
       return true;
     }
-    auto expression = expr::Expression::parse(*text, data.where, reader.diagnostics);
-    if (!expression) return false;
-    std::vector<std::string> known = expr::coordinate_names();
-    known.insert(known.end(), domain.variables.begin(), domain.variables.end());
-    if (!expression->check_variables(known, *text, data.where, reader.diagnostics)) return false;
-    const auto constant = expression->constant_value();
-    if (!constant) {
-      value = std::move(*expression);
-      return true;
-    }
-    if (!std::isfinite(*constant) && !std::isfinite(domain.least)) {  // left to the job, which counts where it matters
-      value = std::move(*expression);
-      return true;
-    }
-    if (!read(Data(*constant, data.where), domain, number, reader)) return false;
-    value = number;
-    return true;
+    auto expression = read_expression(data, domain, reader);
+    return expression && set_expression(std::move(*expression), data, domain, value, reader);
+  }
+  if (is_value(data)) {
+    auto expression = read_formula(data, domain, reader);
+    return expression && set_expression(std::move(*expression), data, domain, value, reader);
   }
   if (const auto source = std::dynamic_pointer_cast<const program::FieldSource>(data.host_object())) {
     value = expr::Expression::of_source(source);
@@ -212,7 +265,16 @@ bool read(const Data& data, const Domain& domain, Affine& value, const Reader& r
   return true;
 }
 
-bool read(const Data& data, const Domain&, MaterialName& value, const Reader& reader) {
+bool read(const Data& data, const Domain& domain, MaterialName& value, const Reader& reader) {
+  value = {};
+  if (is_value(data)) {
+    if (!domain.may_mix) return reader.fail(data, "a material's name", "a mixture goes where a solid has its material");
+    const NodePtr node = read_mixture(data, reader);
+    if (!node) return false;
+    reader.keep(node);
+    value.mixture = node.get();
+    return true;
+  }
   if (const double* id = data.number()) {
     const bool is_id = *id >= 0 && *id <= 255 && *id == std::floor(*id);
     const Material* material = is_id ? reader.materials.find(static_cast<MaterialId>(*id)) : nullptr;
@@ -237,6 +299,16 @@ bool read(const Data& data, const Domain&, MaterialName& value, const Reader& re
   reader.diagnostics.error(data.where.source ? data.where : reader.where,
                            "there is no material \"" + *data.string() + "\"", hint);
   return false;
+}
+
+// A text is a material where there is one of that name, else an expression.
+bool read(const Data& data, const Domain& domain, NumberOrMaterial& value, const Reader& reader) {
+  value = {};
+  const bool is_name = data.string() && reader.materials.find(*data.string());
+  if (!is_name && !is_mixture(data)) return read(data, domain, value.number, reader);
+  Domain of_material;
+  of_material.may_mix = true;
+  return read(data, of_material, value.material, reader);
 }
 
 bool read(const Data& data, const Domain&, FilePath& value, const Reader& reader) {
@@ -325,6 +397,7 @@ Data write(double value, bool) { return Data(value); }
 Data write(const Number& value, bool for_hash) {
   if (const double* number = value.constant()) return Data(*number);
   if (const auto& source = value.expression()->source(); source && !for_hash) return Data(HostObjectPtr(source));
+  if (!value.expression()->inputs().empty()) return write_formula(*value.expression());
   return Data(value.expression()->text());
 }
 Data write(const Numbers3& v, bool h) { return Data(DataList{write(v.x, h), write(v.y, h), write(v.z, h)}); }
@@ -341,7 +414,13 @@ Data write(const Affine& value, bool) {
   }
   return Data(std::move(rows));
 }
-Data write(const MaterialName& value, bool) { return Data(value.material ? value.material->name : std::string()); }
+Data write(const MaterialName& value, bool) {
+  if (value.mixture) return write_mixture(*value.mixture);
+  return Data(value.material ? value.material->name : std::string());
+}
+Data write(const NumberOrMaterial& value, bool for_hash) {
+  return value.material.is_given() ? write(value.material, for_hash) : write(value.number, for_hash);
+}
 Data write(const FilePath& value, bool for_hash) { return Data(for_hash ? value.content.hex() : value.path); }
 Data write(const SharedList<Number>& value, bool h) {
   DataList list;

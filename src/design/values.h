@@ -18,11 +18,14 @@
 
 namespace ombre::design {
 
+class Node;
+using NodePtr = std::shared_ptr<const Node>;
+
 // All of a design lies within this distance of the origin on each axis; mm.
 inline constexpr double design_limit_mm = 1e6;
 inline Box design_space() { return Box::centered({design_limit_mm, design_limit_mm, design_limit_mm}); }
 
-// A constant, or a field over space given by an expression.
+// A constant, or a field over space given by an expression, in which outputs of nodes may stand.
 class Number {
  public:
   Number(double value = 0) : value_(value) {}           // NOLINT: a double is a Number
@@ -47,10 +50,20 @@ struct Numbers3 {
   bool operator==(const Numbers3&) const = default;
 };
 
-// A material of the design's table, which nodes do not outlive; null: none was given.
+// A material of the design's table, which nodes do not outlive, or a node whose output is a mixture of materials, which
+// the node with the parameter holds. Both null: none was given.
 struct MaterialName {
   const Material* material = nullptr;
+  const Node* mixture = nullptr;
+  bool is_given() const { return material || mixture; }
   bool operator==(const MaterialName&) const = default;
+};
+
+// One of the two; where neither is given, the number 0.
+struct NumberOrMaterial {
+  Number number;
+  MaterialName material;
+  bool operator==(const NumberOrMaterial&) const = default;
 };
 
 // The design's material for one that a file calls `name`.
@@ -133,7 +146,11 @@ struct Domain {
   bool required = false;               // has no default
   std::vector<std::string> choices;    // of a Choice
   std::vector<std::string> variables;  // known in expressions besides the coordinates
+  bool may_mix = false;                // of a material: may it be a mixture?
 };
+
+// The coordinates, and what a domain knows besides.
+std::vector<std::string> known_variables(const Domain& domain);
 
 inline Domain any(std::string_view unit = "") {
   Domain domain;
@@ -179,6 +196,9 @@ inline const Domain positive_mm = positive("mm"), not_negative_mm = not_negative
 
 class SourceLoader;
 
+// Values by the names that formulas call them; nothing for an unknown name.
+using NamedValues = std::function<std::optional<Data>(const std::string& name)>;
+
 // What reading a parameter needs besides the data.
 struct Reader {
   const MaterialTable& materials;
@@ -186,7 +206,10 @@ struct Reader {
   SourceLoader* loader = nullptr;
   SourceRange where;            // of the call, for messages about nothing that was written
   std::string_view node, name;  // whose parameter is read
+  const NamedValues* names = nullptr;
+  std::vector<NodePtr>* values = nullptr;  // gets the nodes whose outputs the parameter holds
 
+  void keep(const NodePtr& value) const;
   bool fail(const Data& data, const std::string& expected, const std::string& hint = "") const;
 };
 
@@ -203,6 +226,7 @@ bool read(const Data& data, const Domain& domain, Vec3& value, const Reader& rea
 bool read(const Data& data, const Domain& domain, std::optional<Vec3>& value, const Reader& reader);  // null: none
 bool read(const Data& data, const Domain& domain, Affine& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, MaterialName& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, NumberOrMaterial& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, FilePath& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, SharedList<Number>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, SharedList<MaterialName>& value, const Reader& reader);
@@ -225,6 +249,7 @@ Data write(const Vec3& value, bool for_hash);
 Data write(const std::optional<Vec3>& value, bool for_hash);
 Data write(const Affine& value, bool for_hash);
 Data write(const MaterialName& value, bool for_hash);
+Data write(const NumberOrMaterial& value, bool for_hash);
 Data write(const FilePath& value, bool for_hash);
 Data write(const SharedList<Number>& value, bool for_hash);
 Data write(const SharedList<MaterialName>& value, bool for_hash);
@@ -247,6 +272,7 @@ constexpr std::string_view kind_name() {
   if constexpr (std::is_same_v<M, Vec3> || std::is_same_v<M, std::optional<Vec3>>) return "3 numbers";
   if constexpr (std::is_same_v<M, Affine>) return "matrix";
   if constexpr (std::is_same_v<M, MaterialName>) return "material";
+  if constexpr (std::is_same_v<M, NumberOrMaterial>) return "number, field, material or mixture";
   if constexpr (std::is_same_v<M, FilePath>) return "file";
   if constexpr (std::is_same_v<M, SharedList<Number>>) return "list of numbers or fields";
   if constexpr (std::is_same_v<M, SharedList<MaterialName>>) return "list of materials";

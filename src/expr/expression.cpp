@@ -1,5 +1,6 @@
 #include "expr/expression.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "base/text.h"
@@ -61,6 +62,8 @@ class Lowerer {
       }
       case Kind::source:
         return p_.builder().source(node.source, 0, p_.x, p_.y, p_.z);
+      case Kind::input:
+        return node.input->field(p_);
       case Kind::binary:
         break;
     }
@@ -129,16 +132,75 @@ class Lowerer {
   const Variables& extra_;
 };
 
+// All nodes, in the order of the text.
 template <class F>
-void each_variable(const Node& root, F f) {
+void each_node(const Node& root, F f) {
   std::vector<const Node*> open{&root};
   while (!open.empty()) {
     const Node* node = open.back();
     open.pop_back();
-    if (node->kind == Kind::variable) f(*node);
-    for (const auto& operand : node->operands) open.push_back(operand.get());
+    f(*node);
+    for (size_t i = node->operands.size(); i-- > 0;) open.push_back(node->operands[i].get());
   }
 }
+
+template <class F>
+void each_variable(const Node& root, F f) {
+  each_node(root, [&](const Node& node) {
+    if (node.kind == Kind::variable) f(node);
+  });
+}
+
+std::shared_ptr<Node> make_node(Kind kind, std::vector<NodePtr> operands) {
+  auto node = std::make_shared<Node>();
+  node->kind = kind;
+  node->operands = std::move(operands);
+  return node;
+}
+
+bool contains(const std::vector<InputPtr>& inputs, const Input& input) {
+  return std::ranges::any_of(inputs, [&](const InputPtr& known) { return known->is_same(input); });
+}
+
+// A tree with other subtrees in the place of some variables.
+class Substitution {
+ public:
+  explicit Substitution(const std::function<NodePtr(const Node&)>& other) : other_(other) {}
+
+  NodePtr of(const NodePtr& node) const {
+    if (node->kind == Kind::variable) {
+      NodePtr other = other_(*node);
+      return other ? other : node;
+    }
+    if (node->operands.empty()) return node;
+    return node->kind == Kind::binary ? of_chain(node) : over(*node, all(node->operands));
+  }
+
+ private:
+  // a + b + c + ... without recursion to the left, as in Lowerer::chain.
+  NodePtr of_chain(const NodePtr& node) const {
+    std::vector<NodePtr> links{node};
+    while (links.back()->operands[0]->kind == Kind::binary) links.push_back(links.back()->operands[0]);
+    NodePtr value = of(links.back()->operands[0]);
+    for (size_t i = links.size(); i-- > 0;) value = over(*links[i], {value, of(links[i]->operands[1])});
+    return value;
+  }
+
+  std::vector<NodePtr> all(const std::vector<NodePtr>& nodes) const {
+    std::vector<NodePtr> result;
+    for (const NodePtr& node : nodes) result.push_back(of(node));
+    return result;
+  }
+
+  static NodePtr over(const Node& node, std::vector<NodePtr> operands) {
+    auto copy = make_node(node.kind, std::move(operands));
+    copy->binary = node.binary;
+    copy->name = node.name;
+    return copy;
+  }
+
+  const std::function<NodePtr(const Node&)>& other_;
+};
 
 // The range of the text's own characters: in its file if it stands there literally, else in a
 // source made of the text alone.
@@ -213,6 +275,75 @@ Expression Expression::of_source(const program::SourceField& source) {
   return {std::move(node), source->name() + " #" + source->content().hex()};
 }
 
+Expression::Expression(NodePtr root) {
+  Parsed parsed{std::move(root), {}};
+  each_node(*parsed.root, [&](const Node& node) {
+    ++parsed.size;
+    if (node.input && !contains(parsed.inputs, *node.input)) parsed.inputs.push_back(node.input);
+  });
+  parsed_ = std::make_shared<const Parsed>(std::move(parsed));
+  std::string text = print_tree(this->root(), [&](const Input& input) {
+    for (size_t i = 0; i < inputs().size(); ++i)
+      if (inputs()[i]->is_same(input)) return input_name(i);
+    return input.name();
+  });
+  parsed_ = std::make_shared<const Parsed>(Parsed{parsed_->root, std::move(text), parsed_->inputs, parsed_->size});
+}
+
+std::string Expression::input_name(size_t i) const { return inputs().size() == 1 ? "v" : "v" + std::to_string(i + 1); }
+
+std::string Expression::text_with_names() const { return inputs().empty() ? text() : print_tree(root()); }
+
+bool Expression::operator==(const Expression& other) const {
+  if (parsed_ == other.parsed_) return true;
+  const auto is_same = [](const InputPtr& a, const InputPtr& b) { return a->is_same(*b); };
+  return text() == other.text() && std::ranges::equal(inputs(), other.inputs(), is_same);
+}
+
+Expression Expression::of_input(InputPtr input) {
+  auto node = make_node(Kind::input, {});
+  node->input = std::move(input);
+  return Expression(NodePtr(std::move(node)));
+}
+
+Expression Expression::negate(const Expression& a) {
+  return Expression(NodePtr(make_node(Kind::negate, {a.parsed_->root})));
+}
+
+Expression Expression::logical_not(const Expression& a) {
+  return Expression(NodePtr(make_node(Kind::logical_not, {a.parsed_->root})));
+}
+
+Expression Expression::binary(Binary binary, const Expression& a, const Expression& b) {
+  auto node = make_node(Kind::binary, {a.parsed_->root, b.parsed_->root});
+  node->binary = binary;
+  return Expression(NodePtr(std::move(node)));
+}
+
+Expression Expression::call(const std::string& function, const std::vector<Expression>& arguments) {
+  std::vector<NodePtr> operands;
+  for (const Expression& argument : arguments) operands.push_back(argument.parsed_->root);
+  auto node = make_node(Kind::call, std::move(operands));
+  node->name = function;
+  return Expression(NodePtr(std::move(node)));
+}
+
+Expression Expression::conditional(const Expression& condition, const Expression& yes, const Expression& no) {
+  return Expression(
+      NodePtr(make_node(Kind::conditional, {condition.parsed_->root, yes.parsed_->root, no.parsed_->root})));
+}
+
+Expression Expression::with_substitutes(const Substitutes& other) const {
+  bool changes = false;
+  const auto root_of = [&](const Node& variable) -> NodePtr {
+    const auto expression = other(variable);
+    changes = changes || expression;
+    return expression ? expression->parsed_->root : nullptr;
+  };
+  NodePtr made = Substitution(root_of).of(parsed_->root);
+  return changes ? Expression(std::move(made)) : *this;
+}
+
 bool Expression::check_variables(const std::vector<std::string>& known, const std::string& text,
                                  const SourceRange& where, Diagnostics& diagnostics) const {
   bool all_known = true;
@@ -223,10 +354,13 @@ bool Expression::check_variables(const std::vector<std::string>& known, const st
     std::string hint = did_you_mean(node.name, known);
     if (node.name == "d") hint = "d, the distance of the child, is known in fgrade, material and attribute";
     if (hint.empty()) hint = "known here are " + join(known, ", ");
-    diagnostics.error(text_range(text, where).part(node.begin, node.end),
-                      "there is no variable \"" + node.name + "\" in this expression", hint);
+    diagnostics.error(place(node, text, where), "there is no variable \"" + node.name + "\" in this expression", hint);
   });
   return all_known;
+}
+
+SourceRange Expression::place(const Node& variable, const std::string& text, const SourceRange& where) {
+  return text_range(text, where).part(variable.begin, variable.end);
 }
 
 bool Expression::uses(std::string_view variable) const {
@@ -238,9 +372,10 @@ bool Expression::uses(std::string_view variable) const {
 namespace {
 
 std::optional<double> constant_of(const Node& node) {
-  bool has_variables = false;
-  each_variable(node, [&](const Node&) { has_variables = true; });
-  if (has_variables || node.source) return std::nullopt;
+  bool varies = false;
+  each_node(node,
+            [&](const Node& part) { varies = varies || part.kind == Kind::variable || part.source || part.input; });
+  if (varies) return std::nullopt;
   Builder builder;
   const Point p = Point::origin_frame(builder);
   const Variables none;

@@ -15,7 +15,7 @@
 
 namespace ombre::expr {
 
-enum class Kind : uint8_t { number, variable, negate, logical_not, binary, call, conditional, source };
+enum class Kind : uint8_t { number, variable, negate, logical_not, binary, call, conditional, source, input };
 enum class Binary : uint8_t {
   add,
   subtract,
@@ -36,6 +36,16 @@ enum class Binary : uint8_t {
   logical_nor,
 };
 
+// A value that a formula gets from elsewhere, such as an output of a node.
+class Input {
+ public:
+  virtual ~Input() = default;
+  virtual program::Field field(const program::Point& p) const = 0;
+  virtual std::string name() const = 0;  // for people
+  virtual bool is_same(const Input& other) const = 0;
+};
+using InputPtr = std::shared_ptr<const Input>;
+
 struct Node {
   Kind kind = Kind::number;
   Binary binary = Binary::add;
@@ -43,6 +53,7 @@ struct Node {
   std::string name;  // of a variable or function, lower case
   std::vector<std::shared_ptr<const Node>> operands;
   program::SourceField source;  // of a value that the host program computes: its channel 0
+  InputPtr input;
   uint32_t begin = 0, end = 0;  // bytes of the expression's text
 
   Node() = default;
@@ -50,6 +61,8 @@ struct Node {
   Node& operator=(const Node&) = delete;
   ~Node();  // without recursion: sums may be long
 };
+
+using NodePtr = std::shared_ptr<const Node>;
 
 // Gives the field of a variable, or nothing if it has no such variable.
 using Variables = std::function<std::optional<program::Field>(std::string_view name)>;
@@ -71,10 +84,22 @@ class Expression {
   // The first channel of a source at the point, as a function of the host program gives it. Its text tells
   // functions apart, but cannot be parsed.
   static Expression of_source(const program::SourceField& source);
+  static Expression of_input(InputPtr input);
+  // Of smaller ones. The function must exist and take so many arguments.
+  static Expression negate(const Expression& a);
+  static Expression logical_not(const Expression& a);
+  static Expression binary(Binary binary, const Expression& a, const Expression& b);
+  static Expression call(const std::string& function, const std::vector<Expression>& arguments);
+  static Expression conditional(const Expression& condition, const Expression& yes, const Expression& no);
+  // With other expressions in the place of some variables. `other` gets the variable's name and the bytes of its text.
+  using Substitutes = std::function<std::optional<Expression>(const Node& variable)>;
+  Expression with_substitutes(const Substitutes& other) const;
 
   // Every variable must be among `known`; `text` and `where` as it was parsed.
   bool check_variables(const std::vector<std::string>& known, const std::string& text, const SourceRange& where,
                        Diagnostics& diagnostics) const;
+  // Where a variable stands; `text` and `where` as it was parsed.
+  static SourceRange place(const Node& variable, const std::string& text, const SourceRange& where);
   bool uses(std::string_view variable) const;
   const program::SourceField& source() const { return root().source; }  // null: it is a formula
   // The number, if the expression has no variables.
@@ -82,20 +107,30 @@ class Expression {
   // As it is written: sums, and products and quotients with constants. Nothing where it depends on other variables.
   std::optional<Linear> linear_in(std::string_view variable) const;
 
-  // Spelt in one way: what is the same but for spaces, case and brackets prints the same.
+  // Spelt in one way: what is the same but for spaces, case and brackets prints the same. Inputs are v, or v1, v2, ...
   const std::string& text() const { return parsed_->canonical; }
+  // The same for people, with the inputs' own names.
+  std::string text_with_names() const;
+  // Each once, in the order in which they first occur.
+  const std::vector<InputPtr>& inputs() const { return parsed_->inputs; }
+  std::string input_name(size_t i) const;  // in text()
+  // Numbers, variables, operators and so on; 0 for a formula that was read.
+  size_t size() const { return parsed_->size; }
 
   program::Field lower(const program::Point& p, const Variables& extra) const;
 
-  bool operator==(const Expression& other) const { return parsed_ == other.parsed_ || text() == other.text(); }
+  bool operator==(const Expression& other) const;
 
  private:
   struct Parsed {
-    std::shared_ptr<const Node> root;
+    NodePtr root;
     std::string canonical;
+    std::vector<InputPtr> inputs = {};
+    size_t size = 0;
   };
-  Expression(std::shared_ptr<const Node> root, std::string canonical)
+  Expression(NodePtr root, std::string canonical)
       : parsed_(std::make_shared<const Parsed>(Parsed{std::move(root), std::move(canonical)})) {}
+  explicit Expression(NodePtr root);  // which may hold inputs
   const Node& root() const { return *parsed_->root; }
 
   std::shared_ptr<const Parsed> parsed_;

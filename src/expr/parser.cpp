@@ -8,8 +8,6 @@
 namespace ombre::expr {
 namespace {
 
-using NodePtr = std::shared_ptr<const Node>;
-
 struct Token {
   enum class Type { end, number, name, symbol } type = Type::end;
   std::string_view text;
@@ -373,17 +371,70 @@ int level_of(const Node& node) {
   }
 }
 
-std::string bracketed(const Node& node, int least_level) {
-  std::string text = print_tree(node);
-  return level_of(node) < least_level ? "(" + text + ")" : text;
-}
+class Printer {
+ public:
+  explicit Printer(const InputNames& names) : names_(names) {}
 
-// What follows a sign or ^ may have a sign of its own. No more brackets than the text had, so that what
-// reads also reads back.
-std::string signed_operand(const Node& node) {
-  const bool is_signed = node.kind == Kind::negate || node.kind == Kind::logical_not;
-  return is_signed ? print_tree(node) : bracketed(node, level_power);
-}
+  std::string print(const Node& node) const {
+    switch (node.kind) {
+      case Kind::number:
+        return format_number(node.number);
+      case Kind::variable:
+        return node.name;
+      case Kind::source:
+        return node.source->name();
+      case Kind::input:
+        return names_ ? names_(*node.input) : node.input->name();
+      case Kind::negate:
+        return "-" + signed_operand(*node.operands[0]);
+      case Kind::logical_not:
+        return "not " + signed_operand(*node.operands[0]);
+      case Kind::conditional:
+        return bracketed(*node.operands[0], level_or) + " ? " + print(*node.operands[1]) + " : " +
+               print(*node.operands[2]);
+      case Kind::call: {
+        std::string text = node.name + "(";
+        for (size_t i = 0; i < node.operands.size(); ++i) text += (i ? ", " : "") + print(*node.operands[i]);
+        return text + ")";
+      }
+      case Kind::binary:
+        break;
+    }
+    return print_chain(node);
+  }
+
+ private:
+  // A chain to the left is printed without recursion: it may be long.
+  std::string print_chain(const Node& node) const {
+    std::vector<const Node*> chain{&node};
+    const int level = level_of(node);
+    while (chain.back()->operands[0]->kind == Kind::binary && level_of(*chain.back()->operands[0]) == level &&
+           level != level_power)
+      chain.push_back(chain.back()->operands[0].get());
+    std::string text = bracketed(*chain.back()->operands[0], level == level_power ? level + 1 : level);
+    for (size_t i = chain.size(); i-- > 0;) {
+      const bool tight = level >= level_multiply;
+      const std::string op(spelling(chain[i]->binary));
+      text += (tight ? op : " " + op + " ") + (level == level_power ? signed_operand(*chain[i]->operands[1])
+                                                                    : bracketed(*chain[i]->operands[1], level + 1));
+    }
+    return text;
+  }
+
+  std::string bracketed(const Node& node, int least_level) const {
+    std::string text = print(node);
+    return level_of(node) < least_level ? "(" + text + ")" : text;
+  }
+
+  // What follows a sign or ^ may have a sign of its own. No more brackets than the text had, so that what
+  // reads also reads back.
+  std::string signed_operand(const Node& node) const {
+    const bool is_signed = node.kind == Kind::negate || node.kind == Kind::logical_not;
+    return is_signed ? print(node) : bracketed(node, level_power);
+  }
+
+  const InputNames& names_;
+};
 
 }  // namespace
 
@@ -391,43 +442,6 @@ NodePtr parse_tree(std::string_view text, const SourceRange& where, Diagnostics&
   return Parser(text, where, diagnostics).run();
 }
 
-std::string print_tree(const Node& node) {
-  switch (node.kind) {
-    case Kind::number:
-      return format_number(node.number);
-    case Kind::variable:
-      return node.name;
-    case Kind::source:
-      return node.source->name();
-    case Kind::negate:
-      return "-" + signed_operand(*node.operands[0]);
-    case Kind::logical_not:
-      return "not " + signed_operand(*node.operands[0]);
-    case Kind::conditional:
-      return bracketed(*node.operands[0], level_or) + " ? " + print_tree(*node.operands[1]) + " : " +
-             print_tree(*node.operands[2]);
-    case Kind::call: {
-      std::string text = node.name + "(";
-      for (size_t i = 0; i < node.operands.size(); ++i) text += (i ? ", " : "") + print_tree(*node.operands[i]);
-      return text + ")";
-    }
-    case Kind::binary:
-      break;
-  }
-  // A chain to the left is printed without recursion: it may be long.
-  std::vector<const Node*> chain{&node};
-  const int level = level_of(node);
-  while (chain.back()->operands[0]->kind == Kind::binary && level_of(*chain.back()->operands[0]) == level &&
-         level != level_power)
-    chain.push_back(chain.back()->operands[0].get());
-  std::string text = bracketed(*chain.back()->operands[0], level == level_power ? level + 1 : level);
-  for (size_t i = chain.size(); i-- > 0;) {
-    const bool tight = level >= level_multiply;
-    const std::string op(spelling(chain[i]->binary));
-    text += (tight ? op : " " + op + " ") + (level == level_power ? signed_operand(*chain[i]->operands[1])
-                                                                  : bracketed(*chain[i]->operands[1], level + 1));
-  }
-  return text;
-}
+std::string print_tree(const Node& node, const InputNames& names) { return Printer(names).print(node); }
 
 }  // namespace ombre::expr

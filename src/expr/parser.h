@@ -10,7 +10,10 @@ namespace ombre::expr {
 // Null, and one diagnostic, when the text is wrong. `where` covers the text's characters.
 std::shared_ptr<const Node> parse_tree(std::string_view text, const SourceRange& where, Diagnostics& diagnostics);
 
+// The name of an input in a text.
+using InputNames = std::function<std::string(const Input& input)>;
+
 // Spelt in one way, with no more brackets than are needed.
-std::string print_tree(const Node& node);
+std::string print_tree(const Node& node, const InputNames& names = nullptr);
 
 }  // namespace ombre::expr

@@ -28,6 +28,8 @@ const design::Registry& registry() {
     add_attributes(r);
     add_parts(r);
     add_supports(r);
+    add_noise(r);
+    add_value_nodes(r);
     return r;
   }();
   return all;

@@ -28,6 +28,8 @@ void add_material_gradients(design::Registry& registry);
 void add_attributes(design::Registry& registry);
 void add_parts(design::Registry& registry);
 void add_supports(design::Registry& registry);
+void add_noise(design::Registry& registry);
+void add_value_nodes(design::Registry& registry);
 
 // All of the above.
 const design::Registry& registry();

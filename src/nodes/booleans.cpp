@@ -326,7 +326,7 @@ struct Negate {
             "booleans",
             "Everything that is not in its child. Without bounds: use it inside an intersection.",
             {},
-            {ValueType::solid, 1, 1, false, OfNothing::asked},
+            {1, 1, false, OfNothing::asked},
             "intersection() { cube(8, \"red\"); negate() { sphere(5, \"red\"); } }"};
   }
 

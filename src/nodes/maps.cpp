@@ -14,14 +14,14 @@ using namespace design;
 using program::Op;
 
 // A base and a pattern. In scripts, what one statement makes is one of them.
-constexpr InputInfo two_solids{ValueType::solid, 2, 2, true};
+constexpr InputInfo two_solids{2, 2, true};
 
 // The normals of the base are taken from differences over this length to both sides: finer than voxels, and coarse
 // enough for single precision.
 constexpr double normal_step_mm = 0.01;
 
 // Two surfaces and what stands on the first.
-constexpr InputInfo three_solids{ValueType::solid, 3, 3, true};
+constexpr InputInfo three_solids{3, 3, true};
 
 Field difference(const Inputs& in, size_t solid, const Point& p, Vec3 step) {
   return in.distance(solid, p.mapped(Affine::translation(step))) -

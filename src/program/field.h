@@ -24,6 +24,12 @@ struct Field {
 
 using Outputs = std::vector<std::pair<std::string, Field>>;
 
+// Whoever fills a builder may leave itself here, to be found by what only has a point of the builder's.
+class BuilderUser {
+ public:
+  virtual ~BuilderUser() = default;
+};
+
 // Builds programs. Shares equal subexpressions and folds constants as they are made.
 class Builder {
  public:
@@ -47,8 +53,10 @@ class Builder {
   const AffineRow& affine_row(Field field) const { return maps_[code_[field.id].aux]; }  // of an affine map
   bool is_truth(Field field) const;                                                      // is its value always 0 or 1?
   size_t size() const { return code_.size(); }
-  // Forgets everything but its memory, for another program.
+  // Forgets everything but its memory and its user, for another program.
   void clear();
+  BuilderUser* user() const { return user_; }  // null: there is none
+  void set_user(BuilderUser* user) { user_ = user; }
 
   // What the outputs need, in the order of construction; nothing else.
   Program finish(const Outputs& outputs) const;
@@ -68,6 +76,7 @@ class Builder {
   void push(const Key& key, const Instruction& instruction);
   void widen_table();
 
+  BuilderUser* user_ = nullptr;
   std::vector<Instruction> code_;
   std::vector<AffineRow> maps_;
   std::vector<Read> reads_;

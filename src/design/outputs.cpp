@@ -1,0 +1,279 @@
+#include "design/outputs.h"
+
+#include <algorithm>
+
+#include "base/assert.h"
+#include "base/text.h"
+#include "design/registry.h"
+
+namespace ombre::design {
+
+namespace {
+
+constexpr std::string_view axis_names[] = {"x", "y", "z"};
+
+// Stands for what is not known where only ranges are evaluated.
+class Anything : public program::FieldSource {
+ public:
+  std::string name() const override { return "anything"; }
+  Hash content() const override { return {}; }
+  Box bounds() const override { return Box::everything(); }
+  int channel(std::string_view) const override { return 0; }
+  double sample(int, Vec3) const override { return std::numeric_limits<double>::quiet_NaN(); }
+};
+
+}  // namespace
+
+Field anything(const Point& p, const Interval& range) {
+  const Field field = p.builder().source(std::make_shared<Anything>(), 0, p.x, p.y, p.z);
+  return range.is_bounded() ? min(max(field, range.lo), p.constant(range.hi)) : field;
+}
+
+std::string NodeOutput::name() const {
+  const std::string& own = node->type().outputs[output].name;
+  return axis < 0 ? own : own + '.' + std::string(axis_names[axis]);
+}
+
+Field OutputsAlone::number(const NodeOutput& output, const Point& p) {
+  const auto& [node, number, axis] = output;
+  const OutputInfo& info = node->type().outputs[number];
+  if (by_ranges_ && info.range.is_bounded()) return anything(p, info.range);
+  const Key key{node.get(), number, p.x.id, p.y.id, p.z.id};
+  if (const auto known = known_.find(key); known != known_.end()) return known->second[std::max(axis, 0)];
+  const VectorField made = node->numbers(number, {Inputs(*node, nullptr), p});
+  known_.emplace(key, made);
+  return made[std::max(axis, 0)];
+}
+
+Field OutputInput::field(const Point& p) const {
+  if (auto* fields = dynamic_cast<OutputFields*>(p.builder().user())) return fields->number(output_, p);
+  return OutputsAlone(p.builder(), false).number(output_, p);
+}
+
+std::string OutputInput::name() const { return output_.node->type().name + '.' + output_.name(); }
+
+bool OutputInput::is_same(const Input& other) const {
+  const auto* output = dynamic_cast<const OutputInput*>(&other);
+  return output && output->output_.node == output_.node && output->output_.output == output_.output &&
+         output->output_.axis == output_.axis;
+}
+
+expr::Expression expression_of(NodeOutput output) {
+  return expr::Expression::of_input(std::make_shared<OutputInput>(std::move(output)));
+}
+
+namespace {
+
+const NodeOutput& output_of(const expr::Input& input) {
+  const auto* output = dynamic_cast<const OutputInput*>(&input);
+  ASSERT(output && "formulas of designs hold outputs of nodes");
+  return output->output();
+}
+
+}  // namespace
+
+std::vector<NodePtr> nodes_of(const expr::Expression& expression) {
+  std::vector<NodePtr> nodes;
+  for (const expr::InputPtr& input : expression.inputs()) {
+    const NodePtr& node = output_of(*input).node;
+    if (std::ranges::find(nodes, node) == nodes.end()) nodes.push_back(node);
+  }
+  return nodes;
+}
+
+std::string NodeObject::describe() const {
+  const NodeType& type = node_->type();
+  return type.is_solid() ? "a " + type.name : "a value of " + type.name;
+}
+
+namespace {
+
+const NodeObject* node_object(const Data& data) { return dynamic_cast<const NodeObject*>(data.host_object().get()); }
+const FormulaObject* formula_object(const Data& data) {
+  return dynamic_cast<const FormulaObject*>(data.host_object().get());
+}
+
+// A node, and the output and coordinate that a text names.
+struct Named {
+  NodePtr node;
+  size_t output = 0;
+  int axis = -1;
+  const OutputInfo& info() const { return node->type().outputs[output]; }
+};
+
+std::string given_outputs(const Node& node) {
+  std::vector<std::string> names;
+  for (size_t i = 0; i < node.type().outputs.size(); ++i)
+    if (node.gives(i)) names.push_back(node.type().outputs[i].name);
+  return node.type().name + " gives " + join(names, ", ");
+}
+
+bool fail(const Data& at, const Reader& reader, const std::string& message, const std::string& hint = "") {
+  reader.diagnostics.error(at.where.source ? at.where : reader.where, message, hint);
+  return false;
+}
+
+bool find_output(const Data& at, const std::string& text, const Reader& reader, Named& named) {
+  const size_t dot = text.find('.');
+  const auto& outputs = named.node->type().outputs;
+  const auto found = std::ranges::find(outputs, text.substr(0, dot), &OutputInfo::name);
+  const auto number = static_cast<size_t>(found - outputs.begin());
+  if (found == outputs.end() || !named.node->gives(number))
+    return fail(at, reader, "this " + named.node->type().name + " has no output \"" + text + '"',
+                given_outputs(*named.node));
+  named.output = number;
+  if (dot == std::string::npos) return true;
+  const auto axis = std::ranges::find(axis_names, std::string_view(text).substr(dot + 1));
+  if (axis == std::end(axis_names) || found->type != ValueType::vector)
+    return fail(at, reader, '"' + text + "\" is no output", "vectors have the parts .x, .y and .z");
+  named.axis = static_cast<int>(axis - std::begin(axis_names));
+  return true;
+}
+
+std::optional<Named> read_output(const Data& data, const Reader& reader) {
+  if (const NodeObject* object = node_object(data)) {
+    if (!object->node()->type().is_solid()) return Named{object->node(), object->node()->first_output()};
+    fail(data, reader, "expected a value, found a solid");
+    return std::nullopt;
+  }
+  const Data *from = data.find("from"), *output = data.find("output");
+  const NodeObject* object = from ? node_object(*from) : nullptr;
+  if (!object || object->node()->type().is_solid() || !output || !output->string()) {
+    fail(data, reader, "expected an output of a node that gives values",
+         "write for example {\"from\": \"n3\", \"output\": \"value\"}");
+    return std::nullopt;
+  }
+  Named named{object->node()};
+  return find_output(*output, *output->string(), reader, named) ? std::optional(named) : std::nullopt;
+}
+
+std::optional<expr::Expression> number_of(const Data& data, const Reader& reader) {
+  const auto named = read_output(data, reader);
+  if (!named) return std::nullopt;
+  const ValueType type = named->info().type;
+  if (type == ValueType::number || named->axis >= 0) return expression_of({named->node, named->output, named->axis});
+  if (type == ValueType::vector)
+    fail(data, reader,
+         "expected a number, found the vector \"" + named->info().name + "\" of " + named->node->type().name,
+         "write one of its parts: ." + named->info().name + ".x");
+  else
+    fail(data, reader, "expected a number, found the mixture of materials of " + named->node->type().name,
+         "a mixture goes where a solid has its material");
+  return std::nullopt;
+}
+
+// {"formula": "2*v", "with": {"v": ...}}
+std::optional<expr::Expression> formula_with(const Data& data, const Domain& domain, const Reader& reader) {
+  const Data *formula = data.find("formula"), *with = data.find("with");
+  if (!formula->string() || (with && !with->members())) {
+    fail(data, reader, "expected a formula in quotes, and an object \"with\" the values that it names");
+    return std::nullopt;
+  }
+  const auto expression = expr::Expression::parse(*formula->string(), formula->where, reader.diagnostics);
+  if (!expression) return std::nullopt;
+  std::vector<std::string> known = known_variables(domain);
+  std::map<std::string, expr::Expression> values;
+  for (const auto& [name, value] : with ? *with->members() : DataMembers{}) {
+    const auto number = number_of(value, reader);
+    if (!number) return std::nullopt;
+    values.emplace(name, *number);
+    known.push_back(name);
+  }
+  if (!expression->check_variables(known, *formula->string(), formula->where, reader.diagnostics)) return std::nullopt;
+  return expression->with_substitutes([&](const expr::Node& variable) {
+    const auto value = values.find(variable.name);
+    return value == values.end() ? std::nullopt : std::optional(value->second);
+  });
+}
+
+}  // namespace
+
+bool is_value(const Data& data) { return node_object(data) || formula_object(data) || data.members(); }
+
+bool is_mixture(const Data& data) {
+  const Data* from = data.find("from");
+  const NodeObject* object = node_object(from ? *from : data);
+  if (!object || object->node()->type().is_solid()) return false;
+  const Node& node = *object->node();
+  const size_t mixture = node.type().mixture_output();
+  const Data* output = data.find("output");
+  if (!output) return node.first_output() == mixture;
+  return output->string() && mixture < node.type().outputs.size() &&
+         node.type().outputs[mixture].name == *output->string();
+}
+
+std::optional<expr::Expression> read_formula(const Data& data, const Domain& domain, const Reader& reader) {
+  if (const FormulaObject* object = formula_object(data)) return object->expression();
+  return data.find("formula") ? formula_with(data, domain, reader) : number_of(data, reader);
+}
+
+NodePtr read_mixture(const Data& data, const Reader& reader) {
+  if (!formula_object(data)) {
+    const auto named = read_output(data, reader);
+    if (!named) return nullptr;
+    if (named->info().type == ValueType::mixture) return named->node;
+  }
+  fail(data, reader,
+       std::string(reader.name) + " of " + std::string(reader.node) +
+           ": expected a material or a mixture of materials, found a number that varies in space",
+       "write for example mix(white, black, t)");
+  return nullptr;
+}
+
+namespace {
+
+Data reference(const NodePtr& node, const std::string& output) {
+  return Data(DataMembers{{"from", Data(HostObjectPtr(std::make_shared<NodeObject>(node)))}, {"output", Data(output)}});
+}
+
+}  // namespace
+
+Data write_formula(const expr::Expression& expression) {
+  const auto written = [](const expr::Input& input) {
+    return reference(output_of(input).node, output_of(input).name());
+  };
+  const auto& inputs = expression.inputs();
+  if (expression.size() == 1) return written(*inputs[0]);
+  DataMembers with;
+  for (size_t i = 0; i < inputs.size(); ++i) with.emplace_back(expression.input_name(i), written(*inputs[i]));
+  return Data(DataMembers{{"formula", Data(expression.text())}, {"with", Data(std::move(with))}});
+}
+
+Data write_mixture(const Node& node) {
+  const NodePtr not_held(NodePtr(), &node);
+  return reference(not_held, node.type().outputs[node.type().mixture_output()].name);
+}
+
+namespace {
+
+// With other data in the place of each NodeObject.
+template <class Other>
+Data replaced(const Data& data, const Other& other) {
+  if (const NodeObject* object = node_object(data)) return other(*object);
+  if (const DataList* list = data.list()) {
+    DataList result;
+    for (const Data& element : *list) result.push_back(replaced(element, other));
+    return Data(std::move(result), data.where);
+  }
+  const DataMembers* members = data.members();
+  if (!members) return data;
+  DataMembers result;
+  for (const auto& [key, value] : *members) result.emplace_back(key, replaced(value, other));
+  return Data(std::move(result), data.where);
+}
+
+}  // namespace
+
+Data with_names(const Data& data, const std::function<std::string(const Node&)>& name) {
+  return replaced(data, [&](const NodeObject& object) { return Data(name(*object.node())); });
+}
+
+Data with_held_nodes(const Data& data, std::span<const NodePtr> nodes) {
+  return replaced(data, [&](const NodeObject& object) {
+    const auto held = std::ranges::find(nodes, object.node());
+    ASSERT(held != nodes.end() && "a node holds the nodes whose outputs it uses");
+    return Data(HostObjectPtr(std::make_shared<NodeObject>(*held)));
+  });
+}
+
+}  // namespace ombre::design
