@@ -13,6 +13,7 @@ namespace ombre::cli {
 namespace {
 
 using design::NodeType;
+using design::OutputInfo;
 using design::ParameterInfo;
 
 // "mm, above 0"; "degrees, 0 to 90".
@@ -30,10 +31,10 @@ std::string domain_text(const design::Domain& domain) {
 
 std::string inputs_text(const design::InputInfo& inputs) {
   if (inputs.most == 0) return "none";
-  const std::string least = std::to_string(inputs.least), type(name(inputs.type));
-  if (inputs.least == inputs.most) return least + ' ' + type;
-  if (inputs.most == std::numeric_limits<size_t>::max()) return least + " or more, " + type;
-  return least + " to " + std::to_string(inputs.most) + ", " + type;
+  const std::string least = std::to_string(inputs.least);
+  if (inputs.least == inputs.most) return least + " solid";
+  if (inputs.most == std::numeric_limits<size_t>::max()) return least + " or more, solid";
+  return least + " to " + std::to_string(inputs.most) + ", solid";
 }
 
 std::string children_text(const design::InputInfo& inputs) {
@@ -54,10 +55,13 @@ std::string parameter_text(const ParameterInfo& parameter) {
 
 std::string describe(const NodeType& type) {
   std::string text = type.name + ": " + type.sentence + '\n';
-  text += "category: " + type.category + "; inputs: " + inputs_text(type.inputs) + "; gives a " +
-          std::string(name(type.output)) + '\n';
+  text += "category: " + type.category + "; inputs: " + inputs_text(type.inputs) +
+          (type.is_solid() ? "; gives a solid\n" : "; gives values\n");
   if (!type.parameters.empty()) text += "parameters\n";
   for (const ParameterInfo& parameter : type.parameters) text += parameter_text(parameter);
+  if (!type.is_solid()) text += "outputs\n";
+  for (const OutputInfo& output : type.outputs)
+    text += "  " + output.name + ": " + output.doc + "\n      " + std::string(name(output.type)) + '\n';
   if (!type.example.empty()) text += "example\n  " + type.example + '\n';
   return text;
 }
@@ -74,6 +78,10 @@ DataMembers event_of(const NodeType& type) {
                                         {"default", parameter.default_value},
                                         {"choices", texts(parameter.domain.choices)},
                                         {"variables", texts(parameter.domain.variables)}});
+  DataList outputs;
+  for (const OutputInfo& output : type.outputs)
+    outputs.emplace_back(
+        DataMembers{{"name", output.name}, {"doc", output.doc}, {"type", std::string(name(output.type))}});
   const bool has_many = type.inputs.most == design::many_solids.most;
   return {{"name", type.name},
           {"category", type.category},
@@ -81,7 +89,8 @@ DataMembers event_of(const NodeType& type) {
           {"parameters", parameters},
           {"inputs", DataMembers{{"least", static_cast<double>(type.inputs.least)},
                                  {"most", has_many ? Data() : Data(static_cast<double>(type.inputs.most))}}},
-          {"gives", std::string(name(type.output))},
+          {"gives", type.is_solid() ? "solid" : "values"},
+          {"outputs", outputs},
           {"example", type.example}};
 }
 
@@ -119,7 +128,7 @@ int show_node(const std::string& wanted, Session& session) {
 std::string reference() {
   std::string text =
       "# Nodes\n\nMade by `ombre nodes --markdown`; `ombre nodes NAME` shows one. Lengths are mm, angles degrees.\n"
-      "\"Number or field\" means that an expression in quotes may stand for the number.\n";
+      "\"Number or field\" means that an expression in quotes or a [value](values.md) may stand for the number.\n";
   std::string category;
   for (const auto& type : compile::node_registry().types()) {
     if (type->category != category) text += "\n## " + type->category + "\n";
@@ -137,6 +146,9 @@ std::string reference() {
                                                    : "`" + print_json_line(parameter.default_value) + "`") +
               " | " + parameter.doc + " |\n";
     }
+    if (!type->is_solid()) text += "\n| output | is | |\n| --- | --- | --- |\n";
+    for (const OutputInfo& output : type->outputs)
+      text += "| `" + output.name + "` | " + std::string(name(output.type)) + " | " + output.doc + " |\n";
   }
   return text;
 }

@@ -95,9 +95,11 @@ class NodeHasher {
   explicit NodeHasher(const std::vector<NodePtr>& roots) {
     const std::vector<const Node*> nodes = topological(roots);
     for (const NodePtr& root : roots) shared_[root.get()];
-    for (const Node* node : nodes)
-      for (const NodePtr& other : node->dependencies())
-        if (other.use_count() > 1) shared_[other.get()];
+    for (const Node* node : nodes) {
+      for (const NodePtr& input : node->inputs())
+        if (input.use_count() > 1) shared_[input.get()];
+      for (const NodePtr& value : node->values()) shared_[value.get()];
+    }
     for (const Node* node : nodes) add(*node);
   }
 
@@ -124,7 +126,7 @@ class NodeHasher {
   }
 
   std::unordered_map<const Node*, Hash> shared_;
-  std::vector<Hash> waiting_;  // of nodes that only one node uses, which comes after its inputs
+  std::vector<Hash> waiting_;  // of nodes that are an input of one node alone, which comes after its inputs
 };
 
 }  // namespace

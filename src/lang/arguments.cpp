@@ -24,6 +24,11 @@ Data Interpreter::to_data(const Value& value, const SourceRange& where, const as
   if (const bool* boolean = value.boolean()) return {*boolean, where};
   if (const Range* range = value.range()) return range_to_data(*range, where, argument);
   if (value.closure()) fail(argument, "a function cannot be a parameter of a node", "call it, and give its result");
+  if (const Object* object = value.object()) {
+    Data data = object->data();
+    data.where = where;
+    return data;
+  }
   Data nothing;
   nothing.where = where;
   return nothing;

@@ -9,12 +9,6 @@ namespace ombre::lang {
 
 using ast::CallStatement;
 
-namespace {
-
-constexpr size_t most_callers = 8;  // that an invocation names
-
-}  // namespace
-
 bool Interpreter::knows(const ast::Name& name) {
   const auto found = known_nodes_.find(name.symbol);
   if (found != known_nodes_.end()) return found->second;
@@ -103,7 +97,7 @@ std::vector<size_t> Interpreter::chosen_children(const CallStatement& statement,
 void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scope, Nodes& out) {
   Invocation invocation;
   const SpecialsMark mark(*this);
-  node_arguments(statement, scope, invocation);
+  node_arguments(statement.arguments, scope, invocation);
   if (const Value* facets = find_special(facets_name_); facets && facets->number())
     invocation.facets = *facets->number();
   if (!statement.children.statements.empty()) {
@@ -129,11 +123,24 @@ void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scop
   make_node(std::move(invocation), statement.span, out);
 }
 
-void Interpreter::node_arguments(const CallStatement& statement, const ScopePtr& scope, Invocation& invocation) {
+namespace {
+
+// A number or an object that the script calls by this name; formulas may ask for it.
+std::optional<Data> named_value(const std::string& name, const Scope& scope) {
+  const Value* value = scope.find_text(name);
+  if (value && value->number()) return Data(*value->number());
+  return value && value->object() ? std::optional(value->object()->data()) : std::nullopt;
+}
+
+}  // namespace
+
+void Interpreter::node_arguments(const std::vector<ast::Argument>& arguments, const ScopePtr& scope,
+                                 Invocation& invocation) {
   const size_t specials_from = specials_.size();
-  argument_bytes_ = 0;
-  invocation.arguments.reserve(statement.arguments.size());
-  for (const ast::Argument& argument : statement.arguments) {
+  invocation.variable = [&scope](const std::string& name) { return named_value(name, *scope); };
+  invocation.arguments.reserve(arguments.size());
+  uint64_t bytes = 0;
+  for (const ast::Argument& argument : arguments) {
     const Value value = eval(*argument.value, scope);
     const ast::Span& span = argument.value->span;
     if (argument.name.symbol && argument.name.is_special()) {
@@ -146,7 +153,9 @@ void Interpreter::node_arguments(const CallStatement& statement, const ScopePtr&
       result.name = argument.name.text();
       result.name_where = argument.name.span.range();
     }
+    argument_bytes_ = bytes;  // evaluating the argument may have made other calls
     result.value = to_data(value, span.range(), span);
+    bytes = argument_bytes_;
   }
 }
 
@@ -208,7 +217,7 @@ void Interpreter::assert_true(const std::vector<ast::Argument>& arguments, const
   }
   if (!condition || arguments.size() > 2)
     fail(where, "assert needs a condition, and may have a message", "write assert(condition, message)");
-  if (is_true(eval(*condition, scope))) return;
+  if (holds(*condition, scope)) return;
   if (!message) fail_assertion(condition->span);
   std::string text;
   append_text(text, eval(*message, scope), false, meter_);

@@ -100,12 +100,23 @@ Value Interpreter::eval_list(const ast::List& list, const ScopePtr& scope) {
 }
 
 Value Interpreter::eval_unary(const ast::Unary& unary, const ScopePtr& scope) {
-  const Value operand = eval(*unary.operand, scope);
+  return this->unary(unary.op, unary.span, eval(*unary.operand, scope));
+}
+
+Value Interpreter::unary(ast::Operator op, const ast::Span& where, const Value& operand) {
   try {
-    return apply(unary.op, operand, meter_);
+    return apply(op, operand, meter_);
   } catch (const Mismatch& mismatch) {
-    fail_operator(unary.op, unary.span, operand, operand, mismatch);
+    fail_operator(op, where, operand, operand, mismatch);
   }
+}
+
+bool Interpreter::holds(const Expr& condition, const ScopePtr& scope) {
+  const Value value = eval(condition, scope);
+  if (value.object())
+    fail(condition.span, "a condition must be known before the job runs, found " + describe(value),
+         "write c ? a : b in an expression, which chooses at each point");
+  return is_true(value);
 }
 
 Value Interpreter::eval_chain(const ast::Chain& chain, const ScopePtr& scope) {
@@ -118,11 +129,21 @@ Value Interpreter::eval_chain(const ast::Chain& chain, const ScopePtr& scope) {
 }
 
 Value Interpreter::eval_logic(const ast::Chain& chain, const ScopePtr& scope) {
-  const bool decisive = chain.links.front().op == ast::Operator::logical_or;
-  if (is_true(eval(*chain.first, scope)) == decisive) return decisive;
+  const ast::Operator op = chain.links.front().op;
+  const bool decisive = op == ast::Operator::logical_or;
+  Value varying;  // of the operands that are known only while the job runs
+  const auto is_decided_by = [&](const Expr& operand) {
+    Value value = eval(operand, scope);
+    if (!value.object()) return is_true(value) == decisive;
+    // Twice not: a truth value of any number.
+    value = unary(ast::Operator::logical_not, operand.span, unary(ast::Operator::logical_not, operand.span, value));
+    varying = varying.is_undef() ? value : binary(op, operand.span, varying, value);
+    return false;
+  };
+  if (is_decided_by(*chain.first)) return decisive;
   for (const ast::Chain::Link& link : chain.links)
-    if (is_true(eval(*link.operand, scope)) == decisive) return decisive;
-  return !decisive;
+    if (is_decided_by(*link.operand)) return decisive;
+  return varying.is_undef() ? Value(!decisive) : varying;
 }
 
 Value Interpreter::eval_power(const ast::Power& power, const ScopePtr& scope) {
@@ -167,6 +188,11 @@ Value Interpreter::eval_index(const ast::Index& index, const ScopePtr& scope) {
 Value Interpreter::eval_member(const ast::Member& member, const ScopePtr& scope) {
   const Value base = eval(*member.base, scope);
   const std::string& name = member.member.text();
+  if (const Object* object = base.object()) {
+    std::string known;
+    if (auto part = object->part(name, known, meter_)) return *part;
+    fail(member.member.span, describe(base) + " has no \"." + name + '"', known);
+  }
   const size_t place = name == "x" ? 0 : name == "y" ? 1 : name == "z" ? 2 : 3;
   if (place == 3) fail(member.member.span, "a vector has the parts .x, .y and .z only");
   const List* list = base.list();

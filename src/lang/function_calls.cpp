@@ -15,9 +15,12 @@ Value Interpreter::eval_tail(const Expr& start, const ScopePtr& outer) {
   for (;;) {
     meter_.spend();
     switch (expr->kind) {
-      case Expr::Kind::conditional:
-        expr = choose(static_cast<const ast::Conditional&>(*expr), scope);
+      case Expr::Kind::conditional: {
+        Value chosen;
+        expr = choose(static_cast<const ast::Conditional&>(*expr), scope, chosen);
+        if (!expr) return chosen;
         break;
+      }
       case Expr::Kind::prefix:
         expr = enter_prefix(static_cast<const ast::Prefix&>(*expr), scope, mark.size());
         if (!expr) return {};
@@ -26,7 +29,8 @@ Value Interpreter::eval_tail(const Expr& start, const ScopePtr& outer) {
         const auto& call = static_cast<const ast::Call&>(*expr);
         Callee callee;
         if (const Builtin* builtin = resolve(call, scope, callee)) return call_builtin(*builtin, call, scope);
-        ASSERT(callee.parameters && callee.body);
+        if (!callee.body) return call_value_node(call, scope);
+        ASSERT(callee.parameters);
         ScopePtr inner = make_scope(callee.scope);
         bind(*callee.parameters, call.arguments, scope, inner, call.callee->span, mark.size());
         scope = std::move(inner);
@@ -39,10 +43,46 @@ Value Interpreter::eval_tail(const Expr& start, const ScopePtr& outer) {
   }
 }
 
-const Expr* Interpreter::choose(const ast::Conditional& conditional, const ScopePtr& scope) {
-  for (const auto& [condition, value] : conditional.branches)
-    if (is_true(eval(*condition, scope))) return value.get();
+// What to evaluate, or null and the value that is chosen at each point.
+const Expr* Interpreter::choose(const ast::Conditional& conditional, const ScopePtr& scope, Value& chosen) {
+  for (size_t n = 0; n < conditional.branches.size(); ++n) {
+    const auto& [condition, value] = conditional.branches[n];
+    const Value decision = eval(*condition, scope);
+    if (decision.object()) {
+      const Value yes = eval(*value, scope);
+      chosen = choice(decision, yes, otherwise(conditional, n + 1, scope), condition->span);
+      return nullptr;
+    }
+    if (is_true(decision)) return value.get();
+  }
   return conditional.otherwise.get();
+}
+
+// The value of a conditional from its branch `first` on.
+Value Interpreter::otherwise(const ast::Conditional& conditional, size_t first, const ScopePtr& scope) {
+  if (first == conditional.branches.size()) return eval(*conditional.otherwise, scope);
+  const auto& [condition, value] = conditional.branches[first];
+  const Level level(*this, condition->span, heavy);
+  const Value decision = eval(*condition, scope);
+  if (!decision.object()) return is_true(decision) ? eval(*value, scope) : otherwise(conditional, first + 1, scope);
+  const Value yes = eval(*value, scope);
+  return choice(decision, yes, otherwise(conditional, first + 1, scope), condition->span);
+}
+
+// One of two values at each point; of lists, element by element.
+Value Interpreter::choice(const Value& condition, const Value& yes, const Value& no, const ast::Span& where) {
+  const List *a = yes.list(), *b = no.list();
+  if (a && b && a->items.size() == b->items.size()) {
+    ListBuilder result(meter_);
+    for (size_t i = 0; i < a->items.size(); ++i) result.push(choice(condition, a->items[i], b->items[i], where));
+    return result.finish();
+  }
+  const Value operands[] = {condition, yes, no};
+  const auto made = condition.object()->apply("?:", operands, meter_);
+  if (!made)
+    fail(where, "this condition varies in space, and cannot choose between " + describe(yes) + " and " + describe(no),
+         "give numbers on both sides of the colon, or materials, or lists of them");
+  return *made;
 }
 
 // What follows let, assert or echo, or null when nothing does.
@@ -90,13 +130,14 @@ bool Interpreter::find_function(Symbol name, const ScopePtr& scope, Callee& call
   return false;
 }
 
-// A builtin, or null and the callee.
+// A builtin, or null and the callee, which is empty for a node that gives values.
 const Builtin* Interpreter::resolve(const ast::Call& call, const ScopePtr& scope, Callee& callee) {
   if (call.callee->kind == Expr::Kind::variable) {
     const ast::Name& name = static_cast<const ast::Variable&>(*call.callee).name;
     if (find_function(name.symbol, scope, callee)) return nullptr;
     const auto builtin = builtins_.find(name.symbol);
     if (builtin != builtins_.end()) return builtin->second;
+    if (vocabulary_.gives_value(name.text())) return nullptr;
     if (!name.is_special() || !find_special(name.symbol)) fail_unknown_function(name, *scope);
   }
   const Value value = eval(*call.callee, scope);
@@ -115,14 +156,44 @@ Value Interpreter::call_builtin(const Builtin& builtin, const ast::Call& call, c
     return !value || value->is_undef();
   }
   std::vector<const Expr*> places;
-  const BuiltinCall arguments(builtin.name, builtin_arguments(builtin, call, scope, places), meter_);
+  std::vector<Value> values = builtin_arguments(builtin, call, scope, places);
   at_ = call.span;
+  if (const auto made = result_of_objects(builtin.name, values)) return *made;
+  const BuiltinCall arguments(builtin.name, std::move(values), meter_);
   try {
     return builtin.call(arguments);
   } catch (const BadArgument& bad) {
     const bool has_place = bad.index < places.size() && places[bad.index];
     fail(has_place ? places[bad.index]->span : call.span, bad.message, bad.hint);
   }
+}
+
+// Of arguments that are numbers and objects, or one list of them.
+std::optional<Value> Interpreter::result_of_objects(std::string_view function, const std::vector<Value>& arguments) {
+  const List* list = arguments.size() == 1 ? arguments[0].list() : nullptr;
+  const std::span<const Value> operands = list ? std::span(list->items) : std::span(arguments);
+  const Object* object = first_object(operands);
+  const bool takes_list = function == "min" || function == "max" || function == "norm";
+  if (!object || (list && !takes_list)) return std::nullopt;
+  return object->apply(function, operands, meter_);
+}
+
+Value Interpreter::call_value_node(const ast::Call& call, const ScopePtr& scope) {
+  Invocation invocation;
+  const SpecialsMark mark(*this);
+  node_arguments(call.arguments, scope, invocation);
+  invocation.name = static_cast<const ast::Variable&>(*call.callee).name.text();
+  invocation.where = call.callee->span.range();
+  invocation.whole = call.span.range();
+  for (size_t i = module_calls_.size(); i > 0 && invocation.called_from.size() < most_callers; --i)
+    invocation.called_from.push_back(module_calls_[i - 1]->whole.range());
+  at_ = call.span;
+  meter_.count_instance();
+  Diagnostics found;
+  const auto value = vocabulary_.value(std::move(invocation), found, meter_);
+  for (const Diagnostic& diagnostic : found.list()) report(diagnostic);
+  if (!value) throw Failure{};
+  return *value;
 }
 
 std::vector<Value> Interpreter::builtin_arguments(const Builtin& builtin, const ast::Call& call, const ScopePtr& scope,

@@ -29,7 +29,7 @@ void Interpreter::generate(const Expr& expr, const ScopePtr& scope, ListBuilder&
       return generate_each(static_cast<const ast::GenerateEach&>(expr), scope, out);
     case Expr::Kind::generate_if: {
       const auto& choice = static_cast<const ast::GenerateIf&>(expr);
-      if (is_true(eval(*choice.condition, scope))) return generate(*choice.element, scope, out);
+      if (holds(*choice.condition, scope)) return generate(*choice.element, scope, out);
       if (choice.otherwise) generate(*choice.otherwise, scope, out);
       return;
     }
@@ -58,7 +58,7 @@ void Interpreter::generate_loop(const ast::GenerateLoop& loop, const ScopePtr& s
   const SpecialsMark mark(*this);
   ScopePtr pass = make_scope(scope);
   bind_let(loop.init, pass, mark.size());
-  for (uint64_t count = 0; is_true(eval(*loop.condition, pass)); ++count) {
+  for (uint64_t count = 0; holds(*loop.condition, pass); ++count) {
     check_count(static_cast<double>(count), loop.condition->span, "loop");
     meter_.spend();
     generate(*loop.element, pass, out);

@@ -78,6 +78,7 @@ class Interpreter {
 
   // --- diagnostics.cpp
   void report(Diagnostic diagnostic);
+  static constexpr size_t most_callers = 8;  // that an invocation names
   // Texts are put together outside of the functions that call themselves, whose stack frames
   // would hold every part of them.
   [[noreturn]] void fail(const ast::Span& where, std::string_view message, std::string_view hint = "");
@@ -122,7 +123,7 @@ class Interpreter {
   void call_children(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
   std::vector<size_t> chosen_children(const ast::CallStatement& statement, const ScopePtr& scope, size_t count);
   void call_node(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
-  void node_arguments(const ast::CallStatement& statement, const ScopePtr& scope, Invocation& invocation);
+  void node_arguments(const std::vector<ast::Argument>& arguments, const ScopePtr& scope, Invocation& invocation);
   void make_node(Invocation invocation, const ast::Span& where, Nodes& out);
   bool knows(const ast::Name& name);
   std::pair<const ast::ModuleDef*, ScopePtr> find_module(Symbol name, const ScopePtr& scope);
@@ -148,13 +149,19 @@ class Interpreter {
   Value eval_member(const ast::Member& member, const ScopePtr& scope);
   Value eval_function(const ast::Function& function, const ScopePtr& scope);
   Value binary(ast::Operator op, const ast::Span& where, const Value& left, const Value& right);
+  Value unary(ast::Operator op, const ast::Span& where, const Value& operand);
+  bool holds(const ast::Expr& condition, const ScopePtr& scope);
   // Evaluates calls, conditions and let; where one ends with another, in a loop instead of deeper.
   Value eval_tail(const ast::Expr& expr, const ScopePtr& scope);
-  const ast::Expr* choose(const ast::Conditional& conditional, const ScopePtr& scope);
+  const ast::Expr* choose(const ast::Conditional& conditional, const ScopePtr& scope, Value& chosen);
+  Value otherwise(const ast::Conditional& conditional, size_t first, const ScopePtr& scope);
+  Value choice(const Value& condition, const Value& yes, const Value& no, const ast::Span& where);
   const ast::Expr* enter_prefix(const ast::Prefix& prefix, ScopePtr& scope, size_t specials_from);
   const Builtin* resolve(const ast::Call& call, const ScopePtr& scope, Callee& callee);
   bool find_function(Symbol name, const ScopePtr& scope, Callee& callee);
   Value call_builtin(const Builtin& builtin, const ast::Call& call, const ScopePtr& scope);
+  std::optional<Value> result_of_objects(std::string_view function, const std::vector<Value>& arguments);
+  Value call_value_node(const ast::Call& call, const ScopePtr& scope);
   std::vector<Value> builtin_arguments(const Builtin& builtin, const ast::Call& call, const ScopePtr& scope,
                                        std::vector<const ast::Expr*>& places);
   size_t builtin_place(const Builtin& builtin, const ast::Argument& argument, size_t position);

@@ -42,7 +42,7 @@ void Interpreter::fail(const ast::Span& where, std::string_view message, std::st
 
 void Interpreter::fail_found(const ast::Span& where, std::string_view expected, const Value& found,
                              std::string_view hint) {
-  fail(where, std::string(expected) + ", found " + describe(found), hint);
+  fail(where, std::string(expected) + ", found " + describe(found), hint.empty() ? hint_for(found) : hint);
 }
 
 void Interpreter::fail_operator(ast::Operator op, const ast::Span& where, const Value& left, const Value& right,
@@ -116,6 +116,7 @@ void Interpreter::fail_unknown_function(const ast::Name& name, const Scope& scop
     fail(name.span, '"' + name.text() + "\" is " + describe(*value) + ", not a function");
   std::vector<std::string> candidates;
   for (const auto& [symbol, builtin] : builtins_) candidates.push_back(*symbol);
+  for (const std::string& value : vocabulary_.value_names()) candidates.push_back(value);
   for (const Scope* at = &scope; at; at = at->parent().get()) {
     if (!at->plan()) continue;
     for (const ast::FunctionDef* function : at->plan()->functions) candidates.push_back(function->name.text());

@@ -28,7 +28,8 @@ const std::string& BuiltinCall::text(size_t i) const {
 }
 
 void BuiltinCall::expected(size_t i, const std::string& what, const std::string& hint) const {
-  throw BadArgument{i, std::string(name_) + "() needs " + what + ", found " + describe(arguments_[i]), hint};
+  throw BadArgument{i, std::string(name_) + "() needs " + what + ", found " + describe(arguments_[i]),
+                    hint.empty() ? std::string(hint_for(arguments_[i])) : hint};
 }
 
 std::string Builtin::signature() const {
@@ -124,6 +125,8 @@ Value logarithm(const BuiltinCall& call) {
   if (call.size() == 1) return math::log10(call.number(0));
   return math::log(call.number(1)) / math::log(call.number(0));
 }
+
+Value clamp(const BuiltinCall& call) { return std::min(std::max(call.number(1), call.number(0)), call.number(2)); }
 
 // Of several numbers, or of one list of numbers.
 template <bool is_max>
@@ -237,6 +240,7 @@ std::span<const Builtin> math_builtins() {
       {"sqrt", {"x"}, 1, false, unary<root>},
       {"min", {"x"}, 1, true, extreme<false>},
       {"max", {"x"}, 1, true, extreme<true>},
+      {"clamp", {"low", "x", "high"}, 3, false, clamp},
       {"norm", {"vector"}, 1, false, norm},
       {"cross", {"a", "b"}, 2, false, cross},
       {"rands", {"min", "max", "count", "seed"}, 3, false, rands},

@@ -62,9 +62,19 @@ Value product(const Value& left, const Value& right, Meter& meter) {
   return sum;
 }
 
+bool is_scalar(const Value& value) { return value.number() || value.object(); }
+
+Value of_objects(Operator op, const Value& left, const Value& right, Meter& meter) {
+  const Value operands[] = {left, right};
+  const auto made = first_object(operands)->apply(spelling(op), operands, meter);
+  if (!made) mismatch(left, right);
+  return *made;
+}
+
 Value arithmetic(Operator op, const Value& left, const Value& right, Meter& meter) {
-  const double *a = left.number(), *b = right.number();
-  if (a && b) return number_of(op, *a, *b);
+  if (left.number() && right.number()) return number_of(op, *left.number(), *right.number());
+  const bool a = is_scalar(left), b = is_scalar(right);
+  if (a && b) return of_objects(op, left, right, meter);
   const List *list = left.list(), *other = right.list();
   const bool is_sum = op == Operator::add || op == Operator::subtract;
   if (is_sum && list && other) return zip(op, *list, *other, meter);
@@ -100,6 +110,10 @@ bool compare(Operator op, const Value& left, const Value& right) {
 
 Value apply(Operator op, const Value& left, const Value& right, Meter& meter) {
   meter.spend();
+  const bool compares = op != Operator::equal && op != Operator::not_equal;
+  if ((left.object() || right.object()) &&
+      (compares ? !left.list() && !right.list() : is_scalar(left) && is_scalar(right)))
+    return of_objects(op, left, right, meter);
   switch (op) {
     case Operator::equal:
       return equal(left, right, meter);
@@ -117,6 +131,11 @@ Value apply(Operator op, const Value& left, const Value& right, Meter& meter) {
 
 Value apply(Operator op, const Value& operand, Meter& meter) {
   meter.spend();
+  if (const Object* object = operand.object()) {
+    const auto made = object->apply(spelling(op), {&operand, 1}, meter);
+    if (!made) throw Mismatch{describe(operand), ""};
+    return *made;
+  }
   if (op == Operator::logical_not) return !is_true(operand);
   if (const double* n = operand.number()) return op == Operator::negate ? -*n : *n;
   const List* list = operand.list();

@@ -68,6 +68,14 @@ class Scope {
     return nullptr;
   }
 
+  // The same by the name's text. The table of names is left alone, since a thread that reads ahead may add to it.
+  const Value* find_text(std::string_view name) const {
+    for (const Scope* scope = this; scope; scope = scope->parent_.get())
+      for (const auto& [symbol, value] : scope->variables_)
+        if (*symbol == name) return &value;
+    return nullptr;
+  }
+
   void reserve(size_t count) { variables_.reserve(count); }
   void set(Symbol name, Value value);
   // Forgets the variables, for another pass of a loop.

@@ -153,7 +153,7 @@ void Interpreter::run_deferred(const ast::Deferred& statement, const ScopePtr& s
 
 void Interpreter::run_condition(const ast::Condition& statement, const ScopePtr& scope, Nodes& out) {
   for (const auto& [condition, block] : statement.branches)
-    if (is_true(eval(*condition, scope))) return run_block(block, scope, out);
+    if (holds(*condition, scope)) return run_block(block, scope, out);
   run_block(statement.otherwise, scope, out);
 }
 

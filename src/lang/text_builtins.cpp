@@ -8,6 +8,9 @@ namespace ombre::lang {
 namespace {
 
 Value str(const BuiltinCall& call) {
+  for (size_t i = 0; i < call.size(); ++i)
+    if (holds_object(call[i]))
+      call.expected(i, "what is known before the job runs", "a formula calls values by their names: \"2*t + x\"");
   std::string text;
   for (const Value& argument : call.all()) append_text(text, argument, false, call.meter);
   return make_text(std::move(text), call.meter);

@@ -29,6 +29,23 @@ Value ListBuilder::finish(const ast::List* origin) {
   return ListPtr(std::move(list));
 }
 
+const Object* first_object(std::span<const Value> values) {
+  const auto found = std::ranges::find_if(values, [](const Value& value) { return value.object() != nullptr; });
+  return found == values.end() ? nullptr : found->object();
+}
+
+bool holds_object(const Value& value) {
+  if (const List* list = value.list()) return std::ranges::any_of(list->items, holds_object);
+  return value.object() != nullptr;
+}
+
+std::string_view hint_for(const Value& found) {
+  return found.object()
+             ? "the script runs before the job, and this varies in space; it can be a parameter of a solid, or "
+               "be computed with"
+             : "";
+}
+
 Value make_text(std::string text, Meter& meter) {
   return TextPtr(std::make_shared<const Text>(std::move(text), nullptr, meter));
 }
@@ -73,6 +90,7 @@ bool equal(const Value& a, const Value& b, Meter& meter) {
     const Range* y = b.range();
     return y && x->begin == y->begin && x->step == y->step && x->end == y->end;
   }
+  if (a.object()) return a.object() == b.object();
   return a.closure() && a.closure() == b.closure();
 }
 
@@ -84,6 +102,7 @@ std::string describe(const Value& value) {
     return list->items.empty() ? "an empty list" : "a list of " + std::to_string(list->items.size());
   if (value.range()) return "a range";
   if (value.closure()) return "a function";
+  if (const Object* object = value.object()) return object->describe();
   return "undef";
 }
 
@@ -118,6 +137,8 @@ void append_text(std::string& text, const Value& value, bool quoted, Meter& mete
     text += '[' + number_text(range->begin) + " : " + number_text(range->step) + " : " + number_text(range->end) + ']';
   } else if (value.closure()) {
     text += "function";
+  } else if (const Object* object = value.object()) {
+    text += object->text();
   } else {
     text += "undef";
   }

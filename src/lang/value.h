@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -16,6 +18,7 @@ struct Text;
 struct List;
 struct Range;
 struct Closure;
+class Object;
 struct Undef {};
 // Of a variable whose assignment failed and was reported: reading it fails silently.
 struct Broken {};
@@ -24,6 +27,7 @@ using TextPtr = std::shared_ptr<const Text>;
 using ListPtr = std::shared_ptr<const List>;
 using RangePtr = std::shared_ptr<const Range>;
 using ClosurePtr = std::shared_ptr<const Closure>;
+using ObjectPtr = std::shared_ptr<const Object>;
 
 class Value {
  public:
@@ -34,6 +38,7 @@ class Value {
   Value(ListPtr v) : value_(std::move(v)) {}     // NOLINT
   Value(RangePtr v) : value_(std::move(v)) {}    // NOLINT
   Value(ClosurePtr v) : value_(std::move(v)) {}  // NOLINT
+  Value(ObjectPtr v) : value_(std::move(v)) {}   // NOLINT
   Value(Broken v) : value_(v) {}                 // NOLINT
 
   bool is_undef() const { return std::holds_alternative<Undef>(value_); }
@@ -44,6 +49,7 @@ class Value {
   const List* list() const { return pointee<ListPtr>(); }
   const Range* range() const { return pointee<RangePtr>(); }
   const Closure* closure() const { return pointee<ClosurePtr>(); }
+  const Object* object() const { return pointee<ObjectPtr>(); }
   const ClosurePtr& closure_ptr() const { return std::get<ClosurePtr>(value_); }
 
  private:
@@ -53,8 +59,29 @@ class Value {
     return pointer ? pointer->get() : nullptr;
   }
 
-  std::variant<Undef, bool, double, TextPtr, ListPtr, RangePtr, ClosurePtr, Broken> value_;
+  std::variant<Undef, bool, double, TextPtr, ListPtr, RangePtr, ClosurePtr, ObjectPtr, Broken> value_;
 };
+
+// Something that only a vocabulary understands, such as a number that varies in space.
+class Object {
+ public:
+  virtual ~Object() = default;
+  virtual std::string describe() const = 0;  // "a value that varies in space"
+  virtual std::string text() const = 0;      // as echo writes it
+  virtual Data data() const = 0;             // as a parameter of a node
+  // Nothing where it has no such part; `names` is then given those that it has.
+  virtual std::optional<Value> part(const std::string& name, std::string& names, Meter& meter) const = 0;
+  // What an operator or a builtin function makes of operands, by its name in scripts ("?:" of a condition and two
+  // others). Nothing where that has no meaning.
+  virtual std::optional<Value> apply(std::string_view function, std::span<const Value> operands,
+                                     Meter& meter) const = 0;
+};
+
+// The first of the values that is an object, or null.
+const Object* first_object(std::span<const Value> values);
+bool holds_object(const Value& value);  // itself, or somewhere in a list
+// What to write in the place of a value that was found where it cannot be used.
+std::string_view hint_for(const Value& found);
 
 struct Text {
   static constexpr uint64_t overhead = 32;  // counted for each string, so that many short ones are bounded too

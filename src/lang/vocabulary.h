@@ -1,6 +1,7 @@
 // What names mean: a language engine asks a vocabulary for nodes and constants.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "base/data.h"
 #include "base/diagnostic.h"
+#include "lang/value.h"
 
 namespace ombre::design {
 class Node;
@@ -39,6 +41,8 @@ struct Invocation {
   bool has_wrong_children = false;       // there were mistakes in the braces, and they were told
   bool is_top_level = false;             // a statement of the main file, outside of any call
   std::vector<SourceRange> called_from;  // user module calls around it, innermost first, at most 8
+  // The script's variable of that name there, if it is a number or an object. Only while the call is made.
+  std::function<std::optional<Data>(const std::string& name)> variable;
 };
 
 class Vocabulary {
@@ -51,6 +55,11 @@ class Vocabulary {
   virtual std::vector<std::string> constants() const = 0;                 // for suggestions
   // Null when the call is wrong (and then diagnostics were added) or gives nothing.
   virtual design::NodePtr make(Invocation call, Diagnostics& diagnostics) = 0;
+  // Names that are called in expressions, and what such a call gives; nothing when it is wrong, and then diagnostics
+  // were added.
+  virtual bool gives_value(std::string_view) const { return false; }
+  virtual std::vector<std::string> value_names() const { return {}; }
+  virtual std::optional<Value> value(Invocation, Diagnostics&, Meter&) { return std::nullopt; }
 };
 
 }  // namespace ombre::lang

@@ -38,7 +38,7 @@ class RandomDesign {
         for (size_t i = 0; i < count; ++i) inputs.push_back(any_node(depth - 1));
       }
       Diagnostics diagnostics;
-      const auto made = make_node(type, values(type), inputs, {materials, diagnostics, &loader_, {}, "", ""});
+      const auto made = make_node(type, values(type, depth), inputs, {materials, diagnostics, &loader_, {}, "", ""});
       if (made) return made;
       last_message = to_text(diagnostics);
     }
@@ -49,8 +49,19 @@ class RandomDesign {
     const auto& types = registry().types();
     for (;;) {
       const NodeType& type = *types[index(types.size())];
-      if (depth <= 0 && type.inputs.most > 0) continue;
+      if (!type.is_solid() || (depth <= 0 && type.inputs.most > 0)) continue;
       if (NodePtr made = node(type, depth)) return made;
+    }
+  }
+
+  // A value node that gives an output of the type.
+  NodePtr value_node(ValueType output, int depth) {
+    const auto& types = registry().types();
+    for (;;) {
+      const NodeType& type = *types[index(types.size())];
+      if (type.is_solid()) continue;
+      const NodePtr made = node(type, depth);
+      if (made && type.outputs[made->first_output()].type == output) return made;
     }
   }
 
@@ -61,7 +72,18 @@ class RandomDesign {
   std::string last_message;
 
  private:
-  std::vector<NamedValue> values(const NodeType& type) {
+  static Data object(const NodePtr& node) { return Data(HostObjectPtr(std::make_shared<NodeObject>(node))); }
+
+  // A number from 0 to 1 that a node gives.
+  Data share() {
+    const NodePtr node = value_node(ValueType::number, 0);
+    const Data value(
+        DataMembers{{"from", object(node)}, {"output", Data(node->type().outputs[node->first_output()].name)}});
+    return Data(DataMembers{{"formula", Data("clamp(0, abs(v)/20, 1)")}, {"with", Data(DataMembers{{"v", value}})}});
+  }
+
+  std::vector<NamedValue> values(const NodeType& type, int depth) {
+    depth_ = depth;
     std::vector<NamedValue> list;
     lists_ = 1 + index(3);
     for (const ParameterInfo& parameter : type.parameters)
@@ -72,6 +94,11 @@ class RandomDesign {
   Data one_number(const Domain& domain, bool may_be_field) {
     const double lo = std::isfinite(domain.least) ? domain.least + 0.5 : -6, value = number(lo, lo + 6);
     if (!may_be_field || index(3)) return Data(value);
+    if (depth_ > 0 && index(2)) {
+      depth_ = 0;
+      Data fraction = share();
+      if (domain.least == 0) return fraction;
+    }
     const char* waves[] = {" + 0.3*sin(x + y)", " + 0.2*cos(3*theta)", " + 0.1*rho/(1 + rho)",
                            " + 0.3*min(x, y, 1)/(1 + r)"};
     return Data(format_rounded(value + 1) + waves[index(4)]);
@@ -115,7 +142,15 @@ class RandomDesign {
     if (kind == "3 numbers" && type.name == "tile")  // not many copies of large children
       return Data(DataList{Data(number(6, 14)), Data(number(6, 14)), Data(number(6, 14))});
     if (kind == "3 numbers") return vector(domain, false);
-    if (kind == "material") return Data("blue");
+    if (kind == "material or mixture" && depth_ > 0 && index(2)) {
+      depth_ = 0;
+      return object(value_node(ValueType::mixture, 0));
+    }
+    if (kind == "material or mixture" || kind == "material") return Data("blue");
+    if (kind == "number, field, material or mixture") {
+      if (lists_ == 1) return Data(index(2) ? "red" : "clear");
+      return one_number(domain, true);
+    }
     if (kind == "file") return Data("ball.stl");
     if (kind == "text") return Data("density");
     if (kind == "true or false") return Data(index(2) == 0);
@@ -163,6 +198,7 @@ class RandomDesign {
   std::mt19937 random_;
   BallLoader loader_;
   size_t lists_ = 1;
+  int depth_ = 0;
 };
 
 struct Lowered {
@@ -202,11 +238,35 @@ Data round_trip(const NodePtr& node, const MaterialTable& materials) {
   return to_data({materials, {{"part", node}}, std::nullopt});
 }
 
+// The numbers of a value node's outputs, vectors as three, and the fractions of its mixture.
+program::Program lower_outputs(const NodePtr& node, const MaterialTable& materials) {
+  LoweringContext context(materials, {node});
+  program::Builder builder;
+  Lowering lowering(context, builder);
+  const Point p = Point::origin_frame(builder);
+  std::vector<std::pair<std::string, Field>> outputs;
+  for (size_t n = 0; n < node->type().outputs.size(); ++n) {
+    const OutputInfo& info = node->type().outputs[n];
+    if (!node->gives(n)) continue;
+    if (info.type == ValueType::number) outputs.emplace_back(info.name, lowering.number({node, n}, p));
+    if (info.type == ValueType::vector)
+      for (int axis = 0; axis < 3; ++axis) outputs.emplace_back(info.name, lowering.number({node, n, axis}, p));
+    if (info.type == ValueType::mixture)
+      for (const auto& [id, fraction] : lowering.mixture(*node, p).fractions)
+        outputs.emplace_back("fraction", fraction);
+  }
+  context.finish_bodies();
+  return program::inline_bodies(builder.finish(outputs));
+}
+
 class EveryNode : public testing::TestWithParam<std::string> {
  protected:
   const NodeType& type() const { return *registry().find(GetParam()); }
   static constexpr unsigned rounds = 30;
 };
+
+class EverySolid : public EveryNode {};
+class EveryValue : public EveryNode {};
 
 }  // namespace
 
@@ -215,9 +275,10 @@ TEST_P(EveryNode, IsDocumented) {
   EXPECT_EQ(type().sentence.back(), '.');
   EXPECT_FALSE(type().example.empty());
   for (const ParameterInfo& parameter : type().parameters) EXPECT_FALSE(parameter.doc.empty()) << parameter.name;
+  for (const OutputInfo& output : type().outputs) EXPECT_FALSE(output.doc.empty()) << output.name;
 }
 
-TEST_P(EveryNode, BoundsHoldWhatIsInside) {
+TEST_P(EverySolid, BoundsHoldWhatIsInside) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
     RandomDesign random(seed);
     const NodePtr node = random.node(type(), 2);
@@ -234,7 +295,7 @@ TEST_P(EveryNode, BoundsHoldWhatIsInside) {
   }
 }
 
-TEST_P(EveryNode, BoundsWithinABoxHoldWhatIsInsideOfBoth) {
+TEST_P(EverySolid, BoundsWithinABoxHoldWhatIsInsideOfBoth) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
     RandomDesign random(seed);
     const NodePtr node = random.node(type(), 2);
@@ -255,7 +316,7 @@ TEST_P(EveryNode, BoundsWithinABoxHoldWhatIsInsideOfBoth) {
   }
 }
 
-TEST_P(EveryNode, IntervalsHoldPoints) {
+TEST_P(EverySolid, IntervalsHoldPoints) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
     RandomDesign random(seed);
     const NodePtr node = random.node(type(), 2);
@@ -284,7 +345,7 @@ TEST_P(EveryNode, IntervalsHoldPoints) {
   }
 }
 
-TEST_P(EveryNode, InsideAgreesWithDistance) {
+TEST_P(EverySolid, InsideAgreesWithDistance) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
     RandomDesign random(seed);
     const NodePtr node = random.node(type(), 2);
@@ -300,7 +361,7 @@ TEST_P(EveryNode, InsideAgreesWithDistance) {
   }
 }
 
-TEST_P(EveryNode, FractionsSumToOne) {
+TEST_P(EverySolid, FractionsSumToOne) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
     RandomDesign random(seed);
     const NodePtr node = random.node(type(), 2);
@@ -323,7 +384,7 @@ TEST_P(EveryNode, FractionsSumToOne) {
 }
 
 // |g(p) - g(q)| <= L |p - q| for what is exact or bounded; an exact g is also no smaller than that.
-TEST_P(EveryNode, KeepsItsLipschitzBound) {
+TEST_P(EverySolid, KeepsItsLipschitzBound) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
     RandomDesign random(seed);
     const NodePtr node = random.node(type(), 2);
@@ -342,7 +403,7 @@ TEST_P(EveryNode, KeepsItsLipschitzBound) {
 }
 
 // A step of length |g| along the gradient of an exact distance leads to the surface.
-TEST_P(EveryNode, ExactDistancesLeadToTheSurface) {
+TEST_P(EverySolid, ExactDistancesLeadToTheSurface) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
     RandomDesign random(seed);
     const NodePtr node = random.node(type(), 1);
@@ -363,27 +424,118 @@ TEST_P(EveryNode, ExactDistancesLeadToTheSurface) {
   }
 }
 
-TEST_P(EveryNode, PrintsAndReadsBack) {
+// Print, read, print.
+void expect_same_when_read(const NodePtr& node, const MaterialTable& materials) {
+  const Design design{materials, {{"part", node}}, std::nullopt};
+  const std::string text = print_json(to_data(design));
+  Diagnostics diagnostics;
+  const auto data = parse_json(make_source("design.json", text), diagnostics);
+  ASSERT_TRUE(data) << to_text(diagnostics);
+  BallLoader loader;
+  const auto again = read_design(*data, registry(), &loader, diagnostics);
+  ASSERT_TRUE(again) << to_text(diagnostics) << text;
+  EXPECT_EQ(print_json(to_data(*again)), text);
+  EXPECT_EQ(hash(*again), hash(design));
+}
+
+TEST_P(EverySolid, PrintsAndReadsBack) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
     RandomDesign random(seed);
     const NodePtr node = random.node(type(), 3);
     ASSERT_TRUE(node) << random.last_message;
-    const Design design{random.materials, {{"part", node}}, std::nullopt};
-    const std::string text = print_json(to_data(design));
-    Diagnostics diagnostics;
-    const auto data = parse_json(make_source("design.json", text), diagnostics);
-    ASSERT_TRUE(data) << to_text(diagnostics);
-    BallLoader loader;
-    const auto again = read_design(*data, registry(), &loader, diagnostics);
-    ASSERT_TRUE(again) << to_text(diagnostics) << text;
-    EXPECT_EQ(print_json(to_data(*again)), text);
-    EXPECT_EQ(hash(*again), hash(design));
+    expect_same_when_read(node, random.materials);
   }
 }
 
-std::vector<std::string> all_names() { return registry().names(); }
-INSTANTIATE_TEST_SUITE_P(Registry, EveryNode, testing::ValuesIn(all_names()),
-                         [](const auto& test) { return test.param; });
+TEST_P(EveryValue, PrintsAndReadsBack) {
+  for (unsigned seed = 0; seed < rounds; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.node(type(), 1);
+    ASSERT_TRUE(node) << random.last_message;
+    const NodeType& attribute = *registry().find("attribute");
+    Diagnostics diagnostics;
+    for (size_t n = 0; n < type().outputs.size(); ++n) {
+      const OutputInfo& output = type().outputs[n];
+      if (!node->gives(n)) continue;
+      const NodeType& user = *registry().find(output.type == ValueType::mixture ? "sphere" : "attribute");
+      const Data value(DataMembers{{"from", Data(HostObjectPtr(std::make_shared<NodeObject>(node)))},
+                                   {"output", Data(output.name + (output.type == ValueType::vector ? ".y" : ""))}});
+      std::vector<NamedValue> values{{&user.parameters[1], value}};
+      std::vector<NodePtr> inputs;
+      if (&user == &attribute) {
+        values.push_back({&user.parameters[0], Data("density")});
+        inputs.push_back(random.any_node(0));
+      }
+      const NodePtr solid = make_node(user, values, inputs, {random.materials, diagnostics, nullptr, {}, "", ""});
+      ASSERT_TRUE(solid) << to_text(diagnostics);
+      expect_same_when_read(solid, random.materials);
+    }
+  }
+}
+
+TEST_P(EveryValue, IntervalsHoldPoints) {
+  for (unsigned seed = 0; seed < rounds; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.node(type(), 1);
+    ASSERT_TRUE(node) << random.last_message;
+    const program::Program program = lower_outputs(node, random.materials);
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 lo{random.number(-50, 50), random.number(-50, 50), random.number(-50, 50)};
+      const double size = i % 2 ? random.number(0, 1) : random.number(0, 8);
+      std::vector<Interval> ranges;
+      evaluate_intervals(program, {lo, lo + Vec3{size, size, size}}, ranges);
+      for (int n = 0; n < 10; ++n) {
+        const Vec3 p = lo + Vec3{random.number(0, size), random.number(0, size), random.number(0, size)};
+        std::vector<double> values;
+        evaluate_point(program, p, values);
+        for (size_t v = 0; v < values.size(); ++v)
+          ASSERT_TRUE(ranges[v].contains(values[v])) << program::to_text(program) << "v" << v << " = " << values[v];
+      }
+    }
+  }
+}
+
+TEST_P(EveryValue, DeclaredRangesHoldPoints) {
+  for (unsigned seed = 0; seed < rounds; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.node(type(), 1);
+    ASSERT_TRUE(node) << random.last_message;
+    const program::Program program = lower_outputs(node, random.materials);
+    for (int i = 0; i < 300; ++i) {
+      const auto values = at(program, {random.number(-90, 90), random.number(-90, 90), random.number(-90, 90)});
+      size_t place = 0;
+      for (size_t n = 0; n < type().outputs.size(); ++n) {
+        const OutputInfo& output = type().outputs[n];
+        if (!node->gives(n) || output.type == ValueType::mixture) continue;
+        if (output.type == ValueType::number) EXPECT_TRUE(output.range.contains(values[place])) << output.name;
+        place += output.type == ValueType::vector ? 3 : 1;
+      }
+    }
+  }
+}
+
+TEST_P(EveryValue, FractionsOfMixturesSumToOne) {
+  for (unsigned seed = 0; seed < rounds; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.node(type(), 1);
+    ASSERT_TRUE(node) << random.last_message;
+    if (type().outputs[node->first_output()].type != ValueType::mixture) continue;
+    const program::Program program = lower_outputs(node, random.materials);
+    for (int i = 0; i < 100; ++i) {
+      double sum = 0;
+      for (const double fraction : at(program, {random.number(-9, 9), random.number(-9, 9), random.number(-9, 9)})) {
+        EXPECT_GE(fraction, 0);
+        sum += fraction;
+      }
+      EXPECT_NEAR(sum, 1, 1e-12);
+    }
+  }
+}
+
+const auto by_name = [](const testing::TestParamInfo<std::string>& test) { return test.param; };
+INSTANTIATE_TEST_SUITE_P(Registry, EveryNode, testing::ValuesIn(registry().names()), by_name);
+INSTANTIATE_TEST_SUITE_P(Registry, EverySolid, testing::ValuesIn(registry().solid_names()), by_name);
+INSTANTIATE_TEST_SUITE_P(Registry, EveryValue, testing::ValuesIn(registry().value_names()), by_name);
 
 // Whole random trees, not one node at the top.
 TEST(RandomTrees, HoldTheSameProperties) {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "base/assert.h"
+#include "design/outputs.h"
 #include "design/registry.h"
 
 namespace ombre::lang {
@@ -19,6 +19,12 @@ void append_bytes(std::string& key, const T& value) {
   key.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
+// Of a node's output the node.
+uintptr_t identity(const HostObject& object) {
+  const auto* output = dynamic_cast<const design::NodeObject*>(&object);
+  return output ? reinterpret_cast<uintptr_t>(output->node().get()) : reinterpret_cast<uintptr_t>(&object);
+}
+
 // Bytes that are the same for equal values only.
 void append_value(std::string& key, const Data& data) {
   key += static_cast<char>(data.value.index());
@@ -32,8 +38,14 @@ void append_value(std::string& key, const Data& data) {
     append_bytes(key, list->size());
     for (const Data& element : *list) append_value(key, element);
   }
-  if (const HostObjectPtr object = data.host_object()) append_bytes(key, reinterpret_cast<uintptr_t>(object.get()));
-  ASSERT(!data.members() && "no parameter has members");
+  if (const DataMembers* members = data.members()) {
+    append_bytes(key, members->size());
+    for (const auto& [name, member] : *members) {
+      append_value(key, Data(name));
+      append_value(key, member);
+    }
+  }
+  if (const HostObjectPtr object = data.host_object()) append_bytes(key, identity(*object));
 }
 
 }  // namespace

@@ -31,19 +31,29 @@ bool has_single_children(const Invocation& call) {
 
 VcadVocabulary::VcadVocabulary(const design::Registry& registry, const design::MaterialTable& materials,
                                design::SourceLoader* loader)
-    : registry_(registry), materials_(materials), loader_(loader) {}
+    : registry_(registry), materials_(materials), loader_(loader), maker_{registry, materials} {}
 
 bool VcadVocabulary::knows(std::string_view name) const {
-  return fold_name(name) == "root" || registry_.find(node_name(name)) != nullptr;
+  const NodeType* type = registry_.find(node_name(name));
+  return fold_name(name) == "root" || (type && type->is_solid());
+}
+
+bool VcadVocabulary::gives_value(std::string_view name) const {
+  const NodeType* type = registry_.find(name);
+  return type && !type->is_solid();
 }
 
 std::vector<std::string> VcadVocabulary::names() const {
-  std::vector<std::string> names = registry_.names();
+  std::vector<std::string> names = registry_.solid_names();
   names.emplace_back("root");
   return names;
 }
 
-std::string VcadVocabulary::hint(std::string_view unknown) const { return openscad_module_hint(unknown); }
+std::string VcadVocabulary::hint(std::string_view unknown) const {
+  if (!gives_value(unknown)) return openscad_module_hint(unknown);
+  const NodeType& type = *registry_.find(unknown);
+  return type.name + " gives values; use it in an expression: " + type.example;
+}
 
 std::optional<Data> VcadVocabulary::constant(std::string_view name) const {
   for (size_t i = 0; i < 3; ++i) {
@@ -73,8 +83,18 @@ NodePtr VcadVocabulary::make(Invocation call, Diagnostics& diagnostics) {
   return node;
 }
 
+std::optional<Value> VcadVocabulary::value(Invocation call, Diagnostics& diagnostics, Meter& meter) {
+  const NodeType& type = *registry_.find(call.name);
+  const Reader reader{materials_, diagnostics, loader_, call.whole, type.name, "", &call.variable};
+  const auto values = bound_arguments(type, std::move(call.arguments), reader);
+  NodePtr node = values ? known_.first(design::make_node(type, *values, {}, reader)) : nullptr;
+  if (node) return value_of(node, maker_, meter);
+  for (const SourceRange& from : call.called_from) diagnostics.note(from, "called from here");
+  return std::nullopt;
+}
+
 NodePtr VcadVocabulary::make_of_type(const NodeType& type, Invocation& call, Diagnostics& diagnostics) {
-  const Reader reader{materials_, diagnostics, loader_, call.whole, type.name, ""};
+  const Reader reader{materials_, diagnostics, loader_, call.whole, type.name, "", &call.variable};
   std::vector<NodePtr>& children = call.children;
   const auto values = bound_arguments(type, std::move(call.arguments), reader);
   if (!values) return nullptr;

@@ -6,6 +6,7 @@
 #include "design/design.h"
 #include "lang/vocabulary.h"
 #include "lang/vocabulary/equal_nodes.h"
+#include "lang/vocabulary/value_objects.h"
 
 namespace ombre::lang {
 
@@ -21,6 +22,9 @@ class VcadVocabulary : public Vocabulary {
   std::optional<Data> constant(std::string_view name) const override;
   std::vector<std::string> constants() const override;
   design::NodePtr make(Invocation call, Diagnostics& diagnostics) override;
+  bool gives_value(std::string_view name) const override;
+  std::vector<std::string> value_names() const override { return registry_.value_names(); }
+  std::optional<Value> value(Invocation call, Diagnostics& diagnostics, Meter& meter) override;
 
   // The design that the top-level nodes make; nothing, and a diagnostic, when there is none.
   std::optional<design::Design> finish(const std::vector<design::NodePtr>& top_level, const SourceRange& whole,
@@ -36,6 +40,7 @@ class VcadVocabulary : public Vocabulary {
   const design::Registry& registry_;
   const design::MaterialTable& materials_;
   design::SourceLoader* loader_;
+  ValueMaker maker_;
   EqualNodes known_;
   std::optional<design::Sampling> sampling_;
   std::optional<SourceRange> root_where_;
