@@ -40,10 +40,9 @@ bool holds_object(const Value& value) {
 }
 
 std::string_view hint_for(const Value& found) {
-  return found.object()
-             ? "the script runs before the job, and this varies in space; it can be a parameter of a solid, or "
-               "be computed with"
-             : "";
+  return found.object() ? "it is known only while the job runs; write a number here, and give the value to a solid: "
+                          "sphere(5 + t);"
+                        : "";
 }
 
 Value make_text(std::string text, Meter& meter) {

@@ -50,7 +50,10 @@ const ValueObject* value_object(const Value& value) { return dynamic_cast<const 
 
 std::string ValueObject::describe() const {
   if (is_mixture()) return "a mixture of materials";
-  return number_ ? "a value that varies in space" : "a value of " + node_->type().name;
+  if (number_) return "a value that varies in space";
+  std::vector<std::string> names;
+  for (const design::OutputInfo& output : node_->type().outputs) names.push_back(output.name);
+  return "the values " + join(names, ", ") + " of " + node_->type().name;
 }
 
 std::string ValueObject::text() const { return number_ ? number_->text_with_names() : node_->type().name; }
