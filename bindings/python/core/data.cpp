@@ -2,6 +2,10 @@
 
 #include <map>
 
+#include <pybind11/stl.h>
+
+#include "design/outputs.h"
+#include "designs.h"
 #include "host_function.h"
 
 namespace ombre::python {
@@ -62,6 +66,23 @@ std::string text_of(const py::handle& value) {
 
 bool has(const py::handle& value, const char* name) { return py::hasattr(value, name); }
 
+HostObjectPtr node_object(const py::handle& node) {
+  return std::make_shared<design::NodeObject>(node.cast<const NodeHandle&>().node);
+}
+
+// An expression that holds outputs of nodes.
+Data formula_of(const py::handle& expression, const SourceRange& where) {
+  DataMembers with;
+  for (const auto& [name, value] : expression.attr("_ombre_values_").cast<py::dict>()) {
+    const auto [node, output] = value.cast<std::pair<py::object, std::string>>();
+    with.emplace_back(name.cast<std::string>(),
+                      Data(DataMembers{{"from", {node_object(node), where}}, {"output", {output, where}}}, where));
+  }
+  return {DataMembers{{"formula", {expression.attr("_ombre_text_").cast<std::string>(), where}},
+                      {"with", {std::move(with), where}}},
+          where};
+}
+
 }  // namespace
 
 Data to_data(const py::handle& value, const SourceRange& where, const std::string& what) {
@@ -70,6 +91,8 @@ Data to_data(const py::handle& value, const SourceRange& where, const std::strin
   if (py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value)) return {number_of(value), where};
   if (py::isinstance<py::str>(value)) return {text_of(value), where};
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) return {list_of(value, where, what), where};
+  if (has(value, "_ombre_node_")) return {node_object(value.attr("_ombre_node_")), where};
+  if (has(value, "_ombre_values_") && py::len(value.attr("_ombre_values_")) > 0) return formula_of(value, where);
   if (has(value, "_ombre_text_")) return {value.attr("_ombre_text_").cast<std::string>(), where};
   if (has(value, "_ombre_function_")) {
     const HostObjectPtr function = std::make_shared<HostFunction>(value.attr("_ombre_function_"), where);

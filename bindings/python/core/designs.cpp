@@ -31,7 +31,7 @@ void raise_below(const design::Node& node, const std::string& path, std::unorder
   here.append(" > ").append(node.type().name);
   for (size_t i = 0; i < node.type().parameters.size(); ++i)
     each_function(node.type().get(node, i, false), [&](const HostFunction& f) { f.raise_failure(here); });
-  for (const design::NodePtr& input : node.inputs()) raise_below(*input, here, seen);
+  for (const design::NodePtr& other : node.dependencies()) raise_below(*other, here, seen);
 }
 
 py::tuple tuple_of(Vec3 v) { return py::make_tuple(v.x, v.y, v.z); }
@@ -109,11 +109,44 @@ NodeHandle make_node(const FactoryPtr& factory, const std::string& type, const p
   return {std::move(node), factory};
 }
 
+// {"from": node, "output": name}
+py::tuple output_of(const Data& data, const FactoryPtr& factory) {
+  const auto object = std::dynamic_pointer_cast<const design::NodeObject>(data.find("from")->host_object());
+  return py::make_tuple(NodeHandle{object->node(), factory}, *data.find("output")->string());
+}
+
+// A parameter, in which expressions of outputs are expressions of Python, and mixtures values.
+py::object parameter(const Data& data, const FactoryPtr& factory) {
+  if (const DataList* list = data.list()) {
+    py::list result;
+    for (const Data& element : *list) result.append(parameter(element, factory));
+    return result;
+  }
+  if (!design::is_value(data)) return to_python(data);
+  const py::module_ values = py::module_::import("ombre._values");
+  if (design::is_mixture(data)) return values.attr("from_node")(output_of(data, factory)[0]);
+  py::dict outputs;
+  const Data* formula = data.find("formula");
+  if (!formula) outputs["v"] = output_of(data, factory);
+  for (const auto& [name, value] : formula ? *data.find("with")->members() : DataMembers{})
+    outputs[py::str(name)] = output_of(value, factory);
+  return values.attr("from_parameter")(formula ? *formula->string() : std::string(), outputs);
+}
+
 py::dict parameters(const NodeHandle& handle) {
   const design::NodeType& type = handle.node->type();
   py::dict result;
   for (size_t i = 0; i < type.parameters.size(); ++i)
-    result[py::str(type.parameters[i].name)] = to_python(type.get(*handle.node, i, false));
+    result[py::str(type.parameters[i].name)] = parameter(type.get(*handle.node, i, false), handle.factory);
+  return result;
+}
+
+// (name, type) of what a value node gives.
+py::list outputs(const NodeHandle& handle) {
+  py::list result;
+  const auto& all = handle.node->type().outputs;
+  for (size_t i = 0; i < all.size(); ++i)
+    if (handle.node->gives(i)) result.append(py::make_tuple(all[i].name, std::string(name(all[i].type))));
   return result;
 }
 
@@ -291,6 +324,11 @@ void add_designs(py::module_& module, const CachePtr& cache) {
       .def_property_readonly("metric", [](const NodeHandle& h) { return std::string(name(h.node->metric().kind)); })
       .def_property_readonly("parameters", &parameters)
       .def_property_readonly("inputs", &inputs)
+      .def_property_readonly("outputs", &outputs)
+      .def("names_materials_of",
+           [](const NodeHandle& h, const FactoryPtr& factory) {
+             return &h.factory->materials().all() == &factory->materials().all();
+           })
       .def_property_readonly("factory", [](const NodeHandle& h) { return h.factory; })
       .def_property_readonly("place", &place)
       .def_property_readonly("address", [](const NodeHandle& h) { return reinterpret_cast<uintptr_t>(h.node.get()); });

@@ -25,10 +25,11 @@ from ._materials import Materials
 from ._points import delaunay_edges, voronoi_edges
 from ._script import option
 from ._solid import Solid, node_classes as _node_classes
+from ._values import Value
 
 __version__ = _core.version
 
-_nodes = _node_classes()
+_nodes = _node_classes(Value)
 _document_jobs()
 # Functions of expressions step back where a node has their name.
 globals().update({**{n: f for n, f in _functions.items() if n != "if"},
@@ -37,5 +38,6 @@ globals().update({**{n: f for n, f in _functions.items() if n != "if"},
 __all__ = ["Design", "Voxels", "load", "load_text", "source_memory",
            "CheckError", "DesignError", "DesignWarning", "FunctionError", "MachineError",
            "Expression", "d", "t", "where", "pointwise", "Materials", "delaunay_edges", "voronoi_edges", "option", "Solid",
+           "Value",
            *_coordinates, *_nodes,
            *(n for n in _functions if n != "if" and n not in _builtin_names)]

@@ -42,7 +42,7 @@ def _binary(operator, level, reverse=False):
         a, b = (other, self) if reverse else (self, other)
         # To the right of an operator of its own level an operand needs brackets.
         left = a._within(level + ("!" if level in ("power", "compare") else ""))
-        return Expression(left + operator + b._within(level + "!"), level)
+        return Expression(left + operator + b._within(level + "!"), level, {**a._ombre_values_, **b._ombre_values_})
     return method
 
 
@@ -53,17 +53,22 @@ class Expression:
         text: the formula, as strings have it: "0.5 + x/20".
     """
 
-    __slots__ = ("_ombre_text_", "_at")
+    # _ombre_values_: outputs of nodes, by the names that the text has for them.
+    __slots__ = ("_ombre_text_", "_ombre_values_", "_at")
     __hash__ = object.__hash__
 
-    def __init__(self, text, _level_name="?"):
+    def __init__(self, text, _level_name="?", _values=None):
         self._ombre_text_ = str(text)
+        self._ombre_values_ = _values or {}
         self._at = _level[_level_name]
+
+    def _text(self):
+        return self._ombre_text_
 
     def _within(self, level):
         strict = level.endswith("!")
         least = _level[level.rstrip("!")] + (1 if strict else 0)
-        return self._ombre_text_ if self._at >= least else f"({self._ombre_text_})"
+        return self._text() if self._at >= least else f"({self._text()})"
 
     __add__, __radd__ = _binary(" + ", "add"), _binary(" + ", "add", True)
     __sub__, __rsub__ = _binary(" - ", "add"), _binary(" - ", "add", True)
@@ -78,7 +83,7 @@ class Expression:
     __or__, __ror__ = _binary(" or ", "or"), _binary(" or ", "or", True)
 
     def __neg__(self):
-        return Expression("-" + self._within("power"), "sign")
+        return Expression("-" + self._within("power"), "sign", self._ombre_values_)
 
     def __pos__(self):
         return self
@@ -87,7 +92,7 @@ class Expression:
         return _call("abs", self)
 
     def __invert__(self):
-        return Expression("not " + self._within("power"), "sign")
+        return Expression("not " + self._within("power"), "sign", self._ombre_values_)
 
     def __bool__(self):
         raise TypeError("an expression is neither true nor false: its value varies in space. "
@@ -100,12 +105,15 @@ class Expression:
         return name(*inputs)
 
     def __str__(self):
-        return self._ombre_text_
+        return self._text()
 
     def __repr__(self):
         return f'Expression("{self._ombre_text_}")'
 
     def __reduce__(self):
+        from . import _values
+        if self._ombre_values_ or isinstance(self, _values.Value):
+            return _values.read, (_values.written(self),)
         return Expression, (self._ombre_text_,)
 
     def __call__(self, points):
@@ -120,13 +128,14 @@ class Expression:
 
 
 def _call(name, *arguments):
-    texts = []
+    texts, values = [], {}
     for argument in arguments:
         expression = _as_expression(argument)
         if expression is None:
             raise TypeError(f"{name} takes numbers and expressions, not {type(argument).__name__}")
         texts.append(str(expression))
-    return Expression(f"{name}({', '.join(texts)})", "atom")
+        values.update(expression._ombre_values_)
+    return Expression(f"{name}({', '.join(texts)})", "atom", values)
 
 
 def _function(name, arguments, meaning):

@@ -93,6 +93,6 @@ def adapt(value, child=None):
     if isinstance(value, (list, tuple)):
         return [adapt(element, child) for element in value]
     if callable(value) and not hasattr(value, "_ombre_text_") and not hasattr(value, "_ombre_function_") \
-            and not hasattr(value, "tolist") and not isinstance(value, type):
+            and not hasattr(value, "_ombre_node_") and not hasattr(value, "tolist") and not isinstance(value, type):
         return Function(value, child)
     return value

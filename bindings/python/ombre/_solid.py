@@ -60,6 +60,14 @@ def _split(positional, most):
     return inputs, tuple(values)
 
 
+def _mixtures(argument):
+    """The nodes among an argument that are mixtures of materials."""
+    if isinstance(argument, (list, tuple)):
+        return [node for element in argument for node in _mixtures(element)]
+    node = getattr(argument, "_ombre_node_", None)
+    return [node] if node and node.outputs[0][1] == "mixture" else []
+
+
 def make(name, info, positional, named):
     """A node of the type `name`; solids among the positional arguments are its inputs. An empty list of solids is
     nothing."""
@@ -70,7 +78,10 @@ def make(name, info, positional, named):
                         f"write {name}(sphere(5), ...) or sphere(5).{name}(...)")
     if inputs and most == 0:
         raise TypeError(f"{name} takes no solids")
-    factory = next((node.factory for node in inputs if node), None) or current_factory()
+    mixtures = [node for argument in (*values, *named.values()) for node in _mixtures(argument)]
+    factory = next((node.factory for node in (*inputs, *mixtures) if node), None) or current_factory()
+    if not all(node.names_materials_of(factory) for node in mixtures):
+        raise ValueError(f"{name}: a mixture was made with other materials; give all of them the same")
     inputs = [node or factory.make("empty", (), {}, [], _place.get()) for node in inputs]
     child = wrap(inputs[0]) if inputs else None
     try:
@@ -267,6 +278,8 @@ def _doc(info):
         choices = f" One of {', '.join(p['choices'])}." if p["choices"] else ""
         default = "" if p["required"] else f" Default: {p['default']!r}."
         lines.append(f"    {p['name']}: {p['doc']}{unit}. {p['kind'].capitalize()}.{choices}{default}")
+    if info["outputs"]:
+        lines += ["", "Attributes:"] + [f"    {o['name']}: {o['doc']}. {o['type'].capitalize()}." for o in info["outputs"]]
     lines += ["", "As a .vcad script has it:", "", f"    {info['example']}"]
     return "\n".join(lines)
 
@@ -278,13 +291,14 @@ def node_infos():
     return [e for e in events if e["event"] == "node"]
 
 
-def node_classes():
+def node_classes(value_class):
     """A class for every node of the registry, and a method of Solid for those that work on one."""
     from ._design import Design
     for info in node_infos():
         name = info["name"]
-        _classes[name] = type(name, (Solid,), {"__slots__": (), "_info": info, "__doc__": _doc(info),
-                                               "__module__": "ombre"})
+        base = Solid if info["gives"] == "solid" else value_class
+        _classes[name] = type(name, (base,), {"__slots__": (), "_info": info, "__doc__": _doc(info),
+                                              "__module__": "ombre"})
         if info["inputs"]["least"] and not hasattr(Solid, name) and not hasattr(Design, name):
             setattr(Solid, name, _method(name, info))
     return dict(_classes)

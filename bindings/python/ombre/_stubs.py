@@ -12,7 +12,7 @@ from ._commands import keywords_of
 
 _head = '''# Generated from the registry of nodes; do not edit.
 import os
-from typing import Any, Callable, Iterator, Mapping, Optional, Sequence, Union
+from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +21,7 @@ Floats = NDArray[numpy.float64]
 Path = Union[str, "os.PathLike[str]"]
 Number = Union[float, str, "Expression", Callable[..., Any]]
 Numbers = Union[Sequence[Number], NDArray[Any]]
-Material = Union[str, int]
+Material = Union[str, int, "Value"]
 Argument = Any
 Progress = Union[bool, Callable[[float], object], None]
 Option = Any
@@ -101,10 +101,14 @@ _questions = '''    bounds: tuple[tuple[float, float, float], tuple[float, float
 _kinds = {"number": "float", "whole number": "int", "3 whole numbers": "Sequence[int]", "number or field": "Number",
           "3 numbers or fields": "Numbers", "true or false": "bool",
           "text": "str", "3 numbers": "Optional[Numbers]", "matrix": "ArrayLike", "material": "Material",
+          "material or mixture": "Material", "number, field, material or mixture": "Union[Number, Material]",
           "file": "Path", "list of numbers or fields": "Union[Number, Numbers]",
           "list of materials": "Union[Material, Sequence[Material]]",
           "font": "Path", "list of points": "ArrayLike", "lists of points": "Sequence[ArrayLike]",
           "list of names with materials": "Union[Mapping[str, Material], Sequence[tuple[str, Material]]]"}
+
+
+_output_types = {"number": "Expression", "vector": "Vector", "mixture": "Value"}
 
 
 def _safe(name):
@@ -162,11 +166,15 @@ def stub():
         method = info["name"] if hasattr(ombre.Solid, info["name"]) else "with_" + info["name"]
         if info["inputs"]["least"] and hasattr(ombre.Solid, method):
             out.append(f"    def {method}(self, *arguments: Argument{_keywords(info)}) -> Solid: ...\n")
+    out += ["\nclass Vector(NamedTuple):\n    x: Expression\n    y: Expression\n    z: Expression\n",
+            "\nclass Value(Expression): ...\n"]
     out += ["\nclass Design:\n", _questions, jobs,
             "    _core: Any\n    def __init__(self, *parts: Solid, box: Optional[ArrayLike] = ..., voxel: Any = ..., **named: Solid) "
             "-> None: ...\n    @classmethod\n    def from_json(cls, text: str) -> Design: ...\n"]
     for info in infos:
-        out.append(f"\nclass {info['name']}(Solid):\n" + _docstring(_solid._doc(info), 4) +
+        base = "Solid" if info["gives"] == "solid" else "Value"
+        out.append(f"\nclass {info['name']}({base}):\n" + _docstring(_solid._doc(info), 4) +
+                   "".join(f"    {o['name']}: {_output_types[o['type']]}\n" for o in info["outputs"]) +
                    f"    def __init__(self, *arguments: Argument{_keywords(info)}) -> None: ...\n")
     out += ["\n"] + [f"{name}: Expression\n" for name in (*ombre._coordinates, "d", "t")]
     out += [f"def {name}(*values: Number) -> Expression: ...\n" for name in ombre._functions
