@@ -12,18 +12,18 @@ namespace ombre::design {
 void Node::finish(std::vector<NodePtr> inputs, const std::vector<NodePtr>& values, SourceRange where) {
   where_ = std::move(where);
   input_count_ = static_cast<uint32_t>(inputs.size());
-  value_count_ = static_cast<uint32_t>(values.size());
+  value_count_ = static_cast<uint16_t>(values.size());
   if (input_count_ + value_count_ > 0) inputs_ = std::make_unique<NodePtr[]>(size_t{input_count_} + value_count_);
   std::copy(values.begin(), values.end(), std::move(inputs.begin(), inputs.end(), inputs_.get()));
   int depth = 1;
   for (const NodePtr& other : dependencies()) depth = std::max(depth, other->depth() + 1);
-  depth_ = static_cast<int16_t>(depth);
+  depth_ = static_cast<uint16_t>(depth) & 0xFFF;
   uses_cell_ = !gives_cell() && (has_cell_numbers() || std::ranges::any_of(dependencies(), [](const NodePtr& other) {
                                    return other->uses_cell();
                                  }));
   const Metric metric = find_metric(Inputs(*this, nullptr));
   lipschitz_ = metric.lipschitz;
-  kind_ = metric.kind;
+  kind_ = static_cast<uint16_t>(metric.kind) & 7;
 }
 
 bool Node::has_along() const {

@@ -162,7 +162,7 @@ class Node {
 
   // The smallest known box around what is inside within `where`.
   Box bounds(const Box& where) const;
-  Metric metric() const { return {kind_, lipschitz_}; }
+  Metric metric() const { return {static_cast<Metric::Kind>(kind_), lipschitz_}; }
   int depth() const { return depth_; }  // 1 for a leaf
   // Do its numbers, or those of its inputs, depend on the cell that a repeating node above it gives?
   bool uses_cell() const { return uses_cell_; }
@@ -177,11 +177,11 @@ class Node {
   SourceRange where_;
   std::unique_ptr<NodePtr[]> inputs_;  // and then the values
   uint32_t input_count_ = 0;
-  uint32_t value_count_ = 0;
-  int16_t depth_ = 1;
-  // The metric in parts, with which a node takes less memory.
-  Metric::Kind kind_ = Metric::Kind::exact;
-  bool uses_cell_ = false;
+  uint16_t value_count_ = 0;
+  // In few bits, since designs may have millions of nodes; the metric in parts.
+  uint16_t depth_ : 12 = 1;
+  uint16_t kind_ : 3 = 0;
+  uint16_t uses_cell_ : 1 = 0;
   double lipschitz_ = 1;
 };
 

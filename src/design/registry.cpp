@@ -1,6 +1,7 @@
 #include "design/registry.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "base/assert.h"
 #include "base/text.h"
@@ -104,12 +105,29 @@ NodePtr nothing_of(const NodeType& type, std::vector<NodePtr>& inputs) {
   return inputs.empty() ? nothing : nullptr;
 }
 
-std::vector<NodePtr> each_once(const std::vector<std::vector<NodePtr>>& lists) {
-  std::vector<NodePtr> all;
-  for (const std::vector<NodePtr>& list : lists)
-    for (const NodePtr& node : list)
-      if (std::ranges::find(all, node) == all.end()) all.push_back(node);
-  return all;
+// The nodes of values, with the numbers of the parameters that hold them.
+using UsedValues = std::vector<std::pair<size_t, NodePtr>>;
+
+// By parameters, in whatever order these were given.
+std::vector<NodePtr> each_once(UsedValues used) {
+  std::ranges::stable_sort(used, {}, [](const auto& value) { return value.first; });
+  std::vector<NodePtr> nodes;
+  std::unordered_set<const Node*> known;
+  for (const auto& [parameter, node] : used)
+    if (known.insert(node.get()).second) nodes.push_back(node);
+  return nodes;
+}
+
+// Is it within the limits of designs?
+bool fits(const NodeType& type, const std::vector<NodePtr>& inputs, const std::vector<NodePtr>& values,
+          const Reader& reader) {
+  const auto is_too_deep = [](const NodePtr& other) { return other->depth() >= deepest_design; };
+  const bool deep = std::ranges::any_of(inputs, is_too_deep) || std::ranges::any_of(values, is_too_deep);
+  if (deep)
+    reader.diagnostics.error(reader.where, "the design nests deeper than " + std::to_string(deepest_design) + " nodes");
+  if (values.size() > most_values)
+    reader.diagnostics.error(reader.where, type.name + " holds more than " + std::to_string(most_values) + " values");
+  return !deep && values.size() <= most_values;
 }
 
 }  // namespace
@@ -126,13 +144,15 @@ NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, s
   const std::shared_ptr<Node> node = type.create();
   bool good = true;
   std::vector<bool> given(type.parameters.size(), false);
-  std::vector<std::vector<NodePtr>> used(type.parameters.size());  // of which values, by parameters
+  UsedValues used;
   for (const auto& [parameter, data] : values) {
     const auto index = static_cast<size_t>(parameter - type.parameters.data());
     given[index] = true;
+    std::vector<NodePtr> nodes;
     const Reader one{reader.materials, reader.diagnostics, reader.loader, reader.where,
-                     type.name,        parameter->name,    reader.names,  &used[index]};
+                     type.name,        parameter->name,    reader.names,  &nodes};
     good = type.set(*node, index, data, one) && good;
+    for (NodePtr& value : nodes) used.emplace_back(index, std::move(value));
   }
   const bool has_unwanted = type.inputs.most == 0 && !inputs.empty();
   bool has_all = true;
@@ -150,13 +170,9 @@ NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, s
   if (NodePtr nothing = nothing_of(type, inputs)) return nothing;
   const Reader whole{reader.materials, reader.diagnostics, reader.loader, reader.where, type.name, ""};
   if (!type.complete(*node, whole, inputs)) return nullptr;
-  const std::vector<NodePtr> nodes = each_once(used);
-  const auto is_too_deep = [](const NodePtr& other) { return other->depth() >= deepest_design; };
-  if (std::ranges::any_of(inputs, is_too_deep) || std::ranges::any_of(nodes, is_too_deep)) {
-    reader.diagnostics.error(reader.where, "the design nests deeper than " + std::to_string(deepest_design) + " nodes");
-    return nullptr;
-  }
-  node->finish(std::move(inputs), nodes, reader.where);
+  const std::vector<NodePtr> values_used = each_once(std::move(used));
+  if (!fits(type, inputs, values_used, reader)) return nullptr;
+  node->finish(std::move(inputs), values_used, reader.where);
   return node;
 }
 

@@ -109,6 +109,8 @@ struct NamedValue {
 
 // Nodes above one another; what walks a design may recurse.
 inline constexpr int deepest_design = 400;
+// Value nodes whose outputs one node's parameters may hold.
+inline constexpr size_t most_values = 65535;
 
 // Makes a node. Null, and diagnostics, when something is wrong with it. What turns out to be nothing is a node of the
 // type that says so, whatever it was made from.

@@ -34,6 +34,7 @@ struct Parameter {
   template <class M>
   Parameter(std::string_view name_, M T::*member, std::string_view doc_, Domain domain_ = {})
       : name(name_), doc(doc_), kind(kind_name<M>()), domain(std::move(domain_)) {
+    static_assert(std::is_object_v<M>, "a parameter is a member, not a method");
     if constexpr (std::is_same_v<M, MaterialName> && !HasComposition<T>) {
       domain.may_mix = true;
       kind = "material or mixture";
@@ -91,6 +92,12 @@ struct OutputSpec {
   OutputSpec(std::string_view name, Composition (T::*method)(const Ask&) const, std::string_view doc)
       : info{std::string(name), std::string(doc), ValueType::mixture},
         mixture([method](const T& t, const Ask& ask) { return (t.*method)(ask); }) {}
+  template <class M>
+  OutputSpec(std::string_view, M T::*, std::string_view, const Interval& = Interval::everything()) {
+    static_assert(
+        !std::is_same_v<M, M>,
+        "an output is a method that takes a const Ask&, is const, and returns a Field, VectorField or Composition");
+  }
 
   OutputInfo info;
   std::function<VectorField(const T&, const Ask&)> numbers;

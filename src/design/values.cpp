@@ -43,7 +43,7 @@ std::vector<std::string> known_variables(const Domain& domain) {
 
 void Reader::keep(const NodePtr& value) const {
   ASSERT(values && "parameters of nodes alone hold outputs");
-  if (std::ranges::find(*values, value) == values->end()) values->push_back(value);
+  if (values->empty() || values->back() != value) values->push_back(value);
 }
 
 bool Reader::fail(const Data& data, const std::string& expected, const std::string& given_hint) const {

@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""Nodes that are declared wrongly do not compile, and one that is right does.
+
+    python3 tests/run_wrong_nodes.py COMPILER
+"""
+import concurrent.futures
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+SOURCE = pathlib.Path(__file__).resolve().parent.parent / "src"
+
+NODE = """#include "design/spec.h"
+using namespace ombre::design;
+struct Wave {{
+  Number size = 1;
+  static Spec<Wave> spec() {{
+    return {{"wave", "values", "A wave.", {{{{"size", {parameter}, "Its size"}}}}, no_inputs, "", {{{{"value", {output}, "It"}}}}}};
+  }}
+  {method} {{ return {result}; }}
+}};
+void add(Registry& registry) {{ registry.add<Wave>(); }}
+"""
+RIGHT = {"parameter": "&Wave::size", "output": "&Wave::value", "method": "Field value(const Ask& ask) const",
+         "result": "size(ask.p)"}
+
+AN_OUTPUT = "an output is a method that takes a const Ask&"
+# What is wrong, what the declaration has instead, and a word of the compiler's message.
+WRONG = [
+    ("a number that is no field", {"method": "double value(const Ask&) const", "result": "1"}, AN_OUTPUT),
+    ("an output that is evaluated with a point alone", {"method": "Field value(const Point& p) const", "result": "size(p)"},
+     AN_OUTPUT),
+    ("an output that changes its node", {"method": "Field value(const Ask& ask)"}, AN_OUTPUT),
+    ("an output that is misspelt", {"output": "&Wave::vlaue"}, "vlaue"),
+    ("a method as a parameter", {"parameter": "&Wave::value"}, "a parameter is a member, not a method"),
+]
+
+
+def compile_node(compiler, folder, number, changes):
+    file = pathlib.Path(folder) / f"wave{number}.cpp"
+    file.write_text(NODE.format(**{**RIGHT, **changes}))
+    return subprocess.run([compiler, "-std=c++20", "-fsyntax-only", f"-I{SOURCE}", file], capture_output=True, text=True)
+
+
+def main():
+    compiler = sys.argv[1]
+    cases = [("a right node", {}, None), *WRONG]
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
+        results = list(pool.map(lambda n: compile_node(compiler, folder, n, cases[n][1]), range(len(cases))))
+    failures = 0
+    for (what, _, message), result in zip(cases, results):
+        is_good = result.returncode == 0 if message is None else result.returncode != 0 and message in result.stderr
+        failures += not is_good
+        if not is_good:
+            print(f"FAILED {what}\n{result.stderr or 'it compiles'}")
+    print(f"{len(cases) - failures} of {len(cases)} are as expected")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
