@@ -442,7 +442,7 @@ def test_the_program_becomes_python(tmp_path):
 
 # Texts.
 
-@pytest.mark.parametrize("name", ["_design", "_expressions", "_functions", "_materials", "_script", "_solid"])
+@pytest.mark.parametrize("name", ["_design", "_expressions", "_functions", "_materials", "_script", "_solid", "_values"])
 def test_examples_in_docstrings(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     failures, count = doctest.testmod(importlib.import_module("ombre." + name))

@@ -181,6 +181,10 @@ def test_texts_of_the_language():
     node = pv.parse_vcad_text('union() { sphere(5, "blue"); translate(9, 0, 0) { sphere(5, "red"); } }', "")
     assert node.evaluate(0, 0, 0) == -5
     assert node.material_list() == [red, blue]
+    mixed = pv.parse_vcad_text('t = formula("x/10"); sphere(5, mix("blue", mix("red", "blue", 0.5), t));', "")
+    assert mixed.material_list() == [red, blue]
+    for node_with_mixture in (mixed, pv.Union(False, [ball(1, green), mixed])):
+        assert node_with_mixture.distribution(4, 0, 0) == pytest.approx({red: 0.2, blue: 0.8})
     joined = pv.Union(False, [ball(1, green), node])
     assert joined.distribution(0, 0, 0) == {green: 1} and joined.distribution(3, 0, 0) == {blue: 1}
     with pytest.raises(ombre.DesignError, match="sphere"):

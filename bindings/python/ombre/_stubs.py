@@ -167,7 +167,7 @@ def stub():
         if info["inputs"]["least"] and hasattr(ombre.Solid, method):
             out.append(f"    def {method}(self, *arguments: Argument{_keywords(info)}) -> Solid: ...\n")
     out += ["\nclass Vector(NamedTuple):\n    x: Expression\n    y: Expression\n    z: Expression\n",
-            "\nclass Value(Expression): ...\n"]
+            "\nclass Value(Expression):\n    _node: Any\n"]
     out += ["\nclass Design:\n", _questions, jobs,
             "    _core: Any\n    def __init__(self, *parts: Solid, box: Optional[ArrayLike] = ..., voxel: Any = ..., **named: Solid) "
             "-> None: ...\n    @classmethod\n    def from_json(cls, text: str) -> Design: ...\n"]

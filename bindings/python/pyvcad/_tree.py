@@ -487,13 +487,35 @@ def _solids_of(root: ombre.Solid) -> Iterator[ombre.Solid]:
 
 def _material_parameters(solid: ombre.Solid) -> list[str]:
     info: Any = solid._info
-    return [p["name"] for p in info["parameters"] if p["kind"] in ("material", "list of materials")]
+    return [p["name"] for p in info["parameters"]
+            if p["kind"] in ("material", "material or mixture", "list of materials")]
+
+
+def _names_in(value: Any) -> list[str]:
+    """The materials of a parameter: one, a list, or a mixture of ombre.mix."""
+    if isinstance(value, str):
+        return [value]
+    parts = [value._node.parameters[p] for p in ("a", "b")] if isinstance(value, ombre.Value) else value
+    return [name for part in parts for name in _names_in(part)]
 
 
 def _named_materials(solid: ombre.Solid) -> list[str]:
     parameters = solid.parameters
-    return [name for p in _material_parameters(solid)
-            for name in ([parameters[p]] if isinstance(parameters[p], str) else parameters[p])]
+    return [name for p in _material_parameters(solid) for name in _names_in(parameters[p])]
+
+
+def _in_current_table(value: Any, ids: dict[str, int]) -> Any:
+    """The same for the current table of materials."""
+    if isinstance(value, str):
+        return ids[value]
+    if not isinstance(value, ombre.Value):
+        return [ids[v] for v in value]
+    names = [entry["name"] for entry in current_factory().materials]
+
+    def named(part: Any) -> Any:
+        return names[ids[part]] if isinstance(part, str) else _in_current_table(part, ids)
+    mixed = value._node.parameters
+    return ombre.mix(named(mixed["a"]), named(mixed["b"]), mixed["t"])
 
 
 def _with_current_materials(root: ombre.Solid, ids: dict[str, int]) -> ombre.Solid:
@@ -502,8 +524,7 @@ def _with_current_materials(root: ombre.Solid, ids: dict[str, int]) -> ombre.Sol
     for solid in _solids_of(root):
         parameters = {name: value for name, value in solid.parameters.items() if value is not None}
         for name in _material_parameters(solid):
-            value = parameters[name]
-            parameters[name] = ids[value] if isinstance(value, str) else [ids[v] for v in value]
+            parameters[name] = _in_current_table(parameters[name], ids)
         inputs = [made[below._node.address] for below in solid.inputs]
         made[solid._node.address] = factory.make(solid.type, (), parameters, inputs)
     return wrap(made[root._node.address])
