@@ -1,6 +1,7 @@
 #include "expr/expression.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "base/text.h"
@@ -264,7 +265,9 @@ std::optional<Expression> Expression::parse(const std::string& text, const Sourc
 
 Expression Expression::constant(double value) {
   auto node = std::make_shared<Node>();
-  node->number = value;
+  node->number = std::abs(value);
+  // As it is read: a sign before a number.
+  if (std::signbit(value)) node = make_node(Kind::negate, {node});
   return {std::move(node), format_number(value)};
 }
 

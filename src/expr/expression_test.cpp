@@ -183,6 +183,86 @@ TEST(Expression, LinearFunctionsAreKnown) {
   EXPECT_EQ(linear("t < 0.5"), std::nullopt);
 }
 
+namespace {
+
+// The number that the point's x is multiplied by.
+class Multiple : public Input {
+ public:
+  explicit Multiple(double by) : by_(by) {}
+  program::Field field(const program::Point& p) const override { return p.x * by_; }
+  std::string name() const override { return "multiple"; }
+  bool is_same(const Input& other) const override { return static_cast<const Multiple&>(other).by_ == by_; }
+
+ private:
+  double by_;
+};
+
+Expression multiple(double by) { return Expression::of_input(std::make_shared<Multiple>(by)); }
+
+Expression parsed(const std::string& text) {
+  Diagnostics diagnostics;
+  return *Expression::parse(text, {}, diagnostics);
+}
+
+}  // namespace
+
+TEST(Expression, AreComputedWith) {
+  const Expression x = parsed("x"), sum = parsed("x + 1");
+  EXPECT_EQ(Expression::binary(Binary::multiply, sum, sum).text(), "(x + 1)*(x + 1)");
+  EXPECT_EQ(Expression::negate(Expression::binary(Binary::power, x, Expression::constant(-2))).text(), "-x^-2");
+  EXPECT_EQ(Expression::call("max", {x, sum}).text(), "max(x, x + 1)");
+  EXPECT_EQ(Expression::conditional(x, sum, x).text(), "x ? x + 1 : x");
+  EXPECT_EQ(Expression::binary(Binary::add, x, Expression::constant(1)), sum);
+}
+
+TEST(Expression, WhatIsComputedReadsBack) {
+  const Expression x = parsed("x"), y = parsed("-y"), half = Expression::constant(-0.5);
+  std::vector<Expression> made{x, y, half};
+  for (int round = 0; round < 2; ++round) {
+    std::vector<Expression> more;
+    for (const Expression& a : made) {
+      more.push_back(Expression::negate(a));
+      more.push_back(Expression::logical_not(a));
+      for (const Expression& b : round == 0 ? made : std::vector{x, half}) {
+        for (const Binary binary : {Binary::add, Binary::subtract, Binary::divide, Binary::mod, Binary::power,
+                                    Binary::less, Binary::equal, Binary::logical_and, Binary::logical_or})
+          more.push_back(Expression::binary(binary, a, b));
+        more.push_back(Expression::conditional(a, b, a));
+        more.push_back(Expression::conditional(b, a, y));
+      }
+    }
+    for (const Expression& expression : more) EXPECT_EQ(parsed(expression.text()).text(), expression.text());
+    made = std::move(more);
+  }
+}
+
+TEST(Expression, InputsAreNumberedInTheirOrder) {
+  const Expression two = multiple(2), three = multiple(3);
+  EXPECT_EQ(two.text(), "v");
+  EXPECT_EQ(Expression::binary(Binary::add, two, multiple(2)).text(), "v + v");
+  const Expression difference = Expression::binary(Binary::subtract, three, two);
+  EXPECT_EQ(difference.text(), "v1 - v2");
+  EXPECT_EQ(difference.text_with_names(), "multiple - multiple");
+  EXPECT_NE(difference, Expression::binary(Binary::subtract, two, three));
+  EXPECT_EQ(difference, Expression::binary(Binary::subtract, multiple(3), multiple(2)));
+  EXPECT_EQ(difference.constant_value(), std::nullopt);
+  EXPECT_EQ(difference.linear_in("x"), std::nullopt);
+}
+
+TEST(Expression, VariablesMayStandForOthers) {
+  const auto other = [](const Node& variable) -> std::optional<Expression> {
+    if (variable.name == "a") return parsed("x + 1");
+    if (variable.name == "b") return multiple(2);
+    return std::nullopt;
+  };
+  EXPECT_EQ(parsed("2*a - max(a, y)").with_substitutes(other).text(), "2*(x + 1) - max(x + 1, y)");
+  EXPECT_EQ(parsed("b ? b : z").with_substitutes(other).text(), "v ? v : z");
+  EXPECT_EQ(parsed("y + z").with_substitutes(other), parsed("y + z"));
+  std::string sum = "a";
+  for (int i = 0; i < 100000; ++i) sum += "+x";
+  EXPECT_EQ(parsed(sum).with_substitutes(other).text().substr(0, 13), "x + 1 + x + x");
+}
+
 TEST(Expression, LongSumsNeitherOverflowNorHang) {
   std::string sum = "x";
   for (int i = 0; i < 100000; ++i) sum += "+x";
