@@ -12,6 +12,7 @@ import tempfile
 SOURCE = pathlib.Path(__file__).resolve().parent.parent / "src"
 
 NODE = """#include "design/spec.h"
+using namespace ombre;
 using namespace ombre::design;
 struct Wave {{
   Number size = 1;
@@ -36,18 +37,39 @@ WRONG = [
     ("a method as a parameter", {"parameter": "&Wave::value"}, "a parameter is a member, not a method"),
 ]
 
+SOLID = """#include "design/spec.h"
+using namespace ombre;
+using namespace ombre::design;
+struct Ball {{
+  Number radius = 1;
+  static Spec<Ball> spec() {{
+    return {{"ball", "solids", "A ball.", {{{{"radius", &Ball::radius, "Its radius"}}}}, no_inputs, ""}};
+  }}
+  Field distance(const Point& p) const {{ return length(p.x, p.y, p.z) - radius(p); }}
+  {method}
+}};
+void add(Registry& registry) {{ registry.add<Ball>(); }}
+"""
+WRONG_METHODS = [
+    ("Box bounds() const { return Box(); }", "bounds is Box bounds(const Box& where) const"),
+    ("bool inside(const Inputs&, const Point&) const { return true; }", "inside is Field inside(const Inputs&"),
+    ("Composition composition(const Inputs&, const Point&) const { return {}; }", "composition is Composition"),
+]
 
-def compile_node(compiler, folder, number, changes):
-    file = pathlib.Path(folder) / f"wave{number}.cpp"
-    file.write_text(NODE.format(**{**RIGHT, **changes}))
+
+def compile_text(compiler, folder, number, text):
+    file = pathlib.Path(folder) / f"node{number}.cpp"
+    file.write_text(text)
     return subprocess.run([compiler, "-std=c++20", "-fsyntax-only", f"-I{SOURCE}", file], capture_output=True, text=True)
 
 
 def main():
     compiler = sys.argv[1]
-    cases = [("a right node", {}, None), *WRONG]
+    cases = [("a right node", NODE.format(**RIGHT), None), ("a right solid", SOLID.format(method=""), None)]
+    cases += [(what, NODE.format(**{**RIGHT, **changes}), message) for what, changes, message in WRONG]
+    cases += [(method, SOLID.format(method=method), message) for method, message in WRONG_METHODS]
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
-        results = list(pool.map(lambda n: compile_node(compiler, folder, n, cases[n][1]), range(len(cases))))
+        results = list(pool.map(lambda n: compile_text(compiler, folder, n, cases[n][1]), range(len(cases))))
     failures = 0
     for (what, _, message), result in zip(cases, results):
         is_good = result.returncode == 0 if message is None else result.returncode != 0 and message in result.stderr

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 
+#include "base/assert.h"
 #include "design/registry.h"
 
 namespace ombre::design {
@@ -137,6 +138,11 @@ class NodeTypeOf;
 template <class T>
 class NodeOf final : public Node {
  public:
+  // Has neither a shape of its own nor another point: it carries something to its input's shape.
+  static constexpr bool passes_on = !requires(const T& t, const Inputs& in, const Point& p) { t.distance(in, p); }
+  &&!requires(const T& t, const Point& p) { t.distance(p); }
+  &&!requires(const T& t, const Point& p) { t.inner(p); };
+
   T data;
 
   explicit NodeOf(const NodeTypeOf<T>& type) : type_(type) {}
@@ -296,16 +302,62 @@ class NodeOf final : public Node {
     return requires { T::gives_cell; };
   }
 
-  // Has neither a shape of its own nor another point: it carries something to its input's shape.
-  static constexpr bool passes_on = !requires(const T& t, const Inputs& in, const Point& p) { t.distance(in, p); }
-  &&!requires(const T& t, const Point& p) { t.distance(p); }
-  &&!requires(const T& t, const Point& p) { t.inner(p); };
-
   const NodeTypeOf<T>& type_;
 };
 
+// A method that has the name of one of a node's, but other arguments, would be passed over in silence.
+template <class T>
+consteval bool has_right_methods() {
+  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::distance)>; })
+    static_assert(
+        requires(const T& t, const Inputs& in, const Point& p) { Field(t.distance(in, p)); } ||
+            requires(const T& t, const Point& p) { Field(t.distance(p)); } ||
+            requires(const T& t, const Ask& ask) { Field(t.distance(ask)); },
+        "distance is Field distance(const Inputs&, const Point&) const, or takes a Point alone");
+  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::inside)>; })
+    static_assert(
+        requires(const T& t, const Inputs& in, const Point& p) { std::optional<Field>(t.inside(in, p)); },
+        "inside is Field inside(const Inputs&, const Point&) const");
+  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::interior)>; })
+    static_assert(
+        requires(const T& t, const Inputs& in, const Point& p) { std::optional<Field>(t.interior(in, p)); },
+        "interior is Field interior(const Inputs&, const Point&) const");
+  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::composition)>; })
+    static_assert(HasComposition<T>,
+                  "composition is Composition composition(const Inputs&, const Point&, Demand) const");
+  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::attribute)>; })
+    static_assert(
+        requires(const T& t, const Inputs& in, const Point& p) {
+          std::optional<Field>(t.attribute(in, "", p, Demand::inside));
+        },
+        "attribute is Field attribute(const Inputs&, std::string_view, const Point&, Demand) const");
+  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::along)>; })
+    static_assert(
+        requires(const T& t, const Inputs& in, const Point& p) { std::optional<Field>(t.along(in, p)); },
+        "along is Field along(const Inputs&, const Point&) const");
+  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::inner)>; })
+    static_assert(
+        requires(const T& t, const Point& p) { Point(t.inner(p)); }, "inner is Point inner(const Point&) const");
+  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::reach)>; })
+    static_assert(
+        requires(const T& t, const Inputs& in, const Box& where) { Box(t.reach(in, where, 0.0)); },
+        "reach is Box reach(const Inputs&, const Box& where, double margin) const");
+  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::bounds)>; })
+    static_assert(
+        requires(const T& t, const Box& where) { Box(t.bounds(where)); },
+        "bounds is Box bounds(const Box& where) const");
+  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::metric)>; })
+    static_assert(
+        requires(const T& t, const Inputs& in) { Metric(t.metric(in)); } ||
+            requires(const T& t) { Metric(t.metric()); },
+        "metric is Metric metric(const Inputs&) const, or takes nothing");
+  return true;
+}
+
 template <class T>
 class NodeTypeOf final : public NodeType {
+  static_assert(has_right_methods<T>());
+
  public:
   NodeTypeOf() : spec_(T::spec()) {
     name = spec_.name;
@@ -315,6 +367,7 @@ class NodeTypeOf final : public NodeType {
     inputs = spec_.inputs;
     for (const OutputSpec<T>& output : spec_.values) outputs.push_back(output.info);
     is_nothing = requires { T::is_nothing_itself; };
+    ASSERT((inputs.most > 0 || !is_solid() || !NodeOf<T>::passes_on) && "a solid without inputs has a distance");
     const T defaults{};
     for (const Parameter<T>& parameter : spec_.parameters)
       parameters.push_back({std::string(parameter.name), std::string(parameter.doc), parameter.kind, parameter.domain,

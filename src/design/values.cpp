@@ -22,7 +22,7 @@ Interval Number::range(const Box& where, const std::map<std::string_view, Interv
   program::Builder builder;
   const OutputsAlone outputs(builder, true);
   program::Point p = program::Point::origin_frame(builder);
-  p.cell = {anything(p), anything(p), anything(p)};
+  if (uses_cell() || !expression()->inputs().empty()) p.cell = {anything(p), anything(p), anything(p)};
   const auto known = [&](std::string_view name) -> std::optional<program::Field> {
     const auto it = extra.find(name);
     if (it == extra.end()) return std::nullopt;
@@ -268,7 +268,9 @@ bool read(const Data& data, const Domain& domain, Affine& value, const Reader& r
 bool read(const Data& data, const Domain& domain, MaterialName& value, const Reader& reader) {
   value = {};
   if (is_value(data)) {
-    if (!domain.may_mix) return reader.fail(data, "a material's name", "a mixture goes where a solid has its material");
+    if (!domain.may_mix)
+      return reader.fail(data, "a material's name",
+                         "one material is meant here; values mix several by fgrade([1 - t, t], [red, blue]) { ... }");
     const NodePtr node = read_mixture(data, reader);
     if (!node) return false;
     reader.keep(node);

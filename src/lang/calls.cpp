@@ -125,7 +125,7 @@ void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scop
 
 namespace {
 
-// A number or an object that the script calls by this name; formulas may ask for it.
+// A number or an object that the script calls by this name, as formulas may.
 std::optional<Data> named_value(const std::string& name, const Scope& scope) {
   const Value* value = scope.find_text(name);
   if (value && value->number()) return Data(*value->number());

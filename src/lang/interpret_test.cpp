@@ -239,7 +239,8 @@ TEST(Interpret, LimitsAreDiagnostics) {
        "1:51: error: lists nest deeper than 200 levels; join lists with concat or each instead of putting them into "
        "each other"},
       {"v = [for (i = 0, s = \"a\"; i < 40; i = i + 1, s = str(s, s)) 0];",
-       "1:50: error: the strings of this design hold more than 100,000,000 bytes; build fewer or shorter strings"},
+       "1:50: error: the strings and values of this design hold more than 100,000,000 bytes; build fewer or shorter "
+       "ones"},
       {"r = rands(0, 1, 1e12);",
        "1:5: error: the lists of this design hold more than 10,000,000 elements; build fewer or shorter lists"},
   });

@@ -45,8 +45,9 @@ class Meter {
   // Before a string of that size is put together.
   void check_text(uint64_t bytes) const {
     if (text_ + bytes > limits_.text_bytes)
-      throw LimitReached{"the strings of this design hold more than " + format_count(limits_.text_bytes) + " bytes",
-                         "build fewer or shorter strings"};
+      throw LimitReached{
+          "the strings and values of this design hold more than " + format_count(limits_.text_bytes) + " bytes",
+          "build fewer or shorter ones"};
   }
 
   void count_call() {
