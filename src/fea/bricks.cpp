@@ -6,9 +6,6 @@
 namespace ombre::fea {
 namespace {
 
-// In the order in which cells and nodes are kept.
-bool is_before(const Cell& a, const Cell& b) { return std::array{a[2], a[1], a[0]} < std::array{b[2], b[1], b[0]}; }
-
 template <class List>
 size_t find(const List& list, const Cell& cell) {
   const auto place = std::ranges::lower_bound(list, cell, is_before);

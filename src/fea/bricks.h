@@ -12,6 +12,11 @@ namespace ombre::fea {
 // A cell's place in its grid.
 using Cell = std::array<int32_t, 3>;
 
+// The order of cells and nodes: by z, then y, then x.
+inline bool is_before(const Cell& a, const Cell& b) {
+  return std::array{a[2], a[1], a[0]} < std::array{b[2], b[1], b[0]};
+}
+
 // Brick n has its nodes in the order of Abaqus' C3D8 and of VTK's hexahedron: around the lower face, counter-clockwise
 // as seen from above, then around the upper one.
 struct Bricks {

@@ -24,8 +24,6 @@ struct Parent {
 
 Cell half(const Cell& cell) { return {cell[0] >> 1, cell[1] >> 1, cell[2] >> 1}; }
 
-bool is_before(const Cell& a, const Cell& b) { return std::array{a[2], a[1], a[0]} < std::array{b[2], b[1], b[0]}; }
-
 // Shares of a fine node that the corners of its parent have.
 std::array<double, 8> weights_at(const std::array<uint8_t, 3>& offset) {
   std::array<double, 8> weights{};

@@ -260,9 +260,9 @@ class Forces {
 
  private:
   std::vector<OuterFace> faces_of(const std::vector<bool>& chosen) {
-    if (!faces_) faces_ = outer_faces(bricks_);
+    if (faces_.empty()) faces_ = outer_faces(bricks_);
     std::vector<OuterFace> faces;
-    for (const OuterFace& face : *faces_)
+    for (const OuterFace& face : faces_)
       if (std::ranges::all_of(face_nodes(bricks_, face), [&](uint32_t n) { return chosen[n]; })) faces.push_back(face);
     return faces;
   }
@@ -274,7 +274,7 @@ class Forces {
 
   const Bricks& bricks_;
   std::vector<Vec3> at_;
-  std::optional<std::vector<OuterFace>> faces_;
+  std::vector<OuterFace> faces_;  // all, once they are needed
 };
 
 // The moves of a rigid body at a node's degree of freedom: three along the axes, three turns about the point.
