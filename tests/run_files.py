@@ -410,6 +410,66 @@ def damaged_layers_are_made_again(job):
     expect_same(job.folder / "whole", job.folder / "out")
 
 
+# ---- supports, which are found before the first layer
+
+# Very many overhangs, each of which asks for the surface's slope.
+HOLES = """module block() {
+  difference() {
+    rectprism((60, 60, 60), white);
+    for (i = [0:7]) for (j = [0:7]) translate(i*7 - 25, j*7 - 25, 0) sphere(3);
+  }
+}
+block();
+support(angle=45) block();
+"""
+
+
+def watch(process, seconds):
+    """The greatest number of threads that the process has within this time."""
+    most, end = 0, time.monotonic() + seconds
+    while time.monotonic() < end and process.poll() is None:
+        most = max(most, len(os.listdir(f"/proc/{process.pid}/task")))
+        time.sleep(0.01)
+    return most
+
+
+def supports_take_the_threads_given_and_stop_at_once(job):
+    job.design = job.write("holes.vcad", HOLES)
+    process = job.start("out", "--voxel", "0.03", "--threads", "1")
+    most = watch(process, 2)
+    expect(process.poll() is None, "it has ended too early to tell")
+    expect(most == 1, f"{most} threads with --threads 1")
+    begin = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    status = process.wait(timeout=20)
+    seconds = time.monotonic() - begin
+    expect(status == 130, f"status {status} after an interrupt, expected 130")
+    expect(seconds < 1.5, f"it took {seconds:.2f} s to stop; 0.3 s on an idle machine")
+    expect(not layers(job.folder / "out"), "layers were written before the supports were known")
+
+
+def supports_are_the_same_in_pieces(job):
+    job.design = job.write("holes.vcad", HOLES)
+    coarse = ["--voxel", "0.5"]
+    job.slice("whole", *coarse, "--threads", "1")
+    job.slice("pieces", *coarse, "--layers", "41:90")
+    job.slice("pieces", *coarse, "--layers", ":17", "--resume", "--memory", "2M")
+    job.slice("pieces", *coarse, "--resume")
+    expect_same(job.folder / "whole", job.folder / "pieces")
+
+
+def supports_are_told_of(job):
+    design = job.write("holes.vcad", HOLES)
+    result = job.slice("out", "--voxel", "0.02", "--memory", "5M", design=design, status=2)
+    expect("supports: computing them takes about" in result.stderr and "--memory" in result.stderr, result.stderr)
+    expect(not (job.folder / "out").exists(), "a folder was made")
+    begin = time.monotonic()
+    result = job.slice("out", "--voxel", "0.03", "--dry-run", "--json", design=design)
+    expect(time.monotonic() - begin < 15, "a dry run goes through all of the supports")
+    estimate = [json.loads(line) for line in result.stdout.splitlines()][-1]
+    expect(estimate["event"] == "estimate" and estimate["seconds"] > 5, str(estimate))
+
+
 # ---- folders
 
 
@@ -600,7 +660,8 @@ QUICK = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make_
          finished_jobs_are_not_overwritten, force_removes_the_old_layers, output_that_is_a_file,
          folder_that_may_not_be_written, full_disk, links_lead_to_what_lies_beside_them, reference_is_up_to_date, examples_of_nodes_slice,
          suggestions_of_examples_work, designs_of_openscad_are_explained]
-SLOW = [killed_jobs_resume, killed_twice_resumes, interrupted_jobs_resume, large_layers_stop_and_resume]
+SLOW = [supports_take_the_threads_given_and_stop_at_once, supports_are_the_same_in_pieces, supports_are_told_of,
+        killed_jobs_resume, killed_twice_resumes, interrupted_jobs_resume, large_layers_stop_and_resume]
 
 
 def in_scratch(function, ombre):

@@ -127,6 +127,7 @@ TEST(ProgressLine, SaysShareRateAndTimeLeft) {
   EXPECT_EQ(progress_text({0.456, 123.4e6, 34}), " 45%  123 M voxels/s  0:34 left");
   EXPECT_EQ(progress_text({1, 0, -1}), "100%");
   EXPECT_EQ(progress_text({0.25, 0, 61, true}), " 25%  checking what is there  1:01 left");
+  EXPECT_EQ(progress_text({0.4, 0, 12, false, "supports"}), " 40%  supports  0:12 left");
   EXPECT_EQ(progress_bar({0.5, 0, -1}), "[===============>              ]  50%");
   EXPECT_EQ(duration_text(3723.4), "1:02:03");
   EXPECT_EQ(rate_text(2.5e9), "2.5 G voxels/s");

@@ -54,7 +54,7 @@ void add_arguments(CLI::App& app, ContoursArguments& a) {
 }
 
 compile::ContourRequest contour_request(const ContoursArguments& a) {
-  compile::ContourRequest request{region_request(a.regions), {}, {}};
+  compile::ContourRequest request{region_request(a.regions), {}, {}, a.threads, nullptr};
   if (!a.layer_height.empty()) request.layer_height = parse_layer_height(a.layer_height);
   if (a.z.empty()) return request;
   request.z_mm = parse_number(a.z);
@@ -145,7 +145,7 @@ int write(const ContoursArguments& a, OutlineFormat format, const compile::Conto
 }
 
 int contours(const ContoursArguments& a, Session& session) {
-  const compile::ContourRequest request = contour_request(a);
+  compile::ContourRequest request = contour_request(a);
   const OutlineFormat format = exporting::outline_format_of(a.output);
   if (format == OutlineFormat::svg && !request.z_mm)
     throw WrongArgument("-o " + a.output + " holds one layer; say which with --z, or name a folder: -o " +
@@ -154,6 +154,7 @@ int contours(const ContoursArguments& a, Session& session) {
 
   Diagnostics diagnostics;
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
+  request.stop = &session.stop;
   const auto plan = loaded ? compile::plan_contours(*loaded, request, diagnostics) : std::nullopt;
   session.console.diagnose(diagnostics);
   if (!plan || diagnostics.has_errors()) return wrong_input;

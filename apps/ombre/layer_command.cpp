@@ -121,6 +121,9 @@ int write_layer(const LayerArguments& a, const compile::Plan& plan, Session& ses
   if (!to_stdout)
     for (const std::string& file : files) refuse_to_overwrite(file, a.force);
 
+  compile::StageLoan loan;
+  loan.stop = &session.stop;
+  plan.stages->prepare(loan);
   const compile::LayerImages images = compile::make_layer(request, plan.regions, layer, window);
   if (to_stdout) {
     session.console.print(images.bytes.front());

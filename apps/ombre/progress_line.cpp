@@ -46,6 +46,7 @@ std::string rate_text(double voxels_per_second) {
 std::string progress_text(const Pace& pace) {
   std::string text = percent(pace.share);
   if (pace.is_checking) text += "  checking what is there";
+  if (!pace.preparing.empty()) text += "  " + pace.preparing;
   if (pace.voxels_per_second > 0) text += "  " + rate_text(pace.voxels_per_second);
   if (pace.seconds_left >= 0) text += "  " + duration_text(pace.seconds_left) + " left";
   return text;
@@ -89,9 +90,7 @@ void ProgressLine::tell_programs(const HowFar& how_far, const Pace& pace) const 
 
 void ProgressLine::checking(const HowFar& how_far) {
   const std::scoped_lock lock(mutex_);
-  if (!has_checked_) shown_ = Clock::now();
-  has_checked_ = true;
-  if (!is_due()) return;
+  if (!is_due_before_work()) return;
   Pace pace = pace_of(how_far);
   pace.is_checking = true;
   show(pace);
@@ -99,6 +98,23 @@ void ProgressLine::checking(const HowFar& how_far) {
     console_.event("checking", {{"bytes_done", static_cast<double>(how_far.done)},
                                 {"bytes_total", static_cast<double>(how_far.total)},
                                 {"seconds_left", std::round(pace.seconds_left)}});
+}
+
+void ProgressLine::preparing(const std::string& what, const HowFar& how_far) {
+  const std::scoped_lock lock(mutex_);
+  if (!is_due_before_work()) return;
+  Pace pace = pace_of(how_far);
+  pace.preparing = what;
+  show(pace);
+  if (console_.voice() == Voice::programs)
+    console_.event("preparing",
+                   {{"what", what}, {"share", pace.share}, {"seconds_left", std::round(pace.seconds_left)}});
+}
+
+bool ProgressLine::is_due_before_work() {
+  if (!has_begun_) shown_ = Clock::now();
+  has_begun_ = true;
+  return is_due();
 }
 
 // Not more often than anyone wants to know.

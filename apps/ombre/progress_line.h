@@ -16,6 +16,7 @@ struct Pace {
   double voxels_per_second = 0;  // 0 while unknown
   double seconds_left = -1;      // below 0 while unknown
   bool is_checking = false;      // what is there already
+  std::string preparing = {};    // what the job needs before its work, if it is computed now
 };
 
 // "[=====>    ]  45%  123 M voxels/s  0:34 left"
@@ -37,6 +38,7 @@ class ProgressLine : public Progress {
 
   void update(const HowFar& how_far) override;
   void checking(const HowFar& how_far) override;
+  void preparing(const std::string& what, const HowFar& how_far) override;
   // Clears the bar, so that other text can follow.
   void finish();
 
@@ -44,13 +46,14 @@ class ProgressLine : public Progress {
   using Clock = std::chrono::steady_clock;
 
   bool is_due();
+  bool is_due_before_work();
   void show(const Pace& pace);
   void tell_programs(const HowFar& how_far, const Pace& pace) const;
 
   const Console& console_;
   Counted counted_;
   std::mutex mutex_;
-  bool started_ = false, has_checked_ = false, bar_shown_ = false;
+  bool started_ = false, has_begun_ = false, bar_shown_ = false;
   uint64_t done_at_start_ = 0;
   Clock::time_point start_, shown_;
 };

@@ -60,7 +60,7 @@ std::string output_folder(const SliceArguments& a) {
   return std::filesystem::path(a.job.design).stem().string() + "_slices";
 }
 
-compile::SliceOptions slice_options(const SliceArguments& a, const compile::SliceRequest& request) {
+compile::SliceOptions slice_options(const SliceArguments& a, const compile::Plan& plan) {
   compile::SliceOptions options;
   options.folder = output_folder(a);
   if (a.force) options.use = compile::FolderUse::replace;
@@ -68,8 +68,9 @@ compile::SliceOptions slice_options(const SliceArguments& a, const compile::Slic
   options.threads = a.threads;
   options.memory_bytes = parse_memory(a.memory);
   options.strict = a.strict;
+  options.stages = plan.stages;
   if (a.layers.empty()) return options;
-  const int64_t count = request.lattice.count[2];
+  const int64_t count = plan.request.lattice.count[2];
   options.layers = compile::parse_layer_range(a.layers, count);
   if (!options.layers)
     throw WrongArgument("--layers " + a.layers + " selects none of the " +
@@ -93,6 +94,7 @@ class SliceProgress : public Progress {
     warned_ = true;
   }
   void checking(const HowFar& how_far) override { line_.checking(how_far); }
+  void preparing(const std::string& what, const HowFar& how_far) override { line_.preparing(what, how_far); }
   void finish() { line_.finish(); }
 
  private:
@@ -143,7 +145,8 @@ int slice(const SliceArguments& a, Session& session) {
   auto wishes = plan_options(a.job, diagnostics);
   if (!wishes) return diagnosed();
   wishes->threads = a.threads;
-  parse_memory(a.memory);  // a slip is better told before a long load
+  wishes->stop = &session.stop;
+  wishes->memory_bytes = parse_memory(a.memory);  // a slip is better told before a long load
 
   const compile::LoadedPtr loaded = load_design(a.job, session, diagnostics, a.threads);
   if (!loaded) return diagnosed();
@@ -161,7 +164,7 @@ int slice(const SliceArguments& a, Session& session) {
   const std::optional<compile::Plan> plan = compile::plan_slice(loaded, *wishes, diagnostics);
   if (const int code = diagnosed(); !plan || code != done) return wrong_input;
 
-  const compile::SliceOptions options = slice_options(a, plan->request);
+  const compile::SliceOptions options = slice_options(a, *plan);
   tell_plan(session.console, plan->request, options);
   const StopFlag& stop = session.stop;
   return a.dry_run ? dry_run(*plan, options, session, stop) : write_slices(*plan, options, session, stop);

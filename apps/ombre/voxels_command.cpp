@@ -212,6 +212,7 @@ std::optional<compile::GridJob> plan_job(const VoxelsArguments& a, const compile
   auto options = plan_options(a.job, diagnostics);
   if (!options) return std::nullopt;
   options->threads = a.threads;
+  options->stop = &session.stop;
   const compile::LoadedPtr loaded = load_design(a.job, session, diagnostics, a.threads);
   if (!loaded) return std::nullopt;
   const auto plan = compile::plan_slice(loaded, *options, diagnostics);

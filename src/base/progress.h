@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "base/stopwatch.h"
 
@@ -22,6 +23,8 @@ class Progress {
   virtual void update(const HowFar& how_far) = 0;
   // Before the work, while what earlier runs left is read: in bytes.
   virtual void checking(const HowFar&) {}
+  // Before the work, while something that it needs as a whole is computed ("supports"): in parts of it.
+  virtual void preparing(const std::string& /*what*/, const HowFar&) {}
 };
 
 // Set from a signal handler or another thread; work looks at it every tenth of a second or so and throws Cancelled.

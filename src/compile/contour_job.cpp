@@ -74,7 +74,11 @@ std::optional<ContourPlan> plan_contours(const Loaded& loaded, const ContourRequ
   plan.tolerance_mm = fineness->tolerance_mm;
   plan.corners = corners_in_layers(*box, fineness->cell, height, request.z_mm);
   if (!is_sensible(plan, request, where, diagnostics)) return std::nullopt;
-  const design::Design design = for_tolerance(loaded.design, fineness->tolerance_mm);
+  StageLoan loan;
+  loan.threads = request.threads;
+  loan.stop = request.stop;
+  const design::Design design = with_stages(for_tolerance(loaded.design, fineness->tolerance_mm), loan);
+  plan.stages = stages_of(design);
   auto program = build_regions(design, *box, request, diagnostics);
   if (!program) return std::nullopt;
   const auto colours = region_colours(design, *program, *box, diagnostics);
@@ -87,6 +91,11 @@ std::optional<ContourPlan> plan_contours(const Loaded& loaded, const ContourRequ
 
 void draw_contours(const ContourPlan& plan, int threads, const std::function<void(int64_t, const LayerRegions&)>& take,
                    Progress* progress, const StopFlag* stop) {
+  StageLoan loan;
+  loan.threads = threads;
+  loan.progress = progress;
+  loan.stop = stop;
+  plan.stages->prepare(loan);
   const surface::Outliner outliner(plan.partition, plan.corners, plan.tolerance_mm);
   const auto layers = static_cast<size_t>(plan.layers());
   const Stopwatch watch;

@@ -15,6 +15,8 @@ namespace ombre::compile {
 struct ContourRequest : RegionRequest {
   std::optional<Pitch> layer_height;  // else the design's own, else default_layer_height
   std::optional<double> z_mm;         // one layer, whose middle this is; else all, as slicing has them
+  int threads = 0;                    // 0: all cores
+  const StopFlag* stop = nullptr;     // must live as long as the plan
 };
 constexpr Pitch default_layer_height{1, 10};
 
@@ -31,6 +33,7 @@ struct ContourPlan {
   std::vector<ContourRegion> regions;  // without void
   // Of cells in x and y. Along z they are layers, and borders are drawn in their middles.
   voxel::Lattice corners;
+  JobStagesPtr stages;
 
   int64_t layers() const { return corners.count[2]; }
   double middle_mm(int64_t layer) const { return corners.center(0, 0, layer).z; }

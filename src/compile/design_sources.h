@@ -1,7 +1,7 @@
 // What the nodes of a design may request.
 #pragma once
 
-#include "compile/support_source.h"
+#include "compile/support_stage.h"
 #include "sources/loading.h"
 
 namespace ombre::compile {
@@ -9,9 +9,9 @@ namespace ombre::compile {
 class DesignSources final : public sources::Loader {
  public:
   using Loader::Loader;
-  design::PendingSourcePtr support(const design::NodePtr& solid, const design::SupportUse& use,
-                                   const design::Reader& reader) override {
-    return make_support_source(solid, use, reader);
+  design::StagePtr support(const design::NodePtr& solid, const design::SupportUse& use,
+                           const design::Reader& reader) override {
+    return make_support_stage(solid, use, reader);
   }
 };
 

@@ -67,11 +67,12 @@ std::optional<TileProducer> field_tiles(const LoadedPtr& loaded, const GridJob& 
   }
   wishes.inside = job.has_mark;
   if (job.band_mm > 0) wishes.band_mm = job.band_mm;
-  auto program =
-      build_field_program(design::for_job(loaded->design, job.request.lattice.voxel_mm()), wishes, diagnostics);
+  const voxel::Lattice& lattice = job.request.lattice;
+  design::Design design = design::for_lattice(loaded->design, {lattice.origin, lattice.pitch});
+  design.stages = job.stages;
+  auto program = build_field_program(design, wishes, diagnostics);
   if (!program) return std::nullopt;
-  auto evaluator =
-      std::make_shared<const voxel::FieldEvaluator>(std::move(*program), job.request.lattice, job.request.evaluator);
+  auto evaluator = std::make_shared<const voxel::FieldEvaluator>(std::move(*program), lattice, job.request.evaluator);
   return [loaded, evaluator](const TileBox& region, const StopFlag* stop) { return evaluator->tiles(region, stop); };
 }
 
@@ -141,6 +142,7 @@ std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, con
                                   const TileBox& region, Diagnostics& diagnostics) {
   GridJob job;
   job.request = plan.request;
+  job.stages = plan.stages;
   job.region = region;
   job.grids = wished_grids(plan.request, wishes);
   const auto attributes = attribute_grids(loaded->design, wishes, diagnostics);
@@ -176,6 +178,11 @@ std::optional<TileBox> region_over(const voxel::Lattice& lattice, const Box& box
 
 void each_slab(const GridJob& job, int threads, const std::function<void(const GridSlab&)>& take, Progress* progress,
                const StopFlag* stop) {
+  StageLoan loan;
+  loan.threads = threads;
+  loan.progress = progress;
+  loan.stop = stop;
+  job.stages->prepare(loan);
   const std::vector<TileBox> slabs = slabs_of(job);
   const auto total = static_cast<uint64_t>(job.region.voxels());
   const size_t wanted = 2 * static_cast<size_t>(threads > 0 ? threads : core_count());

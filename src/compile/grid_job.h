@@ -49,6 +49,7 @@ struct GridJob {
   design::Metric metric;  // what distances are
   bool has_mark = false;  // behind the grids, tiles have 1 inside and 0 outside
   TileProducer tiles;
+  JobStagesPtr stages;
 };
 
 // Nothing, and diagnostics, when the design cannot be sampled, or has no such attribute.

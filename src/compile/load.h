@@ -11,6 +11,7 @@
 #include "base/diagnostic.h"
 #include "base/error.h"
 #include "base/pitch.h"
+#include "compile/job_stages.h"
 #include "compile/slice.h"
 #include "compile/value_layers.h"
 #include "design/design.h"
@@ -63,6 +64,8 @@ struct PlanOptions {
   std::optional<voxel::Placement> place;    // else the printer's; center: the build plate, the part in its middle
   bool whole_tray = false;                  // the build plate, the part where the design has it
   int threads = 0;                          // that read the design; 0: all cores
+  size_t memory_bytes = size_t{2} << 30;    // of the job
+  const StopFlag* stop = nullptr;           // must live as long as the plan
   std::optional<ValueChoice> value;         // shades of gray by this in place of materials
 };
 
@@ -70,6 +73,7 @@ struct Plan {
   SliceRequest request;
   RegionProducer regions;
   LayerProducer producer;  // of whole layers, by `regions`
+  JobStagesPtr stages;     // to be prepared before layers are made
 };
 
 // Nothing, and diagnostics, when the design cannot be sliced so (does not fit, too many materials).

@@ -53,6 +53,12 @@ bool fits(const MeshPlan& plan, const MeshRequest& request, const Loaded& loaded
   return false;
 }
 
+StageLoan loan(const MeshRequest& request, Progress* progress, const StopFlag* stop) {
+  StageLoan loan{request.threads, StageLoan().memory_bytes, progress, stop};
+  if (request.memory_bytes > 0) loan.memory_bytes = request.memory_bytes;
+  return loan;
+}
+
 // One run of the mesher, of a design or of what is left of it.
 class Mesher {
  public:
@@ -69,6 +75,7 @@ class Mesher {
     const design::Design design = for_tolerance(whole, fineness->tolerance_mm);
     const auto program = build_regions(design, *box, request_, diagnostics_, shape);
     if (!program) return std::nullopt;
+    stages_of(design)->prepare(loan(request_, progress_, stop_));
     const MeshPlan plan = plan_mesh(*program, *box, *fineness, request_.threads);
     if (request_.announce) request_.announce(plan);
     if (!fits(plan, request_, loaded_, diagnostics_)) return std::nullopt;
@@ -108,7 +115,9 @@ class Mesher {
 
  private:
   static design::Design alone(const design::Design& design, const design::NodePtr& solid) {
-    return {design.materials, {{"", solid}}, design.sampling, design.job_scale};
+    design::Design part = design;
+    part.parts = {{"", solid}};
+    return part;
   }
 
   // All surfaces are as fine as one of the whole design would be.
@@ -188,8 +197,9 @@ class Mesher {
 
 std::optional<MeshedDesign> mesh_design(const Loaded& loaded, const MeshRequest& request, Diagnostics& diagnostics,
                                         Progress* progress, const StopFlag* stop) {
-  Mesher mesher(loaded, request, diagnostics, progress, stop);
-  return request.beams ? mesher.mesh_beams() : mesher.mesh(loaded.design, nullptr);
+  const Loaded own{loaded.path, loaded.source, with_stages(loaded.design, loan(request, progress, stop))};
+  Mesher mesher(own, request, diagnostics, progress, stop);
+  return request.beams ? mesher.mesh_beams() : mesher.mesh(own.design, nullptr);
 }
 
 }  // namespace ombre::compile

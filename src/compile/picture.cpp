@@ -51,15 +51,20 @@ struct Shot {
 
 class Studio {
  public:
-  Studio(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop, Diagnostics& diagnostics,
-         Progress* progress)
-      : loaded_(loaded), request_(request), stop_(stop), diagnostics_(diagnostics), progress_(progress) {}
+  Studio(const Loaded& loaded, const PictureRequest& request, const StageLoan& loan, Diagnostics& diagnostics)
+      : loaded_(loaded),
+        request_(request),
+        loan_(loan),
+        stop_(*loan.stop),
+        diagnostics_(diagnostics),
+        progress_(loan.progress) {}
 
   bool take_all(const std::function<void(int, const Picture&)>& take) {
     if (!prepare()) return false;
     for (int frame = 0; frame < request_.frames; ++frame) {
       const auto shot = request_.slice ? section() : turned_solid(frame);
       if (!shot) return false;
+      stages_of(loaded_.design)->prepare(loan_);
       is_empty_ = true;
       Picture picture{expose(*shot), shot->film.pixel_mm * static_cast<double>(request_.samples)};
       if (labels_) labels_->add_to(picture, shot->camera);
@@ -234,6 +239,7 @@ class Studio {
 
   const Loaded& loaded_;
   const PictureRequest& request_;
+  const StageLoan& loan_;
   const StopFlag& stop_;
   Diagnostics& diagnostics_;
   Box whole_;
@@ -265,7 +271,12 @@ std::optional<SliceView> parse_slice(std::string_view text) {
 
 bool take_pictures(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop,
                    const std::function<void(int, const Picture&)>& take, Diagnostics& diagnostics, Progress* progress) {
-  return Studio(loaded, request, stop, diagnostics, progress).take_all(take);
+  StageLoan loan;
+  loan.threads = request.threads;
+  loan.progress = progress;
+  loan.stop = &stop;
+  const Loaded own{loaded.path, loaded.source, with_stages(loaded.design, loan)};
+  return Studio(own, request, loan, diagnostics).take_all(take);
 }
 
 }  // namespace ombre::compile

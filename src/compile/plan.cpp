@@ -172,13 +172,19 @@ LayerProducer whole_layers(const RegionProducer& regions, const voxel::Lattice& 
   };
 }
 
+design::Design design_on(const design::Design& design, const voxel::Lattice& lattice, const PlanOptions& options) {
+  const StageLoan loan{options.threads, options.memory_bytes, nullptr, options.stop};
+  return with_stages(design::for_lattice(design, {lattice.origin, lattice.pitch}), loan);
+}
+
 std::optional<Plan> plan_shades(const LoadedPtr& loaded, PlanOptions options, const Box& box,
                                 const voxel::Lattice& lattice, Diagnostics& diagnostics) {
-  const design::Design design = design::for_job(loaded->design, lattice.voxel_mm());
+  const design::Design design = design_on(loaded->design, lattice, options);
   const auto meaning = shade_meaning(design, box, *options.value, diagnostics);
   if (!meaning) return std::nullopt;
   options.image = voxel::ImageFormat::gray;
   Plan plan;
+  plan.stages = stages_of(design);
   plan.request = base_request(options, lattice, design::hash(loaded->design));
   plan.request.background = {0, 0, 0, 255};
   plan.request.materials = value_shades();
@@ -202,12 +208,11 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   if (!lattice) return std::nullopt;
   warn_of_features(options.printer, box->size(), {loaded->source, 0, 0}, diagnostics);
   if (options.value) return plan_shades(loaded, options, *box, *lattice, diagnostics);
+  const design::Design on_lattice = design_on(design, *lattice, options);
   Hash design_hash;
   std::optional<Built> built;
   const auto hash = [&] { design_hash = design::hash(design); };
-  const auto build = [&] {
-    built = build_flat_program(design::for_job(design, lattice->voxel_mm()), diagnostics, options.threads);
-  };
+  const auto build = [&] { built = build_flat_program(on_lattice, diagnostics, options.threads); };
   if (options.threads == 1) {  // one after the other: both take memory
     hash();
     build();
@@ -218,6 +223,7 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   leave_out_impossible(*built, lattice->box(), options.threads);
 
   Plan plan;
+  plan.stages = stages_of(on_lattice);
   SliceRequest& request = plan.request = base_request(options, *lattice, design_hash);
   for (const MaterialId id : built->materials.materials) {
     if (id == 0) continue;

@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "base/text.h"
+#include "compile/job_stages.h"
 #include "nodes/all_nodes.h"
 #include "program/passes/passes.h"
 
@@ -28,9 +29,12 @@ Question::Question(const design::Design& design, const QuestionOptions& options)
     : design_(design),
       solid_(whole_solid(design)),
       shape_(options.shape ? options.shape : solid_),
+      stages_(stages_of(design)),
       context_(design.materials, roots(design, solid_, options), design.scale(), options.threads),
       lowering_(context_, builder_),
-      point_(options.frame(builder_)) {}
+      point_(options.frame(builder_)) {
+  context_.use_stages(design.lattice(), stages_);
+}
 
 std::optional<Field> Question::attribute(std::string_view name, Diagnostics& diagnostics) {
   if (lowering_.declaration(name)) return lowering_.attribute(*solid_, name, point_, design::Demand::inside);

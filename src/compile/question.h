@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compile/job_stages.h"
 #include "design/design.h"
 #include "design/lowering.h"
 #include "program/program.h"
@@ -50,6 +51,8 @@ class Question {
   const std::vector<design::AttributeDeclaration>& attributes() const { return context_.attributes(); }
   // Null when no node declares it.
   const design::AttributeDeclaration* declaration(std::string_view name) const { return lowering_.declaration(name); }
+  // Of the design's job, or of this question alone.
+  const JobStagesPtr& stages() const { return stages_; }
   // What a composition's check of this number tells of.
   const design::Check& check(uint32_t number) const { return context_.checks()[number]; }
 
@@ -62,6 +65,7 @@ class Question {
  private:
   const design::Design& design_;
   design::NodePtr solid_, shape_;
+  JobStagesPtr stages_;  // must live while sources are made
   design::LoweringContext context_;
   program::Builder builder_;
   design::Lowering lowering_;

@@ -109,11 +109,16 @@ std::optional<Sampler> Sampler::build(const design::Design& design, const Sample
   auto program = question.program(outputs, diagnostics);
   if (!program) return std::nullopt;
   sampler.program_ = std::move(*program);
+  sampler.stages_ = question.stages();
   return sampler;
 }
 
 void Sampler::sample(std::span<const Vec3> points, std::span<double* const> columns, int threads,
                      const StopFlag* stop) const {
+  StageLoan loan;
+  loan.threads = threads;
+  loan.stop = stop;
+  stages_->prepare(loan);
   std::vector<uint32_t> order;
   std::vector<Block> blocks;
   if (program_.has_parts()) {

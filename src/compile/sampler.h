@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "compile/job_stages.h"
 #include "design/design.h"
 #include "program/program.h"
 
@@ -47,6 +48,7 @@ class Sampler {
                     std::span<double* const> columns) const;
 
   program::Program program_;
+  JobStagesPtr stages_;
   std::vector<Column> columns_;
 };
 

@@ -56,6 +56,7 @@ class SliceRun {
       : request_(request),
         producer_(producer),
         options_(options),
+        watched_(progress),
         stop_(stop),
         size_(size_work(request, options)),
         folder_(options.folder, request, options.use, size_.threads, progress, stop),
@@ -66,7 +67,7 @@ class SliceRun {
 
   SliceReport run() {
     count_finished();
-    if (!failed_check_) write();
+    if (!failed_check_ && prepare_stages()) write();
     report_.whole_job_finished = folder_.close();
     if (skipped_ && !failed_check_) throw Cancelled();
     finish_report();
@@ -86,6 +87,17 @@ class SliceRun {
       note_checks(entry);
     }
     progress_.add_layers(static_cast<size_t>(report_.layers_kept), forecast_);
+  }
+
+  // False when the run is to stop.
+  bool prepare_stages() {
+    if (!options_.stages || slabs_.empty()) return true;
+    try {
+      options_.stages->prepare(stage_loan(options_, watched_, stop_));
+    } catch (const Cancelled&) {
+      skipped_ = true;
+    }
+    return !skipped_;
   }
 
   void write() {
@@ -162,6 +174,7 @@ class SliceRun {
   const SliceRequest& request_;
   const LayerProducer& producer_;
   const SliceOptions& options_;
+  Progress* watched_;
   const StopFlag* stop_;
   WorkSize size_;
   JobFolder folder_;
@@ -180,7 +193,9 @@ class SliceRun {
 SliceReport slice(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options,
                   Progress* progress, const StopFlag* stop) {
   const Stopwatch watch;
-  SliceReport report = SliceRun(request, producer, options, progress, stop).run();
+  if (options.stages) options.stages->check_memory(stage_loan(options, progress, stop));
+  const SliceOptions for_layers = without_stages_memory(options);
+  SliceReport report = SliceRun(request, producer, for_layers, progress, stop).run();
   report.seconds = watch.seconds();
   return report;
 }

@@ -10,6 +10,7 @@
 
 #include "base/interval.h"
 #include "base/progress.h"
+#include "compile/job_stages.h"
 #include "formats/png.h"
 #include "voxel/lattice.h"
 #include "voxel/layers.h"
@@ -85,6 +86,7 @@ struct SliceOptions {
   int threads = 0;                        // 0: all cores
   size_t memory_bytes = size_t{2} << 30;  // for layers in flight; one at a time is always allowed
   bool strict = false;                    // stop at the first slab in which a check fails
+  JobStagesPtr stages = nullptr;          // to be prepared before layers are made; null: there are none
 };
 
 struct CheckReport {

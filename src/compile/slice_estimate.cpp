@@ -56,10 +56,51 @@ class SampledChecks {
   std::map<int64_t, std::vector<voxel::CheckHits>> layers_;
 };
 
+// Of stages that take longer than there is time for.
+class StagePace final : public Progress {
+ public:
+  void update(const HowFar&) override {}
+  void preparing(const std::string&, const HowFar& how_far) override {
+    if (how_far.seconds_left >= 0) seconds_ = watch_.seconds() + how_far.seconds_left;
+  }
+  // Nothing while too little is known.
+  std::optional<double> seconds() const { return seconds_; }
+
+ private:
+  const Stopwatch watch_;
+  std::optional<double> seconds_;
+};
+
+struct StageEstimate {
+  double seconds = 0;
+  bool is_least = false;
+};
+
+// Stages that are not ready in time are left out of the layers.
+StageEstimate estimate_stages(const SliceOptions& options, const StopFlag* stop) {
+  if (!options.stages || options.stages->is_prepared()) return {};
+  const Stopwatch watch;
+  const StopFlag deadline(stop, most_seconds);
+  StagePace pace;
+  StageEstimate estimate;
+  try {
+    options.stages->prepare(stage_loan(options, &pace, &deadline));
+    estimate.seconds = watch.seconds();
+  } catch (const Cancelled&) {
+    if (stop && stop->requested()) throw;
+    options.stages->leave_out_unprepared();
+    estimate = {pace.seconds().value_or(watch.seconds()), !pace.seconds()};
+  }
+  options.stages->lend(stage_loan(options, nullptr, stop));
+  return estimate;
+}
+
 }  // namespace
 
-SliceEstimate estimate_slice(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options,
+SliceEstimate estimate_slice(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& whole,
                              const StopFlag* stop) {
+  const StageEstimate stages = estimate_stages(whole, stop);
+  const SliceOptions options = without_stages_memory(whole);
   const LayerRange range = options.layers.value_or(LayerRange{0, request.lattice.count[2]});
   const WorkSize size = size_work(request, options);
   const exporting::MaterialStack stack = image_stack(request);
@@ -89,12 +130,14 @@ SliceEstimate estimate_slice(const SliceRequest& request, const LayerProducer& p
   if (stop && stop->requested()) throw Cancelled();
 
   SliceEstimate estimate;
-  estimate.is_least = profile.is_empty() && !slabs.empty();
-  if (estimate.is_least) profile.add(slabs[0], {watch.seconds(), 0});
+  const bool is_unknown = profile.is_empty() && !slabs.empty();
+  estimate.is_least = is_unknown || stages.is_least;
+  if (is_unknown) profile.add(slabs[0], {watch.seconds(), 0});
   const LayerCost cost = profile.of(range);
-  estimate.seconds = wall_seconds(cost.seconds, guess_writing_seconds(request, range, cost.bytes), size.threads);
+  estimate.seconds =
+      stages.seconds + wall_seconds(cost.seconds, guess_writing_seconds(request, range, cost.bytes), size.threads);
   estimate.bytes = static_cast<uint64_t>(cost.bytes);
-  estimate.memory_bytes = size.memory_bytes;
+  estimate.memory_bytes = size.memory_bytes + (whole.memory_bytes - options.memory_bytes);
   estimate.checks = checks.reports(request);
   return estimate;
 }

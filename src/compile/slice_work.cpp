@@ -71,6 +71,17 @@ WorkSize size_work(const SliceRequest& request, const SliceOptions& options) {
   return size;
 }
 
+StageLoan stage_loan(const SliceOptions& options, Progress* progress, const StopFlag* stop) {
+  return {options.threads, options.memory_bytes, progress, stop};
+}
+
+SliceOptions without_stages_memory(const SliceOptions& options) {
+  SliceOptions rest = options;
+  if (rest.stages)
+    rest.memory_bytes -= std::min(rest.memory_bytes, rest.stages->memory_bytes(stage_loan(options, nullptr, nullptr)));
+  return rest;
+}
+
 std::vector<LayerRange> missing_slabs(LayerRange range, const std::map<int64_t, JournalEntry>& finished,
                                       int64_t slab_layers) {
   std::vector<LayerRange> slabs;

@@ -23,6 +23,11 @@ struct WorkSize {
 // layer at a time.
 WorkSize size_work(const SliceRequest& request, const SliceOptions& options);
 
+// What the job's stages get.
+StageLoan stage_loan(const SliceOptions& options, Progress* progress, const StopFlag* stop);
+// The options with the memory that stages leave to layers.
+SliceOptions without_stages_memory(const SliceOptions& options);
+
 // The stretches of `range` that are not finished, cut at multiples of slab_layers.
 std::vector<LayerRange> missing_slabs(LayerRange range, const std::map<int64_t, JournalEntry>& finished,
                                       int64_t slab_layers);

@@ -53,9 +53,20 @@ std::optional<JobScale> Design::scale() const {
   return JobScale(Vec3{sampling->pitch[0].mm(), sampling->pitch[1].mm(), sampling->pitch[2].mm()});
 }
 
+std::optional<StageLattice> Design::lattice() const {
+  if (job_lattice || !sampling) return job_lattice;
+  return StageLattice{sampling->box.lo, sampling->pitch};
+}
+
 Design for_job(Design design, const JobScale& scale) {
   design.job_scale = scale;
   return design;
+}
+
+Design for_lattice(Design design, const StageLattice& lattice) {
+  design.job_lattice = lattice;
+  const auto& pitch = lattice.pitch;
+  return for_job(std::move(design), Vec3{pitch[0].mm(), pitch[1].mm(), pitch[2].mm()});
 }
 
 Data to_data(const Design& design) {

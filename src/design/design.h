@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "base/pitch.h"
 #include "design/registry.h"
+#include "design/stage.h"
 
 namespace ombre::design {
 
@@ -31,13 +32,19 @@ struct Design {
   // Of the job at hand, for nodes that are made as finely as it asks for. No part of the design: neither its file nor
   // its hash has it.
   std::optional<JobScale> job_scale = {};
+  // The same of the job's voxels, and of what makes stages.
+  std::optional<StageLattice> job_lattice = {};
+  std::shared_ptr<StageHost> stages = {};
 
   std::vector<NodePtr> roots() const;
   // The job's, else that of the voxels to sample; nothing when neither is known.
   std::optional<JobScale> scale() const;
+  // The job's, else that of the voxels to sample; nothing when neither is known.
+  std::optional<StageLattice> lattice() const;
 };
 
 Design for_job(Design design, const JobScale& scale);
+Design for_lattice(Design design, const StageLattice& lattice);
 
 // The design file: format, version, materials, sampling, nodes (each once), parts.
 Data to_data(const Design& design);

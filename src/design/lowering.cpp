@@ -1,12 +1,57 @@
 #include "design/lowering.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/assert.h"
 #include "design/many_parts.h"
 #include "design/registry.h"
 
 namespace ombre::design {
+
+namespace {
+
+// A stage where there is no job: all its channels are 0, and the distance to what it marks is as large as can be.
+class EmptyStage final : public program::FieldSource {
+ public:
+  explicit EmptyStage(const Stage& stage) : name_(stage.name()), content_(stage.content()) {}
+  std::string name() const override { return name_; }
+  Hash content() const override { return content_; }
+  Box bounds() const override { return Box::empty(); }
+  int channel(std::string_view channel_name) const override {
+    return channel_name == "distance" ? distance_channel : value_channel;
+  }
+  double sample(int channel, Vec3) const override { return channel == distance_channel ? design_limit_mm : 0; }
+  Interval range(int channel, const Box&) const override { return Interval(sample(channel, {})); }
+
+ private:
+  static constexpr int value_channel = 0, distance_channel = 1;
+
+  std::string name_;
+  Hash content_;
+};
+
+Vec3 voxel_mm(const StageLattice& lattice) {
+  return {lattice.pitch[0].mm(), lattice.pitch[1].mm(), lattice.pitch[2].mm()};
+}
+
+bool is_shift(const Affine& map) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(map.rows[axis] == Affine{}.rows[axis])) return false;
+  return true;
+}
+
+bool are_whole_voxels(Vec3 offset, const StageLattice& lattice) {
+  constexpr double slack = 1e-6;
+  const Vec3 size = voxel_mm(lattice);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double voxels = offset[axis] / size[axis];
+    if (!(std::abs(voxels - std::round(voxels)) <= slack)) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 // A sub-program under construction. Its outputs are added as callers ask for them.
 struct LoweringContext::Body {
@@ -59,11 +104,25 @@ LoweringContext::LoweringContext(const MaterialTable& materials, const std::vect
 
 LoweringContext::~LoweringContext() = default;
 
+void LoweringContext::use_stages(const std::optional<StageLattice>& lattice, std::shared_ptr<StageHost> host) {
+  lattice_ = lattice;
+  stages_ = std::move(host);
+}
+
 std::optional<JobScale> LoweringContext::scale(const Node& node) {
   if (!scale_) return std::nullopt;
-  const std::scoped_lock lock(asked_);
-  if (scales_.empty()) find_scales();
-  return scales_.at(&node) * *scale_;
+  return view(node).scale * *scale_;
+}
+
+program::SourceField LoweringContext::staged(const Node& node, const StagePtr& stage) {
+  if (!stages_) return std::make_shared<EmptyStage>(*stage);
+  const View here = view(node);
+  StagePlace place{materials_, std::nullopt, std::nullopt, std::nullopt};
+  if (scale_) place.scale = here.scale * *scale_;
+  if (place.scale) place.voxel_mm = place.scale->voxel_mm;
+  if (lattice_) place.voxel_mm = here.scale * voxel_mm(*lattice_);
+  if (lattice_ && here.offset) place.lattice = StageLattice{lattice_->origin + *here.offset, lattice_->pitch};
+  return stages_->source(stage, place);
 }
 
 void LoweringContext::tell(const Diagnostic& diagnostic) {
@@ -71,8 +130,14 @@ void LoweringContext::tell(const Diagnostic& diagnostic) {
   diagnostics_.add_new(diagnostic);
 }
 
-void LoweringContext::find_scales() {
-  for (const NodePtr& root : roots_) scales_.emplace(root.get(), 1);
+LoweringContext::View LoweringContext::view(const Node& node) {
+  const std::scoped_lock lock(asked_);
+  if (views_.empty()) find_views();
+  return views_.at(&node);
+}
+
+void LoweringContext::find_views() {
+  for (const NodePtr& root : roots_) views_.emplace(root.get(), View{1, Vec3{}});
   std::vector<const Node*> nodes = topological(roots_);
   std::reverse(nodes.begin(), nodes.end());
   for (const Node* node : nodes) {
@@ -80,14 +145,27 @@ void LoweringContext::find_scales() {
     const auto inner = node->inner(Point::origin_frame(builder));
     const auto input_from_node = inner ? inner->from_inputs() : std::nullopt;
     const double shrinks = input_from_node ? stretch(*input_from_node).least : 1;
-    const double own = scales_.at(node), of_inputs = own * (shrinks > 0 ? shrinks : 1);
-    const auto set = [&](const NodePtr& other, double scale) {
-      const auto [known, is_new] = scales_.emplace(other.get(), scale);
-      if (!is_new) known->second = std::min(known->second, scale);
+    const View own = views_.at(node);
+    View below = own;
+    below.scale *= shrinks > 0 ? shrinks : 1;
+    if (node->repetitions() > 1 || (inner && !(input_from_node && is_shift(*input_from_node))))
+      below.offset = std::nullopt;
+    else if (inner && below.offset)
+      below.offset = *below.offset + input_from_node->offset;
+    const auto set = [&](const NodePtr& other, const View& view) {
+      const auto [known, is_new] = views_.emplace(other.get(), view);
+      if (!is_new) meet(known->second, view);
     };
-    for (const NodePtr& input : node->inputs()) set(input, of_inputs);
+    for (const NodePtr& input : node->inputs()) set(input, below);
     for (const NodePtr& value : node->values()) set(value, own);
   }
+}
+
+void LoweringContext::meet(View& known, const View& other) const {
+  known.scale = std::min(known.scale, other.scale);
+  if (!known.offset) return;
+  if (!lattice_ || !other.offset || !are_whole_voxels(*other.offset - *known.offset, *lattice_))
+    known.offset = std::nullopt;
 }
 
 LoweringContext::Body& LoweringContext::body_of(const Node& node) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "design/node.h"
+#include "design/stage.h"
 
 namespace ombre::design {
 
@@ -29,6 +30,8 @@ class LoweringContext {
   // `scale` of the job, if it is known. Tables of many parts are made on up to `threads` threads; 0: all cores.
   LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots,
                   std::optional<JobScale> scale = std::nullopt, int threads = 1);
+  // Where stages get their lattice and are made. Without this they are 0 everywhere.
+  void use_stages(const std::optional<StageLattice>& lattice, std::shared_ptr<StageHost> host);
   ~LoweringContext();
 
   const MaterialTable& materials() const { return materials_; }
@@ -40,6 +43,7 @@ class LoweringContext {
   uint32_t register_check(const Node& node, const std::string& message);
   // As the node has them, where transforms above shrink or stretch it; where there are several ways to it, the least.
   std::optional<JobScale> scale(const Node& node);
+  program::SourceField staged(const Node& node, const StagePtr& stage);
   // Parts of the node as a table, placed in the frame of the program that will hold it; null where
   // it does not pay.
   const ManyParts* many_parts(const Node& node, const PartList& list, PartQuery query, const Affine& node_from_program,
@@ -51,17 +55,26 @@ class LoweringContext {
   friend class Lowering;
   struct Body;
   Body& body_of(const Node& node);
-  void find_scales();
+  // How the job sees a node's space.
+  struct View {
+    double scale = 1;            // a length there for one of the root's; where there are several ways, the least
+    std::optional<Vec3> offset;  // a point there less the same point of the root, if they differ by whole voxels only
+  };
+  View view(const Node& node);
+  void find_views();
+  void meet(View& known, const View& other) const;
   bool carries(const Node& node, std::string_view attribute);
   bool is_shared(const Node& node) const { return shared_.contains(&node); }
 
   const MaterialTable& materials_;
   std::vector<NodePtr> roots_;
   std::optional<JobScale> scale_;
+  std::optional<StageLattice> lattice_;
+  std::shared_ptr<StageHost> stages_;
   int threads_;
   // Lowerings that stand alone may ask at once.
   std::mutex asked_;
-  std::unordered_map<const Node*, double> scales_;  // a length there for one of the root's; found when asked for
+  std::unordered_map<const Node*, View> views_;  // found when they are needed
   std::vector<Check> checks_;
   Diagnostics diagnostics_;
   std::map<std::pair<const Node*, std::string>, uint32_t> check_numbers_;
@@ -110,6 +123,7 @@ class Lowering : public OutputFields {
   const AttributeDeclaration* declaration(std::string_view name) const;
   MaterialId material(const MaterialName& name) const;
   std::optional<JobScale> scale(const Node& node) { return context_.scale(node); }
+  program::SourceField staged(const Node& node, const StagePtr& stage) { return context_.staged(node, stage); }
   void tell(const Diagnostic& diagnostic) { context_.tell(diagnostic); }
   uint32_t add_check(const Node& node, const std::string& message);
   program::Builder& builder() { return builder_; }

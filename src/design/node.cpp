@@ -174,6 +174,8 @@ Composition Inputs::composition_of(const MaterialName& name, const Point& p) con
 
 std::optional<JobScale> Inputs::scale() const { return lowering_->scale(node_); }
 
+program::SourceField Inputs::staged(const StagePtr& stage) const { return lowering_->staged(node_, stage); }
+
 void Inputs::tell(Severity severity, const std::string& message, const std::string& hint) const {
   lowering_->tell({severity, node_.where(), message, hint});
 }

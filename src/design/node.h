@@ -18,6 +18,7 @@ namespace ombre::design {
 
 class Lowering;
 class NodeType;
+class Stage;
 
 // Bounds already asked for: a sub-design may be reached in very many ways.
 class BoundsMemory {
@@ -89,6 +90,8 @@ class Inputs {
   Composition composition_of(const MaterialName& name, const Point& p) const;
   // How fine the job is in this node's space, if it is known.
   std::optional<JobScale> scale() const;
+  // What a stage of this node computes, as a source.
+  program::SourceField staged(const std::shared_ptr<const Stage>& stage) const;
   // Told once for each job that lowers the node.
   void tell(Severity severity, const std::string& message, const std::string& hint) const;
   // A mark that is 1 where something is wrong; `message` is told once, with the count of voxels.

@@ -11,6 +11,7 @@
 
 #include "base/polygons.h"
 #include "design/node.h"
+#include "design/stage.h"
 #include "program/field_source.h"
 
 namespace ombre::sources {
@@ -160,9 +161,9 @@ class SourceLoader {
   std::shared_ptr<const typename Request::Result> source(Request& request, const Reader& reader) {
     return std::static_pointer_cast<const typename Request::Result>(find(&request, reader));
   }
-  // What stands under a solid that has bounds, in a printer that builds it layer by layer. It reaches up into the solid
-  // by part of a cell.
-  virtual PendingSourcePtr support(const NodePtr& solid, const SupportUse& use, const Reader& reader) = 0;
+  // What stands under a solid that has bounds, in a printer that builds it layer by layer: channels "inside" and
+  // "distance". It reaches up into the solid by part of a cell. Null, and diagnostics, without bounds.
+  virtual StagePtr support(const NodePtr& solid, const SupportUse& use, const Reader& reader) = 0;
 
  protected:
   // The `Result` of the request that the variant holds.

@@ -65,7 +65,7 @@ class GridRows final : public program::ValueSampler {
     }
   }
 
-  Interval range(const program::VoxelBox& box) const override {
+  Interval range(const IndexBox& box) const override {
     VoxelCorner lo = place(box.lo[0], box.lo[1], box.lo[2]), hi = lo;
     for (size_t axis = 0; axis < 3; ++axis) {
       for (size_t n = 0; n < 3; ++n) {

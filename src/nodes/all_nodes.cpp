@@ -30,6 +30,7 @@ const design::Registry& registry() {
     add_supports(r);
     add_noise(r);
     add_value_nodes(r);
+    add_convolutions(r);
     return r;
   }();
   return all;

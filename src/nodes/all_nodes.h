@@ -30,6 +30,7 @@ void add_parts(design::Registry& registry);
 void add_supports(design::Registry& registry);
 void add_noise(design::Registry& registry);
 void add_value_nodes(design::Registry& registry);
+void add_convolutions(design::Registry& registry);
 
 // All of the above.
 const design::Registry& registry();

@@ -13,7 +13,7 @@ struct Support {
   MaterialName material;
   double clearance = 0;
   std::optional<Vec3> pitch;
-  PendingSourcePtr source;  // known when the node is made
+  StagePtr stage;  // known when the node is made
 
   static Spec<Support> spec() {
     Domain angles = unit::degrees;
@@ -48,14 +48,14 @@ struct Support {
     if (clearance > 0 && inputs[0]->metric().is_implicit())
       reader.diagnostics.warning(reader.where, "clearance is kept from a shape of which only the sign is known",
                                  "its value is taken as it is, which need not be a distance in mm");
-    source = reader.loader->support(inputs[0], {angle, pitch}, reader);
-    return source != nullptr;
+    stage = reader.loader->support(inputs[0], {angle, pitch}, reader);
+    return stage != nullptr;
   }
 
   Metric metric(const Inputs& in) const { return weaker(Metric::bounded(), in.metric(0)); }
 
   Box reach(const Inputs&, const Box& where, double margin) const {
-    return intersect(source->bounds().expanded(margin), where);
+    return intersect(stage->bounds().expanded(margin), where);
   }
 
   Field distance(const Inputs& in, const Point& p) const {
@@ -81,7 +81,7 @@ struct Support {
 
  private:
   Field read(const Inputs& in, const char* channel, const Point& p) const {
-    const program::SourceField columns = source->make(in.scale());
+    const program::SourceField columns = in.staged(stage);
     return p.builder().source(columns, columns->channel(channel), p.x, p.y, p.z);
   }
 };

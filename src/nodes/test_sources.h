@@ -140,10 +140,26 @@ class PendingBall : public design::PendingSource {
   program::SourceField source_ = std::make_shared<BallSource>();
 };
 
+// Where nothing makes stages it is empty.
+class BallStage : public design::SweepStage {
+ public:
+  std::string name() const override { return "ball"; }
+  Hash content() const override { return {9, 10}; }
+  Box bounds() const override { return Box::centered({4, 4, 4}); }
+  std::vector<design::StageRead> reads() const override { return {}; }
+  std::vector<design::StageChannel> channels(const std::vector<design::StageChannel>&) const override {
+    return {{"inside", {}, 0, true, {0, 1}}};
+  }
+  double bytes_of_column() const override { return 0; }
+  std::unique_ptr<Sweep> begin(const design::StageLattice&, const IndexBox&, const design::StageWork&) const override {
+    return nullptr;
+  }
+};
+
 class BallLoader : public design::SourceLoader {
  public:
-  design::PendingSourcePtr support(const design::NodePtr&, const design::SupportUse&, const Reader&) override {
-    return std::make_shared<PendingBall>();
+  design::StagePtr support(const design::NodePtr&, const design::SupportUse&, const Reader&) override {
+    return std::make_shared<BallStage>();
   }
 
  protected:

@@ -11,6 +11,7 @@
 #include "base/box.h"
 #include "base/data.h"
 #include "base/hash.h"
+#include "base/index_box.h"
 
 namespace ombre::program {
 
@@ -18,11 +19,6 @@ namespace ombre::program {
 struct Span {
   int64_t begin = 0, end = 0;
   bool operator==(const Span&) const = default;
-};
-
-// Voxels from lo on and before hi, on each axis.
-struct VoxelBox {
-  std::array<int64_t, 3> lo{}, hi{};
 };
 
 // What a channel of a source is along the voxels' rows, for one placement of the source on one voxel lattice.
@@ -39,7 +35,7 @@ class RowSampler {
   // Of the voxels from (i, j, k) on, along x.
   virtual void values(int64_t /*i*/, int64_t /*j*/, int64_t /*k*/, std::span<float> /*values*/) const {}
   // Encloses the values in a box.
-  virtual Interval range(const VoxelBox&) const { return Interval::everything(); }
+  virtual Interval range(const IndexBox&) const { return Interval::everything(); }
 };
 
 // For channels with values.
@@ -48,7 +44,7 @@ class ValueSampler : public RowSampler {
   void layer(int64_t, int64_t, int64_t, int64_t, std::vector<std::vector<Span>>&) const final {}
   bool has_values() const final { return true; }
   void values(int64_t i, int64_t j, int64_t k, std::span<float> values) const override = 0;
-  Interval range(const VoxelBox& box) const override = 0;
+  Interval range(const IndexBox& box) const override = 0;
 };
 
 // Rows that meet in an eye, as the rays of a picture do. Voxel (i, j, k) has its centre at i * step + first: a depth

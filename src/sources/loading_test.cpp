@@ -52,7 +52,7 @@ std::string with_inverted_shell() {
 class DesignOfTest : public Loader {
  public:
   explicit DesignOfTest(SourceCache& cache) : Loader(cache) {}
-  design::PendingSourcePtr support(const design::NodePtr&, const design::SupportUse&, const design::Reader&) override {
+  design::StagePtr support(const design::NodePtr&, const design::SupportUse&, const design::Reader&) override {
     return nullptr;
   }
 

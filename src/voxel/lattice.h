@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "base/box.h"
+#include "base/index_box.h"
 #include "base/pitch.h"
 
 namespace ombre::voxel {
@@ -31,10 +32,6 @@ struct Lattice {
 int64_t voxels_along(double size_mm, Pitch pitch);
 
 // Voxels [lo, hi) on each axis.
-struct TileBox {
-  std::array<int64_t, 3> lo{}, hi{};
-  int64_t size(int axis) const { return hi[static_cast<size_t>(axis)] - lo[static_cast<size_t>(axis)]; }
-  int64_t voxels() const { return size(0) * size(1) * size(2); }
-};
+using TileBox = IndexBox;
 
 }  // namespace ombre::voxel

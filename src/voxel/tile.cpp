@@ -39,7 +39,7 @@ void StripSources::copy_values(const program::RowSampler& sampler, int64_t i, in
 
 Interval StripSources::range(uint32_t tag, const TileBox& tile) const {
   const program::RowSampler& sampler = *samplers_[tag];
-  return sampler.has_values() ? sampler.range({tile.lo, tile.hi}) : span_range(tag, tile);
+  return sampler.has_values() ? sampler.range(tile) : span_range(tag, tile);
 }
 
 Interval StripSources::span_range(uint32_t tag, const TileBox& tile) const {

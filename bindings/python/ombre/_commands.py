@@ -83,7 +83,7 @@ class Report(dict):
     """What a job told: the members of its last event, and all `events`."""
 
     def __init__(self, events):
-        last = [e for e in events if e["event"] not in ("progress", "checking", "message", "check")]
+        last = [e for e in events if e["event"] not in ("progress", "checking", "preparing", "message", "check")]
         super().__init__({k: v for event in last for k, v in event.items() if k != "event"})
         self.events = events
 

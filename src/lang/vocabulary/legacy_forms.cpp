@@ -36,8 +36,8 @@ constexpr Alias aliases[] = {
     {"text", "size", "height"},
 };
 
-constexpr std::string_view vector_nodes[] = {"rectprism", "ellipsoid", "translate", "scale",
-                                             "mirror",    "rotate",    "half_space"};
+constexpr std::string_view vector_nodes[] = {"rectprism", "ellipsoid", "translate",  "scale",
+                                             "mirror",    "rotate",    "half_space", "blend"};
 
 bool is_number_like(const Data& data) { return data.number() || data.string(); }
 

@@ -1,0 +1,82 @@
+// Field sources whose values are known at the centres of a lattice's cells.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "design/stage.h"
+#include "program/field_source.h"
+#include "voxel/lattice.h"
+
+namespace ombre::compile {
+
+using CellIndex = std::array<int64_t, 3>;
+
+// What such a source is, apart from its values.
+struct LatticeFrame {
+  design::StagePtr stage;
+  voxel::Lattice lattice;  // its count does not matter
+  Box box;                 // beyond it nothing is marked
+  IndexBox cells;          // beyond them all values are 0
+  std::vector<design::StageChannel> channels;
+};
+
+// Reads cells, most often near to those that it read before.
+class CellReader {
+ public:
+  virtual ~CellReader() = default;
+  // The values of cells first, first + (1, 0, 0) ..., which all lie in the source's frame().cells.
+  virtual void read(size_t channel, const CellIndex& first, std::span<float> values) = 0;
+  // The value of the cells first to first + (1, 1, 1), if it is known to be one for all.
+  virtual std::optional<float> same_around(size_t /*channel*/, const CellIndex& /*first*/) { return std::nullopt; }
+};
+
+// Between centres the nearest counts for marks; other channels are linear along each axis. With a mark "inside" there
+// is a further channel "distance": to the border of the cells that it marks and that the box holds, exact up to one
+// cell away.
+class LatticeSource : public program::FieldSource {
+ public:
+  explicit LatticeSource(LatticeFrame frame);
+
+  std::string name() const override { return frame_.stage->name(); }
+  Hash content() const override { return frame_.stage->content(); }
+  Box bounds() const override { return frame_.box; }
+  int channel(std::string_view channel_name) const override;
+  double sample(int channel, Vec3 p) const override;
+  void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const override;
+  Interval range(int channel, const Box& box) const override;
+  std::unique_ptr<program::RowSampler> rows(int channel, const Affine& source_from_index) const override;
+
+  const LatticeFrame& frame() const { return frame_; }
+  // The values of cells first, first + (1, 0, 0) ..., which all lie in frame().cells.
+  virtual void read_cells(size_t channel, const CellIndex& first, std::span<float> values) const = 0;
+  virtual std::unique_ptr<CellReader> reader() const;
+  // Encloses the values of cells that all lie there; what takes long to find is left out.
+  virtual Interval range_of_cells(size_t channel, const IndexBox& cells) const;
+
+ protected:
+  // May range() look at values? Not before they are computed.
+  virtual bool has_values() const { return true; }
+
+ private:
+  bool is_distance(int channel) const { return channel == static_cast<int>(frame_.channels.size()); }
+  CellIndex cell_of(Vec3 p) const;
+  float at(size_t channel, const CellIndex& cell) const;
+  bool holds(const CellIndex& cell) const { return at(static_cast<size_t>(inside_), cell) != 0; }
+  Box box_of(const CellIndex& cell) const;
+  double between_centres(size_t channel, Vec3 p, CellReader& reader) const;
+  double in_centres(int axis, double mm) const;
+  std::array<float, 2> pair_at(size_t channel, const CellIndex& cell, CellReader& reader) const;
+  Interval range_between_centres(size_t channel, const Box& box) const;
+  double distance(Vec3 p) const;
+  double distance_to_cells(Vec3 p) const;
+  Interval range_of_mark(size_t channel, const Box& box) const;
+
+  LatticeFrame frame_;
+  Vec3 cell_mm_;
+  IndexBox cells_in_box_;  // whose centres it holds
+  int inside_ = -1;        // the channel of that name, if it is a mark
+};
+
+}  // namespace ombre::compile

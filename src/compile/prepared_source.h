@@ -1,0 +1,49 @@
+// Stages that are computed as a whole, before a job's first layer.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+
+#include "compile/lattice_source.h"
+#include "compile/stage_input.h"
+#include "compile/stage_work.h"
+
+namespace ombre::compile {
+
+// Where nobody prepares it, it prepares itself at its first value.
+class PreparedSource : public LatticeSource {
+ public:
+  PreparedSource(LatticeFrame frame, StageInput input, std::shared_ptr<SharedStageWork> shared)
+      : LatticeSource(std::move(frame)), input_(std::move(input)), shared_(std::move(shared)) {}
+
+  bool is_prepared() const { return is_prepared_; }
+  // Throws Error when it takes more memory than there is.
+  void check_memory(const StageLoan& loan) const;
+  // The same, and Cancelled.
+  void prepare(const StageLoan& loan) const;
+  virtual double kept_bytes() const = 0;  // of its values; before it is prepared, at least
+  // From now on all values that are not prepared are 0.
+  void leave_out() const { is_left_out_ = true; }
+
+  void read_cells(size_t channel, const CellIndex& first, std::span<float> values) const final;
+  Interval range_of_cells(size_t channel, const IndexBox& cells) const final;
+
+ protected:
+  bool has_values() const final { return is_prepared_; }
+  const StageInput& input() const { return input_; }
+
+  // The least memory that computing takes, and what it keeps.
+  virtual double least_bytes() const = 0;
+  virtual void compute(const StageLoan& loan, const design::StageWork& work) const = 0;
+  virtual void read_made(size_t channel, const CellIndex& first, std::span<float> values) const = 0;
+  virtual Interval range_of_made(size_t channel, const IndexBox& cells) const = 0;
+
+ private:
+  StageInput input_;
+  std::shared_ptr<SharedStageWork> shared_;
+  mutable std::mutex mutex_;
+  mutable std::atomic<bool> is_prepared_{false}, is_left_out_{false};
+};
+
+}  // namespace ombre::compile

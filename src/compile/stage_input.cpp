@@ -1,0 +1,124 @@
+#include "compile/stage_input.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "compile/build.h"
+#include "compile/field_program.h"
+
+namespace ombre::compile {
+namespace {
+
+using design::StageChannel;
+using design::StageValues;
+
+void take_layers(const std::vector<voxel::LayerResult>& layers, StageValues& values, size_t channel) {
+  const IndexBox& box = values.box();
+  std::vector<MaterialId> row(static_cast<size_t>(box.size(0)));
+  auto to = values.channel(channel).begin();
+  for (const voxel::LayerResult& layer : layers)
+    for (uint32_t j = 0; j < layer.runs.height(); ++j) {
+      layer.runs.row(j).unpack(row.data());
+      to = std::transform(row.begin(), row.end(), to, [](MaterialId id) { return id != 0 ? 1.0f : 0.0f; });
+    }
+}
+
+void take_tile(const voxel::FieldTile& tile, size_t output, StageValues& values, size_t channel) {
+  const float* from = tile.output(output);
+  for (int64_t k = tile.box.lo[2]; k < tile.box.hi[2]; ++k)
+    for (int64_t j = tile.box.lo[1]; j < tile.box.hi[1]; ++j) {
+      float* const to = values.channel(channel).data() + values.offset(tile.box.lo[0], j, k);
+      const auto width = static_cast<size_t>(tile.box.size(0));
+      if (tile.is_uniform) {
+        std::fill_n(to, width, *from);
+      } else {
+        std::copy_n(from, width, to);
+        from += width;
+      }
+    }
+}
+
+FieldWishes wishes_of(const design::Design& solid, const design::StageRead& read) {
+  FieldWishes wishes;
+  wishes.distance = read.distance;
+  wishes.inside = read.inside;
+  wishes.attributes = read.attributes;
+  for (const design::Material& material : solid.materials.all())
+    if (read.fractions) wishes.fractions.push_back(material.id);
+  return wishes;
+}
+
+StageChannel channel_of(const design::Design& solid, const std::string& name, const design::StageRead& read,
+                        size_t number) {
+  StageChannel channel{name, {}, number};
+  const bool is_attribute = std::ranges::find(read.attributes, name) != read.attributes.end();
+  if (name == "inside") {
+    channel.is_mark = true;
+    channel.range = {0, 1};
+  } else if (const design::Material* material = solid.materials.find(name); material && !is_attribute) {
+    channel.material = material->id;
+    channel.range = {0, 1};
+  }
+  return channel;
+}
+
+[[noreturn]] void fail_with(const Diagnostics& diagnostics) { throw Error(to_text(diagnostics)); }
+
+}  // namespace
+
+StageInput::StageInput(const design::Design& job, const std::vector<design::StageRead>& reads,
+                       const voxel::Lattice& lattice) {
+  for (size_t n = 0; n < reads.size(); ++n) add(job, reads[n], lattice, n);
+}
+
+void StageInput::add(const design::Design& job, const design::StageRead& read, const voxel::Lattice& lattice,
+                     size_t number) {
+  design::Design solid = job;
+  solid.parts = {{"part", read.solid}};
+  Evaluator evaluator;
+  evaluator.first_channel = channels_.size();
+  if (read.distance || read.fractions || !read.attributes.empty())
+    add_fields(solid, read, lattice, evaluator, number);
+  else
+    add_shape(solid, lattice, evaluator, number);
+  evaluators_.push_back(std::move(evaluator));
+}
+
+void StageInput::add_shape(const design::Design& solid, const voxel::Lattice& lattice, Evaluator& evaluator,
+                           size_t number) {
+  Diagnostics diagnostics;
+  const auto program = build_inside_program(solid, diagnostics);
+  if (!program) fail_with(diagnostics);
+  voxel::EvaluatorOptions how;
+  how.evaluator = voxel::best_evaluator(lattice);
+  evaluator.shape = std::make_shared<const voxel::LayerEvaluator>(*program, lattice, voxel::Dither::threshold, 0, how);
+  channels_.push_back(channel_of(solid, "inside", {}, number));
+}
+
+void StageInput::add_fields(const design::Design& solid, const design::StageRead& read, const voxel::Lattice& lattice,
+                            Evaluator& evaluator, size_t number) {
+  Diagnostics diagnostics;
+  auto program = build_field_program(solid, wishes_of(solid, read), diagnostics);
+  if (!program) fail_with(diagnostics);
+  for (const std::string& name : program->output_names) channels_.push_back(channel_of(solid, name, read, number));
+  if (read.distance || !read.attributes.empty()) is_zero_outside_ = false;
+  evaluator.fields =
+      std::make_shared<const voxel::FieldEvaluator>(std::move(*program), lattice, voxel::best_evaluator(lattice));
+}
+
+StageValues StageInput::values(const IndexBox& box, const StopFlag* stop) const {
+  StageValues values(box, channels_.size());
+  for (size_t n = 0; n < evaluators_.size(); ++n) {
+    const Evaluator& evaluator = evaluators_[n];
+    if (evaluator.shape) {
+      take_layers(evaluator.shape->region(box, stop), values, evaluator.first_channel);
+      continue;
+    }
+    const size_t end = n + 1 < evaluators_.size() ? evaluators_[n + 1].first_channel : channels_.size();
+    for (const voxel::FieldTile& tile : evaluator.fields->tiles(box, stop))
+      for (size_t c = evaluator.first_channel; c < end; ++c) take_tile(tile, c - evaluator.first_channel, values, c);
+  }
+  return values;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,29 @@
+// What all stages of a job share.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+
+#include "base/progress.h"
+#include "compile/block_cache.h"
+
+namespace ombre::compile {
+
+// What a job lends to its stages.
+struct StageLoan {
+  int threads = 0;                        // 0: all cores
+  size_t memory_bytes = size_t{2} << 30;  // of the whole job
+  Progress* progress = nullptr;
+  const StopFlag* stop = nullptr;  // must live as long as the job works
+};
+
+// Halo stages may be computed at any time, by any of the job's threads.
+struct SharedStageWork {
+  BlockCache blocks;
+  std::atomic<const StopFlag*> stop{nullptr};
+  std::atomic<int> threads{0};
+  std::atomic<bool> is_under_way{false};  // the job has been planned, and makes layers
+  std::atomic<size_t> memory_bytes{size_t{2} << 30};
+};
+
+}  // namespace ombre::compile

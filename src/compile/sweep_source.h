@@ -1,0 +1,35 @@
+// Stages that read layers from the top down.
+#pragma once
+
+#include "compile/column_runs.h"
+#include "compile/prepared_source.h"
+
+namespace ombre::compile {
+
+class SweepSource final : public PreparedSource {
+ public:
+  SweepSource(LatticeFrame frame, std::shared_ptr<const design::SweepStage> stage, StageInput input,
+              std::shared_ptr<SharedStageWork> shared);
+
+  double kept_bytes() const override { return table_.bytes(); }
+
+ protected:
+  double least_bytes() const override { return bytes(1, 1, 1); }
+  void compute(const StageLoan& loan, const design::StageWork& work) const override;
+  void read_made(size_t channel, const CellIndex& first, std::span<float> values) const override;
+  Interval range_of_made(size_t channel, const IndexBox& cells) const override;
+
+ private:
+  // How many layers are read at once, and by how many threads.
+  struct Slabs {
+    int64_t layers = 8;
+    size_t window = 1, threads = 1;
+  };
+  Slabs slabs_for(const StageLoan& loan) const;
+  double bytes(int64_t layers, size_t window, size_t threads) const;
+
+  std::shared_ptr<const design::SweepStage> stage_;
+  mutable ColumnTable table_;
+};
+
+}  // namespace ombre::compile

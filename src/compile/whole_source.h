@@ -1,0 +1,30 @@
+// Stages that read all cells at once.
+#pragma once
+
+#include "compile/prepared_source.h"
+
+namespace ombre::compile {
+
+class WholeSource final : public PreparedSource {
+ public:
+  WholeSource(LatticeFrame frame, std::shared_ptr<const design::WholeStage> stage, StageInput input,
+              std::shared_ptr<SharedStageWork> shared)
+      : PreparedSource(std::move(frame), std::move(input), std::move(shared)), stage_(std::move(stage)) {}
+
+  double kept_bytes() const override;
+
+ protected:
+  double least_bytes() const override;
+  void compute(const StageLoan& loan, const design::StageWork& work) const override;
+  void read_made(size_t channel, const CellIndex& first, std::span<float> values) const override;
+  Interval range_of_made(size_t channel, const IndexBox& cells) const override;
+
+ private:
+  double cell_count() const;
+  design::StageValues read_all(const StageLoan& loan, const design::StageWork& work) const;
+
+  std::shared_ptr<const design::WholeStage> stage_;
+  mutable design::StageValues made_;
+};
+
+}  // namespace ombre::compile
