@@ -173,7 +173,7 @@ void write_output(const FeaArguments& a, const std::string& path, const fea::Mod
   file.commit();
 }
 
-std::optional<compile::Plan> plan_bricks(const FeaArguments& a, const compile::LoadedPtr& loaded,
+std::optional<compile::Plan> plan_bricks(const FeaArguments& a, const compile::LoadedPtr& loaded, Session& session,
                                          Diagnostics& diagnostics) {
   JobArguments job;
   static_cast<DesignArguments&>(job) = a.design;
@@ -182,6 +182,7 @@ std::optional<compile::Plan> plan_bricks(const FeaArguments& a, const compile::L
   auto options = plan_options(job, diagnostics);
   if (!options) return std::nullopt;
   options->threads = a.threads;
+  options->stop = &session.stop;
   return compile::plan_slice(loaded, *options, diagnostics);
 }
 
@@ -204,7 +205,7 @@ std::optional<Case> make_case(const FeaArguments& a, Session& session, Diagnosti
   if (!study) return std::nullopt;
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
   if (!loaded) return std::nullopt;
-  const auto plan = plan_bricks(a, loaded, diagnostics);
+  const auto plan = plan_bricks(a, loaded, session, diagnostics);
   if (!plan) return std::nullopt;
   ProgressLine progress(session.console);
   auto model = compile::fea_model(loaded, *plan, *study, request_of(a), diagnostics, &progress, &session.stop);

@@ -154,7 +154,7 @@ struct Lattice {
     Field interior(const Inputs& in, size_t i, const Point& p) const override { return distance(in, i, p) < 0; }
     Field along(const Inputs&, size_t i, const Point& p) const override { return lattice_.segments_[i].along(p); }
     Composition composition(const Inputs& in, size_t, const Point& p, Demand) const override {
-      return Composition::pure(in.material(lattice_.material), p.constant(1));
+      return in.composition_of(lattice_.material, p);
     }
 
    private:
