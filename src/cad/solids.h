@@ -31,8 +31,8 @@ class Query {
   virtual ~Query() = default;
   virtual bool is_inside(Vec3 p) = 0;           // or on the surface
   virtual double surface_distance(Vec3 p) = 0;  // mm, not negative
-  // The side of the surface that a face is cut from, beyond the face's borders too. Quick, but only for planes, cylinders,
-  // cones, spheres and tori, and nothing where these are curved more tightly than `least_radius_mm`.
+  // The side of the surface that a face is cut from, beyond the face's borders too. Quick, but only for planes,
+  // cylinders, cones, spheres and tori, and nothing where these are curved more tightly than `least_radius_mm`.
   virtual std::optional<FaceSide> side_of_face(uint32_t face, Vec3 p, double least_radius_mm) = 0;
 };
 

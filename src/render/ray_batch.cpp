@@ -26,8 +26,7 @@ void RayBatch::compile(const program::Program& program, const std::vector<Interv
 void RayBatch::fill(const program::Read& read, const eval::RowsToFill& to) const {
   float* value = to.values;
   for (const Ray& ray : rays_)
-    for (size_t i = 0; i < width_; ++i)
-      *value++ = sources_->value(read.tag, fine(ray, i), ray.column, ray.row);
+    for (size_t i = 0; i < width_; ++i) *value++ = sources_->value(read.tag, fine(ray, i), ray.column, ray.row);
 }
 
 void RayBatch::evaluate(std::span<const Ray> rays, int64_t stride, size_t width, bool all_outputs) {
