@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <tuple>
 
 #include "compile/value_block.h"
 
@@ -20,7 +21,7 @@ class BlockCache {
   struct Key {
     uint64_t owner = 0;
     std::array<int64_t, 3> number{};
-    auto operator<=>(const Key&) const = default;
+    bool operator<(const Key& other) const { return std::tie(owner, number) < std::tie(other.owner, other.number); }
   };
 
   uint64_t new_owner();

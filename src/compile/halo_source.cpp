@@ -136,7 +136,7 @@ std::unique_ptr<CellReader> HaloSource::reader() const { return std::make_unique
 Interval HaloSource::range_of_cells(size_t channel, const IndexBox& cells) const {
   int64_t count = 0;
   each_number(cells, block_, [&](const CellIndex&) { ++count; });
-  const Interval declared = LatticeSource::range_of_cells(channel, cells);
+  const Interval declared = declared_range(channel);
   if (count > most_blocks_asked || declared.is_everything()) return declared;
   std::optional<Interval> range;
   each_number(cells, block_, [&](const CellIndex& number) {

@@ -142,7 +142,7 @@ program::SourceField JobStages::source(const design::StagePtr& stage, const Stag
   if (auto others = entry.source.lock()) return others;
   entry = {stage, made};
   if (auto prepared = std::dynamic_pointer_cast<const PreparedSource>(made))
-    prepared_.push_back(std::move(prepared));
+    prepared_.push_back(prepared);
   else
     kept_.push_back(made);
   return made;

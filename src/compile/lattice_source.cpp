@@ -151,9 +151,7 @@ std::unique_ptr<program::RowSampler> LatticeSource::rows(int channel, const Affi
 
 std::unique_ptr<CellReader> LatticeSource::reader() const { return std::make_unique<PlainReader>(*this); }
 
-Interval LatticeSource::range_of_cells(size_t channel, const IndexBox&) const {
-  return hull(frame_.channels[channel].range, 0);
-}
+Interval LatticeSource::declared_range(size_t channel) const { return hull(frame_.channels[channel].range, 0); }
 
 CellIndex LatticeSource::cell_of(Vec3 p) const {
   CellIndex cell;

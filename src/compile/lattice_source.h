@@ -53,7 +53,9 @@ class LatticeSource : public program::FieldSource {
   virtual void read_cells(size_t channel, const CellIndex& first, std::span<float> values) const = 0;
   virtual std::unique_ptr<CellReader> reader() const;
   // Encloses the values of cells that all lie there; what takes long to find is left out.
-  virtual Interval range_of_cells(size_t channel, const IndexBox& cells) const;
+  virtual Interval range_of_cells(size_t channel, const IndexBox& cells) const = 0;
+  // What the stage says of the channel, and 0.
+  Interval declared_range(size_t channel) const;
 
  protected:
   // May range() look at values? Not before they are computed.

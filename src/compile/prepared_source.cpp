@@ -49,7 +49,7 @@ void PreparedSource::read_cells(size_t channel, const CellIndex& first, std::spa
 }
 
 Interval PreparedSource::range_of_cells(size_t channel, const IndexBox& cells) const {
-  const Interval declared = LatticeSource::range_of_cells(channel, cells);
+  const Interval declared = declared_range(channel);
   if (!is_prepared_ || declared.is_everything()) return declared;
   return range_of_made(channel, cells);
 }

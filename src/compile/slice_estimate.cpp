@@ -67,7 +67,7 @@ class StagePace final : public Progress {
   std::optional<double> seconds() const { return seconds_; }
 
  private:
-  const Stopwatch watch_;
+  Stopwatch watch_;
   std::optional<double> seconds_;
 };
 

@@ -89,7 +89,7 @@ void SweepSource::read_made(size_t channel, const CellIndex& first, std::span<fl
 }
 
 Interval SweepSource::range_of_made(size_t channel, const IndexBox& cells) const {
-  return table_.range(channel, cells, LatticeSource::range_of_cells(channel, cells));
+  return table_.range(channel, cells, declared_range(channel));
 }
 
 }  // namespace ombre::compile

@@ -70,7 +70,7 @@ void WholeSource::read_made(size_t channel, const CellIndex& first, std::span<fl
 }
 
 Interval WholeSource::range_of_made(size_t channel, const IndexBox& cells) const {
-  if (cells.voxels() > most_cells_asked) return LatticeSource::range_of_cells(channel, cells);
+  if (cells.voxels() > most_cells_asked) return declared_range(channel);
   std::optional<Interval> range;
   for (int64_t k = cells.lo[2]; k < cells.hi[2]; ++k)
     for (int64_t j = cells.lo[1]; j < cells.hi[1]; ++j) {

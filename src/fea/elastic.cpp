@@ -153,7 +153,7 @@ Solution solve(const Model& model, const Conditions& conditions, const SolveOpti
 
 double solve_bytes(const Bricks& bricks) {
   // Of a node, 8 + 1/7 vectors of three doubles and the parents; of a brick, what it is made of, twice.
-  constexpr double of_node = 16 * 3 * sizeof(double) + 24, of_brick = 2 * (sizeof(Cell) + 32 + 8) + 100;
+  constexpr double of_node = 48.0 * sizeof(double) + 24, of_brick = 2.0 * (sizeof(Cell) + 32 + 8) + 100;
   constexpr double all_levels = 8.0 / 7;
   return all_levels *
          (of_node * static_cast<double>(bricks.node_count()) + of_brick * static_cast<double>(bricks.count()));

@@ -26,9 +26,9 @@ std::vector<std::string> deck_names(const std::vector<Section>& sections) {
       const auto byte = static_cast<unsigned char>(c);
       name += std::isalnum(byte) != 0 && byte < 128 ? static_cast<char>(std::toupper(byte)) : '_';
     }
-    if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0) name = "M_" + name;
+    if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0) name.insert(0, "M_");
     std::string unique = name;
-    for (size_t n = 2; !taken.insert(unique).second; ++n) unique = name + "_" + std::to_string(n);
+    for (size_t n = 2; !taken.insert(unique).second; ++n) unique = std::string(name).append("_" + std::to_string(n));
     names.push_back(unique);
   }
   return names;

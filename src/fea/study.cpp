@@ -45,7 +45,7 @@ class StudyReader {
     for (const auto& [name, value] : *data.members()) {
       if (std::ranges::find(known, name) != known.end()) continue;
       const std::string slip = did_you_mean(name, known);
-      diagnostics_.error(value.where, what + " has no \"" + name + "\"",
+      diagnostics_.error(value.where, std::string(what).append(" has no \"").append(name).append("\""),
                          slip.empty() ? "it has " + join(known, ", ") : slip);
       return false;
     }

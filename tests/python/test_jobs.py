@@ -108,6 +108,18 @@ def test_progress_of_each_job(job, unit, tmp_path, monkeypatch):
     assert bars[0].n == bars[0].total > 0
 
 
+def test_studies_may_be_dicts(tmp_path):
+    study = {"materials": {"red": {"modulus_mpa": 2850, "poissons_ratio": 0.39}},
+             "supports": [{"on": "xmin", "fix": "x"}, {"on": "ymin", "fix": "y"}, {"on": "zmin", "fix": "z"}],
+             "loads": [{"on": "zmax", "pressure_mpa": -100}]}
+    report = ombre.cube(10, "red").fea(tmp_path / "cube.vtu", study=study, cell=5, solve=True)
+    solution = next(e for e in report.events if e["event"] == "solution")
+    assert solution["greatest_displacement_mm"][2] == pytest.approx(1000 / 2850)  # Hooke's law
+    assert (tmp_path / "cube.vtu").read_bytes().startswith(b"<?xml")
+    with pytest.raises(ombre.DesignError, match="free to move"):
+        ombre.cube(10, "red").fea(study={**study, "supports": []}, cell=5, solve=True)
+
+
 def test_interrupts_stop_jobs(tmp_path):
     script = tmp_path / "long.py"
     script.write_text("import ombre, sys\n"

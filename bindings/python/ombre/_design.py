@@ -1,6 +1,7 @@
 """Designs: parts and materials, what can be asked of them, and jobs."""
 import dataclasses
 import html
+import json
 import os
 import pathlib
 import tempfile
@@ -221,7 +222,6 @@ class Design:
         if voxel is not None:
             options["voxel"] = ",".join(_voxel_texts(voxel))
         grids = what if what in ("materials", "distance") else "fractions"
-        import json
         with tempfile.TemporaryDirectory(prefix="ombre_") as folder:
             path = os.path.join(folder, "grid.npy")
             run("voxels", ["-o", path, *_grid_arguments(grids)], options, self._core, progress)
@@ -274,6 +274,19 @@ class Design:
     def contours(self, path, progress=None, **options):
         """Writes outlines of layers (.svg, .cli); see `ombre contours`."""
         return self._job("contours", path, progress, options)
+
+    def fea(self, path=None, progress=None, **options):
+        """Writes a finite-element model (.inp, .vtu), and solves it with `solve=True`; see `ombre fea`.
+
+        `study` is a path, or what such a file holds, as a dict.
+        """
+        study = options.get("study")
+        if not isinstance(study, dict):
+            return self._job("fea", path, progress, options)
+        with tempfile.TemporaryDirectory(prefix="ombre_") as folder:
+            file = pathlib.Path(folder) / "study.json"
+            file.write_text(json.dumps(study), encoding="utf-8")
+            return self._job("fea", path, progress, {**options, "study": file})
 
     def write_voxels(self, path, progress=None, **options):
         """Writes a grid (.vdb, .nvdb, .npy, .nrrd, .raw); see `ombre voxels`."""
@@ -378,14 +391,13 @@ def source_memory(limit=None):
 
 
 def _definition(value):
-    import json
     return value if isinstance(value, str) else json.dumps(value)
 
 
 def _document_jobs():
     """Adds the commands' options to the jobs' texts."""
     for method, command in (("slice", "slice"), ("layer", "layer"), ("mesh", "mesh"), ("contours", "contours"),
-                            ("write_voxels", "voxels"), ("render", "render")):
+                            ("fea", "fea"), ("write_voxels", "voxels"), ("render", "render")):
         function = getattr(Design, method)
         lines = [f"    {name}: {option['help']}" for name, option in keywords_of(command).items()]
         function.__doc__ = textwrap.dedent(function.__doc__) + "\n\nOptions:\n" + "\n".join(lines)

@@ -140,6 +140,7 @@ def _jobs():
     yield _job("layer", "layer", "path: Path", "dict[str, Any]", progress=False)
     yield _job("mesh", "mesh", "path: Path", "dict[str, Any]")
     yield _job("contours", "contours", "path: Path", "dict[str, Any]")
+    yield _job("fea", "fea", "path: Optional[Path] = ...", "dict[str, Any]")
     yield _job("write_voxels", "voxels", "path: Path", "dict[str, Any]")
     yield _job("render", "render", "path: Optional[Path] = ...", "Any", progress=False)
     words = "".join(f", {o}: Option = ..." for o in keywords_of("voxels") if o not in ("voxel", "what"))
