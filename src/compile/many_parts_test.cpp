@@ -137,10 +137,10 @@ TEST(ManyParts, MayHaveValues) {
   const std::string part =
       " sphere(0.4 + 0.3*noise(size=0.8), mix(\"red\", mix(\"blue\", \"cyan\", 0.5), noise(size=1.1, seed=3)));";
   std::vector<std::string> parts;
-  for (int n = 0; n < 60; ++n)
-    parts.push_back("translate(rands(-3, 3, 3, " + std::to_string(n) + ")) rotate(0, 0, " + std::to_string(7 * n) +
+  for (int n = 0; n < 36; ++n)
+    parts.push_back("translate(rands(-2, 2, 3, " + std::to_string(n) + ")) rotate(0, 0, " + std::to_string(7 * n) +
                     ")" + part);
-  EXPECT_EQ(tables_of(flat(parts)), std::vector<size_t>{60});
+  EXPECT_EQ(tables_of(flat(parts)), std::vector<size_t>{36});
   expect_one_result(flat(parts));
   expect_one_result(flat(parts, "blend=0.2"));
 }

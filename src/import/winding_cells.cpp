@@ -10,7 +10,8 @@ namespace {
 
 constexpr double least_boxes = 1 << 20, most_boxes = 1 << 22, boxes_of_triangle = 2, most_along = 1024;
 constexpr double most_marks = 1 << 26;  // of boxes, by triangles that reach far; boxes are larger then
-constexpr int most_boxes_of_ray = 100;
+// What a ray may look at before another way is quicker.
+constexpr int64_t most_boxes_of_ray = 100, most_triangles_of_ray = 500;
 constexpr int8_t unknown = std::numeric_limits<int8_t>::min();
 // What boxes are taken larger by: of themselves, and of coordinates, far more than those are rounded by.
 constexpr double slack_of_size = 1e-6, slack_of_coordinates = 1e-12;
@@ -63,10 +64,12 @@ std::optional<int64_t> WindingCells::at(Vec3 p) const {
   const int64_t first = along(0, p.x);
   const size_t row = number({0, along(1, p.y), along(2, p.z)});
   const int64_t last = std::max<int64_t>(first - most_boxes_of_ray, -1);
-  int64_t sum = 0;
+  int64_t sum = 0, triangles = 0;
   for (int64_t i = first; i > last; --i) {
     const size_t box = row + static_cast<size_t>(i);
     if (windings_[box] != unknown) return sum + windings_[box];
+    triangles += begins_[box + 1] - begins_[box];
+    if (triangles > most_triangles_of_ray) return std::nullopt;
     for (uint32_t n = begins_[box]; n < begins_[box + 1]; ++n) {
       const auto crossing = winding_.crossing(triangles_[n], p);
       if (crossing.way != 0 && along(0, crossing.x) == i) sum += crossing.way;
