@@ -17,7 +17,7 @@ namespace ombre::compile {
 // Thread-safe.
 class BlockCache {
  public:
-  // Whose block it is, and which.
+  // A block is known by the source that it belongs to and its number there.
   struct Key {
     uint64_t owner = 0;
     std::array<int64_t, 3> number{};

@@ -1,4 +1,4 @@
-// What the nodes of a design may request.
+// The loader that answers requests of a design's nodes.
 #pragma once
 
 #include "compile/support_stage.h"

@@ -1,4 +1,3 @@
-// From a design to a finite-element model of bricks, and what a solved one says.
 #include "compile/fea_job.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// From a design to a finite-element model of bricks, and what a solved one says.
+// Makes finite-element models of designs, and fields of models and solutions.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,7 @@ std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const Plan& plan, c
 
 // The fields of bricks: those of the model, its modulus, and with a solution stress, von Mises' stress and strain.
 std::vector<fea::ValueField> fea_brick_fields(const fea::Model& model, const fea::Solution* solution);
-// Of nodes: displacements.
+// The displacements of nodes; none without a solution.
 std::vector<fea::ValueField> fea_node_fields(const fea::Solution* solution);
 
 }  // namespace ombre::compile

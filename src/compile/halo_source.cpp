@@ -12,10 +12,11 @@ using design::StageValues;
 
 // A slice job goes through slabs of 8 layers in strips of 64 rows, and needs each such block once.
 constexpr std::array<int64_t, 3> least_block{64, 64, 8}, greatest_block{512, 512, 64};
-// Of so many blocks values are looked at, and of so many their ranges; the others need not be made.
+// A range over more blocks than these is taken from their own ranges, or from what the stage declares, so that blocks
+// need not be computed for it.
 constexpr int64_t most_blocks_read = 4, most_blocks_asked = 64;
 
-// So large that the cells around a block are not many more than its own.
+// Blocks are so large that the cells around one are not many more than its own.
 std::array<int64_t, 3> block_size(const design::HaloStage::Reach& reach) {
   std::array<int64_t, 3> block = least_block;
   for (size_t axis = 0; axis < 3; ++axis)
@@ -72,7 +73,7 @@ double bytes_of_halo_block(const design::HaloStage& stage, size_t channels_read,
     made *= static_cast<double>(block[axis]);
     read *= static_cast<double>(block[axis] + reach.below[axis] + reach.above[axis]);
   }
-  // With room for what a stage adds up on its way.
+  // The factor leaves room for the sums that a stage makes on its way.
   return 3 * sizeof(float) * (made * static_cast<double>(channels_made) + read * static_cast<double>(channels_read));
 }
 
@@ -152,7 +153,7 @@ ValueBlockPtr HaloSource::block_with(const CellIndex& cell) const {
   return shared_->blocks.get({own_blocks_, number}, [&] { return compute(block_at(number, block_)); });
 }
 
-// Where all that is read is the same, one cell tells of all.
+// If all cells that a block reads have the same values, one cell is computed for all.
 ValueBlock HaloSource::compute(const IndexBox& box) const {
   const Around around = around_cells(box);
   if (around.values) return ValueBlock(made_of(*around.values, box));

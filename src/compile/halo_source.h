@@ -19,7 +19,7 @@ class HaloSource final : public LatticeSource {
   Interval range_of_cells(size_t channel, const IndexBox& cells) const override;
 
  protected:
-  // What a job plans does not depend on values.
+  // Ranges do not depend on values while the job is planned.
   bool has_values() const override { return shared_->is_under_way; }
 
  private:
@@ -27,7 +27,7 @@ class HaloSource final : public LatticeSource {
   ValueBlockPtr block_with(const CellIndex& cell) const;
   ValueBlock compute(const IndexBox& box) const;
   design::StageValues made_of(const design::StageValues& read, const IndexBox& box) const;
-  // What is read for the cells of a box.
+  // The cells that those of a box read, with their values.
   struct Around {
     std::optional<design::StageValues> values;
     std::vector<float> same;  // where there are no values: of each channel, which is the same everywhere

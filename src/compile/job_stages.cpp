@@ -17,7 +17,7 @@ namespace {
 using design::StageLattice;
 using design::StagePlace;
 
-// Where nobody says how large cells are: a two-hundredth of the longest side.
+// The size of cells that nobody states is a two-hundredth of the longest side.
 constexpr double cells_of_longest_side = 200;
 constexpr int64_t most_sweep_cells = 1'000'000, most_sweep_columns = int64_t{1} << 26;
 constexpr double halo_share = 0.5;  // of a job's memory that blocks may take
@@ -91,7 +91,7 @@ void grow(LatticeFrame& frame, const design::HaloStage::Reach& reach) {
   }
 }
 
-// What is in the solids' own space, in which the stage's lattice is the job's.
+// An empty design for a stage's solids: in their space the stage's lattice is that of the job.
 design::Design design_for(const StagePlace& place, const voxel::Lattice& lattice,
                           const std::shared_ptr<design::StageHost>& stages) {
   design::Design design;
@@ -182,7 +182,7 @@ void JobStages::lend(const StageLoan& loan) {
   shared_->blocks.set_limit(static_cast<size_t>(block_bytes(loan)));
 }
 
-// With less than a few blocks for each thread, all would be computed many times.
+// Each thread gets a few blocks at least; with fewer, blocks would be computed many times.
 double JobStages::block_bytes(const StageLoan& loan) const {
   constexpr double least_blocks = 4;
   const double threads = loan.threads > 0 ? loan.threads : core_count();

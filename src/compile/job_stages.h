@@ -22,7 +22,7 @@ class JobStages final : public design::StageHost {
 
   program::SourceField source(const design::StagePtr& stage, const design::StagePlace& place) override;
 
-  // What stages that are computed when something asks for them get from now on.
+  // Sets the threads, memory and stop flag that halo stages use from now on.
   void lend(const StageLoan& loan);
   // Throws Error when a stage needs more memory than the job may take.
   void check_memory(const StageLoan& loan) const;
@@ -30,7 +30,7 @@ class JobStages final : public design::StageHost {
   // nothing where it is done. Throws Error when memory does not suffice, and Cancelled.
   void prepare(const StageLoan& loan);
   bool is_prepared() const;
-  // From now on, what is not prepared is 0 everywhere. For estimates.
+  // Makes stages that are not prepared 0 everywhere, for estimates.
   void leave_out_unprepared();
   // The most that stages hold while the job goes through its layers on so many threads.
   size_t memory_bytes(const StageLoan& loan) const;
@@ -52,7 +52,8 @@ class JobStages final : public design::StageHost {
   std::shared_ptr<SharedStageWork> shared_;
   mutable std::mutex mutex_;
   std::map<Key, Made> sources_;
-  // What is computed as a whole; those that others read come first. A job may ask for one and not need it.
+  // The stages that are computed as a whole; one that another reads comes before it. A job may ask for one and not need
+  // it.
   std::vector<std::weak_ptr<const PreparedSource>> prepared_;
   std::vector<program::SourceField> kept_;  // whose values are worth keeping
   double halo_bytes_ = 0;                   // of one thread that computes a block

@@ -24,7 +24,7 @@ double distance_to(const Box& box, Vec3 p) {
 // The cells of a source under the voxels of a job.
 class CellRows final : public program::ValueSampler {
  public:
-  // Beyond `cells` all values are 0.
+  // Values beyond `cells` are 0.
   CellRows(const LatticeSource& source, size_t channel, const CellIndex& shift, const IndexBox& cells)
       : source_(source), channel_(channel), shift_(shift), cells_(cells) {}
 
@@ -56,7 +56,7 @@ class CellRows final : public program::ValueSampler {
   IndexBox cells_;
 };
 
-// For all cells, one by one.
+// Reads cells one by one.
 class PlainReader final : public CellReader {
  public:
   explicit PlainReader(const LatticeSource& source) : source_(source) {}
@@ -244,7 +244,7 @@ Interval LatticeSource::range_between_centres(size_t channel, const Box& box) co
 
 double LatticeSource::distance(Vec3 p) const { return std::max(distance_to(frame_.box, p), distance_to_cells(p)); }
 
-// To the nearest cell of the other kind, as far as a neighbour reaches.
+// The distance to the nearest cell of the other kind, looked for among the neighbours.
 double LatticeSource::distance_to_cells(Vec3 p) const {
   const CellIndex own = cell_of(p);
   const bool is_inside = holds(own);

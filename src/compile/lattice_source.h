@@ -13,7 +13,7 @@ namespace ombre::compile {
 
 using CellIndex = std::array<int64_t, 3>;
 
-// What such a source is, apart from its values.
+// Describes a source on a lattice, apart from its values.
 struct LatticeFrame {
   design::StagePtr stage;
   voxel::Lattice lattice;  // its count does not matter
@@ -54,7 +54,7 @@ class LatticeSource : public program::FieldSource {
   virtual std::unique_ptr<CellReader> reader() const;
   // Encloses the values of cells that all lie there; what takes long to find is left out.
   virtual Interval range_of_cells(size_t channel, const IndexBox& cells) const = 0;
-  // What the stage says of the channel, and 0.
+  // The range that the stage declares for the channel, with 0.
   Interval declared_range(size_t channel) const;
 
  protected:

@@ -11,7 +11,7 @@
 
 namespace ombre::compile {
 
-// Where nobody prepares it, it prepares itself at its first value.
+// A source that no job prepares does so itself when its first value is read.
 class PreparedSource : public LatticeSource {
  public:
   PreparedSource(LatticeFrame frame, StageInput input, std::shared_ptr<SharedStageWork> shared)
@@ -23,7 +23,7 @@ class PreparedSource : public LatticeSource {
   // The same, and Cancelled.
   void prepare(const StageLoan& loan) const;
   virtual double kept_bytes() const = 0;  // of its values; before it is prepared, at least
-  // From now on all values that are not prepared are 0.
+  // Makes all values 0 that are not prepared.
   void leave_out() const { is_left_out_ = true; }
 
   void read_cells(size_t channel, const CellIndex& first, std::span<float> values) const final;

@@ -51,7 +51,7 @@ class Question {
   const std::vector<design::AttributeDeclaration>& attributes() const { return context_.attributes(); }
   // Null when no node declares it.
   const design::AttributeDeclaration* declaration(std::string_view name) const { return lowering_.declaration(name); }
-  // Of the design's job, or of this question alone.
+  // The stages of the design's job, or those of this question alone.
   const JobStagesPtr& stages() const { return stages_; }
   // What a composition's check of this number tells of.
   const design::Check& check(uint32_t number) const { return context_.checks()[number]; }

@@ -56,7 +56,7 @@ class SampledChecks {
   std::map<int64_t, std::vector<voxel::CheckHits>> layers_;
 };
 
-// Of stages that take longer than there is time for.
+// Follows the progress of stages that take longer than an estimate may.
 class StagePace final : public Progress {
  public:
   void update(const HowFar&) override {}

@@ -23,7 +23,7 @@ struct WorkSize {
 // layer at a time.
 WorkSize size_work(const SliceRequest& request, const SliceOptions& options);
 
-// What the job's stages get.
+// The threads, memory, progress and stop flag that a slice job lends to its stages.
 StageLoan stage_loan(const SliceOptions& options, Progress* progress, const StopFlag* stop);
 // The options with the memory that stages leave to layers.
 SliceOptions without_stages_memory(const SliceOptions& options);

@@ -1,4 +1,4 @@
-// What a stage reads of its solids on its lattice.
+// Evaluates the fields that a stage reads, on its lattice.
 #pragma once
 
 #include <memory>

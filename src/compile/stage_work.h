@@ -1,4 +1,4 @@
-// What all stages of a job share.
+// The state that all stages of a job share.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,7 @@
 
 namespace ombre::compile {
 
-// What a job lends to its stages.
+// The threads, memory, progress and stop flag that a job lends to its stages.
 struct StageLoan {
   int threads = 0;                        // 0: all cores
   size_t memory_bytes = size_t{2} << 30;  // of the whole job

@@ -1,4 +1,4 @@
-// What stands under a solid while it is printed, found from the top down.
+// The stage that finds, from the top down, what must stand under a solid while it is printed.
 #pragma once
 
 #include "design/source_loader.h"

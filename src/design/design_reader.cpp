@@ -205,7 +205,7 @@ class DesignReader {
     return true;
   }
 
-  // With the nodes in the place of their ids.
+  // Replaces ids by their nodes.
   Data with_nodes(const Data& data) const {
     if (const DataList* list = data.list()) {
       DataList result;

@@ -55,7 +55,7 @@ class LoweringContext {
   friend class Lowering;
   struct Body;
   Body& body_of(const Node& node);
-  // How the job sees a node's space.
+  // A node's space as the job sees it.
   struct View {
     double scale = 1;            // a length there for one of the root's; where there are several ways, the least
     std::optional<Vec3> offset;  // a point there less the same point of the root, if they differ by whole voxels only

@@ -86,11 +86,11 @@ class Inputs {
   std::vector<Field> interiors(const Point& p) const;
 
   MaterialId material(const MaterialName& name) const;  // which is no mixture
-  // Of a material alone, or the mixture at the point.
+  // The composition of a material alone, or of the mixture at the point.
   Composition composition_of(const MaterialName& name, const Point& p) const;
   // How fine the job is in this node's space, if it is known.
   std::optional<JobScale> scale() const;
-  // What a stage of this node computes, as a source.
+  // The source that gives what a stage of this node computes.
   program::SourceField staged(const std::shared_ptr<const Stage>& stage) const;
   // Told once for each job that lowers the node.
   void tell(Severity severity, const std::string& message, const std::string& hint) const;

@@ -246,7 +246,7 @@ Data write_mixture(const Node& node) {
 
 namespace {
 
-// With other data in the place of each NodeObject.
+// Replaces each NodeObject by other data.
 template <class Other>
 Data replaced(const Data& data, const Other& other) {
   if (const NodeObject* object = node_object(data)) return other(*object);

@@ -102,7 +102,7 @@ class FormulaObject final : public HostObject {
 // Is the data one of these two, or an object such as {"from": ..., "output": "value"}?
 bool is_value(const Data& data);
 bool is_mixture(const Data& data);  // of materials
-// Of data that is a value. Nothing, and a diagnostic, when it gives no number.
+// Reads data that is a value. Nothing, and a diagnostic, when it gives no number.
 std::optional<expr::Expression> read_formula(const Data& data, const Domain& domain, const Reader& reader);
 // The same for mixtures; null, and a diagnostic, when it gives none.
 NodePtr read_mixture(const Data& data, const Reader& reader);
@@ -113,7 +113,7 @@ Data write_formula(const expr::Expression& expression);
 Data write_mixture(const Node& node);  // its NodeObject does not hold the node
 // Data of a parameter, of which all NodeObjects hold their nodes, which are among `nodes`.
 Data with_held_nodes(const Data& data, std::span<const NodePtr> nodes);
-// With the text that `name` gives in the place of each NodeObject.
+// Replaces each NodeObject by the text that `name` gives.
 Data with_names(const Data& data, const std::function<std::string(const Node&)>& name);
 
 }  // namespace ombre::design

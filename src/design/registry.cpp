@@ -108,7 +108,7 @@ NodePtr nothing_of(const NodeType& type, std::vector<NodePtr>& inputs) {
 // The nodes of values, with the numbers of the parameters that hold them.
 using UsedValues = std::vector<std::pair<size_t, NodePtr>>;
 
-// By parameters, in whatever order these were given.
+// Sorts by parameters, in whatever order these were given.
 std::vector<NodePtr> each_once(UsedValues used) {
   std::ranges::stable_sort(used, {}, [](const auto& value) { return value.first; });
   std::vector<NodePtr> nodes;

@@ -60,7 +60,7 @@ class NodeType {
   bool is_nothing = false;            // its nodes are solids without a point
   const NodeType* nothing = nullptr;  // the type of its registry that is nothing; null: there is none
 
-  // Else its nodes give values.
+  // Nodes that are no solids give values.
   bool is_solid() const { return outputs.empty(); }
   // The place of the output that is a mixture, or one beyond the last.
   size_t mixture_output() const;

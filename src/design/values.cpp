@@ -118,7 +118,7 @@ void warn_of_two_meanings(const std::string& name, const SourceRange& where, con
        "give the script's variable another name if you mean that one"});
 }
 
-// With the script's numbers and values in the place of variables that formulas do not have themselves.
+// Replaces variables that formulas do not have themselves by the script's numbers and values.
 std::optional<expr::Expression> with_named_values(const expr::Expression& expression, const Data& data,
                                                   const std::vector<std::string>& known, const Domain& domain,
                                                   const Reader& reader) {

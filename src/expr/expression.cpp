@@ -266,7 +266,7 @@ std::optional<Expression> Expression::parse(const std::string& text, const Sourc
 Expression Expression::constant(double value) {
   auto node = std::make_shared<Node>();
   node->number = std::abs(value);
-  // As it is read: a sign before a number.
+  // Prints a sign before a number, as it is read.
   if (std::signbit(value)) node = make_node(Kind::negate, {node});
   return {std::move(node), format_number(value)};
 }

@@ -85,20 +85,20 @@ class Expression {
   // functions apart, but cannot be parsed.
   static Expression of_source(const program::SourceField& source);
   static Expression of_input(InputPtr input);
-  // Of smaller ones. The function must exist and take so many arguments.
+  // Makes an expression of smaller ones. The function must exist and take so many arguments.
   static Expression negate(const Expression& a);
   static Expression logical_not(const Expression& a);
   static Expression binary(Binary binary, const Expression& a, const Expression& b);
   static Expression call(const std::string& function, const std::vector<Expression>& arguments);
   static Expression conditional(const Expression& condition, const Expression& yes, const Expression& no);
-  // With other expressions in the place of some variables. `other` gets the variable's name and the bytes of its text.
+  // Replaces some variables by other expressions. `other` gets the variable's name and the bytes of its text.
   using Substitutes = std::function<std::optional<Expression>(const Node& variable)>;
   Expression with_substitutes(const Substitutes& other) const;
 
   // Every variable must be among `known`; `text` and `where` as it was parsed.
   bool check_variables(const std::vector<std::string>& known, const std::string& text, const SourceRange& where,
                        Diagnostics& diagnostics) const;
-  // Where a variable stands; `text` and `where` as it was parsed.
+  // The place of a variable; `text` and `where` as it was parsed.
   static SourceRange place(const Node& variable, const std::string& text, const SourceRange& where);
   bool uses(std::string_view variable) const;
   const program::SourceField& source() const { return root().source; }  // null: it is a formula

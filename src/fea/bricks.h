@@ -39,11 +39,12 @@ struct Bricks {
   }
 };
 
-// Where a brick's corner n lies in it: 0 or 1 along each axis.
+// The place of a brick's corner n in it: 0 or 1 along each axis.
 inline constexpr std::array<Cell, 8> brick_corners{
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
-// Of cells in ascending order of z, then y, then x. Nodes are numbered in the same order, and none is there twice.
+// The cells come in ascending order of z, then y, then x. Nodes are numbered in the same order, and none is there
+// twice.
 Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells);
 
 // One of a brick's six faces that no other brick touches.
@@ -52,12 +53,12 @@ struct OuterFace {
   uint8_t axis = 0;       // that it is perpendicular to
   bool is_upper = false;  // at the greater coordinate
 };
-// In the order of bricks, then axes, the lower one first.
+// The faces come in the order of bricks, then axes, the lower one first.
 std::vector<OuterFace> outer_faces(const Bricks& bricks);
 std::array<uint32_t, 4> face_nodes(const Bricks& bricks, const OuterFace& face);
 double face_area_mm2(const Bricks& bricks, const OuterFace& face);
 
-// For each brick the number of its piece, from 0: bricks that share a node belong together.
+// The number of the piece of each brick, from 0: bricks that share a node belong together.
 std::vector<uint32_t> pieces_of(const Bricks& bricks);
 
 }  // namespace ombre::fea

@@ -152,7 +152,8 @@ Solution solve(const Model& model, const Conditions& conditions, const SolveOpti
 }
 
 double solve_bytes(const Bricks& bricks) {
-  // Of a node, 8 + 1/7 vectors of three doubles and the parents; of a brick, what it is made of, twice.
+  // A node takes about sixteen vectors of three doubles and its place in a coarse brick; a brick takes its place, nodes
+  // and moduli twice. Coarser levels have a seventh of it.
   constexpr double of_node = 48.0 * sizeof(double) + 24, of_brick = 2.0 * (sizeof(Cell) + 32 + 8) + 100;
   constexpr double all_levels = 8.0 / 7;
   return all_levels *

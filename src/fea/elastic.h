@@ -34,7 +34,7 @@ double von_mises(const std::array<double, 6>& stress);
 Solution solve(const Model& model, const Conditions& conditions, const SolveOptions& options,
                Progress* progress = nullptr, const StopFlag* stop = nullptr);
 
-// What solve() takes.
+// The memory that solve() takes, about.
 double solve_bytes(const Bricks& bricks);
 
 }  // namespace ombre::fea

@@ -1,4 +1,4 @@
-// What a finite-element job solves: bricks, what they are made of, and what holds and pulls them.
+// The model of a finite-element job: bricks, their materials, and what holds and pulls them.
 //
 // Units: mm, N, MPa; densities in tonne/mm3, so that mm/s2 times tonne is N.
 #pragma once
@@ -39,14 +39,14 @@ struct Model {
   const Elastic& elastic(size_t brick) const { return sections[section_of[brick]].elastic; }
 };
 
-// At a node along an axis.
+// A value that is prescribed at a node along an axis.
 struct Prescribed {
   uint32_t node = 0;
   uint8_t axis = 0;
   double value = 0;  // displacement, mm; or force, N
 };
 
-// In ascending order of nodes, then axes; none is there twice.
+// Both lists are in ascending order of nodes, then axes, and name no place twice.
 struct Conditions {
   std::vector<Prescribed> displacements, forces;
 };

@@ -1,4 +1,4 @@
-// Where text and bytes of a file go, piece by piece.
+// A function that takes the bytes of a file, piece by piece.
 #pragma once
 
 #include <functional>

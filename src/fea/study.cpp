@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<const char*, 6> side_names{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
 constexpr double tonne_mm3_of_kg_m3 = 1e-12;
-// How far outside of a box a node still counts as in it, of a brick.
+// A node counts as inside of a box if it lies no farther out than this share of a brick.
 constexpr double slack_of_brick = 1e-6;
 
 const char* const selection_help = "write \"zmin\" or another side, or {\"box\": [x0, y0, z0, x1, y1, z1]} in mm";
@@ -173,7 +173,7 @@ class StudyReader {
   Diagnostics& diagnostics_;
 };
 
-// Which nodes a selection holds; a diagnostic when there are none.
+// Finds the nodes of a selection; a diagnostic when there are none.
 class Selector {
  public:
   Selector(const Bricks& bricks, Diagnostics& diagnostics) : bricks_(bricks), diagnostics_(diagnostics) {

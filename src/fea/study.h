@@ -13,7 +13,7 @@
 
 namespace ombre::fea {
 
-// Which of a mesh's nodes are meant: those on one side of its bounding box, or those within a box.
+// Chooses nodes of a mesh: those on one side of its bounding box, or those within a box.
 struct Selection {
   std::optional<std::pair<int, bool>> side;  // axis, and whether the upper one
   Box box;                                   // mm, where there is no side

@@ -15,7 +15,7 @@ inline Bricks block(Cell count, Vec3 size_mm, Vec3 origin = {}) {
   return make_bricks(origin, size_mm, std::move(cells));
 }
 
-// Of one material.
+// A model of one material.
 inline Model model_of(Bricks bricks, Elastic elastic) {
   Model model{std::move(bricks), {{"one", elastic}}, {}, {}};
   model.section_of.assign(model.bricks.count(), 0);

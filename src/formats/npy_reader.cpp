@@ -29,7 +29,7 @@ std::string_view header_text(const std::string& path, std::string_view bytes, si
   return bytes.substr(begin, length);
 }
 
-// What stands behind 'key':, without the blanks before it.
+// The text behind 'key':, without the blanks before it.
 std::string_view member(const std::string& path, std::string_view text, const std::string& key) {
   const size_t at = text.find("'" + key + "'");
   const size_t colon = at == std::string_view::npos ? at : text.find(':', at);
@@ -82,7 +82,7 @@ std::string type_called(const std::string& path, const std::string& type) {
                         "16 or 32 bits");
 }
 
-// From z fastest to x fastest.
+// Reorders numbers from z fastest to x fastest.
 void turn_axes(VoxelVolume& volume) {
   std::visit(
       [&](auto& list) {

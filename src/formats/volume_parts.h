@@ -1,4 +1,4 @@
-// What the readers of grids share.
+// Parts that the readers of grids share.
 #pragma once
 
 #include "base/error.h"
@@ -32,7 +32,7 @@ std::string nrrd_data_path(const std::string& path, std::string_view bytes);
 VoxelVolume read_npy(const std::string& path, std::string_view bytes, const std::string* description);
 VoxelVolume read_raw(const std::string& path, std::string_view bytes, const std::string& description);
 
-// What a description says; members that it leaves out are empty.
+// The contents of a description; members that it leaves out are empty.
 struct VolumeDescription {
   std::string type;
   std::optional<std::array<int64_t, 3>> count;
@@ -43,7 +43,7 @@ struct VolumeDescription {
 };
 VolumeDescription read_description(const std::string& path, const std::string& json);
 
-// Of NRRD's "space" or its short form, in small letters; nothing for what is no space of three dimensions.
+// Reads NRRD's "space" or its short form, in small letters; nothing for what is no space of three dimensions.
 std::optional<VolumeSpace> space_called(const std::string& name);
 
 }  // namespace ombre::formats

@@ -17,7 +17,7 @@ struct VolumeSource {
   size_t bytes = 0;
 };
 
-// In the space of voxel indices: voxel (i, j, k) has its centre there. Channels:
+// The source's space is that of voxel indices: voxel (i, j, k) has its centre there. Channels:
 //   "value"    between centres by trilinear interpolation
 //   "nearest"  that of the nearest voxel; half way between two, of the one with the greater index
 // Beyond the grid they are what they are at its side. On lattices whose points are centres the rows are copies.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double least_boxes = 1 << 20, most_boxes = 1 << 22, boxes_of_triangle = 2, most_along = 1024;
 constexpr double most_marks = 1 << 26;  // of boxes, by triangles that reach far; boxes are larger then
-// What a ray may look at before another way is quicker.
+// Beyond these numbers a ray is slower than PointWinding.
 constexpr int64_t most_boxes_of_ray = 100, most_triangles_of_ray = 500;
 constexpr int8_t unknown = std::numeric_limits<int8_t>::min();
 // What boxes are taken larger by: of themselves, and of coordinates, far more than those are rounded by.

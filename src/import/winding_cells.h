@@ -19,7 +19,8 @@ class WindingCells {
   // `winding` is asked in the middles of a few boxes, and about triangles. It must live as long.
   explicit WindingCells(const PointWinding& winding);
 
-  // What `winding` says. None beyond the mesh, and where many triangles or boxes with triangles lie in a row.
+  // The same number as `winding` gives. None beyond the mesh, and where many triangles or boxes with triangles lie in a
+  // row.
   std::optional<int64_t> at(Vec3 p) const;
 
  private:

@@ -43,7 +43,7 @@ Value Interpreter::eval_tail(const Expr& start, const ScopePtr& outer) {
   }
 }
 
-// What to evaluate, or null and the value that is chosen at each point.
+// The expression to evaluate, or null and the value that is chosen at each point.
 const Expr* Interpreter::choose(const ast::Conditional& conditional, const ScopePtr& scope, Value& chosen) {
   for (size_t n = 0; n < conditional.branches.size(); ++n) {
     const auto& [condition, value] = conditional.branches[n];
@@ -168,7 +168,7 @@ Value Interpreter::call_builtin(const Builtin& builtin, const ast::Call& call, c
   }
 }
 
-// Of arguments that are numbers and objects, or one list of them.
+// Takes numbers and objects as arguments, or one list of them.
 std::optional<Value> Interpreter::result_of_objects(std::string_view function, const std::vector<Value>& arguments) {
   const List* list = arguments.size() == 1 ? arguments[0].list() : nullptr;
   const std::span<const Value> operands = list ? std::span(list->items) : std::span(arguments);

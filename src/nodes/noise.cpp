@@ -20,7 +20,7 @@ constexpr double noise_period = 289;  // cells
 // The greatest sum that twelve gradients can make: near (0.355, 0.481, 0.5) of a cell, when each corner has its best.
 constexpr double noise_peak = 1.0363538112118031;
 
-// For whole numbers from 0 to 2^24, exact also in single precision.
+// Exact for whole numbers from 0 to 2^24, also in single precision.
 Field remainder(Field v, double divisor) { return v - v.builder->apply(Op::floor, v / divisor) * divisor; }
 
 // Also of -v, which is the same class of remainders.

@@ -26,19 +26,19 @@ struct Span {
 class RowSampler {
  public:
   virtual ~RowSampler() = default;
-  // Of channels that are 1 or 0: rows[j - j_begin] gets the spans of row j of layer k that lie in [0, width) and are 1:
-  // sorted, disjoint, not empty.
+  // For channels that are 1 or 0, rows[j - j_begin] gets the spans of row j of layer k that lie in [0, width) and are
+  // 1: sorted, disjoint, not empty.
   virtual void layer(int64_t k, int64_t j_begin, int64_t j_end, int64_t width,
                      std::vector<std::vector<Span>>& rows) const = 0;
   // Other channels have values in place of spans; the two methods below are theirs alone.
   virtual bool has_values() const { return false; }
-  // Of the voxels from (i, j, k) on, along x.
+  // Gives the values of the voxels from (i, j, k) on, along x.
   virtual void values(int64_t /*i*/, int64_t /*j*/, int64_t /*k*/, std::span<float> /*values*/) const {}
   // Encloses the values in a box.
   virtual Interval range(const IndexBox&) const { return Interval::everything(); }
 };
 
-// For channels with values.
+// A sampler of a channel with values.
 class ValueSampler : public RowSampler {
  public:
   void layer(int64_t, int64_t, int64_t, int64_t, std::vector<std::vector<Span>>&) const final {}
@@ -76,9 +76,9 @@ class FieldSource : public HostObject {
     for (size_t c = 0; c < channels.size(); ++c) sample_all(channels[c], points, {values[c], points.size()});
   }
   virtual Interval range(int, const Box&) const { return Interval::everything(); }
-  // For a channel that is 1 inside and 0 outside exact row spans, for others values where they need no rounding, under
-  // an affine map from index coordinates (voxel (i, j, k) has its centre at index (i, j, k)) to the source's space.
-  // Null if the source cannot.
+  // Gives exact row spans of a channel that is 1 inside and 0 outside, and values of others where they need no
+  // rounding, under an affine map from index coordinates (voxel (i, j, k) has its centre at index (i, j, k)) to the
+  // source's space. Null if the source cannot.
   virtual std::unique_ptr<RowSampler> rows(int, const Affine& /*source_from_index*/) const { return nullptr; }
   // The same for rays; nothing is said of what lies within a two-hundredth of the way from the eye to the picture
   // plane.

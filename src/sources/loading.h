@@ -1,4 +1,4 @@
-// What a kind of source works with while it loads what was requested.
+// Tools with which each kind of source loads what was requested.
 #pragma once
 
 #include <functional>
@@ -60,7 +60,7 @@ class Loading {
   bool find(design::FilePath& file);
   // False, and a diagnostic, when it cannot be read. Notes its content.
   bool look_at(design::FilePath& file);
-  // Of a file that was looked at. Throws Error.
+  // The bytes of a file that was looked at. Throws Error.
   std::shared_ptr<const std::string> bytes(const design::FilePath& file);
 
   // What is made for a key, and the memory that it takes; null, and diagnostics, where that fails.

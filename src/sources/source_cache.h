@@ -1,4 +1,4 @@
-// What designs have loaded, kept for those that load it again.
+// A cache of sources, for designs that load the same again.
 #pragma once
 
 #include <list>
@@ -13,7 +13,7 @@
 
 namespace ombre::sources {
 
-// What is kept, with what was said when it was made.
+// A source that is kept, with the remarks made about it.
 struct CacheEntry {
   std::shared_ptr<const void> value;
   size_t bytes = 0;     // that it takes, all that is built on first use included; an estimate
@@ -32,7 +32,7 @@ class SourceCache {
 
   // Null if it is not there.
   CacheEntryPtr find(const Hash& key);
-  // Of several for one key the first counts, and is returned.
+  // Keeps the first entry for a key, and returns that.
   CacheEntryPtr add(const Hash& key, CacheEntry entry);
   // The bytes of a file that is needed each time, such as a script; kept if they are at most a mebibyte. Throws Error.
   std::shared_ptr<const std::string> text(const std::string& path);

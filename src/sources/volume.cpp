@@ -25,7 +25,7 @@ PatientSpace patient_space(formats::VolumeSpace space) {
   }
 }
 
-// Where the rest of the file is; null, and diagnostics, where the file is wrong.
+// The bytes of the rest of the file; null, and diagnostics, where the file is wrong.
 std::shared_ptr<const std::string> companion_path(const FilePath& file, sources::Loading& loading) {
   using Made = sources::Loading::Made<std::string>;
   const Hash key = sources::Key("companion of a volume").add(file.content).add(file.path).hash();

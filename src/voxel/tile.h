@@ -27,7 +27,7 @@ class StripSources {
 
   bool has(uint32_t tag) const { return tag < samplers_.size() && samplers_[tag]; }
   float value(uint32_t tag, int64_t i, int64_t j, int64_t k) const;
-  // Of spans, 1 or 0 where the whole tile is inside or outside, else both.
+  // The range of spans is 1 or 0 where the whole tile is inside or outside, else both.
   Interval range(uint32_t tag, const TileBox& tile) const;
   // The same as evaluate_intervals asks for it; valid as long as this and the tile.
   program::SourceRanges ranges(const TileBox& tile) const;

@@ -19,7 +19,7 @@ void append_bytes(std::string& key, const T& value) {
   key.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// Of a node's output the node.
+// Names a node's output by its node.
 uintptr_t identity(const HostObject& object) {
   const auto* output = dynamic_cast<const design::NodeObject*>(&object);
   return output ? reinterpret_cast<uintptr_t>(output->node().get()) : reinterpret_cast<uintptr_t>(&object);

@@ -97,7 +97,7 @@ Value ValueObject::of(Expression expression, Meter& meter) const {
   return ObjectPtr(std::make_shared<ValueObject>(nullptr, std::move(expression), maker_, meter));
 }
 
-// Of numbers, truth values and objects that are numbers.
+// Takes numbers, truth values and objects that are numbers.
 std::optional<std::vector<Expression>> expressions_of(std::span<const Value> operands) {
   std::vector<Expression> list;
   for (const Value& operand : operands) {

@@ -1,0 +1,261 @@
+#!/usr/bin/env python3
+"""What becomes of whole jobs that are killed, interrupted, resumed, or cannot write, run as a user would.
+
+    python3 tests/run_interruptions.py build/dev/apps/ombre/ombre [NAME...]
+"""
+import json
+import os
+import random
+import signal
+import subprocess
+import time
+
+import program
+from slice_jobs import LONG, SMALL, expect, expect_same, files, layers, main, ombre_layer
+
+NOBODY = 65534
+
+
+# ---- interruptions
+
+
+def whole_long_job(job):
+    began = time.monotonic()
+    job.slice("whole", *LONG)
+    return time.monotonic() - began
+
+
+def resume_and_compare(job, out, parts_may_lie=True):
+    parts = [p.name for p in (job.folder / out).glob("*.part")]
+    expect(parts_may_lie or not parts, f"unfinished files: {parts}")
+    kept = job.slice(out, *LONG, "--resume", "--json")
+    done = [json.loads(line) for line in kept.stdout.splitlines()][-1]
+    expect_same(job.folder / "whole", job.folder / out)
+    return done["layers_kept"]
+
+
+def killed_jobs_resume(job):
+    """kill -9 at any moment, then --resume: the bytes of a job that was left alone."""
+    seconds, kept = whole_long_job(job), []
+    chance = random.Random(time.time_ns())
+    for attempt in range(4):
+        out = f"killed{attempt}"
+        process = job.start(out, *LONG)
+        time.sleep(chance.uniform(0.02, 0.95) * seconds)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        kept.append(resume_and_compare(job, out))
+    expect(any(kept), f"no layer of {kept} was kept in any attempt")
+
+
+def killed_twice_resumes(job):
+    seconds = whole_long_job(job)
+    for arguments in ([], ["--resume"]):
+        process = job.start("killed", *LONG, *arguments)
+        time.sleep(0.35 * seconds)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    resume_and_compare(job, "killed")
+
+
+def wait_until_under_way(job, process, out):
+    while not (job.folder / out / "journal.jsonl").exists() and process.poll() is None:
+        time.sleep(0.01)
+
+
+def interrupted_jobs_resume(job):
+    job.slice("whole", *LONG)
+    process = job.start("interrupted", *LONG)
+    wait_until_under_way(job, process, "interrupted")
+    process.send_signal(signal.SIGINT)
+    status = process.wait(timeout=20)
+    expect(status == 130, f"status {status} after an interrupt, expected 130")
+    resume_and_compare(job, "interrupted", parts_may_lie=False)
+
+
+def large_layers_stop_and_resume(job):
+    """A whole tray in one piece. Stopped within its first layers; those that are made later are the same."""
+    job.design = job.write("tray.vcad", """fgrade(["0.5 + x/480", "0.5 - x/480"], ["red", "blue"]) {
+                           ellipsoid((240, 190, 97), "red"); }""")
+    tray = ["--printer", "j750", "--format", "indexed"]
+    process = job.start("out", *tray)
+    wait_until_under_way(job, process, "out")
+    process.send_signal(signal.SIGINT)
+    status = process.wait(timeout=60)
+    expect(status == 130, f"status {status} after an interrupt, expected 130")
+    names = sorted(p.name for p in (job.folder / "out").iterdir())
+    expect(not [name for name in names if name.endswith(".part")], f"unfinished files: {names}")
+    job.slice("out", *tray, "--layers", "30:32", "--memory", "200M", "--resume")
+    ombre_layer(job, *tray, "--index", "31", "-o", "one.png")
+    expect((job.folder / "out" / "slice_00031.png").read_bytes() == (job.folder / "one.png").read_bytes(), "other bytes")
+
+
+def resume_refuses_another_job(job):
+    job.slice("out", *SMALL, "--layers", "0:5")
+    result = job.slice("out", *SMALL, "--resume", "--seed", "7", status=2)
+    expect("seed" in result.stderr, f"it does not say what differs: {result.stderr}")
+
+
+def damaged_layers_are_made_again(job):
+    job.slice("whole", *SMALL)
+    job.slice("out", *SMALL)
+    first, second, *_ = layers(job.folder / "out")
+    first.write_bytes(first.read_bytes()[:-7])
+    second.unlink()
+    job.slice("out", *SMALL, "--resume")
+    expect_same(job.folder / "whole", job.folder / "out")
+
+
+# ---- supports, which are found before the first layer
+
+# Very many overhangs, each of which asks for the surface's slope.
+HOLES = """module block() {
+  difference() {
+    rectprism((60, 60, 60), white);
+    for (i = [0:7]) for (j = [0:7]) translate(i*7 - 25, j*7 - 25, 0) sphere(3);
+  }
+}
+block();
+support(angle=45) block();
+"""
+
+
+def watch(process, seconds):
+    """The greatest number of threads that the process has within this time."""
+    most, end = 0, time.monotonic() + seconds
+    while time.monotonic() < end and process.poll() is None:
+        most = max(most, len(os.listdir(f"/proc/{process.pid}/task")))
+        time.sleep(0.01)
+    return most
+
+
+def supports_take_the_threads_given_and_stop_at_once(job):
+    job.design = job.write("holes.vcad", HOLES)
+    process = job.start("out", "--voxel", "0.03", "--threads", "1")
+    most = watch(process, 2)
+    expect(process.poll() is None, "it has ended too early to tell")
+    expect(most == 1, f"{most} threads with --threads 1")
+    begin = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    status = process.wait(timeout=20)
+    seconds = time.monotonic() - begin
+    expect(status == 130, f"status {status} after an interrupt, expected 130")
+    expect(seconds < 1.5, f"it took {seconds:.2f} s to stop; 0.3 s on an idle machine")
+    expect(not layers(job.folder / "out"), "layers were written before the supports were known")
+
+
+def supports_are_the_same_in_pieces(job):
+    job.design = job.write("holes.vcad", HOLES)
+    coarse = ["--voxel", "0.5"]
+    job.slice("whole", *coarse, "--threads", "1")
+    job.slice("pieces", *coarse, "--layers", "41:90")
+    job.slice("pieces", *coarse, "--layers", ":17", "--resume", "--memory", "2M")
+    job.slice("pieces", *coarse, "--resume")
+    expect_same(job.folder / "whole", job.folder / "pieces")
+
+
+def supports_are_told_of(job):
+    design = job.write("holes.vcad", HOLES)
+    result = job.slice("out", "--voxel", "0.02", "--memory", "5M", design=design, status=2)
+    expect("supports: computing them takes about" in result.stderr and "--memory" in result.stderr, result.stderr)
+    expect(not (job.folder / "out").exists(), "a folder was made")
+    begin = time.monotonic()
+    result = job.slice("out", "--voxel", "0.03", "--dry-run", "--json", design=design)
+    expect(time.monotonic() - begin < 15, "a dry run goes through all of the supports")
+    estimate = [json.loads(line) for line in result.stdout.splitlines()][-1]
+    expect(estimate["event"] == "estimate" and estimate["seconds"] > 5, str(estimate))
+
+
+# ---- folders
+
+
+def foreign_files_are_left_alone(job):
+    out = job.folder / "out"
+    out.mkdir()
+    (out / "notes.txt").write_text("mine")
+    result = job.slice("out", *SMALL, status=2)
+    expect("notes.txt" in result.stderr or str(out) in result.stderr, f"it does not say where: {result.stderr}")
+    expect([p.name for p in out.iterdir()] == ["notes.txt"], "it wrote all the same")
+    job.slice("out", *SMALL, "--force")
+    job.slice("out", *SMALL, "--force")
+    expect((out / "notes.txt").read_text() == "mine", "it changed a file of others")
+    expect(len(layers(out)) == 100, f"{len(layers(out))} layers")
+
+
+def finished_jobs_are_not_overwritten(job):
+    job.slice("out", *SMALL)
+    before = files(job.folder / "out")
+    job.slice("out", *SMALL, status=2)
+    expect(files(job.folder / "out") == before, "it changed the job")
+
+
+def force_removes_the_old_layers(job):
+    job.slice("out", "--voxel", "0.1")
+    job.slice("out", "--voxel", "0.5", "--force")
+    job.slice("fresh", "--voxel", "0.5")
+    expect_same(job.folder / "out", job.folder / "fresh")
+
+
+def output_that_is_a_file(job):
+    job.write("out", "not a folder")
+    result = job.slice("out", *SMALL, status=2)
+    expect(str(job.folder / "out") in result.stderr, f"it does not name the path: {result.stderr}")
+    expect((job.folder / "out").read_text() == "not a folder", "it changed the file")
+
+
+def become_nobody():
+    os.setgroups([])
+    os.setgid(NOBODY)
+    os.setuid(NOBODY)
+
+
+def folder_that_may_not_be_written(job):
+    closed = job.folder / "closed"
+    closed.mkdir()
+    closed.chmod(0o555)
+    job.folder.chmod(0o755)
+    options = {"preexec_fn": become_nobody} if os.getuid() == 0 else {}
+    try:
+        able = program.run([job.ombre, "--version"], **options).returncode == 0
+    except (PermissionError, subprocess.SubprocessError):
+        able = False
+    if not able:
+        return "skipped: no user without rights to run as"
+    result = job.slice("closed/out", *SMALL, status=2, **options)
+    expect(str(closed / "out") in result.stderr, f"it does not name the path: {result.stderr}")
+    expect("ermission" in result.stderr, f"it does not say why: {result.stderr}")
+    return ""
+
+
+def full_disk(job):
+    """Status 2 and a message with the path; nothing half-written; --resume once there is space."""
+    disk = job.folder / "disk"
+    disk.mkdir()
+    mounted = program.run(["mount", "-t", "tmpfs", "-o", "size=1m", "none", disk])
+    if mounted.returncode != 0:
+        return "skipped: mounting a small file system needs root's rights: " + mounted.stderr.strip()
+    try:
+        job.slice("whole", *SMALL)
+        (disk / "filler").write_bytes(bytes((1 << 20) - 64 * 1024))
+        told = job.slice("disk/out", *SMALL, "--dry-run").stderr
+        expect("KiB left" in told and not (disk / "out").exists(), f"no word about the disk: {told}")
+        result = job.slice("disk/out", *SMALL, status=2)
+        expect(str(disk / "out") in result.stderr, f"it does not name the path: {result.stderr}")
+        for path in layers(disk / "out"):
+            expect(path.read_bytes() == (job.folder / "whole" / path.name).read_bytes(), f"{path.name} is not whole")
+        (disk / "filler").unlink()
+        job.slice("disk/out", *SMALL, "--resume")
+        expect_same(job.folder / "whole", disk / "out")
+    finally:
+        program.run(["umount", disk])
+    return ""
+
+
+CHECKS = [supports_take_the_threads_given_and_stop_at_once, supports_are_the_same_in_pieces, supports_are_told_of,
+          killed_jobs_resume, killed_twice_resumes, interrupted_jobs_resume, large_layers_stop_and_resume,
+          resume_refuses_another_job, damaged_layers_are_made_again, foreign_files_are_left_alone,
+          finished_jobs_are_not_overwritten, force_removes_the_old_layers, output_that_is_a_file,
+          folder_that_may_not_be_written, full_disk]
+
+if __name__ == "__main__":
+    raise SystemExit(main("Checks slice jobs that go wrong.", {f.__name__: f for f in CHECKS}))
