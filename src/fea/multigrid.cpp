@@ -1,10 +1,9 @@
 #include "fea/multigrid.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
-
-#include "fea/dense_cholesky.h"
 
 namespace ombre::fea {
 namespace {
@@ -81,28 +80,32 @@ Coarse coarsen(const BrickOperator& fine) {
   return coarse;
 }
 
-DenseCholesky factor_of(const BrickOperator& level) {
-  const size_t size = level.size();
-  std::vector<double> matrix(size * size);
-  Vector unit(size), column;
-  for (size_t n = 0; n < size; ++n) {
-    if (level.free()[n] == 0) continue;
-    unit[n] = 1;
+using Factor = Eigen::LDLT<Eigen::MatrixXd>;
+
+// Unknowns that are held, or that nothing decides, have pivots of 0, and become 0.
+Factor factor_of(const BrickOperator& level) {
+  const auto size = static_cast<Eigen::Index>(level.size());
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+  Vector unit(level.size()), column;
+  for (Eigen::Index n = 0; n < size; ++n) {
+    const auto place = static_cast<size_t>(n);
+    if (level.free()[place] == 0) continue;
+    unit[place] = 1;
     level.forces(unit, column);
-    unit[n] = 0;
-    std::ranges::copy(column, matrix.begin() + static_cast<ptrdiff_t>(n * size));
+    unit[place] = 0;
+    matrix.col(n) = Eigen::Map<const Eigen::VectorXd>(column.data(), size);
   }
-  return {std::move(matrix), size};
+  return Factor(matrix);
 }
 
 }  // namespace
 
 struct Multigrid::Level {
   const BrickOperator* fine = nullptr;
-  std::unique_ptr<BrickOperator> own;   // of all but the finest
-  std::vector<Parent> parents;          // of its nodes in the next level
-  std::optional<DenseCholesky> direct;  // of the last
-  double spectrum = 0;                  // the greatest eigenvalue of diagonal^-1 stiffness, about
+  std::unique_ptr<BrickOperator> own;  // of all but the finest
+  std::vector<Parent> parents;         // of its nodes in the next level
+  std::optional<Factor> direct;        // of the last
+  double spectrum = 0;                 // the greatest eigenvalue of diagonal^-1 stiffness, about
   Vector residual, step, forces, below, coarse_forces, coarse_displacements;
 
   void find_spectrum() {
@@ -212,8 +215,11 @@ void Multigrid::apply(const Vector& forces, Vector& displacements) { cycle(0, fo
 void Multigrid::cycle(size_t number, const Vector& forces, Vector& displacements) {
   Level& level = *levels_[number];
   if (level.direct) {
-    displacements = forces;
-    return level.direct->solve(displacements);
+    const auto size = static_cast<Eigen::Index>(forces.size());
+    displacements.resize(forces.size());
+    Eigen::Map<Eigen::VectorXd>(displacements.data(), size) =
+        level.direct->solve(Eigen::Map<const Eigen::VectorXd>(forces.data(), size));
+    return;
   }
   level.smooth(forces, displacements, true);
   if (number + 1 < levels_.size()) {
