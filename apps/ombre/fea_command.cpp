@@ -38,7 +38,7 @@ constexpr const char* fea_footer =
     "Lengths are millimetres, forces newtons, stresses MPa.\n\n"
     "FILE ends in\n"
     "  .inp   a deck for Abaqus and CalculiX, complete with supports and loads\n"
-    "  .vtu   a grid for ParaView, PyVista and FEniCSx: fractions, attributes, moduli; with --solve the results too\n\n"
+    "  .vtu   a grid for ParaView and others with VTK: fractions, attributes, moduli; with --solve the results too\n\n"
     "STUDY is a JSON file: properties of materials, what is held, what pulls.\n"
     "  {\"materials\": {\"red\": {\"modulus_mpa\": 2850, \"poissons_ratio\": 0.39, \"density_kg_m3\": 1180}},\n"
     "   \"supports\": [{\"on\": \"zmin\", \"fix\": \"xyz\"}],\n"
@@ -111,13 +111,17 @@ std::string text_of(Vec3 v, int digits = 4) {
          ")";
 }
 
+std::string counted(size_t count, const std::string& what) {
+  return format_count(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 Data triple(Vec3 v) { return DataList{v.x, v.y, v.z}; }
 
 void tell_model(const Console& console, const fea::Model& model, double bytes) {
   const fea::Bricks& bricks = model.bricks;
-  console.say(format_count(bricks.count()) + " bricks of " + format_rounded(bricks.size_mm.x) + " x " +
+  console.say(counted(bricks.count(), "brick") + " of " + format_rounded(bricks.size_mm.x) + " x " +
               format_rounded(bricks.size_mm.y) + " x " + format_rounded(bricks.size_mm.z) + " mm, " +
-              format_count(bricks.node_count()) + " nodes, " + format_count(model.sections.size()) + " sections, " +
+              format_count(bricks.node_count()) + " nodes, " + counted(model.sections.size(), "section") + ", " +
               format_rounded(static_cast<double>(bricks.count()) * bricks.volume_mm3(), 6) +
               " mm3; solving takes about " + format_bytes(bytes));
   DataList sections;
@@ -141,8 +145,7 @@ void tell_solution(const Console& console, const fea::Model& model, const fea::S
   Vec3 reaction;
   for (const fea::Prescribed& here : solution.reactions_n) reaction[here.axis] += here.value;
   const Vec3 u = solution.displacement_mm[far];
-  console.say("solved in " + format_count(solution.iterations) + " iterations and " + format_rounded(seconds, 3) +
-              " s");
+  console.say("solved in " + counted(solution.iterations, "iteration") + " and " + format_rounded(seconds, 3) + " s");
   console.say("moves by at most " + format_rounded(length(u)) + " mm, " + text_of(u) + " at " +
               text_of(model.bricks.node(far)));
   console.say("von Mises stress at most " + format_rounded(mises[strong]) + " MPa, at " +
