@@ -139,6 +139,15 @@ def decks_are_complete(folder):
     expect(any(abs(float(line[37:49]) - 1000 / 2850) < 1e-5 for line in top if len(line) >= 49), "CalculiX differs")
 
 
+def a_hook_holds_its_coat(folder):
+    """The supports hold the 20 N of the example's study and the weight of the bricks, whose densities differ by 3 %."""
+    examples = program.SOURCE / "examples"
+    events = folder.events(examples / "parametric_hook.vcad", "--study", examples / "studies" / "coat.json",
+                           "--cell", "1", "--solve")
+    weight = events["model"]["bricks"] * 1.22e-9 * 9810
+    near(events["solution"]["reaction_n"][1], 20 + weight, 0.02 * weight, "the reaction")
+
+
 def wrong_use_is_told(folder):
     def error(*arguments, status=1):
         return folder.run(*arguments, status=status).stderr
@@ -184,7 +193,7 @@ def main():
             function(Folder(ombre, scratch))
 
     checks = [bars_stretch_by_hookes_law, results_are_in_the_grid, mixtures_are_drawn_or_mixed,
-              moduli_come_from_attributes, decks_are_complete, wrong_use_is_told, ctrl_c_ends_it]
+              moduli_come_from_attributes, decks_are_complete, a_hook_holds_its_coat, wrong_use_is_told, ctrl_c_ends_it]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
 
 
