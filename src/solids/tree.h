@@ -1,0 +1,148 @@
+// Trees of polyhedral geometry: what an OpenSCAD script asks for, before anything is computed. Millimetres and degrees.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/source_text.h"
+#include "base/vec.h"
+
+namespace ombre::solids {
+
+// Into how many edges circles are cut: OpenSCAD's $fn, $fa (degrees) and $fs (mm).
+struct Fragments {
+  double count = 0, angle = 12, size = 2;
+  bool operator==(const Fragments&) const = default;
+};
+
+// Red, green, blue and opacity, each from 0 to 1.
+using Colour = std::array<double, 4>;
+
+// Leaves that are solids.
+struct Cube {
+  Vec3 size{1, 1, 1};
+  bool centred = false;
+};
+struct Sphere {
+  double radius = 1;
+  Fragments fragments;
+};
+struct Cylinder {
+  double height = 1, bottom_radius = 1, top_radius = 1;
+  bool centred = false;
+  Fragments fragments;
+};
+struct Polyhedron {
+  std::vector<Vec3> points;
+  std::vector<std::vector<size_t>> faces;  // clockwise when seen from outside, as OpenSCAD has them
+  int convexity = 1;
+};
+
+// Leaves that are areas in the plane z = 0.
+struct Square {
+  Vec2 size{1, 1};
+  bool centred = false;
+};
+struct Circle {
+  double radius = 1;
+  Fragments fragments;
+};
+struct Polygon {
+  std::vector<Vec2> points;
+  std::vector<std::vector<size_t>> paths;  // empty: one path of all points
+};
+struct Text {
+  std::string text;
+  double size = 10;
+  std::string font, horizontal = "left", vertical = "baseline", direction = "ltr", language = "en", script = "Latn";
+  double spacing = 1;
+  Fragments fragments;
+};
+
+// Leaves that are files. Paths are complete.
+struct Import {
+  std::string path;
+  std::string layer, id;  // of DXF and SVG files
+  Vec2 origin;
+  double scale = 1, dots_per_inch = 72;
+  bool centred = false;
+  Fragments fragments;
+};
+struct Surface {  // heights from a .dat or PNG file
+  std::string path;
+  bool centred = false, inverted = false;
+};
+
+// Of children. A group keeps solids of different attributes apart ("soft union").
+struct Group {};
+struct Union {};
+struct Difference {};
+struct Intersection {};
+struct Hull {};
+struct Minkowski {};
+struct Fill {};
+struct Transform {
+  Affine parent_from_child;
+};
+struct Resize {
+  Vec3 size;  // 0: as it is, or in proportion where automatic
+  std::array<bool, 3> automatic{};
+};
+struct Offset {
+  double distance = 0;  // mm outward
+  bool round = false;   // else straight edges, cut where `chamfer` says so
+  bool chamfer = false;
+  Fragments fragments;
+};
+struct LinearExtrude {
+  double height = 100, twist = 0;  // mm, degrees
+  Vec3 direction{0, 0, 1};
+  Vec2 scale{1, 1};
+  bool centred = false;
+  std::optional<int> slices, segments;
+  Fragments fragments;
+};
+struct RotateExtrude {
+  double angle = 360, start = 0;  // degrees
+  Fragments fragments;
+};
+struct Projection {
+  bool cut = false;
+};
+
+// Attributes of all geometry below; of equal kinds, the outermost counts.
+struct SetColour {
+  Colour colour{1, 1, 1, 1};
+};
+struct SetPart {
+  std::string name;
+};
+struct SetMaterial {
+  std::string name;
+};
+
+using Operation =
+    std::variant<Group, Cube, Sphere, Cylinder, Polyhedron, Square, Circle, Polygon, Text, Import, Surface, Union, Difference,
+                 Intersection, Hull, Minkowski, Fill, Transform, Resize, Offset, LinearExtrude, RotateExtrude, Projection,
+                 SetColour, SetPart, SetMaterial>;
+
+// How solids of different parts or materials meet in an operator.
+enum class Semantics : uint8_t { standard, strict, permissive };
+
+struct Tree;
+using TreePtr = std::shared_ptr<const Tree>;
+
+struct Tree {
+  Operation operation;
+  std::vector<TreePtr> children;
+  bool background = false;  // the modifier %: shown in previews only
+  bool highlight = false;   // the modifier #
+  Semantics semantics = Semantics::standard;
+  SourceRange where;  // of the call, for messages
+};
+
+}  // namespace ombre::solids
