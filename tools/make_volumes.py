@@ -6,6 +6,7 @@
 
 import gzip
 import struct
+import zlib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -39,6 +40,63 @@ def two_lobes(path):
     write_nrrd(path, "uint8", "B", (46, 37, 19), along_axes((0.5, 0.5, 1)), (-12, -9, -9), "left-posterior-superior", value)
 
 
+def head(path):
+    """A head as computed tomography sees it, much simplified, in voxels of 2.5 x 2.5 x 3 mm and Hounsfield units in
+    steps of 10: skin and brain, a skull with a jaw, sinuses, and a tumour on the left. LPS: x to the left, y backwards."""
+    def ball(x, y, z, middle, radii):
+        return sum(((a - m) / r) ** 2 for a, m, r in zip((x, y, z), middle, radii)) ** 0.5
+
+    def value(i, j, k):
+        x, y, z = -87.5 + 2.5 * i, -112.5 + 2.5 * j, -105 + 3 * k
+        scalp = ball(x, y, z, (0, 0, 20), (76, 94, 80))
+        face = ball(x, y, z, (0, -52, -40), (52, 44, 62))
+        nose = ball(x, y, z, (0, -96, -18), (11, 16, 20))
+        neck = ball(x, y, min(z, 0), (0, 18, 0), (46, 48, 400)) + max(z, 0)
+        # A border of a voxel or two, in which air and skin share.
+        share = min(max(0.5 + 20 * (1 - min(scalp, face, nose, neck)), 0), 1)
+        if share == 0:
+            return -1000
+        number = 40
+        skull, brain = ball(x, y, z, (0, 0, 22), (69, 87, 72)), ball(x, y, z, (0, 0, 22), (62, 80, 65))
+        if skull < 1:
+            number = 900 if brain >= 1 else 30
+        jaw = ball(x, y, z, (0, -44, -66), (42, 44, 18))
+        if ball(x, y, z, (0, -30, -66), (34, 44, 30)) > 1 > jaw or (jaw < 1 and z < -78 and abs(x) < 40):
+            number = 1100
+        for side in (-1, 1):
+            if ball(x, y, z, (28 * side, -76, 2), (15, 14, 13)) < 1:
+                number = 10  # an eye
+        if ball(x, y, z, (0, -74, -22), (14, 22, 12)) < 1:
+            number = -900  # sinuses
+        if ball(x, y, z, (0, 22, -70), (11, 11, 60)) < 1 and z < -10:
+            number = 700  # the spine
+        tumour = ball(x, y, z, (30, 18, 40), (17, 20, 15))
+        if tumour < 1:
+            number = 110 if tumour > 0.55 else 70
+        return round((-1000 + (number + 1000) * share) / 10) * 10
+    write_nrrd(path, "int16", "h", (71, 86, 68), along_axes((2.5, 2.5, 3)), (-87.5, -112.5, -105),
+               "left-posterior-superior", value)
+
+
+def write_png(path, rows):
+    """Rows of (red, green, blue, alpha) from the top."""
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 6, 0, 0, 0)
+    data = b"".join(b"\0" + b"".join(bytes(pixel) for pixel in row) for row in rows)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(data, 9)) + chunk(b"IEND", b""))
+
+
+def stack(folder):
+    """A red ball with a blue core, of 20 x 20 x 10 pixels."""
+    for k in range(10):
+        def pixel(i, j, z=2 * k + 1):
+            r = ((i - 9.5) ** 2 + (j - 9.5) ** 2 + (z - 10) ** 2) ** 0.5
+            return (0, 80, 255, 255) if r < 5 else (255, 0, 0, 255) if r < 9.5 else (0, 0, 0, 0)
+        write_png(folder / f"layer_{k}.png", [[pixel(i, j) for i in range(20)] for j in range(20)])
+
+
 def ball(path):
     """4 (81 - r^2) around the origin, in voxels of 0.5 x 0.5 x 3 mm: 0 on the ball of 9 mm."""
     def value(i, j, k):
@@ -59,6 +117,8 @@ def arms(path, space):
 
 def main():
     two_lobes(ROOT / "examples" / "models" / "two_lobes.nrrd")
+    head(ROOT / "examples" / "models" / "head.nrrd")
+    stack(ROOT / "examples" / "models" / "stack")
     fixtures = ROOT / "tests" / "cases" / "volumes" / "fixtures"
     ball(fixtures / "ball.nrrd")
     arms(fixtures / "arms.nrrd", "left-posterior-superior")

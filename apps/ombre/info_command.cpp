@@ -1,14 +1,13 @@
 // ombre info: what a grid of numbers in a file holds.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
 #include "base/text.h"
 #include "formats/file.h"
-#include "formats/volume.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
+#include "sources/volume_parts.h"
 
 namespace ombre::cli {
 namespace {
@@ -75,7 +74,8 @@ std::string volume_text(const std::string& path, const formats::VoxelVolume& vol
   return path + ": a volume\n  size      " + std::to_string(nx) + " x " + std::to_string(ny) + " x " +
          std::to_string(nz) + " voxels, " + volume.type + "\n" + placement_text(volume) + "  space     " +
          std::string(formats::name(volume.space)) + "\n  values    " + format_rounded(values.least, 9) + " to " +
-         format_rounded(values.greatest, 9) + "\n\n  from        voxels\n" + histogram_text(values);
+         format_rounded(values.greatest, 9) + "\n  Otsu      " + format_rounded(sources::otsu_level(volume.values), 9) +
+         ", a level between dark and bright\n\n  from        voxels\n" + histogram_text(values);
 }
 
 DataMembers volume_members(const std::string& path, const formats::VoxelVolume& volume, const ValueCounts& values) {
@@ -88,6 +88,7 @@ DataMembers volume_members(const std::string& path, const formats::VoxelVolume& 
                       {"space", std::string(formats::name(volume.space))},
                       {"least", values.least},
                       {"greatest", values.greatest},
+                      {"otsu", sources::otsu_level(volume.values)},
                       {"histogram", std::move(histogram)}};
   if (!volume.space_from_index) return members;
   for (int axis = 0; axis < 3; ++axis) steps.emplace_back(to_list(step_of(*volume.space_from_index, axis)));
@@ -96,13 +97,16 @@ DataMembers volume_members(const std::string& path, const formats::VoxelVolume& 
   return members;
 }
 
-int show_volume(const std::string& path, Session& session) {
-  const std::string bytes = formats::read_file(path);
-  const std::string beside = formats::companion_of(path, bytes);
-  std::error_code ignored;
-  std::optional<std::string> companion;
-  if (!beside.empty() && std::filesystem::exists(beside, ignored)) companion = formats::read_file(beside);
-  const formats::VoxelVolume volume = formats::read_volume(path, bytes, companion ? &*companion : nullptr);
+int show_volume(const std::string& path, const std::string& series, Session& session) {
+  const sources::ReadFile read = [](const std::string& file) {
+    return std::make_shared<const std::string>(formats::read_file(file));
+  };
+  std::vector<std::string> warnings;
+  const formats::VoxelVolume volume =
+      sources::read_volume_parts(path, sources::volume_parts(path, read), series, read, &session.stop, warnings);
+  Diagnostics remarks;
+  for (const std::string& warning : warnings) remarks.warning({}, warning);
+  session.console.diagnose(remarks);
   constexpr size_t parts = 16;
   const ValueCounts values = count_values(volume.values, parts);
   if (session.console.voice() == Voice::programs)
@@ -116,14 +120,19 @@ int show_volume(const std::string& path, Session& session) {
 
 Command add_info(CLI::App& program, OutputOptions& output) {
   CLI::App* app = program.add_subcommand(
-      "info", "Say what a volume (NRRD, NPY, raw) holds: size, voxels, orientation, values and how often they occur");
-  auto file = std::make_shared<std::string>();
-  app->add_option("file", *file, "A volume: .nrrd, .nhdr, .npy, or raw numbers with a .json beside them")
+      "info", "Say what a volume (a scan, a grid) holds: size, voxels, orientation, values and how often they occur");
+  auto file = std::make_shared<std::string>(), series = std::make_shared<std::string>();
+  app->add_option(
+         "file", *file,
+         "A volume: a folder of DICOM files or PNG images, .dcm, .nii, .nrrd, .mha, .vdb, .npy, or raw numbers "
+         "with a .json beside them")
       ->required()
       ->type_name("FILE");
+  app->add_option("--series", *series, "Of several DICOM series, its number or UID; of several grids, its name")
+      ->type_name("NAME");
   add_output_options(*app, output);
   app->footer("Example:\n  ombre info models/two_lobes.nrrd\n");
-  return {app, [file](Session& session) { return show_volume(*file, session); }};
+  return {app, [file, series](Session& session) { return show_volume(*file, *series, session); }};
 }
 
 }  // namespace ombre::cli

@@ -65,8 +65,7 @@ StageValues filled(const IndexBox& box, std::span<const float> values) {
 
 }  // namespace
 
-double bytes_of_halo_block(const design::HaloStage& stage, size_t channels_read, size_t channels_made) {
-  const design::HaloStage::Reach reach = stage.reach();
+double bytes_of_halo_block(const design::HaloStage::Reach& reach, size_t channels_read, size_t channels_made) {
   const std::array<int64_t, 3> block = block_size(reach);
   double made = 1, read = 1;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -83,7 +82,7 @@ HaloSource::HaloSource(LatticeFrame frame, std::shared_ptr<const design::HaloSta
       stage_(std::move(stage)),
       input_(std::move(input)),
       shared_(std::move(shared)),
-      reach_(stage_->reach()),
+      reach_(stage_->reach(LatticeSource::frame().lattice.voxel_mm())),
       block_(block_size(reach_)),
       filled_(LatticeSource::frame().cells),
       own_blocks_(shared_->blocks.new_owner()),
@@ -166,7 +165,7 @@ ValueBlock HaloSource::compute(const IndexBox& box) const {
 
 StageValues HaloSource::made_of(const StageValues& read, const IndexBox& box) const {
   StageValues made(box, frame().channels.size());
-  stage_->compute(read, made);
+  stage_->compute(read, made, frame().lattice.voxel_mm());
   return made;
 }
 

@@ -46,6 +46,6 @@ class HaloSource final : public LatticeSource {
 };
 
 // The most that a thread takes to compute one block.
-double bytes_of_halo_block(const design::HaloStage& stage, size_t channels_read, size_t channels_made);
+double bytes_of_halo_block(const design::HaloStage::Reach& reach, size_t channels_read, size_t channels_made);
 
 }  // namespace ombre::compile

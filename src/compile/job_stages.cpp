@@ -161,10 +161,11 @@ program::SourceField JobStages::make(const design::StagePtr& stage, const StageP
   StageInput input(design_for(place, frame.lattice, not_kept(*this)), stage->reads(), frame.lattice);
   frame.channels = stage->channels(input.channels());
   if (halo) {
-    grow(frame, halo->reach());
+    const auto reach = halo->reach(frame.lattice.voxel_mm());
+    grow(frame, reach);
     const std::scoped_lock lock(mutex_);
     has_halos_ = true;
-    halo_bytes_ = std::max(halo_bytes_, bytes_of_halo_block(*halo, input.channels().size(), frame.channels.size()));
+    halo_bytes_ = std::max(halo_bytes_, bytes_of_halo_block(reach, input.channels().size(), frame.channels.size()));
     return std::make_shared<HaloSource>(std::move(frame), halo, std::move(input), shared_);
   }
   if (auto sweep = std::dynamic_pointer_cast<const design::SweepStage>(stage))

@@ -62,11 +62,11 @@ class OneChannel : public Kind {
 class BoxCount final : public OneChannel<design::HaloStage> {
  public:
   BoxCount(const design::NodePtr& solid, const Cell& size) : OneChannel(solid, {0, 1e6}), size_(size) {}
-  Reach reach() const override {
+  Reach reach(Vec3) const override {
     return {{size_[0] / 2, size_[1] / 2, size_[2] / 2}, {(size_[0] - 1) / 2, (size_[1] - 1) / 2, (size_[2] - 1) / 2}};
   }
-  void compute(const StageValues& read, StageValues& made) const override {
-    const Reach reach = this->reach();
+  void compute(const StageValues& read, StageValues& made, Vec3 cell_mm) const override {
+    const Reach reach = this->reach(cell_mm);
     const IndexBox& box = made.box();
     for (int64_t k = box.lo[2]; k < box.hi[2]; ++k)
       for (int64_t j = box.lo[1]; j < box.hi[1]; ++j)
@@ -148,7 +148,8 @@ class PartSize final : public OneChannel<design::WholeStage> {
  public:
   explicit PartSize(const design::NodePtr& solid) : OneChannel(solid, {0, 1e9}) {}
   double bytes_of_cell() const override { return 4; }
-  void compute(const StageValues& read, StageValues& made, const design::StageWork&) const override {
+  void compute(const StageValues& read, StageValues& made, const design::StageLattice&,
+               const design::StageWork&) const override {
     made.channel(0) = sizes_of_parts(read.channel(0), read.box());
   }
 };

@@ -61,7 +61,7 @@ void WholeSource::compute(const StageLoan& loan, const design::StageWork& work) 
   made_ = StageValues(frame().cells, frame().channels.size());
   design::StageWork rest = work;
   rest.tell = [&](double share) { work.tell(0.5 + 0.5 * share); };
-  stage_->compute(read, made_, rest);
+  stage_->compute(read, made_, {frame().lattice.origin, frame().lattice.pitch}, rest);
 }
 
 void WholeSource::read_made(size_t channel, const CellIndex& first, std::span<float> values) const {

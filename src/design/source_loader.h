@@ -132,20 +132,38 @@ struct VolumeGrid {
   program::SourceField source;
   std::optional<Affine> space_from_index;  // in mm, where the file says it
   PatientSpace space = PatientSpace::unknown;
+  double otsu_level = 0;  // between its darker and its brighter values, by Otsu's method
   // Encloses the places where a channel may have a value of the interval.
   std::function<Box(int channel, Interval values)> places;
 };
 
-// NRRD, NPY, or raw numbers with a description beside them.
+// NRRD, NIfTI, MetaImage, NPY, raw numbers with a description beside them, a file or folder of DICOM, or a folder of
+// PNG images in shades of grey, from the lowest layer up, whose numbers are those of the pixels.
 struct VolumeRequest {
   using Result = VolumeGrid;
+  FilePath file;
+  std::string series;  // of several in a folder: its number or UID; empty: there is one
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
+// Coloured voxels in the space of their indices: the channel "nearest" is the number of a voxel's colour in the list,
+// counted from 1, and 0 where it is transparent.
+struct ColourGrid {
+  VolumeGrid grid;
+  std::vector<Rgba> colours;
+};
+
+// The PNG files of a folder, in the order of the numbers in their names, from the lowest layer up; or one PNG file. In
+// a layer x grows to the right and y upwards.
+struct ImageStackRequest {
+  using Result = ColourGrid;
   FilePath file;
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
 // The kinds of sources there are.
 using SourceRequest = std::variant<MeshRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*,
-                                   TextRequest*, VolumeRequest*>;
+                                   TextRequest*, VolumeRequest*, ImageStackRequest*>;
 
 // Which parts of a solid need support, on which grid.
 struct SupportUse {

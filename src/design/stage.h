@@ -100,9 +100,10 @@ class HaloStage : public Stage {
   struct Reach {
     std::array<int64_t, 3> below{}, above{};
   };
-  virtual Reach reach() const = 0;
+  // In cells of that size.
+  virtual Reach reach(Vec3 cell_mm) const = 0;
   // `read` has all cells that those of `made` read. Every cell is computed in the same way, wherever it lies.
-  virtual void compute(const StageValues& read, StageValues& made) const = 0;
+  virtual void compute(const StageValues& read, StageValues& made, Vec3 cell_mm) const = 0;
 };
 
 // Values along columns of cells, as runs of equal ones.
@@ -132,7 +133,8 @@ class SweepStage : public Stage {
 class WholeStage : public Stage {
  public:
   virtual double bytes_of_cell() const = 0;  // that it takes besides the values
-  virtual void compute(const StageValues& read, StageValues& made, const StageWork& work) const = 0;
+  virtual void compute(const StageValues& read, StageValues& made, const StageLattice& lattice,
+                       const StageWork& work) const = 0;
 };
 
 // Where a node stands in a job, in its own space.

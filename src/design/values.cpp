@@ -353,6 +353,21 @@ bool read_pair(const Data& data, const Domain& domain, MaterialForName& value, c
 
 }  // namespace
 
+bool read(const Data& data, const Domain& domain, std::vector<MaterialStop>& value, const Reader& reader) {
+  value.clear();
+  const auto is_pair = [](const Data& element) { return is_list(element, 2) && element.list()->front().number(); };
+  if (!data.list()) return reader.fail(data, "a list of numbers with materials");
+  for (const Data& element : *data.list()) {
+    if (!is_pair(element))
+      return reader.fail(element, "pairs of a number and a material",
+                         "write for example [[0, \"clear\"], [100, \"red\"]]");
+    MaterialStop& stop = value.emplace_back();
+    if (!read(element.list()->front(), unit::none, stop.at, reader)) return false;
+    if (!read(element.list()->back(), domain, stop.material, reader)) return false;
+  }
+  return true;
+}
+
 bool read(const Data& data, const Domain& domain, std::vector<MaterialForName>& value, const Reader& reader) {
   value.clear();
   const bool is_pair = data.list() && !data.list()->empty() && !data.list()->front().list();
@@ -443,6 +458,12 @@ Data write(const std::optional<std::vector<Edge>>& value, bool h) {
     if (edge.radius > 0) parts.emplace_back(edge.radius);
     list.emplace_back(std::move(parts));
   }
+  return Data(std::move(list));
+}
+
+Data write(const std::vector<MaterialStop>& value, bool h) {
+  DataList list;
+  for (const auto& [at, material] : value) list.emplace_back(DataList{Data(at), write(material, h)});
   return Data(std::move(list));
 }
 

@@ -73,6 +73,13 @@ struct MaterialForName {
   bool operator==(const MaterialForName&) const = default;
 };
 
+// The material for a number.
+struct MaterialStop {
+  double at = 0;
+  MaterialName material;
+  bool operator==(const MaterialStop&) const = default;
+};
+
 // A list that does not change. Equal ones made in a row share their memory: loops make millions.
 template <class T>
 class SharedList {
@@ -136,6 +143,13 @@ struct FontName {
   std::string name;
   Hash content;  // of the font that was found
   bool operator==(const FontName&) const = default;
+};
+
+// Weights of the voxels around one, in lists along x of lists along y of lists along z.
+struct Kernel {
+  Counts3 size{};               // from 1 to 1000 each, where it is given
+  std::vector<double> weights;  // z fastest, at most 10^6; finite, their sum not negative, not all 0
+  bool operator==(const Kernel&) const = default;
 };
 
 // What a parameter may be, for checks, help and forms.
@@ -231,10 +245,13 @@ bool read(const Data& data, const Domain& domain, FilePath& value, const Reader&
 bool read(const Data& data, const Domain& domain, SharedList<Number>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, SharedList<MaterialName>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<MaterialForName>& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, std::vector<MaterialStop>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::optional<std::vector<Edge>>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Points& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<Points>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, FontName& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, Kernel& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, std::vector<std::string>& value, const Reader& reader);
 
 // The reverse. For hashes, files are named by their content.
 Data write(double value, bool for_hash);
@@ -254,10 +271,13 @@ Data write(const FilePath& value, bool for_hash);
 Data write(const SharedList<Number>& value, bool for_hash);
 Data write(const SharedList<MaterialName>& value, bool for_hash);
 Data write(const std::vector<MaterialForName>& value, bool for_hash);
+Data write(const std::vector<MaterialStop>& value, bool for_hash);
 Data write(const std::optional<std::vector<Edge>>& value, bool for_hash);
 Data write(const Points& value, bool for_hash);
 Data write(const std::vector<Points>& value, bool for_hash);
 Data write(const FontName& value, bool for_hash);
+Data write(const Kernel& value, bool for_hash);
+Data write(const std::vector<std::string>& value, bool for_hash);
 
 // "number or field", "material", ...: for help.
 template <class M>
@@ -277,10 +297,13 @@ constexpr std::string_view kind_name() {
   if constexpr (std::is_same_v<M, SharedList<Number>>) return "list of numbers or fields";
   if constexpr (std::is_same_v<M, SharedList<MaterialName>>) return "list of materials";
   if constexpr (std::is_same_v<M, std::vector<MaterialForName>>) return "list of names with materials";
+  if constexpr (std::is_same_v<M, std::vector<MaterialStop>>) return "list of numbers with materials";
   if constexpr (std::is_same_v<M, std::optional<std::vector<Edge>>>) return "list of edges";
   if constexpr (std::is_same_v<M, Points>) return "list of points";
   if constexpr (std::is_same_v<M, std::vector<Points>>) return "lists of points";
   if constexpr (std::is_same_v<M, FontName>) return "font";
+  if constexpr (std::is_same_v<M, Kernel>) return "lists of lists of numbers";
+  if constexpr (std::is_same_v<M, std::vector<std::string>>) return "list of texts";
 }
 
 }  // namespace ombre::design

@@ -1,15 +1,13 @@
 // Grids in NRRD files (teem.sourceforge.net/nrrd/format.html), attached and detached, raw, gzip and text.
-#include <libdeflate.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <memory>
 #include <sstream>
 
 #include "base/text.h"
+#include "formats/volume_packing.h"
 #include "formats/volume_parts.h"
 
 namespace ombre::formats {
@@ -247,7 +245,7 @@ class NrrdReader {
     const bool is_big = is_big_endian(bytes_per_value(volume.values));
     if (encoding == "gzip" || encoding == "gz") {
       if (skip != 0) fail("has a \"byte skip\" before packed numbers; save it without");
-      return take_numbers(path_, unpacked(bytes, size), is_big, volume);
+      return take_numbers(path_, unpacked(path_, bytes, Packing::gzip, size), is_big, volume);
     }
     if (encoding != "raw") fail("has the encoding \"" + encoding + "\"; save it as raw, gzip or ascii");
     const uint64_t before =
@@ -261,27 +259,6 @@ class NrrdReader {
     const std::string endian = to_lower(field("endian"));
     if (endian != "little" && endian != "big") fail("has a wrong \"endian\"; little and big are possible");
     return endian == "big";
-  }
-
-  // Members of a stream follow each other.
-  std::string unpacked(std::string_view bytes, uint64_t size) const {
-    constexpr uint64_t most_growth = 1032;  // of deflate
-    if (size / most_growth > bytes.size()) fail("is cut off: its packed numbers are too short");
-    const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> unpacker(
-        libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-    std::string result(size, '\0');
-    size_t done = 0;
-    while (done < size) {
-      size_t taken = 0, made = 0;
-      const auto status = libdeflate_gzip_decompress_ex(unpacker.get(), bytes.data(), bytes.size(),
-                                                        result.data() + done, size - done, &taken, &made);
-      if (status == LIBDEFLATE_INSUFFICIENT_SPACE) fail("has more packed numbers than its sizes say");
-      if (status != LIBDEFLATE_SUCCESS || (made == 0 && taken == 0))
-        fail("has packed numbers that are damaged or cut off");
-      bytes.remove_prefix(taken);
-      done += made;
-    }
-    return result;
   }
 
   void read_text(std::string_view bytes, VoxelVolume& volume) const {

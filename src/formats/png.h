@@ -45,4 +45,13 @@ struct PngImage {
 // `name`, for what is not a whole PNG or has too many pixels, before memory is taken for them.
 PngImage decode_png(std::string_view bytes, const std::string& name, uint64_t most_pixels = 1'000'000'000);
 
+struct GrayImage {
+  uint32_t width = 0, height = 0;
+  std::vector<uint16_t> pixels;  // rows from the top; as stored, so up to 255 where the file has 8 bits
+};
+
+// Images in shades of grey, of 1 to 16 bits a pixel; what they hide by transparency counts as well. Throws Error, also
+// for images in colour.
+GrayImage decode_gray_png(std::string_view bytes, const std::string& name, uint64_t most_pixels = 1'000'000'000);
+
 }  // namespace ombre::formats

@@ -78,6 +78,25 @@ bool read_header(PngReader& reader) {
   return true;
 }
 
+// Grey as it is stored, two bytes a pixel; numbers of fewer bits are not stretched.
+bool read_gray_header(PngReader& reader) {
+  if (setjmp(png_jmpbuf(reader.png))) return false;
+  png_set_read_fn(reader.png, &reader, take);
+  png_set_user_limits(reader.png, largest_side, largest_side);
+  png_read_info(reader.png, reader.info);
+  reader.stored_bit_depth = png_get_bit_depth(reader.png, reader.info);
+  reader.stored_bits_per_pixel = reader.stored_bit_depth * png_get_channels(reader.png, reader.info);
+  if ((png_get_color_type(reader.png, reader.info) & PNG_COLOR_MASK_COLOR) != 0)
+    png_error(reader.png, "it is in colour, not in shades of grey");
+  constexpr int byte_bits = 8;
+  if (reader.stored_bit_depth < byte_bits) png_set_packing(reader.png);
+  if (reader.stored_bit_depth > byte_bits) png_set_swap(reader.png);
+  png_set_strip_alpha(reader.png);
+  png_set_interlace_handling(reader.png);
+  png_read_update_info(reader.png, reader.info);
+  return true;
+}
+
 bool read_pixels(PngReader& reader) {
   if (setjmp(png_jmpbuf(reader.png))) return false;
   png_read_image(reader.png, reader.rows.data());
@@ -157,6 +176,28 @@ Rgba PngImage::colour(uint32_t column, uint32_t row) const {
   }
   const uint8_t* at = pixels.data() + 4 * pixel;
   return {at[0], at[1], at[2], at[3]};
+}
+
+GrayImage decode_gray_png(std::string_view bytes, const std::string& name, uint64_t most_pixels) {
+  const auto require_read = [&](bool read, const PngReader& reader) {
+    if (!read) throw Error("cannot read " + name + ": " + reader.failure.message);
+  };
+  PngReader reader(bytes);
+  if (!reader.png || !reader.info) throw Error("cannot read " + name + ": not enough memory");
+  require_read(read_gray_header(reader), reader);
+  GrayImage image{png_get_image_width(reader.png, reader.info), png_get_image_height(reader.png, reader.info), {}};
+  check_size(reader, image.width, image.height, most_pixels, name);
+  const size_t row_bytes = png_get_rowbytes(reader.png, reader.info), pixel_bytes = row_bytes / image.width;
+  std::vector<uint8_t> stored(row_bytes * image.height);
+  for (size_t row = 0; row < image.height; ++row) reader.rows.push_back(stored.data() + row * row_bytes);
+  require_read(read_pixels(reader), reader);
+  image.pixels.resize(size_t{image.width} * image.height);
+  for (size_t n = 0; n < image.pixels.size(); ++n) {
+    uint16_t value = stored[n * pixel_bytes];
+    if (pixel_bytes == 2) std::memcpy(&value, stored.data() + 2 * n, sizeof value);
+    image.pixels[n] = value;
+  }
+  return image;
 }
 
 }  // namespace ombre::formats

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/text.h"
+#include "formats/volume_packing.h"
 #include "formats/volume_parts.h"
 
 namespace ombre::formats {
@@ -96,6 +97,19 @@ void take_numbers(const std::string& path, std::string_view bytes, bool is_big_e
   check_finite(path, volume);
 }
 
+void rescale_numbers(double slope, double intercept, VoxelVolume& volume) {
+  std::vector<float> scaled;
+  std::visit(
+      [&](const auto& list) {
+        scaled.reserve(list.size());
+        for (const auto value : list)
+          scaled.push_back(static_cast<float>(slope * static_cast<double>(value) + intercept));
+      },
+      volume.values);
+  volume.values = std::move(scaled);
+  volume.type = "float32";
+}
+
 void check_finite(const std::string& path, const VoxelVolume& volume) {
   std::visit(
       [&](const auto& list) {
@@ -135,17 +149,32 @@ void check_placement(const std::string& path, const Affine& map) {
       fail_volume(path, "has its origin more than 1000000 mm away; give it another by origin=(x, y, z)");
 }
 
+void check_volume(const std::string& path, const VoxelVolume& volume) {
+  voxel_bytes(path, volume.count, bytes_per_value(volume.values));
+  if (volume.space_from_index) check_placement(path, *volume.space_from_index);
+  check_finite(path, volume);
+}
+
 std::string companion_of(const std::string& path, std::string_view bytes) {
   if (is_nrrd(bytes)) return nrrd_data_path(path, bytes);
+  if (is_nifti(bytes)) return nifti_data_path(path, bytes);
+  if (is_metaimage(bytes)) return metaimage_data_path(path, bytes);
   return path + ".json";
 }
 
 VoxelVolume read_volume(const std::string& path, std::string_view bytes, const std::string* companion) {
   if (is_nrrd(bytes)) return read_nrrd(path, bytes, companion);
   if (is_npy(bytes)) return read_npy(path, bytes, companion);
+  if (is_nifti(bytes)) return read_nifti(path, bytes, companion);
+  if (is_metaimage(bytes)) return read_metaimage(path, bytes, companion);
+  if (is_gzip(bytes)) {
+    const std::string all = unpacked_file(path, bytes, most_volume_bytes);
+    if (is_gzip(all)) fail_volume(path, "is packed twice by gzip; unpack it");
+    return read_volume(path, all, companion);
+  }
   if (companion) return read_raw(path, bytes, *companion);
-  fail_volume(path, "is neither an NRRD nor an NPY file, and no " + path +
-                        ".json describes it; convert other formats to NRRD, by 3D Slicer for example");
+  fail_volume(path, "is none of NRRD, NIfTI, MetaImage and NPY, and no " + path +
+                        ".json describes it; convert other formats, by 3D Slicer for example");
 }
 
 }  // namespace ombre::formats

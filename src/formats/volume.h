@@ -1,4 +1,5 @@
-// Grids of numbers that files hold: NRRD, NumPy's NPY, and raw numbers that a JSON file beside them describes.
+// Grids of numbers that files hold: NRRD, NIfTI, MetaImage, NumPy's NPY, and raw numbers that a JSON file beside them
+// describes.
 #pragma once
 
 #include <array>
@@ -37,5 +38,8 @@ std::string companion_of(const std::string& path, std::string_view bytes);
 
 // `companion` holds that file's bytes; null where it is missing. Throws Error, naming the path and what is wrong.
 VoxelVolume read_volume(const std::string& path, std::string_view bytes, const std::string* companion);
+
+// Throws Error, naming the path, where a value is not finite, or the volume lies where none can.
+void check_volume(const std::string& path, const VoxelVolume& volume);
 
 }  // namespace ombre::formats

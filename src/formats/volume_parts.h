@@ -26,6 +26,17 @@ Affine placed_along_axes(const std::string& path, Vec3 spacing_mm, Vec3 origin_m
 void check_placement(const std::string& path, const Affine& space_from_index);
 void check_finite(const std::string& path, const VoxelVolume& volume);
 
+// slope * number + intercept, as floats of 32 bits.
+void rescale_numbers(double slope, double intercept, VoxelVolume& volume);
+
+bool is_nifti(std::string_view bytes);
+VoxelVolume read_nifti(const std::string& path, std::string_view bytes, const std::string* data);
+std::string nifti_data_path(const std::string& path, std::string_view bytes);
+
+bool is_metaimage(std::string_view bytes);
+VoxelVolume read_metaimage(const std::string& path, std::string_view bytes, const std::string* data);
+std::string metaimage_data_path(const std::string& path, std::string_view bytes);
+
 VoxelVolume read_nrrd(const std::string& path, std::string_view bytes, const std::string* data);
 // The path of the file that holds the numbers; empty where the header's own does.
 std::string nrrd_data_path(const std::string& path, std::string_view bytes);

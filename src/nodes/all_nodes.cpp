@@ -14,6 +14,7 @@ const design::Registry& registry() {
     add_imported(r);
     add_relief(r);
     add_volumes(r);
+    add_voxels(r);
     add_lattices(r);
     add_tiles(r);
     add_tpms(r);
@@ -31,6 +32,7 @@ const design::Registry& registry() {
     add_noise(r);
     add_value_nodes(r);
     add_convolutions(r);
+    add_whole_solids(r);
     return r;
   }();
   return all;

@@ -14,6 +14,7 @@ void add_implicit_solids(design::Registry& registry);
 void add_imported(design::Registry& registry);
 void add_relief(design::Registry& registry);
 void add_volumes(design::Registry& registry);
+void add_voxels(design::Registry& registry);
 void add_lattices(design::Registry& registry);
 void add_tiles(design::Registry& registry);
 void add_tpms(design::Registry& registry);
@@ -31,6 +32,7 @@ void add_supports(design::Registry& registry);
 void add_noise(design::Registry& registry);
 void add_value_nodes(design::Registry& registry);
 void add_convolutions(design::Registry& registry);
+void add_whole_solids(design::Registry& registry);
 
 // All of the above.
 const design::Registry& registry();

@@ -74,7 +74,7 @@ class BoxSumStage final : public design::HaloStage {
     return made;
   }
 
-  Reach reach() const override {
+  Reach reach(Vec3) const override {
     Reach reach;
     for (size_t axis = 0; axis < 3; ++axis) {
       reach.below[axis] = use_.size[axis] / 2;
@@ -84,7 +84,7 @@ class BoxSumStage final : public design::HaloStage {
   }
 
   // The read channels are the fractions and then "inside"; void comes first where the solid has it itself.
-  void compute(const StageValues& read, StageValues& made) const override {
+  void compute(const StageValues& read, StageValues& made, Vec3) const override {
     const size_t fractions = read.channels() - 1;
     for (size_t c = 0; c < fractions; ++c) add(read, c, false, made, c);
     if (!use_.count_void) return;

@@ -165,6 +165,11 @@ class RandomDesign {
     if (kind == "font") return Data("DejaVu Sans");
     if (kind == "list of points") return type.name == "revolve" ? star(true, 7, 6, 1) : points(type, 4 + index(4));
     if (kind == "lists of points") return Data(DataList{star(true, 0, 0, 0.3)});
+    if (kind == "lists of lists of numbers")
+      return Data(DataList{Data(DataList{Data(DataList{Data(1.0), Data(number(0, 2)), Data(1.0)})})});
+    if (kind == "list of texts") return Data(DataList{});
+    if (kind == "list of numbers with materials")
+      return Data(DataList{Data(DataList{Data(-1.0), Data("red")}), Data(DataList{Data(number(0, 9)), Data("blue")})});
     if (kind == "list of names with materials")
       return Data(DataList{Data(DataList{Data("PLA"), Data("red")}), Data(DataList{Data("TPU"), Data("blue")})});
     DataList list;

@@ -130,6 +130,12 @@ class HillSource : public program::FieldSource {
   }
 };
 
+// Voxels around (4, 4, 4) of the first colour, between transparent ones.
+class PixelSource : public HillSource {
+ public:
+  double sample(int, Vec3 p) const override { return HillSource::sample(1, p) > 80 ? 1 : 0; }
+};
+
 class PendingBall : public design::PendingSource {
  public:
   Hash content() const override { return source_->content(); }
@@ -197,6 +203,14 @@ class BallLoader : public design::SourceLoader {
     grid->space_from_index = Affine::scaling({0.5, 0.5, 1});
     grid->places = [box = grid->source->bounds()](int, Interval) { return box; };
     return grid;
+  }
+  static std::shared_ptr<const design::ColourGrid> make(const design::ImageStackRequest&) {
+    auto pixels = std::make_shared<design::ColourGrid>();
+    pixels->grid.source = std::make_shared<PixelSource>();
+    pixels->grid.space_from_index = Affine{};
+    pixels->grid.places = [box = pixels->grid.source->bounds()](int, Interval) { return box; };
+    pixels->colours = {{255, 0, 0, 255}};
+    return pixels;
   }
   static program::SourceField make(const design::TextRequest& request) {
     const double h = request.height_mm;

@@ -1,73 +1,45 @@
-// Solids from grids of numbers.
-#include "base/assert.h"
-#include "design/source_loader.h"
-#include "design/spec.h"
+// Grids of numbers from files, as solids and as values, and numbers as materials.
+#include <algorithm>
+#include <map>
+
+#include "base/text.h"
 #include "nodes/all_nodes.h"
 #include "nodes/shapes.h"
+#include "nodes/volume_place.h"
 
 namespace ombre::nodes {
 namespace {
 
 using namespace design;
 
-// From the frame of a file to one that is wanted, or nothing where the file does not say enough.
-std::optional<Affine> turn_of(PatientSpace from, std::string_view wanted) {
-  const auto known = [&](double x, double y) { return std::optional(Affine::scaling({x, y, 1})); };
-  const bool is_ras = wanted == "RAS";
-  if (from == PatientSpace::ras) return is_ras ? known(1, 1) : known(-1, -1);
-  if (from == PatientSpace::lps) return is_ras ? known(-1, -1) : known(1, 1);
-  if (from == PatientSpace::las) return is_ras ? known(-1, 1) : known(1, -1);
-  return std::nullopt;
-}
-
-struct VolumeSolid {
-  FilePath path;
+struct VolumeSolid : VolumePlace {
   MaterialName material;
   double level = 0.5;
   int label = -1;
   bool above = true;
-  std::optional<Vec3> spacing, origin;
-  Choice space = "file";
-  std::shared_ptr<const VolumeGrid> grid;  // read when the node is made
-  Affine here_from_index, index_from_here;
+  Choice between = "linear", by = "level";
 
   static Spec<VolumeSolid> spec() {
-    return {
-        "volume_solid",
-        "imported",
-        "Everything in a grid of numbers (NRRD, NPY, raw) where they reach a level, or where they are a label.",
-        {{"path", &VolumeSolid::path, "The file; relative to the script, then to the working directory", required()},
-         {"material", &VolumeSolid::material, "Its material"},
-         {"level", &VolumeSolid::level, "Inside are values of at least this, interpolated between voxels' centres"},
-         {"label", &VolumeSolid::label,
-          "Inside are the voxels with this number, whole and not interpolated; -1: by level",
-          from_to(-1, greatest_label)},
-         {"above", &VolumeSolid::above, "Inside are values above the level; false: those below it"},
-         {"spacing", &VolumeSolid::spacing, "Lengths of a voxel; none: those of the file", unit::positive_mm},
-         {"origin", &VolumeSolid::origin, "Centre of the first voxel; none: that of the file", unit::mm},
-         {"space", &VolumeSolid::space,
-          "Frame of the places: the file's own, or RAS or LPS, for which the file must say what it has",
-          one_of({"file", "RAS", "LPS"})}},
-        no_inputs,
-        "volume_solid(\"models/two_lobes.nrrd\", \"red\", level=100);"};
+    return {"volume_solid",
+            "imported",
+            "Everything in a grid of numbers (a scan, say) where they reach a level, or where they are a label.",
+            with_place<VolumeSolid>(
+                {{"material", &VolumeSolid::material, "Its material"},
+                 {"level", &VolumeSolid::level, "Inside are values of at least this"},
+                 {"label", &VolumeSolid::label,
+                  "Inside are the voxels with this number, whole and not interpolated; -1: by level",
+                  from_to(-1, greatest_label)},
+                 {"above", &VolumeSolid::above, "Inside are values above the level; false: those below it"},
+                 {"between", &VolumeSolid::between, "Values between voxels' centres", one_of({"linear", "nearest"})},
+                 {"by", &VolumeSolid::by, "Where the level comes from: it is given, or found by Otsu's method",
+                  one_of({"level", "otsu"})}}),
+            no_inputs,
+            "volume_solid(\"models/two_lobes.nrrd\", \"red\", level=100);"};
   }
 
   bool complete(const Reader& reader) {
-    const auto fail = [&](const std::string& message, const std::string& hint) {
-      reader.diagnostics.error(reader.where, message, hint);
-      return false;
-    };
-    if (!reader.loader) return fail("volumes cannot be read here", "");
-    VolumeRequest request{path};
-    grid = reader.loader->source(request, reader);
-    if (!grid) return false;
-    path = request.file;
-    if (!grid->space_from_index && !spacing)
-      return fail("the volume \"" + path.path + "\" does not say how large its voxels are",
-                  "write spacing=(0.5, 0.5, 1), in mm along its axes");
-    here_from_index = placed();
-    if (!turn(fail)) return false;
-    index_from_here = inverse(here_from_index);
+    if (!read_volume(reader)) return false;
+    if (by == "otsu") level = grid->otsu_level;
     return true;
   }
 
@@ -93,49 +65,160 @@ struct VolumeSolid {
  private:
   static constexpr int greatest_label = (1 << 24) - 1;  // that floats tell from its neighbours
 
-  int channel() const {
-    const int number = grid->source->channel(label >= 0 ? "nearest" : "value");
-    ASSERT(number >= 0);
-    return number;
-  }
+  int channel() const { return VolumePlace::channel(label >= 0 || between == "nearest" ? "nearest" : "value"); }
 
   // Values where g is `margin` or less.
   Interval wanted(double margin) const {
     if (label >= 0) return {label - 0.5 - margin, label + 0.5 + margin};
     return above ? Interval(level - margin, Box::inf) : Interval(-Box::inf, level + margin);
   }
+};
 
-  // The file's directions, with the lengths and the origin that are given.
-  Affine placed() const {
-    Affine map = grid->space_from_index.value_or(Affine{});
-    if (spacing)
-      for (int axis = 0; axis < 3; ++axis) {
-        const Vec3 step{map.rows[0][axis], map.rows[1][axis], map.rows[2][axis]};
-        for (Vec3& row : map.rows) row[axis] *= (*spacing)[axis] / length(step);
-      }
-    if (origin) map.offset = *origin;
-    return map;
+struct Volume : VolumePlace {
+  double outside = 0;
+  bool clamp = false;
+
+  static Spec<Volume> spec() {
+    return {
+        "volume",
+        "values",
+        "Numbers of a grid from a file (a scan, say), at the place where they are used.",
+        with_place<Volume>({{"outside", &Volume::outside, "The value beyond the grid"},
+                            {"clamp", &Volume::clamp, "Beyond the grid, values are those at its side, not `outside`"}}),
+        no_inputs,
+        "sphere(8, mix(\"red\", \"blue\", volume(\"models/two_lobes.nrrd\").value / 200));",
+        {{"value", &Volume::value, "Linear between the voxels' centres along each axis"},
+         {"nearest", &Volume::nearest, "Of the voxel whose centre is nearest"},
+         {"inside", &Volume::is_inside, "1 in the grid, 0 beyond it", {0, 1}},
+         {"gradient", &Volume::gradient,
+          "How fast the value grows along x, y and z, per mm, from differences over a voxel each way"}}};
   }
 
-  template <class Fail>
-  bool turn(const Fail& fail) {
-    const std::string file = "the volume \"" + path.path + '"';
-    if (space == "file") {
-      if (grid->space == PatientSpace::las || grid->space == PatientSpace::left_handed)
-        return fail(file + " has left-handed axes, in which it would be mirrored here",
-                    grid->space == PatientSpace::las ? "write space=\"RAS\" or space=\"LPS\""
-                                                     : "save it in a right-handed space");
-      return true;
-    }
-    const auto map = turn_of(grid->space, space.text());
-    if (!map) return fail(file + " does not say where the right side of a patient is", "leave space out");
-    here_from_index = *map * here_from_index;
+  bool complete(const Reader& reader) { return read_volume(reader); }
+
+  Field value(const Ask& ask) const { return read(ask, "value"); }
+  Field nearest(const Ask& ask) const { return read(ask, "nearest"); }
+  Field is_inside(const Ask& ask) const { return is_in_grid(ask.p.mapped(index_from_here)); }
+
+  VectorField gradient(const Ask& ask) const {
+    const Point at = ask.p.mapped(index_from_here);
+    const auto along = [&](double x, double y, double z) {
+      const auto sample = [&](double side) {
+        return ask.p.builder().source(grid->source, channel("value"), at.x + side * x, at.y + side * y,
+                                      at.z + side * z);
+      };
+      return 0.5 * (sample(1) - sample(-1));
+    };
+    const Field i = along(1, 0, 0), j = along(0, 1, 0), k = along(0, 0, 1);
+    const auto here = [&](int axis) {
+      const auto& rows = index_from_here.rows;
+      return i * rows[0][axis] + j * rows[1][axis] + k * rows[2][axis];
+    };
+    return {here(0), here(1), here(2)};
+  }
+
+ private:
+  Field read(const Ask& ask, const char* name) const {
+    const Point at = ask.p.mapped(index_from_here);
+    const Field value = ask.p.builder().source(grid->source, channel(name), at.x, at.y, at.z);
+    return clamp ? value : select(is_in_grid(at), value, ask.p.constant(outside));
+  }
+
+  Field is_in_grid(const Point& at) const {
+    const Box cells = grid->source->bounds();
+    const Vec3 c = cells.center(), h = 0.5 * cells.size();
+    const auto within = [](Field from_middle, double half) {
+      return less_equal(abs(from_middle), from_middle.builder->constant(half));
+    };
+    return logical_and(logical_and(within(at.x - c.x, h.x), within(at.y - c.y, h.y)), within(at.z - c.z, h.z));
+  }
+};
+
+struct Transfer {
+  Number value;
+  std::vector<MaterialStop> stops;
+  Choice mode = "linear";
+  MaterialName otherwise;
+
+  static Spec<Transfer> spec() {
+    Spec<Transfer> spec{
+        "transfer",
+        "values",
+        "Materials for numbers: a transfer function for scans, or the materials of labels.",
+        {{"value", &Transfer::value, "The number", required()},
+         {"stops", &Transfer::stops, "Pairs of a number and a material, numbers in rising order", required()},
+         {"mode", &Transfer::mode,
+          "linear: mixtures between neighbours; step: the last stop at or below the number; label: the stop of that "
+          "number "
+          "alone",
+          one_of({"linear", "step", "label"})},
+         {"otherwise", &Transfer::otherwise, "Of labels without a stop, and below the first step; none: void"}},
+        no_inputs,
+        "sphere(8, transfer(formula(\"x\"), [[-4, \"red\"], [0, \"clear\"], [4, \"blue\"]]));",
+        {{"mixture", &Transfer::mixture, "The material or mixture for the number"}}};
+    spec.parameters[3].fill = [](Transfer& node, const Reader& reader) {
+      if (!node.otherwise.is_given()) node.otherwise.material = reader.materials.find("void");
+    };
+    return spec;
+  }
+
+  bool complete(const Reader& reader) const {
+    const auto fail = [&](const std::string& message, const std::string& hint) {
+      reader.diagnostics.error(reader.where, message, hint);
+      return false;
+    };
+    if (stops.empty()) return fail("transfer has no stops", "write for example [[0, \"clear\"], [100, \"red\"]]");
+    for (size_t n = 1; n < stops.size(); ++n)
+      if (!(stops[n - 1].at < stops[n].at))
+        return fail("the stops of transfer are not in rising order: " + format_number(stops[n].at) + " follows " +
+                        format_number(stops[n - 1].at),
+                    "sort them by their numbers");
     return true;
+  }
+
+  Composition mixture(const Ask& ask) const {
+    const Field read = value(ask.p), usable = is_finite(read);
+    std::map<MaterialId, Field> shares;
+    const auto add = [&](const MaterialName& material, Field share) {
+      Field& sum = shares.try_emplace(ask.in.material(material), share.builder->constant(0)).first->second;
+      sum = sum + share;
+    };
+    Field rest = ask.p.constant(1);
+    for (size_t n = 0; n < stops.size(); ++n) {
+      const Field share = select(usable, share_of(n, read), ask.p.constant(0));
+      add(stops[n].material, share);
+      rest = rest - share;
+    }
+    if (mode != "linear" && otherwise.is_given()) add(otherwise, max(rest, 0.0));
+    Composition result{{shares.begin(), shares.end()}, {}};
+    if (ask.p.builder().constant_value(usable) != 1.0)
+      result.checks.push_back(ask.in.check(logical_not(usable), "the value of transfer is not a finite number there"));
+    return result;
+  }
+
+ private:
+  Field share_of(size_t n, Field read) const {
+    const double at = stops[n].at;
+    const bool is_first = n == 0, is_last = n + 1 == stops.size();
+    const auto from = [&](double edge) { return less_equal(read.builder->constant(edge), read); };
+    const auto below = [&](double edge) { return less(read, read.builder->constant(edge)); };
+    if (mode == "label") return less(abs(read - at), read.builder->constant(0.5));
+    if (mode == "step") return is_last ? from(at) : logical_and(from(at), below(stops[n + 1].at));
+    Field share = read.builder->constant(1);
+    if (!is_first) {
+      const double before = stops[n - 1].at;
+      share = min(share, (read - before) * (1 / (at - before)));
+    }
+    if (!is_last) {
+      const double next = stops[n + 1].at;
+      share = min(share, (next - read) * (1 / (next - at)));
+    }
+    return max(share, 0.0);
   }
 };
 
 }  // namespace
 
-void add_volumes(Registry& registry) { registry.add<VolumeSolid>(); }
+void add_volumes(Registry& registry) { registry.add<VolumeSolid, Volume, Transfer>(); }
 
 }  // namespace ombre::nodes

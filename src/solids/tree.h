@@ -125,10 +125,9 @@ struct SetMaterial {
   std::string name;
 };
 
-using Operation =
-    std::variant<Group, Cube, Sphere, Cylinder, Polyhedron, Square, Circle, Polygon, Text, Import, Surface, Union, Difference,
-                 Intersection, Hull, Minkowski, Fill, Transform, Resize, Offset, LinearExtrude, RotateExtrude, Projection,
-                 SetColour, SetPart, SetMaterial>;
+using Operation = std::variant<Group, Cube, Sphere, Cylinder, Polyhedron, Square, Circle, Polygon, Text, Import,
+                               Surface, Union, Difference, Intersection, Hull, Minkowski, Fill, Transform, Resize,
+                               Offset, LinearExtrude, RotateExtrude, Projection, SetColour, SetPart, SetMaterial>;
 
 // How solids of different parts or materials meet in an operator.
 enum class Semantics : uint8_t { standard, strict, permissive };

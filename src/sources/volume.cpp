@@ -3,12 +3,15 @@
 
 #include <filesystem>
 
+#include "base/error.h"
 #include "import/volume_source.h"
 #include "sources/loading.h"
-#include "sources/mesh_materials.h"
+#include "sources/volume_parts.h"
 
 namespace ombre::design {
 namespace {
+
+using sources::VolumeParts;
 
 PatientSpace patient_space(formats::VolumeSpace space) {
   switch (space) {
@@ -25,38 +28,62 @@ PatientSpace patient_space(formats::VolumeSpace space) {
   }
 }
 
-// The bytes of the rest of the file; null, and diagnostics, where the file is wrong.
-std::shared_ptr<const std::string> companion_path(const FilePath& file, sources::Loading& loading) {
-  using Made = sources::Loading::Made<std::string>;
-  const Hash key = sources::Key("companion of a volume").add(file.content).add(file.path).hash();
-  return loading.cached<std::string>(key, file.path, [&](const Reader&) {
-    auto path = std::make_shared<std::string>(formats::companion_of(file.path, *loading.bytes(file)));
-    const size_t bytes = path->size();
-    return Made{std::move(path), bytes};
+sources::ReadFile reader_of(sources::Loading& loading) {
+  return [&loading](const std::string& path) { return loading.bytes({path, {}}); };
+}
+
+// What a file alone is made of; found once for the same content. Null, and diagnostics, where it is wrong.
+std::shared_ptr<const VolumeParts> parts_of_file(FilePath& file, sources::Loading& loading) {
+  if (!loading.look_at(file)) return nullptr;
+  using Made = sources::Loading::Made<VolumeParts>;
+  const Hash key = sources::Key("parts of a volume").add(file.content).add(file.path).hash();
+  return loading.cached<VolumeParts>(key, file.path, [&](const Reader&) {
+    return Made{std::make_shared<VolumeParts>(sources::volume_parts(file.path, reader_of(loading))),
+                sizeof(VolumeParts)};
   });
+}
+
+std::shared_ptr<const VolumeParts> parts_of(FilePath& file, sources::Loading& loading) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(file.path, error)) return parts_of_file(file, loading);
+  try {
+    return std::make_shared<VolumeParts>(sources::volume_parts(file.path, reader_of(loading)));
+  } catch (const Error& wrong) {
+    loading.reader().diagnostics.error(loading.reader().where, wrong.what());
+    return nullptr;
+  }
+}
+
+// What stands in all of its files.
+std::optional<Hash> content_of(const VolumeParts& parts, const std::string& series, sources::Loading& loading) {
+  sources::Key key("volume");
+  key.add(series);
+  for (const std::string& path : parts.files) {
+    FilePath part{path, {}};
+    if (!loading.look_at(part)) return std::nullopt;
+    key.add(part.content);
+  }
+  return key.hash();
 }
 
 }  // namespace
 
 std::shared_ptr<const VolumeGrid> VolumeRequest::load(sources::Loading& loading) {
-  if (!loading.find(file) || !loading.look_at(file)) return nullptr;
-  const auto beside = companion_path(file, loading);
-  if (!beside) return nullptr;
-  const FilePath own = file;
-  FilePath companion{*beside, {}};
-  std::error_code ignored;
-  const bool has_companion = !beside->empty() && std::filesystem::exists(*beside, ignored);
-  if (has_companion && !loading.look_at(companion)) return nullptr;
-  if (has_companion) file.content = hash_bytes(file.content.hex() + companion.content.hex());
-
+  if (!loading.find(file)) return nullptr;
+  const auto parts = parts_of(file, loading);
+  const auto content = parts ? content_of(*parts, series, loading) : std::nullopt;
+  if (!content) return nullptr;
+  file.content = *content;
   using Made = sources::Loading::Made<VolumeGrid>;
-  const Hash key = sources::Key("volume").add(file.content).hash();
-  return loading.cached<VolumeGrid>(key, file.path, [&](const Reader&) {
-    const auto rest = has_companion ? loading.bytes(companion) : nullptr;
-    formats::VoxelVolume volume = formats::read_volume(file.path, *loading.bytes(own), rest.get());
+  return loading.cached<VolumeGrid>(*content, file.path, [&](const Reader& reader) {
+    std::vector<std::string> warnings;
+    formats::VoxelVolume volume =
+        sources::read_volume_parts(file.path, *parts, series, reader_of(loading), loading.stop(), warnings);
+    for (const std::string& warning : warnings) reader.diagnostics.warning(reader.where, warning);
     auto grid = std::make_shared<VolumeGrid>();
     grid->space_from_index = volume.space_from_index;
     grid->space = patient_space(volume.space);
+    grid->otsu_level = sources::otsu_level(volume.values);
     auto made = importing::make_volume_source(file.path, std::move(volume), file.content);
     grid->source = std::move(made.source);
     grid->places = std::move(made.places);

@@ -6,6 +6,7 @@ import numpy
 from . import _core
 from ._functions import adapt
 from ._materials import current_factory, setting
+from ._volumes import is_array, stored
 
 _classes = {}  # by the name of the node
 _place = contextvars.ContextVar("ombre_place", default=None)
@@ -78,6 +79,9 @@ def make(name, info, positional, named):
                         f"write {name}(sphere(5), ...) or sphere(5).{name}(...)")
     if inputs and most == 0:
         raise TypeError(f"{name} takes no solids")
+    if name in ("volume", "volume_solid") and values and is_array(values[0]):
+        values, named = (stored(values[0], named.get("affine")), *values[1:]), {**named}
+        named.pop("affine", None)
     mixtures = [node for argument in (*values, *named.values()) for node in _mixtures(argument)]
     factory = next((node.factory for node in (*inputs, *mixtures) if node), None) or current_factory()
     if not all(node.names_materials_of(factory) for node in mixtures):

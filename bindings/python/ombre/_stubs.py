@@ -104,6 +104,8 @@ _kinds = {"number": "float", "whole number": "int", "3 whole numbers": "Sequence
           "material or mixture": "Material", "number, field, material or mixture": "Union[Number, Material]",
           "file": "Path", "list of numbers or fields": "Union[Number, Numbers]",
           "list of materials": "Union[Material, Sequence[Material]]",
+          "list of numbers with materials": "Sequence[tuple[float, Material]]",
+          "lists of lists of numbers": "ArrayLike", "list of texts": "Sequence[str]",
           "font": "Path", "list of points": "ArrayLike", "lists of points": "Sequence[ArrayLike]",
           "list of names with materials": "Union[Mapping[str, Material], Sequence[tuple[str, Material]]]"}
 

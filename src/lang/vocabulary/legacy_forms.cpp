@@ -34,10 +34,11 @@ constexpr Alias aliases[] = {
     {"revolve", "points", "profile"},
     {"tube", "r", "radius"},
     {"text", "size", "height"},
+    {"voxel", "size", "voxel"},
 };
 
-constexpr std::string_view vector_nodes[] = {"rectprism", "ellipsoid", "translate",  "scale",
-                                             "mirror",    "rotate",    "half_space", "blend"};
+constexpr std::string_view vector_nodes[] = {"rectprism", "ellipsoid",  "translate", "scale",   "mirror",
+                                             "rotate",    "half_space", "blend",     "majority"};
 
 bool is_number_like(const Data& data) { return data.number() || data.string(); }
 

@@ -1,0 +1,51 @@
+// DICOM files by GDCM: the module.
+#include <gdcmTrace.h>
+
+#include <filesystem>
+
+#include "base/helper_process.h"
+#include "dicom/gdcm_slices.h"
+#include "dicom/module.h"
+#include "dicom/volume_pack.h"
+
+namespace ombre::dicom {
+namespace {
+
+// Compressed files grow some tens of times.
+constexpr double least_seconds = 20, seconds_for_a_byte = 1e-6;
+constexpr size_t least_memory = size_t{2} << 30, memory_for_a_byte = 60;
+
+HelperLimits limits_for(const std::vector<std::string>& files) {
+  uintmax_t size = 0;
+  for (const std::string& file : files) {
+    std::error_code failed;
+    const uintmax_t bytes = std::filesystem::file_size(file, failed);
+    if (!failed) size += bytes;
+  }
+  return {least_seconds + seconds_for_a_byte * static_cast<double>(size),
+          least_memory + memory_for_a_byte * static_cast<size_t>(size)};
+}
+
+}  // namespace
+}  // namespace ombre::dicom
+
+// In a helper process, since broken files make the library crash.
+void ombre_read_dicom(const std::string* name, const std::vector<std::string>* files, const std::string* choice,
+                      const ombre::StopFlag* stop, ombre::dicom::Series* series) {
+  using namespace ombre;
+  using namespace ombre::dicom;
+  // It would tell of its progress on the console.
+  gdcm::Trace::WarningOff();
+  gdcm::Trace::ErrorOff();
+  gdcm::Trace::DebugOff();
+  const HelperLimits limits = limits_for(*files);
+  const auto explain = [&](HelperFailure failure) {
+    return "cannot read the scan \"" + *name + "\": " +
+           (failure == HelperFailure::crashed
+                ? "a file is broken"
+                : "it takes longer than " + std::to_string(static_cast<int>(limits.seconds)) +
+                      " s, so a file is probably broken") +
+           "; export it again";
+  };
+  *series = unpack(run_in_helper([&] { return pack(read_slices(*name, *files, *choice)); }, limits, explain, stop));
+}

@@ -1,0 +1,66 @@
+#include "dicom/volume_pack.h"
+
+#include <cstring>
+
+namespace ombre::dicom {
+namespace {
+
+template <class T>
+void put(std::string& bytes, const T* values, size_t count) {
+  bytes.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+}
+
+template <class T>
+void take(std::string_view& bytes, T* values, size_t count) {
+  std::memcpy(values, bytes.data(), count * sizeof(T));
+  bytes.remove_prefix(count * sizeof(T));
+}
+
+template <class T>
+void put_list(std::string& bytes, const std::vector<T>& list) {
+  const uint64_t count = list.size();
+  put(bytes, &count, 1);
+  put(bytes, list.data(), list.size());
+}
+
+template <class T>
+void take_list(std::string_view& bytes, std::vector<T>& list) {
+  uint64_t count = 0;
+  take(bytes, &count, 1);
+  list.resize(count);
+  take(bytes, list.data(), list.size());
+}
+
+}  // namespace
+
+std::string pack(const Series& series) {
+  std::string bytes, warnings;
+  put(bytes, series.count.data(), series.count.size());
+  put(bytes, series.lps_from_index.rows.data(), 3);
+  put(bytes, &series.lps_from_index.offset, 1);
+  for (const std::string& warning : series.warnings) warnings += warning + '\n';
+  put_list(bytes, std::vector<char>(warnings.begin(), warnings.end()));
+  put_list(bytes, series.whole);
+  put_list(bytes, series.real);
+  return bytes;
+}
+
+Series unpack(std::string_view bytes) {
+  Series series;
+  take(bytes, series.count.data(), series.count.size());
+  take(bytes, series.lps_from_index.rows.data(), 3);
+  take(bytes, &series.lps_from_index.offset, 1);
+  std::vector<char> warnings;
+  take_list(bytes, warnings);
+  std::string line;
+  for (const char c : warnings) {
+    if (c != '\n') line += c;
+    if (c == '\n') series.warnings.push_back(std::move(line));
+    if (c == '\n') line.clear();
+  }
+  take_list(bytes, series.whole);
+  take_list(bytes, series.real);
+  return series;
+}
+
+}  // namespace ombre::dicom

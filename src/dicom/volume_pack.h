@@ -1,0 +1,11 @@
+// Series as bytes, for the way out of a helper process.
+#pragma once
+
+#include "dicom/series.h"
+
+namespace ombre::dicom {
+
+std::string pack(const Series& series);
+Series unpack(std::string_view bytes);
+
+}  // namespace ombre::dicom

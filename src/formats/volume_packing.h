@@ -1,0 +1,19 @@
+// Packed numbers of grids: gzip and zlib streams.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace ombre::formats {
+
+enum class Packing : uint8_t { gzip, zlib };
+
+// Exactly so many bytes; members of a gzip stream follow each other. Throws Error, naming the path.
+std::string unpacked(const std::string& path, std::string_view bytes, Packing packing, uint64_t size);
+
+// Everything in a gzip file, however much that is. Throws Error where it is damaged or more than `most` bytes.
+std::string unpacked_file(const std::string& path, std::string_view bytes, uint64_t most);
+bool is_gzip(std::string_view bytes);
+
+}  // namespace ombre::formats

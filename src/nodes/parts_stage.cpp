@@ -1,0 +1,229 @@
+// Connected parts of a solid, and its hollows, by runs of voxels.
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "nodes/whole_stages.h"
+
+namespace ombre::nodes {
+namespace {
+
+using design::StageValues;
+
+// Voxels [begin, end) of a row.
+struct MarkedRun {
+  int64_t begin = 0, end = 0;
+  size_t parent = 0;  // of the tree whose root stands for its part; a part's first run
+};
+
+// The runs of voxels with one mark, joined where they touch by their sides.
+class MarkedRuns {
+ public:
+  MarkedRuns(const std::vector<float>& marks, const IndexBox& box, bool wanted) : box_(box) {
+    const auto width = static_cast<size_t>(box.size(0));
+    const auto rows = static_cast<size_t>(box.size(1) * box.size(2));
+    for (size_t row = 0; row < rows; ++row) {
+      first_.push_back(runs_.size());
+      add_row(marks.data() + row * width, wanted);
+      if (row % static_cast<size_t>(box.size(1)) > 0) join(row, row - 1);
+      if (row >= static_cast<size_t>(box.size(1))) join(row, row - static_cast<size_t>(box.size(1)));
+    }
+    first_.push_back(runs_.size());
+  }
+
+  size_t count() const { return runs_.size(); }
+  const MarkedRun& run(size_t n) const { return runs_[n]; }
+  size_t root(size_t n) const {
+    while (runs_[n].parent != n) n = runs_[n].parent;
+    return n;
+  }
+  size_t rows() const { return first_.size() - 1; }
+  size_t first(size_t row) const { return first_[row]; }
+
+  // Voxels of each part, at its root.
+  std::vector<int64_t> sizes() const {
+    std::vector<int64_t> sizes(runs_.size(), 0);
+    for (size_t n = 0; n < runs_.size(); ++n) sizes[root(n)] += runs_[n].end - runs_[n].begin;
+    return sizes;
+  }
+
+  // The root of the part that holds the voxel; nothing where none does.
+  std::optional<size_t> part_at(const std::array<int64_t, 3>& cell) const {
+    for (size_t a = 0; a < 3; ++a)
+      if (cell[a] < box_.lo[a] || cell[a] >= box_.hi[a]) return std::nullopt;
+    const auto row = static_cast<size_t>((cell[2] - box_.lo[2]) * box_.size(1) + cell[1] - box_.lo[1]);
+    const int64_t x = cell[0] - box_.lo[0];
+    for (size_t n = first_[row]; n < first_[row + 1]; ++n)
+      if (x >= runs_[n].begin && x < runs_[n].end) return root(n);
+    return std::nullopt;
+  }
+
+ private:
+  void add_row(const float* row, bool wanted) {
+    const int64_t width = box_.size(0);
+    for (int64_t x = 0; x < width;) {
+      while (x < width && (row[x] != 0) != wanted) ++x;
+      const int64_t begin = x;
+      while (x < width && (row[x] != 0) == wanted) ++x;
+      if (x > begin) runs_.push_back({begin, x, runs_.size()});
+    }
+  }
+
+  void join(size_t row, size_t other) {
+    size_t a = first_[row], b = first_[other];
+    const size_t a_end = runs_.size(), b_end = other + 1 < first_.size() ? first_[other + 1] : runs_.size();
+    while (a < a_end && b < b_end) {
+      if (runs_[a].begin < runs_[b].end && runs_[b].begin < runs_[a].end) unite(a, b);
+      if (runs_[a].end < runs_[b].end)
+        ++a;
+      else
+        ++b;
+    }
+  }
+
+  // The root is the part's first run; paths are halved on the way.
+  void unite(size_t a, size_t b) {
+    const auto shortened = [&](size_t n) {
+      while (runs_[n].parent != n) n = runs_[n].parent = runs_[runs_[n].parent].parent;
+      return n;
+    };
+    const size_t x = shortened(a), y = shortened(b);
+    runs_[std::max(x, y)].parent = std::min(x, y);
+  }
+
+  IndexBox box_;
+  std::vector<MarkedRun> runs_;
+  std::vector<size_t> first_;  // run of each row, and behind them the count
+};
+
+double cell_volume(const design::StageLattice& lattice) {
+  return lattice.pitch[0].mm() * lattice.pitch[1].mm() * lattice.pitch[2].mm();
+}
+
+void mark(const MarkedRuns& runs, const std::vector<char>& chosen, const IndexBox& box, std::vector<float>& marks) {
+  for (size_t row = 0; row < runs.rows(); ++row)
+    for (size_t n = runs.first(row); n < runs.first(row + 1); ++n) {
+      if (!chosen[runs.root(n)]) continue;
+      const auto begin = marks.begin() + static_cast<ptrdiff_t>(static_cast<int64_t>(row) * box.size(0));
+      std::fill(begin + runs.run(n).begin, begin + runs.run(n).end, 1.0f);
+    }
+}
+
+class MarkStage : public design::WholeStage {
+ public:
+  MarkStage(const design::NodePtr& solid, const std::optional<Vec3>& cell_mm) : solid_(solid), cell_mm_(cell_mm) {}
+
+  Box bounds() const override { return solid_->bounds(design::design_space()); }
+  design::LatticeChoice lattice() const override { return {cell_mm_, false}; }
+  double bytes_of_cell() const override { return sizeof(MarkedRun); }  // at most half as many runs as cells
+  std::vector<design::StageRead> reads() const override {
+    design::StageRead read;
+    read.solid = solid_;
+    read.inside = true;
+    return {read};
+  }
+  std::vector<design::StageChannel> channels(const std::vector<design::StageChannel>&) const override {
+    return {{"inside", {}, 0, true, {0, 1}}};
+  }
+
+ private:
+  design::NodePtr solid_;
+  std::optional<Vec3> cell_mm_;
+};
+
+class PartsStage final : public MarkStage {
+ public:
+  PartsStage(const design::NodePtr& solid, const PartChoice& choice, const std::optional<Vec3>& cell_mm)
+      : MarkStage(solid, cell_mm), choice_(choice) {}
+
+  std::string name() const override { return "keep_parts"; }
+  Hash content() const override {
+    std::string text = "parts " + std::to_string(static_cast<int>(choice_.keep));
+    for (const double n : {choice_.least_mm3, choice_.at.x, choice_.at.y, choice_.at.z}) text += ' ' + format_number(n);
+    return hash_bytes(text);
+  }
+
+  void compute(const StageValues& read, StageValues& made, const design::StageLattice& lattice,
+               const design::StageWork&) const override {
+    const MarkedRuns runs(read.channel(0), read.box(), true);
+    mark(runs, chosen(runs, lattice), made.box(), made.channel(0));
+  }
+
+ private:
+  std::vector<char> chosen(const MarkedRuns& runs, const design::StageLattice& lattice) const {
+    std::vector<char> marks(runs.count(), 0);
+    if (marks.empty()) return marks;
+    if (choice_.keep == KeepParts::at) {
+      if (const auto part = runs.part_at(cell_of(choice_.at, lattice))) marks[*part] = 1;
+      return marks;
+    }
+    const std::vector<int64_t> sizes = runs.sizes();
+    if (choice_.keep == KeepParts::largest) {
+      marks[static_cast<size_t>(std::ranges::max_element(sizes) - sizes.begin())] = 1;
+      return marks;
+    }
+    for (size_t n = 0; n < sizes.size(); ++n)
+      marks[n] = sizes[n] > 0 && static_cast<double>(sizes[n]) * cell_volume(lattice) >= choice_.least_mm3 ? 1 : 0;
+    return marks;
+  }
+
+  static std::array<int64_t, 3> cell_of(Vec3 p, const design::StageLattice& lattice) {
+    std::array<int64_t, 3> cell;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<size_t>(axis);
+      cell[a] = static_cast<int64_t>(std::floor((p[axis] - lattice.origin[axis]) / lattice.pitch[a].mm()));
+    }
+    return cell;
+  }
+
+  PartChoice choice_;
+};
+
+class FillStage final : public MarkStage {
+ public:
+  FillStage(const design::NodePtr& solid, double most_mm3, const std::optional<Vec3>& cell_mm)
+      : MarkStage(solid, cell_mm), most_mm3_(most_mm3) {}
+
+  std::string name() const override { return "fill_holes"; }
+  Hash content() const override { return hash_bytes("fill " + format_number(most_mm3_)); }
+
+  void compute(const StageValues& read, StageValues& made, const design::StageLattice& lattice,
+               const design::StageWork&) const override {
+    const IndexBox& box = read.box();
+    const MarkedRuns runs(read.channel(0), box, false);
+    const std::vector<int64_t> sizes = runs.sizes();
+    std::vector<char> filled(runs.count(), 0);
+    for (size_t n = 0; n < sizes.size(); ++n)
+      filled[n] = static_cast<double>(sizes[n]) * cell_volume(lattice) <= most_mm3_ ? 1 : 0;
+    leave_open(runs, box, filled);
+    made.channel(0) = read.channel(0);
+    mark(runs, filled, box, made.channel(0));
+  }
+
+ private:
+  // What reaches a side of the box is no hollow.
+  static void leave_open(const MarkedRuns& runs, const IndexBox& box, std::vector<char>& filled) {
+    const int64_t ny = box.size(1), nz = box.size(2);
+    for (size_t row = 0; row < runs.rows(); ++row) {
+      const int64_t j = static_cast<int64_t>(row) % ny, k = static_cast<int64_t>(row) / ny;
+      const bool is_side = j == 0 || j == ny - 1 || k == 0 || k == nz - 1;
+      for (size_t n = runs.first(row); n < runs.first(row + 1); ++n)
+        if (is_side || runs.run(n).begin == 0 || runs.run(n).end == box.size(0)) filled[runs.root(n)] = 0;
+    }
+  }
+
+  double most_mm3_;
+};
+
+}  // namespace
+
+design::StagePtr make_parts_stage(const design::NodePtr& solid, const PartChoice& choice,
+                                  const std::optional<Vec3>& cell_mm) {
+  return std::make_shared<PartsStage>(solid, choice, cell_mm);
+}
+
+design::StagePtr make_fill_stage(const design::NodePtr& solid, double most_mm3, const std::optional<Vec3>& cell_mm) {
+  return std::make_shared<FillStage>(solid, most_mm3, cell_mm);
+}
+
+}  // namespace ombre::nodes

@@ -1,0 +1,39 @@
+// What nodes with stages have in common.
+#pragma once
+
+#include "design/node.h"
+#include "design/stage.h"
+
+namespace ombre::nodes {
+
+inline constexpr const char* about_pitch = "Size of the voxels; none: the job's";
+
+// What the stage's source says in a channel at the point.
+inline program::Field read_channel(const design::Inputs& in, const design::StagePtr& stage, const std::string& channel,
+                                   const program::Point& p) {
+  const program::SourceField source = in.staged(stage);
+  return p.builder().source(source, source->channel(channel), p.x, p.y, p.z);
+}
+
+// What a stage marks as "inside"; materials are those of the child, or of what is nearest in it.
+struct Marked {
+  design::StagePtr stage;
+
+  design::Metric metric() const { return design::Metric::bounded(); }
+  Box reach(const design::Inputs&, const Box& where, double margin) const {
+    const Box box = stage->bounds();
+    return box.is_empty() ? box : intersect(box.expanded(margin), where);
+  }
+  program::Field distance(const design::Inputs& in, const program::Point& p) const {
+    return read_channel(in, stage, "distance", p);
+  }
+  program::Field inside(const design::Inputs& in, const program::Point& p) const {
+    return truth(read_channel(in, stage, "inside", p));
+  }
+  program::Field interior(const design::Inputs& in, const program::Point& p) const { return inside(in, p); }
+  design::Composition composition(const design::Inputs& in, const program::Point& p, design::Demand) const {
+    return in.composition(0, p, design::Demand::everywhere);
+  }
+};
+
+}  // namespace ombre::nodes

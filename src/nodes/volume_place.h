@@ -1,0 +1,48 @@
+// Where a grid of numbers from a file lies in a design.
+#pragma once
+
+#include "design/source_loader.h"
+#include "design/spec.h"
+
+namespace ombre::nodes {
+
+struct VolumePlace {
+  design::FilePath path;
+  std::optional<Vec3> spacing, origin;
+  design::Choice space = "file";
+  std::string series;
+  std::shared_ptr<const design::VolumeGrid> grid;  // read when the node is made
+  Affine here_from_index, index_from_here;
+
+ protected:
+  // Reads the file; false, and diagnostics, where that fails or it does not say enough.
+  bool read_volume(const design::Reader& reader);
+  int channel(const char* name) const;
+
+  // The four parameters of T, which derives from this.
+  template <class T>
+  static std::vector<design::Parameter<T>> with_place(std::vector<design::Parameter<T>> others) {
+    const auto own = [](auto VolumePlace::*member) {
+      return static_cast<std::remove_reference_t<decltype(std::declval<VolumePlace>().*member)> T::*>(member);
+    };
+    std::vector<design::Parameter<T>> all{
+        {"path", own(&VolumePlace::path), "The file, or a folder of DICOM files or PNG images; relative to the script, then to the working directory",
+         design::required()}};
+    for (auto& parameter : others) all.push_back(std::move(parameter));
+    all.emplace_back("spacing", own(&VolumePlace::spacing), "Lengths of a voxel; none: those of the file",
+                     design::unit::positive_mm);
+    all.emplace_back("origin", own(&VolumePlace::origin), "Centre of the first voxel; none: that of the file",
+                     design::unit::mm);
+    all.emplace_back("space", own(&VolumePlace::space),
+                     "Frame of the places: the file's own, or RAS or LPS, for which the file must say what it has",
+                     design::one_of({"file", "RAS", "LPS"}));
+    all.emplace_back("series", own(&VolumePlace::series), "Of several DICOM series in a folder, its number or UID; of several grids in a .vdb file, its name");
+    return all;
+  }
+
+ private:
+  Affine placed() const;
+  bool turn(const design::Reader& reader);
+};
+
+}  // namespace ombre::nodes

@@ -1,0 +1,30 @@
+// Stages that read all voxels of a solid at once.
+#pragma once
+
+#include "design/stage.h"
+
+namespace ombre::nodes {
+
+enum class KeepParts : uint8_t { largest, above, at };
+
+struct PartChoice {
+  KeepParts keep = KeepParts::largest;
+  double least_mm3 = 0;  // of the parts kept by `above`
+  Vec3 at;               // a point of the part kept by `at`
+};
+
+// The mark "inside": of the parts of a solid whose voxels touch by their sides, those that are chosen. Of equally large
+// ones the one that comes first, from the lowest layer up, is the largest.
+design::StagePtr make_parts_stage(const design::NodePtr& solid, const PartChoice& choice,
+                                  const std::optional<Vec3>& cell_mm);
+
+// The mark "inside": the solid, and the hollows in it of at most so many mm3 that are closed by sides of voxels.
+design::StagePtr make_fill_stage(const design::NodePtr& solid, double most_mm3, const std::optional<Vec3>& cell_mm);
+
+// The channel "sdf": the distance (mm) to where the solid's values, linear between voxels, change their sign; negative
+// inside. Each voxel takes the nearest of the points that its neighbours know of (Y. Tsai, Rapid and accurate computation
+// of the distance function using grids, 2002). The mark "known": 1 where that is known.
+design::StagePtr make_distance_stage(const design::NodePtr& solid, const std::optional<Vec3>& cell_mm,
+                                     double margin_mm);
+
+}  // namespace ombre::nodes

@@ -1,0 +1,151 @@
+// Stacks of coloured images: voxels whose colours stand for materials.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "formats/png.h"
+#include "import/volume_source.h"
+#include "sources/file_numbers.h"
+#include "sources/loading.h"
+
+namespace ombre::design {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uint64_t most_voxels = uint64_t{1} << 33;
+constexpr size_t most_colours = 65535;
+
+// The number of each voxel's colour; 0 is transparent.
+class StackBuilder {
+ public:
+  explicit StackBuilder(size_t layers) : layers_(layers) {}
+
+  void add(const formats::PngImage& image, const std::string& path) {
+    if (volume_.empty()) start(image, path);
+    if (image.width != width_ || image.height != height_)
+      throw Error("the image \"" + path + "\" has " + size_text(image.width, image.height) + " pixels, but those below it have " +
+                  size_text(width_, height_) + "; all images of a stack need the same size");
+    // Rows of images go down, those of voxels along y.
+    for (uint32_t row = image.height; row-- > 0;)
+      for (uint32_t column = 0; column < image.width; ++column)
+        volume_.push_back(number_of(image.colour(column, row), path));
+  }
+
+  formats::VoxelVolume take() {
+    formats::VoxelVolume volume;
+    volume.count = {width_, height_, static_cast<int64_t>(layers_)};
+    constexpr size_t most_in_bytes = 255;
+    if (colours_.size() <= most_in_bytes) {
+      volume.type = "uint8";
+      std::vector<uint8_t> small;
+      small.reserve(volume_.size());
+      for (const uint16_t number : volume_) small.push_back(static_cast<uint8_t>(number));
+      volume.values = std::move(small);
+    } else {
+      volume.type = "uint16";
+      volume.values = std::move(volume_);
+    }
+    volume.space_from_index = Affine{};
+    return volume;
+  }
+  const std::vector<Rgba>& colours() const { return colours_; }
+
+ private:
+  static std::string size_text(uint32_t width, uint32_t height) {
+    return std::to_string(width) + " x " + std::to_string(height);
+  }
+
+  void start(const formats::PngImage& image, const std::string& path) {
+    width_ = image.width;
+    height_ = image.height;
+    const uint64_t pixels = uint64_t{width_} * height_;
+    if (pixels > most_voxels / layers_)
+      throw Error("the images beginning with \"" + path + "\" have more than " + std::to_string(most_voxels) +
+                  " voxels together; cut them or make them coarser");
+    volume_.reserve(pixels * layers_);
+  }
+
+  uint16_t number_of(const Rgba& colour, const std::string& path) {
+    if (colour[3] == 0) return 0;
+    if (colour == last_colour_) return last_;
+    const auto [it, is_new] = numbers_.try_emplace(colour, static_cast<uint16_t>(colours_.size() + 1));
+    if (is_new && colours_.size() == most_colours)
+      throw Error("the images up to \"" + path + "\" have more than 65535 colours; give each material one colour");
+    if (is_new) colours_.push_back(colour);
+    last_colour_ = colour;
+    return last_ = it->second;
+  }
+
+  size_t layers_;
+  uint32_t width_ = 0, height_ = 0;
+  std::vector<uint16_t> volume_;
+  std::vector<Rgba> colours_;
+  std::map<Rgba, uint16_t> numbers_;
+  Rgba last_colour_{};
+  uint16_t last_ = 0;
+};
+
+bool is_png(const fs::path& path) { return to_lower(path.extension().string()) == ".png"; }
+
+// The image, or those in the folder, in the order of the numbers in their names. Throws Error.
+std::vector<std::string> images_at(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return {path};
+  std::vector<std::string> images;
+  for (const auto& entry : fs::directory_iterator(path, error))
+    if (is_png(entry.path())) images.push_back(entry.path().string());
+  if (error) throw Error("the folder \"" + path + "\" cannot be read: " + error.message());
+  if (images.empty()) throw Error("the folder \"" + path + "\" has no .png files");
+  std::ranges::sort(images, sources::is_numbered_before);
+  return images;
+}
+
+void tell_gaps(const std::vector<std::string>& images, const Reader& reader) {
+  const auto missing = sources::missing_number(images);
+  if (missing)
+    reader.diagnostics.warning(reader.where, "the images have a gap: number " + std::to_string(*missing) + " is missing",
+                               "the layers above it move down by one");
+}
+
+}  // namespace
+
+std::shared_ptr<const ColourGrid> ImageStackRequest::load(sources::Loading& loading) {
+  if (!loading.find(file)) return nullptr;
+  const Reader& reader = loading.reader();
+  std::vector<FilePath> images;
+  try {
+    for (const std::string& path : images_at(file.path)) images.push_back({path, {}});
+  } catch (const Error& error) {
+    reader.diagnostics.error(reader.where, error.what());
+    return nullptr;
+  }
+  sources::Key key("image stack");
+  for (FilePath& image : images) {
+    if (!loading.look_at(image)) return nullptr;
+    key.add(image.content);
+  }
+  file.content = key.hash();
+  using Made = sources::Loading::Made<ColourGrid>;
+  return loading.cached<ColourGrid>(key.hash(), file.path, [&](const Reader& told) {
+    StackBuilder stack(images.size());
+    std::vector<std::string> names;
+    for (const FilePath& image : images) {
+      if (loading.stop() && loading.stop()->requested()) throw Cancelled();
+      stack.add(formats::decode_png(*loading.bytes(image), image.path), image.path);
+      names.push_back(image.path);
+    }
+    tell_gaps(names, told);
+    auto made = importing::make_volume_source(file.path, stack.take(), key.hash());
+    auto grid = std::make_shared<ColourGrid>();
+    grid->grid.source = made.source;
+    grid->grid.space_from_index = Affine{};
+    grid->grid.places = made.places;
+    grid->colours = stack.colours();
+    return Made{std::move(grid), made.bytes};
+  });
+}
+
+}  // namespace ombre::design

@@ -1,0 +1,37 @@
+// Volumes in files and folders, whichever library reads them.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "formats/volume.h"
+
+namespace ombre::sources {
+
+// The contents of a file. Throws Error.
+using ReadFile = std::function<std::shared_ptr<const std::string>(const std::string& path)>;
+
+// The files that make a volume.
+struct VolumeParts {
+  enum class Kind : uint8_t { numbers, dicom, vdb, images };
+  Kind kind = Kind::numbers;
+  std::vector<std::string> files;  // the first is the volume itself, or all of a folder in the order of their numbers
+  bool has_companion = false;      // the second file holds the rest of the first
+};
+
+// `path` is a file, or a folder of DICOM files or of PNG images in shades of grey. Throws Error.
+VolumeParts volume_parts(const std::string& path, const ReadFile& read);
+
+// `series` is the number or UID of one of several DICOM series, or the name of one of several grids. Throws Error,
+// naming the path; Cancelled once `stop`, which may be null, is set. Adds what a designer should know to `warnings`.
+formats::VoxelVolume read_volume_parts(const std::string& path, const VolumeParts& parts, const std::string& series,
+                                       const ReadFile& read, const StopFlag* stop, std::vector<std::string>& warnings);
+
+// Above which Otsu's method finds the brighter class (N. Otsu, A threshold selection method from gray-level histograms,
+// 1979), by 256 equal parts of the range: a level for volume_solid.
+double otsu_level(const formats::VoxelValues& values);
+
+}  // namespace ombre::sources

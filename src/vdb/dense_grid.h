@@ -1,0 +1,28 @@
+// One grid of an OpenVDB file, all its voxels side by side.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "base/vec.h"
+
+namespace ombre::vdb {
+
+struct DenseGrid {
+  std::string name;
+  std::array<int64_t, 3> count{};
+  std::vector<float> values;  // x fastest; marks are 0 and 1, vectors their lengths
+  Affine space_from_index;    // of voxels' centres, in the units of the file, which are taken as mm
+};
+
+// The active voxels of a grid and one around them; beyond, a grid is its background. An empty name: the only grid.
+// Throws Error, naming the path: when the file is broken, has no such grid, or several and none is named, when the grid
+// holds no numbers, or more than 16 GiB, and when this was built without the library; Cancelled once `stop`, which may
+// be null, is set.
+DenseGrid read_grid(const std::string& path, const std::string& name, const StopFlag* stop);
+bool is_vdb(std::string_view bytes);
+
+}  // namespace ombre::vdb

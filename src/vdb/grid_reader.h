@@ -1,0 +1,8 @@
+// Between read_grid() and the module that holds OpenVDB.
+#pragma once
+
+#include "vdb/dense_grid.h"
+
+// What the module exports.
+extern "C" void ombre_read_vdb_grid(const std::string* path, const std::string* name, const ombre::StopFlag* stop,
+                                    ombre::vdb::DenseGrid* grid);
