@@ -117,6 +117,78 @@ def nrrd_is_in_millimetres(grid):
     expect(plain["space origin"] == "(-4.75,-4.75,-4.75)", str(plain))
 
 
+TYPED = """attribute("modulus", "100 + x") attribute("fibre", ["x", "y", 1]) attribute("color_rgba", "#ff8000")
+  attribute("tissue", mix(red, blue, "0.5 + z/10")) sphere(5, green);"""
+
+
+def vti(path):
+    """Header and arrays of a file of VTK image data, by a reader of its own: [(name, components)] -> numbers."""
+    data = path.read_bytes()
+    begin = data.index(b'<AppendedData encoding="raw">\n_') + len(b'<AppendedData encoding="raw">\n_')
+    header = data[:begin].decode()
+    arrays = {}
+    for text in re.findall(r"<DataArray [^>]*>", header):
+        fields = dict(re.findall(r'(\w+)="([^"]*)"', text))
+        at = begin + int(fields["offset"])
+        size = struct.unpack_from("<Q", data, at)[0]
+        code, width = ("f", 4) if fields["type"] == "Float32" else ("B", 1)
+        arrays[fields["Name"]] = (int(fields.get("NumberOfComponents", 1)),
+                                  struct.unpack_from(f"<{size // width}{code}", data, at + 8))
+    return header, arrays
+
+
+def image_data_holds_all_grids(grid):
+    (grid.folder / "ball.vcad").write_text(TYPED, encoding="utf-8")
+    what = "materials,fractions,distance,attributes"
+    grid.voxels("ball.vti", "--voxel", "0.5,0.5,1", "--what", what)
+    header, arrays = vti(grid.folder / "ball.vti")
+    expect('WholeExtent="0 20 0 20 0 10" Origin="-5 -5 -5" Spacing="0.5 0.5 1"' in header, header)
+    expect([(name, c) for name, (c, _) in arrays.items()] == [("material", 1), ("distance", 1), ("green", 1), ("tissue", 2),
+           ("color_rgba", 4), ("fibre", 3), ("modulus", 1)], str(header))
+    for n in range(20 * 20 * 10):
+        x, y, z = -4.75 + 0.5 * (n % 20), -4.75 + 0.5 * (n // 20 % 20), -4.5 + n // 400
+        inside = math.hypot(x, y, z) <= 5
+        wanted = {"material": [2 if inside else 0], "distance": [math.hypot(x, y, z) - 5], "green": [float(inside)],
+                  "modulus": [100 + x if inside else 0], "fibre": [x, y, 1] if inside else [0, 0, 0],
+                  "color_rgba": [1, 128 / 255, 0, 1] if inside else [0] * 4,
+                  "tissue": [0.5 - z / 10, 0.5 + z / 10] if inside else [0, 0]}
+        for name, values in wanted.items():
+            size, numbers = arrays[name]
+            found = numbers[n * size:(n + 1) * size]
+            near = len(found) == len(values) and all(abs(a - b) < 1e-5 for a, b in zip(found, values))
+            expect(near, f"{name} at {(x, y, z)}: {found}, expected {values}")
+    grid.voxels("again.vti", "--voxel", "0.5,0.5,1", "--what", what, "--threads", "1")
+    expect((grid.folder / "again.vti").read_bytes() == (grid.folder / "ball.vti").read_bytes(), "threads show")
+    grid.voxels("part.raw", "--voxel", "0.5,0.5,1", "--what", "materials,fibre.y")
+    expect(grid.floats(next(name for name in grid.names() if name.startswith("part_fibre") and name.endswith(".raw")))
+           == arrays["fibre"][1][1::3], "dense files differ")
+
+
+def vtk_reads_image_data(grid):
+    """With VTK where there is one: pip install vtk. Its classes come from the package of its own names."""
+    try:
+        from vtkmodules.vtkIOXML import vtkXMLImageDataReader
+    except ImportError:
+        return "skipped: no VTK"
+    (grid.folder / "ball.vcad").write_text(TYPED, encoding="utf-8")
+    grid.voxels("ball.vti", "--voxel", "0.5", "--what", "materials,distance,attributes")
+    reader = vtkXMLImageDataReader()
+    reader.SetFileName(str(grid.folder / "ball.vti"))
+    reader.Update()
+    image = reader.GetOutput()
+    expect(image.GetBounds() == (-5, 5, -5, 5, -5, 5), str(image.GetBounds()))
+    cells = image.GetCellData()
+    modulus, fibre = cells.GetArray("modulus"), cells.GetArray("fibre")
+    place = [0.0] * 3
+    for cell in range(0, image.GetNumberOfCells(), 37):
+        image.GetCell(cell).GetCentroid(place)
+        if math.hypot(*place) > 5:
+            continue
+        expect(abs(modulus.GetTuple1(cell) - 100 - place[0]) < 1e-4, f"modulus at {place}")
+        expect(all(abs(a - b) < 1e-5 for a, b in zip(fibre.GetTuple3(cell), (place[0], place[1], 1))), f"fibre at {place}")
+    return ""
+
+
 def boxes_are_cut_out(grid):
     grid.voxels("ball.raw", "--voxel", "0.5", "--box", "0,0,0,1,2,4.99")
     about = json.loads((grid.folder / "ball.raw.json").read_text())
@@ -128,12 +200,11 @@ def boxes_are_cut_out(grid):
 
 
 def slips_get_remedies(grid):
-    for arguments, message in [(["b.stl"], "let it end in .npy, .nrrd, .raw, .vdb or .nvdb"),
+    for arguments, message in [(["b.stl"], "let it end in .npy, .nrrd, .vti, .raw, .vdb or .nvdb"),
                                (["b"], "does not say a format"),
                                (["b.raw", "--gzip"], "--gzip is for .nrrd files"),
                                (["b.raw", "--what", "colour"], "the design has no attribute"),
                                (["b.raw", "--what", "distance,"], "write materials, fractions, distance, attributes"),
-                               (["b.raw", "--what", "materials,distance"], "goes alone"),
                                (["b.raw", "--box", "1,2,3"], "write for example --box")]:
         error = grid.voxels(*arguments, status=1).stderr
         expect(message in error, f"{arguments}: {error}")
@@ -204,7 +275,7 @@ def openvdb_prints_the_same(grid):
     return ""
 
 
-CHECKS = [materials_are_those_of_slices, distances_are_mathematics, numpy_reads_them, nrrd_is_in_millimetres,
+CHECKS = [materials_are_those_of_slices, distances_are_mathematics, numpy_reads_them, nrrd_is_in_millimetres, image_data_holds_all_grids, vtk_reads_image_data,
           boxes_are_cut_out, slips_get_remedies, files_are_kept, interrupts_leave_nothing,
           sparse_files_are_the_same_on_any_threads, openvdb_prints_the_same]
 

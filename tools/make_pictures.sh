@@ -24,6 +24,9 @@ declare -A options=(
   [knob]="--cut x=0 --from -50,20"
   [soft_actuator]="--from -50,15"
   [unit_cells]="--from -15,50"
+  [orthosis]="--by modulus --legend --palette plasma --from 30,30"
+  [shoe_sole]="--by color_rgb --from -20,50"
+  [wood]="--from -20,35"
   [turned_handle]="--cut z=12 --from -50,35"
 )
 

@@ -1,12 +1,16 @@
-// ombre info: what a grid of numbers in a file holds.
+// ombre info: what a grid of numbers in a file holds, and the parameters of an OpenSCAD script.
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "base/json.h"
 #include "base/text.h"
+#include "compile/attribute_survey.h"
 #include "formats/file.h"
+#include "lang/openscad/customizer.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
+#include "ombre/job_arguments.h"
 #include "sources/volume_parts.h"
 
 namespace ombre::cli {
@@ -116,23 +120,114 @@ int show_volume(const std::string& path, const std::string& series, Session& ses
   return done;
 }
 
+std::string range_text(const std::optional<Interval>& range) {
+  if (!range) return "no values";
+  return format_rounded(range->lo, 5) + " to " + format_rounded(range->hi, 5);
+}
+
+std::string attributes_text(const std::vector<compile::SurveyedAttribute>& attributes) {
+  std::string text;
+  for (const compile::SurveyedAttribute& attribute : attributes) {
+    const design::AttributeDeclaration& declared = attribute.declaration;
+    const std::string unit = declared.unit.empty() || declared.unit == "1" ? "" : ", " + declared.unit;
+    text += declared.name + "  " + std::string(design::name(declared.type)) + unit + ", " +
+            std::string(design::overlap_names[static_cast<size_t>(declared.overlap)]) + " where solids meet";
+    if (attribute.ranges.size() == 1) {
+      text += ", " + range_text(attribute.ranges[0].second) + "\n";
+      continue;
+    }
+    text += '\n';
+    for (const auto& [part, range] : attribute.ranges) text += "  " + part + "  " + range_text(range) + "\n";
+  }
+  return text;
+}
+
+Data attribute_data(const compile::SurveyedAttribute& attribute) {
+  const design::AttributeDeclaration& declared = attribute.declaration;
+  DataMembers numbers;
+  for (const auto& [part, range] : attribute.ranges)
+    numbers.emplace_back(part, range ? Data(DataList{range->lo, range->hi}) : Data());
+  return DataMembers{{"name", declared.name},
+                     {"type", std::string(design::name(declared.type))},
+                     {"unit", declared.unit},
+                     {"default", declared.default_value},
+                     {"overlap", std::string(design::overlap_names[static_cast<size_t>(declared.overlap)])},
+                     {"values", std::move(numbers)}};
+}
+
+int show_design(const std::string& path, Session& session) {
+  Diagnostics diagnostics;
+  const compile::LoadedPtr loaded = load_design({path, "", {}}, session, diagnostics);
+  const auto attributes = loaded ? compile::survey_attributes(*loaded, diagnostics) : std::nullopt;
+  session.console.diagnose(diagnostics);
+  if (!attributes) return wrong_input;
+  DataList list;
+  for (const compile::SurveyedAttribute& attribute : *attributes) list.push_back(attribute_data(attribute));
+  if (session.console.voice() == Voice::programs)
+    session.console.event("design", {{"file", path}, {"attributes", std::move(list)}});
+  else
+    session.console.print(attributes->empty() ? "the design has no attributes\n" : attributes_text(*attributes));
+  return done;
+}
+
+bool is_design(const std::string& path) {
+  const std::string ending = to_lower(std::filesystem::path(path).extension().string());
+  return ending == ".vcad" || ending == ".py" || ending == ".json";
+}
+
+std::string parameter_text(const lang::openscad::Parameter& parameter) {
+  std::string text = "  " + parameter.name;
+  text.resize(std::max<size_t>(text.size() + 1, 22), ' ');
+  text += print_json_line(parameter.value);
+  if (parameter.least || parameter.most)
+    text += "  (" + (parameter.least ? format_number(*parameter.least) : std::string()) + " to " +
+            (parameter.most ? format_number(*parameter.most) : std::string()) + ")";
+  for (size_t n = 0; n < parameter.choices.size(); ++n) text += (n == 0 ? "  of " : ", ") + parameter.choices[n].second;
+  return text + (parameter.description.empty() ? "" : "  " + parameter.description) + '\n';
+}
+
+int show_script(const std::string& path, Session& session) {
+  const auto parameters = lang::openscad::parameters_of(make_source(path, formats::read_file(path)));
+  if (session.console.voice() == Voice::programs) {
+    DataList list;
+    for (const auto& parameter : parameters) list.emplace_back(lang::openscad::to_data(parameter));
+    session.console.event("script", {{"file", path}, {"parameters", std::move(list)}});
+    return done;
+  }
+  std::string text = path + ": an OpenSCAD script with " + std::to_string(parameters.size()) + " parameters\n", section;
+  for (const auto& parameter : parameters) {
+    if (parameter.section == "Hidden") continue;
+    if (parameter.section != section) text += "\n  [" + (section = parameter.section) + "]\n";
+    text += parameter_text(parameter);
+  }
+  session.console.print(text);
+  return done;
+}
+
+int show_file(const std::string& path, const std::string& series, Session& session) {
+  if (path.ends_with(".scad")) return show_script(path, session);
+  return is_design(path) ? show_design(path, session) : show_volume(path, series, session);
+}
+
 }  // namespace
 
 Command add_info(CLI::App& program, OutputOptions& output) {
   CLI::App* app = program.add_subcommand(
-      "info", "Say what a volume (a scan, a grid) holds: size, voxels, orientation, values and how often they occur");
+      "info",
+      "Say what a volume (a scan, a grid) holds: size, voxels, orientation, values and how often they occur; or which "
+      "attributes a design gives, with type, unit and range; or which parameters an OpenSCAD script has");
   auto file = std::make_shared<std::string>(), series = std::make_shared<std::string>();
   app->add_option(
          "file", *file,
          "A volume: a folder of DICOM files or PNG images, .dcm, .nii, .nrrd, .mha, .vdb, .npy, or raw numbers "
-         "with a .json beside them")
+         "with a .json beside them; or a design, or a script: .scad")
       ->required()
       ->type_name("FILE");
   app->add_option("--series", *series, "Of several DICOM series, its number or UID; of several grids, its name")
       ->type_name("NAME");
   add_output_options(*app, output);
-  app->footer("Example:\n  ombre info models/two_lobes.nrrd\n");
-  return {app, [file, series](Session& session) { return show_volume(*file, *series, session); }};
+  app->footer("Examples:\n  ombre info models/two_lobes.nrrd\n  ombre info part.vcad\n");
+  return {app, [file, series](Session& session) { return show_file(*file, *series, session); }};
 }
 
 }  // namespace ombre::cli

@@ -58,7 +58,7 @@ void add_job_arguments(CLI::App& app, JobArguments& a) {
   app.add_option("--format", a.image, "Image format: rgba, indexed, gray or mask (default: the printer's)")
       ->check(one_of(voxel::image_format_names()))
       ->type_name("FORMAT");
-  CLI::Option* by = app.add_option("--by", a.by,
+  CLI::Option* by = app.add_option("--by,--gray,--grey", a.by,
                                    "Images in shades of gray by an attribute or a material's fraction, black outside, "
                                    "in place of\nmaterials")
                         ->type_name("NAME");

@@ -1,5 +1,6 @@
 // ombre mesh: a design as closed surfaces for slicers and other programs.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -7,7 +8,9 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "compile/beam_document.h"
+#include "compile/colour_map.h"
 #include "compile/mesh_job.h"
+#include "compile/vertex_colours.h"
 #include "export/mesh_file.h"
 #include "ombre/arguments.h"
 #include "ombre/checks.h"
@@ -25,7 +28,7 @@ namespace {
 struct MeshArguments {
   DesignArguments design;
   RegionArguments regions;
-  std::string output, flavour = "generic";
+  std::string output, flavour = "generic", colour_by, palette, range;
   std::vector<std::string> settings;
   std::string memory = "4G";
   int threads = 0;
@@ -47,6 +50,8 @@ constexpr const char* mesh_footer =
     "triangles\n"
     "  ombre mesh part.vcad --bands 4                     four bodies by the fraction that varies most\n"
     "  ombre mesh part.vcad --by red --borders 0.2,0.5    three bodies: red below 20 %, to 50 %, from there on\n"
+    "  ombre mesh sole.vcad --by infill_density,temperature --flavour prusa     each band with its own settings\n"
+    "  ombre mesh part.vcad --colour-by color_rgba -o part.glb                  vertices in the attribute's colours\n"
     "  ombre mesh seat.vcad --bands 4 --flavour prusa --setting fill_density=10%..60%\n";
 
 void add_arguments(CLI::App& app, MeshArguments& a) {
@@ -55,6 +60,18 @@ void add_arguments(CLI::App& app, MeshArguments& a) {
                  "The file to write; its ending says the format (default: the design's name and .3mf)")
       ->type_name("FILE");
   add_region_arguments(app, a.regions, "A body");
+  CLI::Option* by =
+      app.add_option("--colour-by,--color-by", a.colour_by,
+                     "Colours of vertices by an attribute, or by the mixture: materials; not for .stl and "
+                     ".off")
+          ->type_name("materials|NAME");
+  app.add_option("--palette", a.palette, "Of an attribute that is a number")
+      ->needs(by)
+      ->check(one_of(compile::palette_names()))
+      ->type_name("NAME");
+  app.add_option("--range", a.range, "The values from the first colour to the last (default: those at the vertices)")
+      ->needs(by)
+      ->type_name("LO,HI");
   app.add_flag("--keep-all", a.keep_all, "Keep the triangles of all cells, also where the surface is flat");
   app.add_option("--flavour,--flavor", a.flavour, "Whom a .3mf is for: generic (default), prusa or bambu")
       ->check(one_of({"generic", "prusa", "bambu"}))
@@ -84,6 +101,31 @@ formats::SlicerFlavour flavour_of(const std::string& name) {
   return name == "bambu" ? formats::SlicerFlavour::bambu : formats::SlicerFlavour::generic;
 }
 
+// What slicers call an attribute whose bands are bodies; empty: it is none of their settings.
+std::string slicer_key(const std::string& attribute) {
+  if (attribute == "infill_density") return "fill_density";
+  if (attribute == "fuzzy_skin_point_distance") return "fuzzy_skin_point_dist";
+  constexpr std::string_view same[] = {
+      "temperature",   "fuzzy_skin_thickness",  "extrusion_width",    "layer_height",
+      "perimeters",    "bridge_speed",          "gap_fill_speed",     "infill_speed",
+      "ironing_speed", "ironing_flowrate",      "perimeter_speed",    "external_perimeter_speed",
+      "flow_rate",     "small_perimeter_speed", "solid_infill_speed", "top_solid_infill_speed"};
+  const bool is_same = std::ranges::find(same, attribute) != std::end(same);
+  return is_same || attribute.ends_with("_extrusion_width") ? attribute : "";
+}
+
+// The settings that the middles of a body's bands say, unless others were given.
+void add_attributes(const compile::Region& region, std::vector<std::pair<std::string, std::string>>& values) {
+  for (const auto& [attribute, middle] : region.attributes) {
+    const std::string key = slicer_key(attribute);
+    const auto is_given = [&](const auto& value) { return value.first == key; };
+    if (key.empty() || std::ranges::any_of(values, is_given)) continue;
+    const bool is_whole = key == "temperature" || key == "perimeters" || key == "fill_density";
+    values.emplace_back(key, format_rounded(is_whole ? std::round(middle) : middle, 4) +
+                                 (key == "fill_density" || key == "ironing_flowrate" ? "%" : ""));
+  }
+}
+
 std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<SlicerSetting>& settings, size_t body,
                                                              const compile::MeshedDesign& made) {
   std::vector<std::pair<std::string, std::string>> values;
@@ -93,6 +135,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<S
                           " values, and there are " + std::to_string(made.bodies.size()) + " bodies");
     values.emplace_back(setting.key(), setting.value(body, made.bodies[body].share));
   }
+  add_attributes(made.bodies[body].region, values);
   // Bodies of materials print with an extruder each, in the order of the materials; bands with the same.
   const bool is_given = std::ranges::any_of(settings, [](const SlicerSetting& s) { return s.key() == "extruder"; });
   if (!is_given && !made.bodies[body].region.material) values.emplace_back("extruder", "1");
@@ -220,6 +263,9 @@ int mesh(const MeshArguments& a, Session& session) {
   refuse_to_overwrite(output, a.force);
   if (*format == exporting::MeshFormat::obj) refuse_to_overwrite(exporting::material_library_path(output), a.force);
   if (a.beams) check_beams(a, request, output, *format);
+  if (!a.colour_by.empty() && (*format == exporting::MeshFormat::stl || *format == exporting::MeshFormat::off))
+    throw WrongArgument("--colour-by: " + output +
+                        " holds no colours of vertices; write .ply, .glb, .3mf, .obj or .amf");
   if (*format == exporting::MeshFormat::three_mf && !formats::can_write_3mf())
     throw WrongArgument("this ombre was built without libzip, which .3mf files need; write -o " + stem + ".amf");
 
@@ -241,6 +287,13 @@ int mesh(const MeshArguments& a, Session& session) {
   warn_of_distance(session.console, *made);
   warn_of_lost_parts(session.console, *made);
   formats::MeshDocument document = document_of(*made, stem, settings);
+  if (!a.colour_by.empty()) {
+    const compile::VertexColouring colouring{a.colour_by, a.palette,
+                                             a.range.empty() ? std::nullopt : std::optional(parse_range(a.range))};
+    const bool good = compile::colour_vertices(*loaded, colouring, document, diagnostics, a.threads, &session.stop);
+    diagnose();
+    if (!good) return wrong_input;
+  }
   compile::add_beams(*made, loaded->design.materials, document);
   exporting::write_mesh_file(output, document, *format, flavour_of(a.flavour));
   session.console.say(output + " written in " + format_rounded(watch.seconds(), 3) + " s");

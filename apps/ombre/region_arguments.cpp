@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/pitch.h"
+#include "base/text.h"
 #include "ombre/arguments.h"
 #include "ombre/checks.h"
 #include "ombre/commands.h"
@@ -36,7 +37,9 @@ void add_region_arguments(CLI::App& app, RegionArguments& a, const std::string& 
       ->type_name("MM");
   app.add_option("--cell", a.cell, "Edge of the smallest cells; mm (default: 4 times the tolerance)")->type_name("MM");
   app.add_option("--by", a.by,
-                 piece + " for each of the materials, or for bands of a material's fraction or an attribute")
+                 piece +
+                     " for each of the materials, or for bands of a material's fraction or an attribute; of several,\n"
+                     "with commas, for each combination of their bands")
       ->type_name("materials|NAME");
   auto* bands =
       app.add_option("--bands", a.bands, "Number of bands of equal width (default 4, of the fraction that varies most)")
@@ -56,8 +59,15 @@ compile::RegionRequest region_request(const RegionArguments& a) {
   const bool has_bands = a.bands > 0 || !borders.empty();
   if (request.by_material && has_bands)
     throw WrongArgument("--by materials has no bands; leave out --bands and --borders, or name a material: --by red");
-  if (has_bands || (!a.by.empty() && !request.by_material))
-    request.bands = compile::BandRequest{a.bands > 0 ? a.bands : 4, borders, a.by};
+  if (!has_bands && (a.by.empty() || request.by_material)) return request;
+  const std::vector<std::string> names = split(a.by, ',');
+  if (names.size() > 1 && !borders.empty())
+    throw WrongArgument("--borders are those of one value; with --by " + a.by + " write --bands, the number for each");
+  const auto bands_of = [&](const std::string& name) {
+    return compile::BandRequest{a.bands > 0 ? a.bands : 4, borders, std::string(trim(name))};
+  };
+  request.bands = bands_of(names.front());
+  for (size_t n = 1; n < names.size(); ++n) request.crossed.push_back(bands_of(names[n]));
   return request;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/text.h"
+#include "compile/colour_map.h"
 #include "compile/picture.h"
 #include "export/output_file.h"
 #include "formats/png.h"
@@ -21,7 +22,7 @@ namespace {
 
 struct RenderArguments {
   DesignArguments design;
-  std::string output, size = "800x600", view = "iso", from, slice, box, background = "white", font, by, range;
+  std::string output, size = "800x600", view = "iso", from, slice, box, background = "white", font, by, range, palette;
   std::vector<std::string> cuts, opacity;
   double perspective = 0, zoom = 1;
   int samples = 2, frames = 1, threads = 0;
@@ -67,12 +68,17 @@ void add_arguments(CLI::App& app, RenderArguments& a) {
       app.add_option("--opacity", a.opacity, "Of a material, 0 (clear) to 1, in place of its own; may be repeated")
           ->allow_extra_args(false)
           ->type_name("MATERIAL=N");
-  CLI::Option* by =
-      app.add_option("--by", a.by, "Colour by a material's fraction or an attribute, from dark blue (least) to yellow")
-          ->type_name("NAME");
+  CLI::Option* by = app.add_option("--by,--colour-by,--color-by", a.by,
+                                   "Colour by a material's fraction or an attribute, from dark blue (least) to yellow")
+                        ->type_name("NAME");
   app.add_option("--range", a.range, "The values from the first colour to the last (default: those of the design)")
       ->needs(by)
       ->type_name("LO,HI");
+  app.add_option("--palette", a.palette,
+                 "From the least value to the greatest: " + join(compile::palette_names(), ", "))
+      ->needs(by)
+      ->check(one_of(compile::palette_names()))
+      ->type_name("NAME");
   app.add_option("--background", a.background, "white (default), black, gray, transparent or #rrggbb")
       ->type_name("COLOUR");
   app.add_option("--aa", a.samples, "Rays along the edge of a pixel, which smooth edges (default 2)")
@@ -174,6 +180,7 @@ compile::PictureRequest picture_request(const RenderArguments& a) {
     request.opacity.emplace_back(text.substr(0, sign), *value);
   }
   request.by = a.by;
+  request.palette = a.palette;
   if (!a.range.empty()) request.range = parse_range(a.range);
   request.annotations = {a.axes || a.annotate, a.scale_bar || a.annotate, a.legend || a.annotate, a.font};
   request.samples = a.samples;

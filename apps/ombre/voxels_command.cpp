@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "compile/sparse_file.h"
 #include "compile/volume_files.h"
+#include "compile/vti_files.h"
 #include "ombre/arguments.h"
 #include "ombre/checks.h"
 #include "ombre/command_line.h"
@@ -35,6 +36,7 @@ constexpr const char* voxels_footer =
     "  .raw    numbers alone, x fastest; FILE.json describes them\n"
     "  .npy    for NumPy, an array of shape (z, y, x); FILE.json describes it\n"
     "  .nrrd   for 3D Slicer, ParaView and ITK; --gzip compresses\n"
+    "  .vti    image data of VTK, for ParaView: all grids in one file, vectors and colours as such\n"
     "  .vdb    sparse grids of OpenVDB, for Blender, Houdini and others; .nvdb the same for NanoVDB\n\n"
     "--what is\n"
     "  materials   the number of the material that ombre slice puts there, 0 is void; a byte a voxel\n"
@@ -43,14 +45,16 @@ constexpr const char* voxels_footer =
     "              its distance (unions inside, differences, blends) the surface may be farther; of a function\n"
     "              only the sign is meant. ombre slice --emit tree says which. In .vdb and .nvdb a narrow\n"
     "              band around the surface, 3 voxels to both sides\n"
-    "  attributes  a grid for each attribute of the design, in its unit; its default outside\n"
-    "  NAME        the attribute of that name; several with commas\n\n"
+    "  attributes  a grid for each attribute of the design, in its unit; its default outside. Of vectors, colours and\n"
+    "              mixtures one for each of their numbers\n"
+    "  NAME        the attribute of that name, or one of its numbers (fibre.x); several with commas\n\n"
     "Examples:\n"
     "  ombre voxels part.vcad -o part.npy                        materials, as ombre slice has them\n"
     "  ombre voxels part.vcad -o part.nrrd --what distance --voxel 0.2\n"
     "  ombre voxels part.vcad -o part.raw --what fractions       part_red.raw, part_blue.raw and so on\n"
     "  ombre voxels part.vcad -o part.vdb                        distance, and a grid for each material\n"
     "  ombre voxels part.vcad -o part.npy --what density         the attribute \"density\"\n"
+    "  ombre voxels part.vcad -o part.vti --what materials,distance,attributes\n"
     "  ombre voxels part.vcad -o part.nrrd --gzip --box -5,-5,0,5,5,2\n";
 
 void add_arguments(CLI::App& app, VoxelsArguments& a) {
@@ -70,7 +74,8 @@ void add_arguments(CLI::App& app, VoxelsArguments& a) {
 }
 
 // What the ending of the file asks for: dense numbers, or sparse grids.
-using Format = std::variant<exporting::VolumeFormat, vdb::FileFormat>;
+struct VtiFormat {};
+using Format = std::variant<exporting::VolumeFormat, vdb::FileFormat, VtiFormat>;
 
 Format chosen_format(const VoxelsArguments& a) {
   const std::string ending = to_lower(std::filesystem::path(a.output).extension().string());
@@ -81,7 +86,9 @@ Format chosen_format(const VoxelsArguments& a) {
   if (ending == ".nrrd") return a.gzip ? exporting::VolumeFormat::nrrd_gzip : exporting::VolumeFormat::nrrd;
   if (ending == ".vdb") return vdb::FileFormat::vdb;
   if (ending == ".nvdb") return vdb::FileFormat::nvdb;
-  throw WrongArgument("-o " + a.output + " does not say a format; let it end in .npy, .nrrd, .raw, .vdb or .nvdb");
+  if (ending == ".vti") return VtiFormat{};
+  throw WrongArgument("-o " + a.output +
+                      " does not say a format; let it end in .npy, .nrrd, .vti, .raw, .vdb or .nvdb");
 }
 
 bool is_sparse(const Format& format) { return std::holds_alternative<vdb::FileFormat>(format); }
@@ -108,8 +115,6 @@ compile::GridWishes chosen_grids(const VoxelsArguments& a, const Format& format)
     else
       wishes.attributes.emplace_back(name);
   }
-  if (wishes.materials && (wishes.fractions || wishes.distance || wishes.all_attributes || !wishes.attributes.empty()))
-    throw WrongArgument("--what materials goes alone; write the others to a file of their own");
   return wishes;
 }
 
@@ -201,9 +206,22 @@ int write_sparse(const VoxelsArguments& a, const compile::GridJob& job, vdb::Fil
   return done;
 }
 
+int write_image_data(const VoxelsArguments& a, const compile::GridJob& job, Session& session, const StopFlag& stop) {
+  refuse_to_overwrite(a.output, a.force);
+  const uint64_t bytes = compile::volume_bytes(job);
+  if (!a.force) refuse_small_disk(a.output, bytes);
+  tell_plan(session.console, job, {a.output}, format_bytes(static_cast<double>(bytes)));
+  ProgressLine progress(session.console);
+  const compile::GridReport report = compile::write_vti(job, a.output, a.threads, &progress, &stop);
+  progress.finish();
+  tell_report(session.console, report);
+  return done;
+}
+
 int write(const VoxelsArguments& a, const compile::GridJob& job, const Format& format, Session& session,
           const StopFlag& stop) {
   if (const auto* sparse = std::get_if<vdb::FileFormat>(&format)) return write_sparse(a, job, *sparse, session, stop);
+  if (std::holds_alternative<VtiFormat>(format)) return write_image_data(a, job, session, stop);
   return write_dense(a, job, std::get<exporting::VolumeFormat>(format), session, stop);
 }
 

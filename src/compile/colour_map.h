@@ -2,6 +2,10 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/interval.h"
 #include "design/materials.h"
@@ -9,11 +13,21 @@
 
 namespace ombre::compile {
 
-// From dark blue over green to yellow, even in lightness: nine colours of viridis (S. van der Walt and N. Smith, 2015),
-// between which linear light is mixed. `share` goes from 0 to 1.
-design::Rgba map_colour(double share);
+// Nine colours from the least value to the greatest, between which linear light is mixed.
+struct Palette {
+  std::string_view name;
+  std::array<design::Rgba, 9> colours;
+};
+// The first is the usual one: viridis, from dark blue over green to yellow, even in lightness.
+std::span<const Palette> palettes();
+std::vector<std::string> palette_names();
+const Palette* palette_called(std::string_view name);  // null: there is none
+
+// `share` goes from 0 to 1.
+design::Rgba map_colour(double share, const Palette& palette = palettes().front());
 
 // Linear red, green and blue of a value: the first colour up to range.lo, the last from range.hi on.
-std::array<program::Field, 3> mapped_colour(program::Field value, Interval range);
+std::array<program::Field, 3> mapped_colour(program::Field value, Interval range,
+                                            const Palette& palette = palettes().front());
 
 }  // namespace ombre::compile

@@ -33,7 +33,7 @@ std::optional<program::Program> build_field_program(const design::Design& design
   for (const std::string& name : wishes.attributes) {
     const auto value = question.attribute(name, diagnostics);
     if (!value) return std::nullopt;
-    const Field usual = question.builder().constant(question.declaration(name)->default_value);
+    const Field usual = question.builder().constant(design::default_of(*question.declaration(name), name));
     outputs.emplace_back(name, select(question.inside(), *value, usual));
   }
   if (wishes.inside) outputs.emplace_back("inside", question.inside());

@@ -45,6 +45,48 @@ TileProducer material_tiles(const RegionProducer& regions) {
   };
 }
 
+// The materials of a region's voxels, one after the other.
+std::vector<float> dense_materials(const TileProducer& materials, const TileBox& region, const StopFlag* stop) {
+  std::vector<float> dense(static_cast<size_t>(region.voxels()));
+  for (const FieldTile& tile : materials(region, stop)) {
+    const float* from = tile.output(0);
+    const TileBox& box = tile.box;
+    for (int64_t k = box.lo[2]; k < box.hi[2]; ++k)
+      for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
+        float* to = dense.data() + ((k - region.lo[2]) * region.size(1) + (j - region.lo[1])) * region.size(0) +
+                    (box.lo[0] - region.lo[0]);
+        for (int64_t i = 0; i < box.size(0); ++i, from += tile.is_uniform ? 0 : 1) *to++ = *from;
+      }
+  }
+  return dense;
+}
+
+// A tile of fields with the materials of its voxels before them.
+FieldTile joined_tile(const FieldTile& fields, const std::vector<float>& materials, const TileBox& region) {
+  const TileBox& box = fields.box;
+  const auto voxels = static_cast<size_t>(box.voxels());
+  FieldTile joined{box, false, {}};
+  for (int64_t k = box.lo[2]; k < box.hi[2]; ++k)
+    for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
+      const auto row = materials.begin() + ((k - region.lo[2]) * region.size(1) + (j - region.lo[1])) * region.size(0) +
+                       (box.lo[0] - region.lo[0]);
+      joined.values.insert(joined.values.end(), row, row + box.size(0));
+    }
+  if (!fields.is_uniform) joined.values.insert(joined.values.end(), fields.values.begin(), fields.values.end());
+  for (size_t n = 0; fields.is_uniform && n < fields.values.size(); ++n)
+    joined.values.insert(joined.values.end(), voxels, fields.values[n]);
+  return joined;
+}
+
+TileProducer with_materials(const TileProducer& materials, const TileProducer& fields) {
+  return [materials, fields](const TileBox& region, const StopFlag* stop) {
+    const std::vector<float> dense = dense_materials(materials, region, stop);
+    std::vector<FieldTile> tiles;
+    for (const FieldTile& tile : fields(region, stop)) tiles.push_back(joined_tile(tile, dense, region));
+    return tiles;
+  };
+}
+
 // Around a whole design there is room for the outer half of its band, where nothing is inside. A part that is cut
 // out by a box ends there.
 TileBox with_band(const TileBox& region, const voxel::Lattice& lattice, const design::Design& design) {
@@ -76,6 +118,12 @@ std::optional<TileProducer> field_tiles(const LoadedPtr& loaded, const GridJob& 
   return [loaded, evaluator](const TileBox& region, const StopFlag* stop) { return evaluator->tiles(region, stop); };
 }
 
+// A grid for each number of the attribute, or for the one that is named.
+void add_numbers(const design::AttributeDeclaration& attribute, const std::string& name, std::vector<Grid>& grids) {
+  for (const std::string& part : design::parts_of(attribute))
+    if (name == attribute.name || name == part) grids.push_back({GridKind::attribute, part, {}, attribute});
+}
+
 // Nothing, and a diagnostic, when the design has none of that name.
 std::optional<std::vector<Grid>> attribute_grids(const design::Design& design, const GridWishes& wishes,
                                                  Diagnostics& diagnostics) {
@@ -87,14 +135,16 @@ std::optional<std::vector<Grid>> attribute_grids(const design::Design& design, c
     return std::nullopt;
   }
   if (wishes.all_attributes)
-    for (const auto& attribute : known) grids.push_back({GridKind::attribute, attribute.name, {}, attribute});
+    for (const auto& attribute : known) add_numbers(attribute, attribute.name, grids);
   for (const std::string& name : wishes.attributes) {
-    const auto found = std::ranges::find(known, name, &design::AttributeDeclaration::name);
-    if (found == known.end()) {
+    const auto found = std::ranges::find(known, design::attribute_of_part(name), &design::AttributeDeclaration::name);
+    const size_t before = grids.size();
+    if (found != known.end()) add_numbers(*found, name, grids);
+    if (grids.size() == before) {
       report_unknown_attribute(design, name, diagnostics);
       return std::nullopt;
     }
-    if (!wishes.all_attributes) grids.push_back({GridKind::attribute, name, {}, *found});
+    if (wishes.all_attributes) grids.resize(before);
   }
   return grids;
 }
@@ -151,17 +201,18 @@ std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, con
   job.has_mark = job.grids.empty();
   job.grids.insert(job.grids.end(), attributes->begin(), attributes->end());
   job.metric = whole_solid(loaded->design)->metric();
-  if (wishes.materials) {
+  if (wishes.materials && job.grids.size() == 1) {
+    job.has_mark = false;
     job.tiles = material_tiles(plan.regions);
     return job;
   }
-  if (wishes.narrow_band && wishes.distance) {
+  if (wishes.narrow_band && wishes.distance && !wishes.materials) {
     job.band_mm = band_voxels * largest_pitch_mm(plan.request.lattice);
     job.region = with_band(region, plan.request.lattice, loaded->design);
   }
   auto tiles = field_tiles(loaded, job, diagnostics);
   if (!tiles) return std::nullopt;
-  job.tiles = std::move(*tiles);
+  job.tiles = wishes.materials ? with_materials(material_tiles(plan.regions), std::move(*tiles)) : std::move(*tiles);
   return job;
 }
 

@@ -22,12 +22,12 @@ enum class GridKind {
 
 struct Grid {
   GridKind kind = GridKind::material;
-  std::string name;
+  std::string name;                            // of an attribute's number, such as "fibre.x"
   std::optional<SliceMaterial> material = {};  // of a fraction
   design::AttributeDeclaration attribute = {};
 };
 
-// Which grids are wanted. Materials go alone.
+// Which grids are wanted.
 struct GridWishes {
   bool materials = false, fractions = false, distance = false;
   bool narrow_band = false;                  // distances beyond a few voxels are cut off

@@ -73,8 +73,8 @@ std::optional<design::Design> run_script(const SourcePtr& source, const LoadOpti
   if (!materials || diagnostics.has_errors()) return std::nullopt;
   DesignSources loader(cache, options.stop);
   lang::VcadVocabulary vocabulary(nodes::registry(), *materials, &loader);
-  const auto top_level = lang::run(source, vocabulary, run, diagnostics);
-  return vocabulary.finish(top_level, {source, 0, 0}, diagnostics);
+  auto top_level = lang::run(source, vocabulary, run, diagnostics);
+  return vocabulary.finish(std::move(top_level), {source, 0, 0}, diagnostics);
 }
 
 std::optional<design::Design> read_json_design(const SourcePtr& source, const LoadOptions& options,
@@ -94,7 +94,7 @@ LoadedPtr read_design(const SourcePtr& source, const LoadOptions& options, sourc
                       Diagnostics& diagnostics) {
   auto design = ends_with(source->name(), ".json") ? read_json_design(source, options, cache, diagnostics)
                                                    : run_script(source, options, cache, diagnostics);
-  if (!design || diagnostics.has_errors() || !design::check_cells(*design, diagnostics)) return nullptr;
+  if (!design || diagnostics.has_errors() || !design::check_design(*design, diagnostics)) return nullptr;
   return std::make_shared<const Loaded>(Loaded{source->name(), source, std::move(*design)});
 }
 

@@ -79,6 +79,8 @@ class RegionBuilder {
         return add_fraction();
       case RegionRule::Kind::attribute:
         return add_attribute();
+      case RegionRule::Kind::crossed:
+        return add_crossed();
     }
     return false;
   }
@@ -126,13 +128,84 @@ class RegionBuilder {
   void add_bands(const std::string& subject, double scale, const std::string& unit) {
     made_.partition.borders = rule_.borders;
     const size_t bands = rule_.borders.size() + 1;
-    for (size_t n = 0; n < bands; ++n) {
-      Region region;
-      if (n > 0) region.least = rule_.borders[n - 1];
-      if (n + 1 < bands) region.greatest = rule_.borders[n];
-      region.name = std::string(subject).append(range_text(region, scale)).append(unit);
-      made_.regions.push_back(region);
+    for (size_t n = 0; n < bands; ++n) made_.regions.push_back(band(rule_, n, subject, scale, unit));
+  }
+
+  static Region band(const RegionRule& rule, size_t n, const std::string& subject, double scale,
+                     const std::string& unit) {
+    Region region;
+    if (n > 0) region.least = rule.borders[n - 1];
+    if (n < rule.borders.size()) region.greatest = rule.borders[n];
+    region.name = std::string(subject).append(range_text(region, scale)).append(unit);
+    if (rule.kind == RegionRule::Kind::attribute && !rule.borders.empty())
+      region.attributes.emplace_back(rule.of, middle(rule, region));
+    return region;
+  }
+
+  // Bands at the ends go to the ends of all values, or where these are not known are as wide as their neighbours.
+  static double middle(const RegionRule& rule, const Region& region) {
+    const std::vector<double>& borders = rule.borders;
+    const double usual =
+        borders.size() > 1 ? (borders.back() - borders.front()) / static_cast<double>(borders.size() - 1) : 0;
+    const double lo = rule.range ? rule.range->lo : borders.front() - usual;
+    const double hi = rule.range ? rule.range->hi : borders.back() + usual;
+    return (region.least.value_or(lo) + region.greatest.value_or(hi)) / 2;
+  }
+
+  // A region for each combination of bands. Its score is how far each value is from the ends of its band, the least of
+  // all: it is 0 on the region's borders, where that of its neighbour is 0 too.
+  bool add_crossed() {
+    made_.partition.division = surface::Division::greatest;
+    std::vector<Region> regions{{}};
+    std::vector<Field> scores{{}};
+    for (const RegionRule& rule : rule_.crossed) {
+      const auto value = question_.value(rule.of, diagnostics_);
+      if (!value) return false;
+      if (regions.size() * (rule.borders.size() + 1) > most_crossed_regions) return refuse_many();
+      cross(rule, *value, regions, scores);
     }
+    made_.regions = std::move(regions);
+    scores_ = std::move(scores);
+    return true;
+  }
+
+  bool refuse_many() {
+    diagnostics_.error(
+        question_.solid()->where(),
+        "the bands of all values cross in more than " + std::to_string(most_crossed_regions) + " regions",
+        "choose fewer bands");
+    return false;
+  }
+
+  void cross(const RegionRule& rule, Field value, std::vector<Region>& regions, std::vector<Field>& scores) {
+    const bool is_fraction = rule.kind == RegionRule::Kind::fraction;
+    const std::string unit = is_fraction ? " %" : unit_text(rule.of);
+    std::vector<Region> crossed;
+    std::vector<Field> margins;
+    for (size_t r = 0; r < regions.size(); ++r)
+      for (size_t n = 0; n <= rule.borders.size(); ++n) {
+        Region region = band(rule, n, rule.of, is_fraction ? 100 : 1, unit);
+        const Field margin = margin_of(value, region);
+        region.name = regions[r].name.empty() ? region.name : regions[r].name + ", " + region.name;
+        region.attributes.insert(region.attributes.begin(), regions[r].attributes.begin(), regions[r].attributes.end());
+        crossed.push_back(std::move(region));
+        margins.push_back(scores[r] ? min(scores[r], margin) : margin);
+      }
+    regions = std::move(crossed);
+    scores = std::move(margins);
+  }
+
+  Field margin_of(Field value, const Region& region) {
+    const Field width =
+        question_.builder().constant(region.least && region.greatest ? *region.greatest - *region.least : 1);
+    const Field above = region.least ? value - *region.least : width;
+    const Field below = region.greatest ? *region.greatest - value : width;
+    return min(above, below);
+  }
+
+  std::string unit_text(const std::string& attribute) {
+    const design::AttributeDeclaration* declared = question_.declaration(attribute);
+    return declared && !declared->unit.empty() && declared->unit != "1" ? " " + declared->unit : "";
   }
 
   static std::string range_text(const Region& region, double scale) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/interval.h"
 #include "base/run.h"
 #include "design/design.h"
 #include "surface/partition.h"
@@ -17,10 +18,13 @@ struct RegionRule {
     materials,  // by the material of the greatest fraction
     fraction,   // by bands of a material's fraction
     attribute,  // by bands of an attribute
+    crossed,    // by bands of several values at once: a region for each combination
   };
   Kind kind = Kind::whole;
-  std::string of;               // the material or attribute
-  std::vector<double> borders;  // between bands; increasing, one less than there are bands
+  std::string of;                        // the material or attribute
+  std::vector<double> borders;           // between bands; increasing, one less than there are bands
+  std::vector<RegionRule> crossed = {};  // of that kind: fractions and attributes
+  std::optional<Interval> range = {};    // from the least to the greatest value, if it is known
 };
 
 // A region as people know it; regions count from 1, this list from 0.
@@ -28,7 +32,11 @@ struct Region {
   std::string name;                       // "red", "red 25-50 %", "density 0.2-0.4"
   std::optional<MaterialId> material;     // of Kind::materials
   std::optional<double> least, greatest;  // of bands: values from `least`, up to and without `greatest`
+  // Of bands of attributes: each with the value in the middle of its band.
+  std::vector<std::pair<std::string, double>> attributes = {};
 };
+// More are refused: each has a body of its own.
+inline constexpr size_t most_crossed_regions = 256;
 
 struct RegionProgram {
   surface::Partition partition;

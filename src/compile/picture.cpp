@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "compile/build.h"
 #include "compile/picture_labels.h"
+#include "compile/question.h"
 #include "compile/region_survey.h"
 
 namespace ombre::compile {
@@ -94,12 +95,13 @@ class Studio {
   }
 
   bool choose_range() {
-    options_.value = ValueColours{request_.by, {0, 1}};
+    options_.value = ValueColours{request_.by, {0, 1}, request_.palette};
     if (request_.range) {
       options_.value->range = *request_.range;
       return true;
     }
-    if (loaded_.design.materials.find(request_.by)) return true;
+    if (loaded_.design.materials.find(request_.by) || attribute_parts(loaded_.design, request_.by).size() >= 3)
+      return true;
     const size_t errors = diagnostics_.error_count();
     if (const auto range = value_range(loaded_.design, whole_, request_.by, diagnostics_))
       options_.value->range = *range;

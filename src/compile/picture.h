@@ -46,7 +46,8 @@ struct PictureRequest {
   std::vector<CutRequest> cuts;
   std::optional<Box> box;
   std::vector<std::pair<std::string, double>> opacity;  // by the name of the material
-  std::string by;  // colours by this material's fraction or this attribute; empty: the materials' own
+  std::string by;       // colours by this material's fraction or this attribute; empty: the materials' own
+  std::string palette;  // one of palettes(); empty: the usual one
   std::optional<Interval>
       range;  // that they span; nothing: from the least to the greatest value inside, of a fraction 0 to 1
   render::Background background;

@@ -40,10 +40,13 @@ std::vector<render::Swatch> value_legend(const design::Design& design, const Val
   std::string unit = value_unit(design, value.of);
   if (!unit.empty()) unit.insert(0, " ");
   std::vector<render::Swatch> legend;
+  if (attribute_parts(design, value.of).size() > 1) return legend;  // it is a colour itself
+  const Palette* palette = palette_called(value.palette);
   for (int n = lines - 1; n >= 0; --n) {
     const double share = static_cast<double>(n) / std::max(1, lines - 1);
     const double at = value.range.lo + share * (value.range.hi - value.range.lo);
-    legend.push_back({value.of + " " + format_rounded(at, 3) + unit, map_colour(share)});
+    legend.push_back(
+        {value.of + " " + format_rounded(at, 3) + unit, map_colour(share, palette ? *palette : palettes().front())});
   }
   return legend;
 }

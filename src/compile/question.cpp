@@ -37,8 +37,18 @@ Question::Question(const design::Design& design, const QuestionOptions& options)
 }
 
 std::optional<Field> Question::attribute(std::string_view name, Diagnostics& diagnostics) {
-  if (lowering_.declaration(name)) return lowering_.attribute(*solid_, name, point_, design::Demand::inside);
-  report_unknown_attribute(design_, std::string(name), diagnostics);
+  const design::AttributeDeclaration* declared = lowering_.declaration(name);
+  if (!declared) {
+    report_unknown_attribute(design_, std::string(name), diagnostics);
+    return std::nullopt;
+  }
+  const std::vector<std::string> parts = design::parts_of(*declared);
+  if (std::ranges::find(parts, name) != parts.end())
+    return lowering_.attribute(*solid_, name, point_, design::Demand::inside);
+  diagnostics.error(design_.parts[0].solid->where(),
+                    "the attribute \"" + declared->name + "\" is a " + std::string(design::name(declared->type)) +
+                        ", where one number is wanted",
+                    "write " + join(parts, " or "));
   return std::nullopt;
 }
 
@@ -49,7 +59,8 @@ std::optional<Field> Question::value(const std::string& name, Diagnostics& diagn
   if (lowering_.declaration(name)) return attribute(name, diagnostics);
   std::vector<std::string> known;
   for (const auto& [id, part] : composition().fractions) known.push_back(design_.materials.all()[id].name);
-  for (const auto& attribute : attributes()) known.push_back(attribute.name);
+  for (const auto& attribute : attributes())
+    for (const std::string& part : design::parts_of(attribute)) known.push_back(part);
   std::string hint = did_you_mean(name, known);
   if (hint.empty()) hint = "it has " + join(known, ", ");
   diagnostics.error(solid_->where(), "the design has neither a material nor an attribute \"" + name + '"', hint);
@@ -92,8 +103,21 @@ std::vector<std::string> attribute_names(const design::Design& design) {
 std::string value_unit(const design::Design& design, const std::string& name) {
   if (design.materials.find(name)) return "";
   for (const auto& attribute : declared_attributes(design))
-    if (attribute.name == name && attribute.unit != "1") return attribute.unit;
+    if (attribute.name == design::attribute_of_part(name) && attribute.unit != "1") return attribute.unit;
   return "";
+}
+
+std::vector<std::string> attribute_parts(const design::Design& design, const std::string& name) {
+  for (const auto& attribute : declared_attributes(design))
+    if (attribute.name == name) return design::parts_of(attribute);
+  return {name};
+}
+
+std::vector<std::string> all_attribute_parts(const design::Design& design) {
+  std::vector<std::string> parts;
+  for (const auto& attribute : declared_attributes(design))
+    for (std::string& part : design::parts_of(attribute)) parts.push_back(std::move(part));
+  return parts;
 }
 
 void report_unknown_attribute(const design::Design& design, const std::string& name, Diagnostics& diagnostics) {

@@ -43,7 +43,8 @@ class Question {
   design::Composition composition() { return lowering_.composition(*solid_, point_, design::Demand::inside); }
   // Of one part, by its number: a truth value.
   program::Field part(size_t number) { return lowering_.inside(*design_.parts[number].solid, point_); }
-  // Nothing, and a diagnostic, when no node of the design declares it.
+  // A number, or one of the numbers of another attribute ("fibre.x"). Nothing, and a diagnostic, when no node of the
+  // design declares it.
   std::optional<program::Field> attribute(std::string_view name, Diagnostics& diagnostics);
   // Of a material its fraction, as dithering takes it; else the attribute of that name. Nothing, and a diagnostic, when
   // the design has neither.
@@ -82,6 +83,9 @@ design::NodePtr whole_solid(const design::Design& design);
 // The attributes that some node of the design declares.
 std::vector<design::AttributeDeclaration> declared_attributes(const design::Design& design);
 std::vector<std::string> attribute_names(const design::Design& design);
+// The numbers of an attribute: itself, or "fibre.x", "fibre.y", "fibre.z"; the name alone where there is no such one.
+std::vector<std::string> attribute_parts(const design::Design& design, const std::string& name);
+std::vector<std::string> all_attribute_parts(const design::Design& design);
 // The unit of what Question::value() gives: that of an attribute, as people write it; empty for fractions and where it
 // has none.
 std::string value_unit(const design::Design& design, const std::string& name);

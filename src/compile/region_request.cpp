@@ -52,11 +52,26 @@ std::optional<RegionRule> band_rule(const design::Design& design, const Box& box
   const auto whole = build_region_program(design, box, rule, diagnostics);
   const auto range = whole ? score_range(whole->partition, box) : std::nullopt;
   if (range) rule.borders = equal_borders(*range, bands.count);
+  rule.range = range;
   return whole ? std::optional(rule) : std::nullopt;
+}
+
+std::optional<RegionRule> crossed_rule(const design::Design& design, const Box& box, const RegionRequest& request,
+                                       Diagnostics& diagnostics) {
+  RegionRule rule{RegionRule::Kind::crossed, "", {}};
+  std::vector<BandRequest> all{*request.bands};
+  all.insert(all.end(), request.crossed.begin(), request.crossed.end());
+  for (const BandRequest& bands : all) {
+    auto one = band_rule(design, box, bands, diagnostics);
+    if (!one) return std::nullopt;
+    rule.crossed.push_back(std::move(*one));
+  }
+  return rule;
 }
 
 std::optional<RegionRule> region_rule(const design::Design& design, const Box& box, const RegionRequest& request,
                                       Diagnostics& diagnostics) {
+  if (request.bands && !request.crossed.empty()) return crossed_rule(design, box, request, diagnostics);
   if (request.bands) return band_rule(design, box, *request.bands, diagnostics);
   return RegionRule{request.by_material ? RegionRule::Kind::materials : RegionRule::Kind::whole, "", {}};
 }

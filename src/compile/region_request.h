@@ -21,6 +21,7 @@ struct BandRequest {
 struct RegionRequest {
   bool by_material = false;            // a region for each material
   std::optional<BandRequest> bands;    // or for each band; else one for all
+  std::vector<BandRequest> crossed;    // further values, whose bands are crossed with those
   std::optional<double> tolerance_mm;  // else a thousandth of the longest side, rounded
   std::optional<double> cell_mm;       // else cells_of_tolerance times the tolerance
 };

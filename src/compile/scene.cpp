@@ -69,13 +69,37 @@ struct Shown {
   bool is_translucent = false;
 };
 
+bool is_colour(Question& question, const std::string& name) {
+  const design::AttributeDeclaration* declared = question.declaration(name);
+  return declared && declared->name == name && declared->type != design::ValueType::number &&
+         design::parts_of(*declared).size() >= 3 && declared->type != design::ValueType::mixture;
+}
+
+// Of an attribute that is a colour, in linear light; of a vector as if its numbers were red, green and blue.
+std::optional<std::array<Field, 3>> own_colour(Question& question, const std::string& name, Diagnostics& diagnostics) {
+  std::array<Field, 3> colour;
+  const std::vector<std::string> parts = design::parts_of(*question.declaration(name));
+  for (size_t n = 0; n < 3; ++n) {
+    const auto number = question.attribute(parts[n], diagnostics);
+    if (!number) return std::nullopt;
+    const Field srgb = min(max(*number, 0.0), question.builder().constant(1));
+    // IEC 61966-2-1.
+    const Field light = power((srgb + 0.055) / 1.055, question.builder().constant(2.4));
+    colour[n] = select(srgb <= 0.04045, srgb / 12.92, light);
+  }
+  return colour;
+}
+
 // Linear red, green and blue.
 std::optional<std::array<Field, 3>> colour_at(Question& question, const design::Composition& composition,
                                               const SceneOptions& options, Diagnostics& diagnostics) {
   if (options.value) {
-    const auto value = question.value(options.value->of, diagnostics);
+    const std::string& of = options.value->of;
+    if (is_colour(question, of)) return own_colour(question, of, diagnostics);
+    const auto value = question.value(of, diagnostics);
     if (!value) return std::nullopt;
-    return mapped_colour(*value, options.value->range);
+    const Palette* palette = palette_called(options.value->palette);
+    return mapped_colour(*value, options.value->range, palette ? *palette : palettes().front());
   }
   const auto channel = [&](float render::Colour::*part) {
     return mean(composition, question.point(), [&](MaterialId id) {

@@ -24,8 +24,9 @@ struct CutPlane {
 
 // Colours by a value in place of those of the materials.
 struct ValueColours {
-  std::string of;  // a material, for its fraction, or an attribute
-  Interval range;  // that the colours span
+  std::string of;            // a material, for its fraction, or an attribute, which may be a colour itself
+  Interval range;            // that the colours span
+  std::string palette = {};  // one of palettes(); empty: the usual one
 };
 
 struct SceneOptions {

@@ -45,7 +45,8 @@ vdb::SparseGrids empty_grids(const GridJob& job) {
   const auto& pitch = job.request.lattice.pitch;
   vdb::SparseGrids grids({pitch[0].mm(), pitch[1].mm(), pitch[2].mm()}, job.request.lattice.center(0, 0, 0));
   for (const Grid& grid : job.grids) {
-    const double background = grid.kind == GridKind::distance ? job.band_mm : grid.attribute.default_value;
+    const double background =
+        grid.kind == GridKind::distance ? job.band_mm : design::default_of(grid.attribute, grid.name);
     grids.add(grid.name, class_of(grid.kind), static_cast<float>(background), notes_of(job, grid));
   }
   return grids;

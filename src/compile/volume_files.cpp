@@ -54,8 +54,9 @@ DataMembers about(const GridJob& job, const Grid& grid) {
       break;
     case GridKind::attribute:
       add("values", "an attribute, its default outside");
-      add("attribute",
-          DataMembers{{"name", grid.name}, {"unit", grid.attribute.unit}, {"default", grid.attribute.default_value}});
+      add("attribute", DataMembers{{"name", grid.name},
+                                   {"unit", grid.attribute.unit},
+                                   {"default", design::default_of(grid.attribute, grid.name)}});
       break;
   }
   return members;

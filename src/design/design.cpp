@@ -176,6 +176,26 @@ const Node* find_host_function(const Design& design) {
   return nullptr;
 }
 
+namespace {
+
+// One name is one thing: a number in one place and a colour in another cannot be written into one grid.
+bool check_attributes(const Design& design, Diagnostics& diagnostics) {
+  bool good = true;
+  std::map<std::string, ValueType> known;
+  for (const Node* node : topological(design.roots())) {
+    const auto declared = node->declares();
+    if (!declared) continue;
+    const ValueType first = known.try_emplace(declared->name, declared->type).first->second;
+    if (first == declared->type) continue;
+    diagnostics.error(node->where(),
+                      "the attribute \"" + declared->name + "\" is a " + std::string(name(declared->type)) +
+                          " here, and a " + std::string(name(first)) + " elsewhere in the design",
+                      "give one of them another name");
+    good = false;
+  }
+  return good;
+}
+
 bool check_cells(const Design& design, Diagnostics& diagnostics) {
   bool good = true;
   for (const Part& part : design.parts) {
@@ -194,6 +214,13 @@ bool check_cells(const Design& design, Diagnostics& diagnostics) {
     good = false;
   }
   return good;
+}
+
+}  // namespace
+
+bool check_design(const Design& design, Diagnostics& diagnostics) {
+  const bool cells = check_cells(design, diagnostics);
+  return check_attributes(design, diagnostics) && cells;
 }
 
 namespace {

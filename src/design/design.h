@@ -60,8 +60,8 @@ Hash hash(const Design& design);
 // function, so such designs are not saved, and their jobs are not resumed.
 const Node* find_host_function(const Design& design);
 
-// Are the indices of cells used only below what repeats? Else diagnostics say where.
-bool check_cells(const Design& design, Diagnostics& diagnostics);
+// Are the indices of cells used only below what repeats, and is each attribute of one type? Else diagnostics say where.
+bool check_design(const Design& design, Diagnostics& diagnostics);
 
 // An indented tree for people, with each solid's kind of distance; shared nodes are printed once.
 std::string to_tree(const Design& design);

@@ -189,7 +189,7 @@ class DesignReader {
     return inputs->list() != nullptr;
   }
 
-  // References such as {"from": "n3", "output": "value"}.
+  // References such as {"from": "n3", "output": "value"} and, of solids, {"from": "n2"}.
   bool find_values(const Data& data, std::vector<const Data*>& uses) {
     if (const DataList* list = data.list())
       return std::ranges::all_of(*list, [&](const Data& element) { return find_values(element, uses); });

@@ -60,8 +60,7 @@ class KernelReader {
       size += std::abs(weight);
     }
     if (size == 0) return reader_.fail(data, "a kernel with a weight that is not 0");
-    if (sum < 0)
-      return reader_.fail(data, "weights whose sum is not negative", "their sum is " + format_number(sum));
+    if (sum < 0) return reader_.fail(data, "weights whose sum is not negative", "their sum is " + format_number(sum));
     return true;
   }
 

@@ -1,11 +1,15 @@
 // What nodes lower to.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "base/interval.h"
 #include "base/run.h"
 #include "program/field.h"
 
@@ -77,14 +81,33 @@ inline std::string_view name(Metric::Kind kind) {
   return kind == Metric::Kind::exact ? "exact" : kind == Metric::Kind::bounded ? "bounded" : "implicit";
 }
 
-// How an attribute's values combine where solids overlap.
-enum class Overlap : uint8_t { first, mean, sum, max };
+// What a value is. A vector has three numbers, a colour red, green, blue and alpha from 0 to 1, in sRGB.
+enum class ValueType : uint8_t { number, vector, colour, mixture };
+std::string_view name(ValueType type);
+
+// How an attribute's values combine where solids overlap, number by number. Between solids that are blended, `mix`
+// weighs them by how strongly they are felt; elsewhere it is the mean.
+enum class Overlap : uint8_t { first, last, mean, min, max, sum, mix };
+inline constexpr std::array<std::string_view, 7> overlap_names{"first", "last", "mean", "min", "max", "sum", "mix"};
+Overlap overlap_called(std::string_view name);  // which is one of the names
 
 struct AttributeDeclaration {
   std::string name, unit;
   double default_value = 0;  // where no solid gives one
   Overlap overlap = Overlap::first;
+  ValueType type = ValueType::number;
+  std::array<double, 4> default_numbers{};  // of vectors and colours
+  std::vector<std::string> materials = {};  // of a mixture: those that it may hold, in the order of their ids
+  Interval range = Interval::everything();  // that its numbers are meant to lie in
   bool operator==(const AttributeDeclaration&) const = default;
 };
+
+// An attribute is asked for number by number. These are the names of its numbers: of a number its own, of others
+// "fibre.x", "color_rgba.r", "tissue.red". Names of attributes have no dots.
+std::vector<std::string> parts_of(const AttributeDeclaration& declaration);
+// "fibre" of "fibre.x".
+std::string_view attribute_of_part(std::string_view part);
+// Of one of its numbers.
+double default_of(const AttributeDeclaration& declaration, std::string_view part);
 
 }  // namespace ombre::design

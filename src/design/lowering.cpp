@@ -94,15 +94,22 @@ LoweringContext::LoweringContext(const MaterialTable& materials, const std::vect
   for (const Node* node : topological(roots)) {
     for (const NodePtr& input : node->dependencies())
       if (node->repetitions() > 1 || (input.use_count() > 1 && ++uses[input.get()] == 2)) shared_.insert(input.get());
-    if (const auto declared = node->declares()) {
-      bool known = false;
-      for (const auto& attribute : attributes_) known = known || attribute.name == declared->name;
-      if (!known) attributes_.push_back(*declared);
-    }
+    if (const auto declared = node->declares()) declare(*declared);
   }
 }
 
 LoweringContext::~LoweringContext() = default;
+
+// The first node that sets an attribute says what it is; a mixture holds the materials of all.
+void LoweringContext::declare(const AttributeDeclaration& declared) {
+  const auto known = std::ranges::find(attributes_, declared.name, &AttributeDeclaration::name);
+  if (known == attributes_.end()) return attributes_.push_back(declared);
+  for (const Material& material : materials_.all()) {
+    const bool is_held = std::ranges::find(known->materials, material.name) != known->materials.end();
+    if (!is_held && std::ranges::find(declared.materials, material.name) != declared.materials.end())
+      known->materials.push_back(material.name);
+  }
+}
 
 void LoweringContext::use_stages(const std::optional<StageLattice>& lattice, std::shared_ptr<StageHost> host) {
   lattice_ = lattice;
@@ -157,7 +164,9 @@ void LoweringContext::find_views() {
       if (!is_new) meet(known->second, view);
     };
     for (const NodePtr& input : node->inputs()) set(input, below);
-    for (const NodePtr& value : node->values()) set(value, own);
+    View beside = own;
+    if (node->repetitions() > 1) beside.offset = std::nullopt;
+    for (const NodePtr& value : node->values()) set(value, beside);
   }
 }
 
@@ -313,14 +322,28 @@ Field Lowering::attribute(const Node& node, std::string_view name, const Point& 
 Field Lowering::make_attribute(const Node& node, std::string_view name, const Point& p, Demand demand) {
   if (!has_attribute(node, name)) {
     const AttributeDeclaration* declared = declaration(name);
-    return p.constant(declared ? declared->default_value : 0);
+    return p.constant(declared ? default_of(*declared, name) : 0);
   }
   if (const auto own = node.attribute(Inputs(node, this), name, p, demand)) return *own;
   if (const auto inner = node.inner(p)) return attribute(*node.inputs()[0], name, *inner, demand);
   return attribute(*node.inputs()[0], name, p, demand);
 }
 
-bool Lowering::has_attribute(const Node& node, std::string_view name) { return context_.carries(node, name); }
+std::vector<MaterialId> materials_of(const MaterialName& name, const MaterialTable& table) {
+  if (name.material) return {name.material->id};
+  const NodePtr not_held(NodePtr(), name.mixture);
+  LoweringContext context(table, {not_held});
+  program::Builder builder;
+  Lowering lowering(context, builder);
+  std::vector<MaterialId> ids;
+  for (const auto& [id, fraction] : lowering.mixture(*name.mixture, Point::origin_frame(builder)).fractions)
+    ids.push_back(id);
+  return ids;
+}
+
+bool Lowering::has_attribute(const Node& node, std::string_view name) {
+  return context_.carries(node, attribute_of_part(name));
+}
 
 bool LoweringContext::carries(const Node& node, std::string_view attribute) {
   const auto declared = node.declares();
@@ -345,7 +368,7 @@ bool LoweringContext::carries(const Node& node, std::string_view attribute) {
 
 const AttributeDeclaration* Lowering::declaration(std::string_view name) const {
   for (const auto& attribute : context_.attributes_)
-    if (attribute.name == name) return &attribute;
+    if (attribute.name == attribute_of_part(name)) return &attribute;
   return nullptr;
 }
 

@@ -64,6 +64,7 @@ class LoweringContext {
   void find_views();
   void meet(View& known, const View& other) const;
   bool carries(const Node& node, std::string_view attribute);
+  void declare(const AttributeDeclaration& declared);
   bool is_shared(const Node& node) const { return shared_.contains(&node); }
 
   const MaterialTable& materials_;
@@ -86,6 +87,9 @@ class LoweringContext {
   using PartsKey = std::tuple<const Node*, PartQuery, bool, std::array<double, 12>>;
   std::map<PartsKey, std::unique_ptr<ManyParts>> many_parts_;
 };
+
+// Those that a material parameter may give at some point, ascending.
+std::vector<MaterialId> materials_of(const MaterialName& name, const MaterialTable& table);
 
 // Lowers nodes into one builder. A node that is used more than once becomes a body, a sub-program
 // that is called at each point where it is asked for.
@@ -120,7 +124,9 @@ class Lowering : public OutputFields {
   const std::vector<LocalCheck>& local_checks() const { return local_checks_; }
 
   bool has_attribute(const Node& node, std::string_view name);
+  // Of an attribute, or of one of its numbers.
   const AttributeDeclaration* declaration(std::string_view name) const;
+  const std::vector<AttributeDeclaration>& attributes() const { return context_.attributes_; }
   MaterialId material(const MaterialName& name) const;
   std::optional<JobScale> scale(const Node& node) { return context_.scale(node); }
   program::SourceField staged(const Node& node, const StagePtr& stage) { return context_.staged(node, stage); }

@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "base/assert.h"
+#include "base/text.h"
 #include "design/lowering.h"
 #include "design/registry.h"
 
@@ -114,6 +115,24 @@ AttributeDeclaration Inputs::declaration(std::string_view attribute_name) const 
   const AttributeDeclaration* found = lowering_->declaration(attribute_name);
   return found ? *found : AttributeDeclaration{std::string(attribute_name), "", 0, Overlap::first};
 }
+
+std::string Inputs::attribute_called(size_t i, std::string_view lower_case) const {
+  for (const AttributeDeclaration& declaration : lowering_->attributes()) {
+    if (!has_attribute(i, declaration.name)) continue;
+    for (const std::string& part : parts_of(declaration))
+      if (to_lower(part) == lower_case) return part;
+  }
+  return "";
+}
+
+Field Inputs::distance_to(const SolidName& solid, const Point& p) const {
+  return lowering_ ? lowering_->distance(*solid.node, p) : anything(p);
+}
+
+Field Inputs::inside_of(const SolidName& solid, const Point& p) const {
+  return lowering_ ? lowering_->inside(*solid.node, p) : anything(p, {0, 1});
+}
+
 Field Inputs::along(size_t i, const Point& p) const { return lowering_->along(input(i), p); }
 
 namespace {

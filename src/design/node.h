@@ -88,6 +88,11 @@ class Inputs {
   MaterialId material(const MaterialName& name) const;  // which is no mixture
   // The composition of a material alone, or of the mixture at the point.
   Composition composition_of(const MaterialName& name, const Point& p) const;
+  // Of a solid that a parameter holds: mm, negative inside. Anything where only ranges are evaluated.
+  Field distance_to(const SolidName& solid, const Point& p) const;
+  Field inside_of(const SolidName& solid, const Point& p) const;
+  // The input's attribute, or number of one, that formulas call by this name in small letters; empty: it has none.
+  std::string attribute_called(size_t i, std::string_view lower_case) const;
   // How fine the job is in this node's space, if it is known.
   std::optional<JobScale> scale() const;
   // The source that gives what a stage of this node computes.

@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "base/text.h"
+#include "design/attributes.h"
 #include "design/registry.h"
 
 namespace ombre::design {
@@ -179,6 +180,8 @@ std::optional<expr::Expression> formula_with(const Data& data, const Domain& dom
     values.emplace(name, *number);
     known.push_back(name);
   }
+  if (domain.child_attributes && reader.inputs)
+    for (const std::string& name : names_of_attributes(*reader.inputs)) known.push_back(name);
   if (!expression->check_variables(known, *formula->string(), formula->where, reader.diagnostics)) return std::nullopt;
   return expression->with_substitutes([&](const expr::Node& variable) {
     const auto value = values.find(variable.name);
@@ -205,6 +208,32 @@ bool is_mixture(const Data& data) {
 std::optional<expr::Expression> read_formula(const Data& data, const Domain& domain, const Reader& reader) {
   if (const FormulaObject* object = formula_object(data)) return object->expression();
   return data.find("formula") ? formula_with(data, domain, reader) : number_of(data, reader);
+}
+
+std::vector<expr::Expression> vector_of(const Data& data, const Reader& reader) {
+  if (!node_object(data) && !data.find("from")) return {};
+  Diagnostics ignored;
+  const auto named = read_output(data, {reader.materials, ignored, nullptr, reader.where, reader.node, reader.name});
+  if (!named || named->axis >= 0 || named->info().type != ValueType::vector) return {};
+  std::vector<expr::Expression> numbers;
+  for (int axis = 0; axis < 3; ++axis) numbers.push_back(expression_of({named->node, named->output, axis}));
+  return numbers;
+}
+
+Data write_solid(const Node& node) {
+  const NodePtr not_held(NodePtr(), &node);
+  return Data(DataMembers{{"from", Data(HostObjectPtr(std::make_shared<NodeObject>(not_held)))}});
+}
+
+NodePtr read_solid(const Data& data, const Reader& reader) {
+  const Data* named = data.find("from");
+  const NodeObject* object = node_object(named ? *named : data);
+  if (object && object->node()->type().is_solid() && !object->node()->is_nothing()) return object->node();
+  const std::string found = object && object->node()->is_nothing() ? "nothing" : describe(data);
+  fail(data, reader,
+       std::string(reader.name) + " of " + std::string(reader.node) + ": expected a solid, found " + found,
+       "write a call of one, for example sphere(5)");
+  return nullptr;
 }
 
 NodePtr read_mixture(const Data& data, const Reader& reader) {

@@ -104,6 +104,8 @@ bool is_value(const Data& data);
 bool is_mixture(const Data& data);  // of materials
 // Reads data that is a value. Nothing, and a diagnostic, when it gives no number.
 std::optional<expr::Expression> read_formula(const Data& data, const Domain& domain, const Reader& reader);
+// The numbers of data that is an output with several, such as a node's index; empty for other data.
+std::vector<expr::Expression> vector_of(const Data& data, const Reader& reader);
 // The same for mixtures; null, and a diagnostic, when it gives none.
 NodePtr read_mixture(const Data& data, const Reader& reader);
 
@@ -111,6 +113,9 @@ NodePtr read_mixture(const Data& data, const Reader& reader);
 // nodes are NodeObjects.
 Data write_formula(const expr::Expression& expression);
 Data write_mixture(const Node& node);  // its NodeObject does not hold the node
+// A solid as a parameter: a NodeObject, or {"from": node}. Null, and a diagnostic, when it is no solid.
+NodePtr read_solid(const Data& data, const Reader& reader);
+Data write_solid(const Node& node);  // as of mixtures
 // Data of a parameter, of which all NodeObjects hold their nodes, which are among `nodes`.
 Data with_held_nodes(const Data& data, std::span<const NodePtr> nodes);
 // Replaces each NodeObject by the text that `name` gives.

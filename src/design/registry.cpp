@@ -8,10 +8,6 @@
 
 namespace ombre::design {
 
-std::string_view name(ValueType type) {
-  return type == ValueType::number ? "number" : type == ValueType::vector ? "vector" : "mixture";
-}
-
 size_t NodeType::mixture_output() const {
   const auto found = std::ranges::find(outputs, ValueType::mixture, &OutputInfo::type);
   return static_cast<size_t>(found - outputs.begin());
@@ -149,8 +145,8 @@ NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, s
     const auto index = static_cast<size_t>(parameter - type.parameters.data());
     given[index] = true;
     std::vector<NodePtr> nodes;
-    const Reader one{reader.materials, reader.diagnostics, reader.loader, reader.where,
-                     type.name,        parameter->name,    reader.names,  &nodes};
+    const Reader one{reader.materials, reader.diagnostics, reader.loader, reader.where, type.name,
+                     parameter->name,  reader.names,       &nodes,        &inputs};
     good = type.set(*node, index, data, one) && good;
     for (NodePtr& value : nodes) used.emplace_back(index, std::move(value));
   }

@@ -26,10 +26,6 @@ enum class OfNothing : uint8_t {
   asked,          // they are inputs like any others
 };
 
-// What a node's output is.
-enum class ValueType : uint8_t { number, vector, mixture };
-std::string_view name(ValueType type);
-
 struct OutputInfo {
   std::string name, doc;
   ValueType type = ValueType::number;

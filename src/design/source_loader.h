@@ -83,6 +83,23 @@ struct MeshRequest {
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
+// A closed surface that a program made, with the names that it gave.
+struct MadeSolid {
+  std::string part, material;  // empty: none
+  std::optional<Rgba> colour;
+  std::vector<Vec3> points;                        // mm
+  std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside
+};
+
+// Made solids in the same way; `object` chooses one of the parts.
+struct SolidsRequest {
+  using Result = std::vector<MeshPart>;
+  std::string name;  // of what made them, for messages
+  std::shared_ptr<const std::vector<MadeSolid>> solids;
+  MeshUse use;
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
 // A CAD file in the same way.
 struct CadRequest {
   using Result = std::vector<CadPart>;
@@ -101,15 +118,35 @@ struct PolygonsRequest {
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
-// The straight lines between points: channel "distance".
+// The straight lines from each point to the next: channels "distance", mm, and "along", the share of the whole length,
+// from 0 to 1, up to the nearest place. Of separate points "distance" and "index", the number of the nearest.
 struct PathRequest {
   using Result = program::FieldSource;
   std::vector<Vec3> points;
+  bool are_separate = false;
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
 struct ImageRequest {
   using Result = HeightImage;
+  FilePath file;
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
+// An image's pixels, rows from the top, each of red, green, blue and alpha as the file has them: sRGB from 0 to 255.
+struct ImagePixels {
+  size_t columns = 0, rows = 0;
+  std::vector<uint8_t> rgba;
+};
+struct PixelsRequest {
+  using Result = ImagePixels;
+  FilePath file;
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
+// The numbers of a CSV file, line by line; words in its first line name the columns. All lines have equally many.
+struct TableRequest {
+  using Result = std::vector<std::vector<double>>;
   FilePath file;
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
@@ -142,7 +179,7 @@ struct VolumeGrid {
 struct VolumeRequest {
   using Result = VolumeGrid;
   FilePath file;
-  std::string series;  // of several in a folder: its number or UID; empty: there is one
+  std::string series = {};  // of several in a folder: its number or UID; empty: there is one
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
@@ -162,8 +199,9 @@ struct ImageStackRequest {
 };
 
 // The kinds of sources there are.
-using SourceRequest = std::variant<MeshRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*,
-                                   TextRequest*, VolumeRequest*, ImageStackRequest*>;
+using SourceRequest =
+    std::variant<MeshRequest*, SolidsRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*,
+                 PixelsRequest*, TableRequest*, TextRequest*, VolumeRequest*, ImageStackRequest*>;
 
 // Which parts of a solid need support, on which grid.
 struct SupportUse {

@@ -60,6 +60,8 @@ struct Parameter {
         const Numbers3& n = value.*member;
         return n.x.uses_cell() || n.y.uses_cell() || n.z.uses_cell();
       };
+    if constexpr (std::is_same_v<M, AttributeValue>)
+      uses_cell = [member](const T& value) { return std::ranges::any_of((value.*member).used(), &Number::uses_cell); };
     if constexpr (std::is_same_v<M, SharedList<Number>>)
       uses_cell = [member](const T& value) { return std::ranges::any_of(value.*member, &Number::uses_cell); };
     if constexpr (std::is_same_v<M, MaterialName>)

@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "base/text.h"
+#include "design/attributes.h"
 #include "design/outputs.h"
 
 namespace ombre::design {
@@ -109,6 +110,13 @@ bool read(const Data& data, const Domain& domain, double& value, const Reader& r
   return true;
 }
 
+bool read(const Data& data, const Domain& domain, std::optional<double>& value, const Reader& reader) {
+  value.reset();
+  if (data.is_null()) return true;
+  value.emplace();
+  return read(data, domain, *value, reader);
+}
+
 namespace {
 
 void warn_of_two_meanings(const std::string& name, const SourceRange& where, const Reader& reader) {
@@ -116,6 +124,32 @@ void warn_of_two_meanings(const std::string& name, const SourceRange& where, con
       {Severity::warning, where,
        "\"" + name + "\" is the formula's own variable here, not the script's variable of that name",
        "give the script's variable another name if you mean that one"});
+}
+
+// Adds to the known variables those that are attributes of the inputs. False, and a diagnostic, where the script has a
+// number or value of that name too.
+bool add_attributes(const expr::Expression& expression, const Data& data, const Domain& domain, const Reader& reader,
+                    std::vector<std::string>& known) {
+  if (!domain.child_attributes || !reader.inputs) return true;
+  bool good = true;
+  std::vector<std::string> found;
+  expression.with_substitutes([&](const expr::Node& variable) -> std::optional<expr::Expression> {
+    const auto is_listed = [&](const auto& names) { return std::ranges::find(names, variable.name) != names.end(); };
+    if (is_listed(known) || is_listed(found) || !gives_attribute(*reader.inputs, variable.name)) return std::nullopt;
+    found.push_back(variable.name);
+    const std::string spelling = data.string()->substr(variable.begin, variable.end - variable.begin);
+    const auto value = reader.names ? (*reader.names)(spelling) : std::nullopt;
+    if (!value || !(value->number() || is_value(*value))) return std::nullopt;
+    reader.diagnostics.error(expr::Expression::place(variable, *data.string(), data.where),
+                             '"' + spelling +
+                                 "\" is an attribute of what is inside the braces, and the script has a "
+                                 "variable of that name too",
+                             "give the variable another name");
+    good = false;
+    return std::nullopt;
+  });
+  known.insert(known.end(), found.begin(), found.end());
+  return good;
 }
 
 // Replaces variables that formulas do not have themselves by the script's numbers and values.
@@ -145,7 +179,8 @@ std::optional<expr::Expression> read_expression(const Data& data, const Domain& 
   const std::string& text = *data.string();
   auto expression = expr::Expression::parse(text, data.where, reader.diagnostics);
   if (!expression) return std::nullopt;
-  const std::vector<std::string> known = known_variables(domain);
+  std::vector<std::string> known = known_variables(domain);
+  if (!add_attributes(*expression, data, domain, reader, known)) return std::nullopt;
   if (reader.names) {
     const auto named = with_named_values(*expression, data, known, domain, reader);
     if (!named) return std::nullopt;
@@ -411,6 +446,7 @@ bool read(const Data& data, const Domain& domain, std::optional<std::vector<Edge
 }
 
 Data write(double value, bool) { return Data(value); }
+Data write(const std::optional<double>& value, bool) { return value ? Data(*value) : Data(); }
 Data write(const Number& value, bool for_hash) {
   if (const double* number = value.constant()) return Data(*number);
   if (const auto& source = value.expression()->source(); source && !for_hash) return Data(HostObjectPtr(source));

@@ -13,6 +13,7 @@
 
 #include "base/box.h"
 #include "base/hash.h"
+#include "design/lowered.h"
 #include "design/materials.h"
 #include "expr/expression.h"
 
@@ -57,6 +58,27 @@ struct MaterialName {
   const Node* mixture = nullptr;
   bool is_given() const { return material || mixture; }
   bool operator==(const MaterialName&) const = default;
+};
+
+// What an attribute gives: one number; three, of a vector; four, of a colour; or a mixture of materials.
+struct AttributeValue {
+  ValueType type = ValueType::number;
+  std::array<Number, 4> numbers{};
+  MaterialName mixture = {};  // of that type alone
+  std::span<const Number> used() const;
+  bool operator==(const AttributeValue&) const = default;
+};
+
+// A solid that a value is measured on, which the node with the parameter holds; null: none was given.
+struct SolidName {
+  const Node* node = nullptr;
+  bool operator==(const SolidName&) const = default;
+};
+
+// A pair of words, such as an attribute and the rule by which it is combined.
+struct NamedWord {
+  std::string name, word;
+  bool operator==(const NamedWord&) const = default;
 };
 
 // One of the two; where neither is given, the number 0.
@@ -152,6 +174,13 @@ struct Kernel {
   bool operator==(const Kernel&) const = default;
 };
 
+// Rows of equally many numbers, or the file that holds them.
+struct NumberTable {
+  std::vector<std::vector<double>> rows;
+  FilePath file;  // empty: the rows were written out
+  bool operator==(const NumberTable&) const = default;
+};
+
 // What a parameter may be, for checks, help and forms.
 struct Domain {
   std::string_view unit;  // "mm", "deg", or none
@@ -161,6 +190,7 @@ struct Domain {
   std::vector<std::string> choices;    // of a Choice
   std::vector<std::string> variables;  // known in expressions besides the coordinates
   bool may_mix = false;                // of a material: may it be a mixture?
+  bool child_attributes = false;       // may expressions call attributes of the inputs by their names?
 };
 
 // The coordinates, and what a domain knows besides.
@@ -201,6 +231,12 @@ inline Domain with_variables(std::vector<std::string> variables, Domain domain =
   domain.variables = std::move(variables);
   return domain;
 }
+// Of expressions that are evaluated over the node's input: d is its distance, t the place along its struts.
+inline Domain over_child(Domain domain = {}) {
+  domain = with_variables({"d", "t"}, std::move(domain));
+  domain.child_attributes = true;
+  return domain;
+}
 
 namespace unit {
 inline const Domain mm = any("mm"), degrees = any("deg"), none = any();
@@ -221,7 +257,8 @@ struct Reader {
   SourceRange where;            // of the call, for messages about nothing that was written
   std::string_view node, name;  // whose parameter is read
   const NamedValues* names = nullptr;
-  std::vector<NodePtr>* values = nullptr;  // gets the nodes whose outputs the parameter holds
+  std::vector<NodePtr>* values = nullptr;        // gets the nodes whose outputs the parameter holds
+  const std::vector<NodePtr>* inputs = nullptr;  // of the node, whose attributes expressions may call
 
   void keep(const NodePtr& value) const;
   bool fail(const Data& data, const std::string& expected, const std::string& hint = "") const;
@@ -229,6 +266,7 @@ struct Reader {
 
 // True when `data` was right; else a diagnostic was added.
 bool read(const Data& data, const Domain& domain, double& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, std::optional<double>& value, const Reader& reader);  // null: none
 bool read(const Data& data, const Domain& domain, int& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Counts3& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Number& value, const Reader& reader);
@@ -252,9 +290,14 @@ bool read(const Data& data, const Domain& domain, std::vector<Points>& value, co
 bool read(const Data& data, const Domain& domain, FontName& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Kernel& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<std::string>& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, AttributeValue& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, SolidName& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, std::vector<NamedWord>& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, NumberTable& value, const Reader& reader);
 
 // The reverse. For hashes, files are named by their content.
 Data write(double value, bool for_hash);
+Data write(const std::optional<double>& value, bool for_hash);
 Data write(int value, bool for_hash);
 Data write(const Counts3& value, bool for_hash);
 Data write(const Number& value, bool for_hash);
@@ -278,11 +321,15 @@ Data write(const std::vector<Points>& value, bool for_hash);
 Data write(const FontName& value, bool for_hash);
 Data write(const Kernel& value, bool for_hash);
 Data write(const std::vector<std::string>& value, bool for_hash);
+Data write(const AttributeValue& value, bool for_hash);
+Data write(const SolidName& value, bool for_hash);
+Data write(const std::vector<NamedWord>& value, bool for_hash);
+Data write(const NumberTable& value, bool for_hash);
 
 // "number or field", "material", ...: for help.
 template <class M>
 constexpr std::string_view kind_name() {
-  if constexpr (std::is_same_v<M, double>) return "number";
+  if constexpr (std::is_same_v<M, double> || std::is_same_v<M, std::optional<double>>) return "number";
   if constexpr (std::is_same_v<M, int>) return "whole number";
   if constexpr (std::is_same_v<M, Counts3>) return "3 whole numbers";
   if constexpr (std::is_same_v<M, Number>) return "number or field";
@@ -304,6 +351,10 @@ constexpr std::string_view kind_name() {
   if constexpr (std::is_same_v<M, FontName>) return "font";
   if constexpr (std::is_same_v<M, Kernel>) return "lists of lists of numbers";
   if constexpr (std::is_same_v<M, std::vector<std::string>>) return "list of texts";
+  if constexpr (std::is_same_v<M, AttributeValue>) return "number, field, vector, colour or mixture";
+  if constexpr (std::is_same_v<M, SolidName>) return "solid";
+  if constexpr (std::is_same_v<M, std::vector<NamedWord>>) return "list of pairs of words";
+  if constexpr (std::is_same_v<M, NumberTable>) return "rows of numbers, or a CSV file";
 }
 
 }  // namespace ombre::design

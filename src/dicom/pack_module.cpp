@@ -54,9 +54,12 @@ Series unpack(std::string_view bytes) {
   take_list(bytes, warnings);
   std::string line;
   for (const char c : warnings) {
-    if (c != '\n') line += c;
-    if (c == '\n') series.warnings.push_back(std::move(line));
-    if (c == '\n') line.clear();
+    if (c != '\n') {
+      line += c;
+      continue;
+    }
+    series.warnings.push_back(line);
+    line.clear();
   }
   take_list(bytes, series.whole);
   take_list(bytes, series.real);

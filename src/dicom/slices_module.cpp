@@ -93,11 +93,12 @@ class Reading {
     std::string list;
     for (const auto& [uid, files] : series)
       list += (list.empty() ? "" : "; ") + ("series " + files[0].number) + ": " + files[0].kind + ", " +
-              std::to_string(files.size()) + (files.size() == 1 ? " file" : " files") + " of " + files[0].size + ", UID " + uid;
+              std::to_string(files.size()) + (files.size() == 1 ? " file" : " files") + " of " + files[0].size +
+              ", UID " + uid;
     const std::string hint = "; choose one by series=\"" + series.begin()->second[0].number + "\" or its UID";
     fail((choice_.empty() ? "holds " + std::to_string(series.size()) + " series"
-                          : matches == 0 ? "holds no series \"" + choice_ + '"'
-                                         : "holds several series with the number " + choice_) +
+          : matches == 0  ? "holds no series \"" + choice_ + '"'
+                          : "holds several series with the number " + choice_) +
          ": " + list + hint);
   }
 
@@ -244,7 +245,8 @@ class Reading {
       const std::string between = " between \"" + slices_[n].path + "\" and \"" + slices_[n + 1].path + '"';
       if (missing > 0.5 && std::abs(missing - std::round(missing)) <= tolerance * (missing + 1))
         fail("lacks " + std::to_string(static_cast<int>(std::round(missing))) +
-             (std::round(missing) == 1 ? " slice" : " slices") + between + "; copy the missing files, or resample the scan");
+             (std::round(missing) == 1 ? " slice" : " slices") + between +
+             "; copy the missing files, or resample the scan");
       fail("has slices at uneven distances: " + format_rounded(steps[n], 4) + " mm" + between + ", elsewhere " +
            format_rounded(usual, 4) + " mm; resample the scan");
     }
@@ -270,7 +272,8 @@ class Reading {
   void take_values(Series& series) {
     const bool is_whole = std::ranges::all_of(slices_, [](const Slice& slice) {
       return std::ranges::all_of(slice.values, [](float v) {
-        return v >= std::numeric_limits<int16_t>::min() && v <= std::numeric_limits<int16_t>::max() && v == std::floor(v);
+        return v >= std::numeric_limits<int16_t>::min() && v <= std::numeric_limits<int16_t>::max() &&
+               v == std::floor(v);
       });
     });
     for (Slice& slice : slices_) {

@@ -122,6 +122,7 @@ struct RingMaker {
   std::vector<Ring>* rings;
   Vec2 at;           // of the glyph
   double tolerance;  // in units of the font
+  int chords = 0;    // of each curve; 0: as many as the tolerance needs
 
   Vec2 place(const FT_Vector& v) const { return {at.x + static_cast<double>(v.x), at.y + static_cast<double>(v.y)}; }
   Ring& ring() const { return rings->back(); }
@@ -138,14 +139,20 @@ struct RingMaker {
   static int conic(const FT_Vector* by, const FT_Vector* to, void* user) {
     const Vec2 from = of(user).ring().back(), middle = of(user).place(*by), end = of(user).place(*to);
     const Vec2 first = from + (2.0 / 3) * (middle - from), second = end + (2.0 / 3) * (middle - end);
-    append_chords(Cubic<Vec2>{from, first, second, end}, of(user).tolerance, of(user).ring());
+    of(user).append(Cubic<Vec2>{from, first, second, end});
     return 0;
   }
   static int cubic(const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, void* user) {
     const RingMaker& maker = of(user);
     const Cubic<Vec2> curve{maker.ring().back(), maker.place(*first), maker.place(*second), maker.place(*to)};
-    append_chords(curve, maker.tolerance, maker.ring());
+    maker.append(curve);
     return 0;
+  }
+
+  void append(const Cubic<Vec2>& curve) const {
+    if (chords == 0) return append_chords(curve, tolerance, ring());
+    for (int n = 1; n <= chords; ++n)
+      ring().push_back(n == chords ? curve.d : curve.at(static_cast<double>(n) / chords));
   }
 };
 
@@ -158,10 +165,10 @@ void tidy(std::vector<Ring>& rings) {
   std::erase_if(rings, [](const Ring& ring) { return ring.size() < 3; });
 }
 
-void append_rings(const Face& face, uint32_t glyph, Vec2 at, std::vector<Ring>& rings) {
+void append_rings(const Face& face, uint32_t glyph, Vec2 at, std::vector<Ring>& rings, int chords = 0) {
   FT_Outline* const outline = face.outline(glyph);
   if (!outline) return;
-  RingMaker maker{&rings, at, tolerance_em * face.em()};
+  RingMaker maker{&rings, at, tolerance_em * face.em(), chords};
   const FT_Outline_Funcs calls{RingMaker::move, RingMaker::line, RingMaker::conic, RingMaker::cubic, 0, 0};
   FT_Outline_Decompose(outline, &calls, &maker);
 }
@@ -196,7 +203,84 @@ void note_missing(const std::string& text, size_t place, std::vector<std::string
   if (std::find(missing.begin(), missing.end(), letter) == missing.end()) missing.push_back(letter);
 }
 
+// A glyph of a run, and by how much it moves the next.
+struct RunGlyph {
+  uint32_t glyph;
+  Vec2 offset, advance;
+};
+
+std::vector<RunGlyph> shape_run(const Face& face, const std::string& text, const RunLayout& layout) {
+  const std::unique_ptr<hb_buffer_t, Destroy<hb_buffer_destroy>> buffer(hb_buffer_create());
+  hb_buffer_add_utf8(buffer.get(), text.data(), static_cast<int>(text.size()), 0, static_cast<int>(text.size()));
+  hb_buffer_set_direction(buffer.get(), hb_direction_from_string(layout.direction.c_str(), -1));
+  hb_buffer_set_language(buffer.get(), hb_language_from_string(layout.language.c_str(), -1));
+  hb_buffer_set_script(buffer.get(), hb_script_from_string(layout.script.c_str(), -1));
+  hb_buffer_guess_segment_properties(buffer.get());  // what these did not say
+  hb_shape(face.shaper(), buffer.get(), nullptr, 0);
+  unsigned count = 0;
+  const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer.get(), &count);
+  const hb_glyph_position_t* places = hb_buffer_get_glyph_positions(buffer.get(), &count);
+  std::vector<RunGlyph> run;
+  for (unsigned n = 0; n < count; ++n)
+    run.push_back({infos[n].codepoint,
+                   {static_cast<double>(places[n].x_offset), static_cast<double>(places[n].y_offset)},
+                   {static_cast<double>(places[n].x_advance), static_cast<double>(places[n].y_advance)}});
+  return run;
+}
+
+// The lowest and the highest of the letters, in units of the font.
+std::pair<double, double> reach_of(const Face& face, const std::vector<RunGlyph>& run) {
+  double low = 0, high = 0;
+  bool is_first = true;
+  for (const RunGlyph& placed : run) {
+    FT_Outline* const outline = face.outline(placed.glyph);
+    if (!outline || outline->n_points == 0) continue;
+    FT_BBox box;
+    FT_Outline_Get_CBox(outline, &box);
+    low = is_first ? static_cast<double>(box.yMin) : std::min(low, static_cast<double>(box.yMin));
+    high = is_first ? static_cast<double>(box.yMax) : std::max(high, static_cast<double>(box.yMax));
+    is_first = false;
+  }
+  return {low, high};
+}
+
+double rise_of(TextLevel level, double low, double high) {
+  switch (level) {
+    case TextLevel::top:
+      return -high;
+    case TextLevel::center:
+      return -(low + high) / 2;
+    case TextLevel::bottom:
+      return -low;
+    case TextLevel::first_line:
+      break;
+  }
+  return 0;
+}
+
 }  // namespace
+
+std::optional<TextOutlines> outline_run(const std::string& font_bytes, int font_index, const std::string& text,
+                                        const RunLayout& layout) {
+  constexpr double measure = 1000.0 / 1024;
+  const Face face(font_bytes, font_index);
+  if (!face.has_outlines()) return std::nullopt;
+  const std::vector<RunGlyph> run = shape_run(face, text, layout);
+  Vec2 whole;
+  for (const RunGlyph& placed : run) whole = whole + (measure * layout.spacing) * placed.advance;
+  const auto [low, high] = reach_of(face, run);
+  Vec2 at{left_end(layout.side, whole.x), measure * rise_of(layout.level, low, high)};
+  TextOutlines outlines;
+  for (const RunGlyph& placed : run) {
+    append_rings(face, placed.glyph, at + measure * placed.offset, outlines.rings, layout.chords_per_curve);
+    at = at + (measure * layout.spacing) * placed.advance;
+  }
+  const double mm = layout.em_mm / face.em();
+  for (Ring& ring : outlines.rings)
+    for (Vec2& p : ring) p = mm * p;
+  tidy(outlines.rings);
+  return outlines;
+}
 
 std::optional<TextOutlines> outline_text(const std::string& font_bytes, int font_index, const std::string& text,
                                          const TextLayout& layout) {
@@ -229,6 +313,10 @@ std::optional<TextOutlines> outline_text(const std::string& font_bytes, int font
 namespace ombre::draw {
 
 std::optional<TextOutlines> outline_text(const std::string&, int, const std::string&, const TextLayout&) {
+  return std::nullopt;
+}
+
+std::optional<TextOutlines> outline_run(const std::string&, int, const std::string&, const RunLayout&) {
   return std::nullopt;
 }
 

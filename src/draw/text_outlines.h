@@ -41,4 +41,19 @@ bool can_outline_text();
 std::optional<TextOutlines> outline_text(const std::string& font_bytes, int font_index, const std::string& text,
                                          const TextLayout& layout);
 
+// How one line of text is laid out where OpenSCAD lays it out.
+struct RunLayout {
+  double em_mm = 10;
+  double spacing = 1;                                               // times the advances
+  int chords_per_curve = 4;                                         // of each of a letter's curves
+  std::string direction = "ltr", language = "en", script = "Latn";  // ltr, rtl, ttb, btt; ISO codes
+  TextSide side = TextSide::left;
+  TextLevel level = TextLevel::first_line;  // top, center and bottom: of the letters that are there
+};
+
+// One line of a text, control characters among its letters. As in OpenSCAD 2021.01, advances and alignment are
+// 1000/1024 of what the font says. Nothing when the bytes are no font with outlines.
+std::optional<TextOutlines> outline_run(const std::string& font_bytes, int font_index, const std::string& text,
+                                        const RunLayout& layout);
+
 }  // namespace ombre::draw

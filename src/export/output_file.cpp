@@ -72,6 +72,16 @@ void NewFile::append(std::string_view bytes) {
   if (const int error = write_all(descriptor_, bytes); error != 0) throw Error(write_failure(file_.path(), error));
 }
 
+void NewFile::write_at(uint64_t offset, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw Error(write_failure(file_.path(), errno));
+    offset += static_cast<uint64_t>(written);
+    bytes.remove_prefix(static_cast<size_t>(written));
+  }
+}
+
 void NewFile::close(Durability durability) {
   int error = 0;
   if (durability == Durability::flushed && ::fsync(descriptor_) != 0) error = errno;

@@ -1,6 +1,7 @@
 // Files that appear whole or not at all.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -44,6 +45,8 @@ class NewFile {
   NewFile& operator=(const NewFile&) = delete;
 
   void append(std::string_view bytes);
+  // Anywhere; what lies before it and was not written is 0.
+  void write_at(uint64_t offset, std::string_view bytes);
   // The pieces so far are the file, which keeps its name of old until it is committed.
   void close(Durability durability = Durability::closed);
   void commit() { file_.commit(); }

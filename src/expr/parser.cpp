@@ -99,7 +99,7 @@ class Parser {
     if (is_digit(c) || (c == '.' && at_ + 1 < text_.size() && is_digit(text_[at_ + 1]))) return read_number();
     if (is_letter(c)) {
       now_.type = Token::Type::name;
-      while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]))) ++at_;
+      while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]) || begins_part())) ++at_;
       return;
     }
     now_.type = Token::Type::symbol;
@@ -112,6 +112,9 @@ class Parser {
     while (at_ < text_.size() && (static_cast<unsigned char>(text_[at_]) & 0xC0) == 0x80)
       ++at_;  // the rest of a UTF-8 letter
   }
+
+  // The dot of "fibre.x".
+  bool begins_part() const { return text_[at_] == '.' && at_ + 1 < text_.size() && is_letter(text_[at_ + 1]); }
 
   void read_number() {
     now_.type = Token::Type::number;

@@ -104,17 +104,19 @@ class MetaImage {
 
   std::string type() const {
     static const std::map<std::string, const char*> names{
-        {"MET_CHAR", "int8"},   {"MET_UCHAR", "uint8"},   {"MET_SHORT", "int16"},  {"MET_USHORT", "uint16"},
-        {"MET_INT", "int32"},   {"MET_UINT", "uint32"},   {"MET_LONG", "int32"},   {"MET_ULONG", "uint32"},
+        {"MET_CHAR", "int8"},     {"MET_UCHAR", "uint8"},   {"MET_SHORT", "int16"}, {"MET_USHORT", "uint16"},
+        {"MET_INT", "int32"},     {"MET_UINT", "uint32"},   {"MET_LONG", "int32"},  {"MET_ULONG", "uint32"},
         {"MET_FLOAT", "float32"}, {"MET_DOUBLE", "float64"}};
     const std::string given = field("elementtype");
     const auto found = names.find(given);
-    if (found == names.end()) fail("has numbers of the type \"" + given.substr(0, 40) + "\"; save it as MET_SHORT, MET_FLOAT, ...");
+    if (found == names.end())
+      fail("has numbers of the type \"" + given.substr(0, 40) + "\"; save it as MET_SHORT, MET_FLOAT, ...");
     return found->second;
   }
 
   Affine placed() const {
-    const std::string spacing = first_of({"elementspacing", "elementsize"}), turn = first_of({"transformmatrix", "rotation", "orientation"}),
+    const std::string spacing = first_of({"elementspacing", "elementsize"}),
+                      turn = first_of({"transformmatrix", "rotation", "orientation"}),
                       place = first_of({"offset", "position", "origin"});
     const std::vector<double> lengths = spacing.empty() ? std::vector<double>(3, 1.0) : numbers(spacing, 3);
     Affine map;
@@ -138,10 +140,11 @@ class MetaImage {
   void take(std::string_view bytes, uint64_t size, VoxelVolume& volume) const {
     const bool is_big = flag("elementbyteordermsb") || flag("binarydatabyteordermsb");
     if (flag("compresseddata"))
-      return take_numbers(path_, unpacked(path_, bytes, is_gzip(bytes) ? Packing::gzip : Packing::zlib, size), is_big, volume);
+      return take_numbers(path_, unpacked(path_, bytes, is_gzip(bytes) ? Packing::gzip : Packing::zlib, size), is_big,
+                          volume);
     const int64_t skip = whole("headersize", fields_.contains("headersize") ? numbers("headersize", 1)[0] : 0);
-    const uint64_t before =
-        skip == -1 ? bytes.size() - std::min<uint64_t>(size, bytes.size()) : static_cast<uint64_t>(std::max<int64_t>(skip, 0));
+    const uint64_t before = skip == -1 ? bytes.size() - std::min<uint64_t>(size, bytes.size())
+                                       : static_cast<uint64_t>(std::max<int64_t>(skip, 0));
     if (skip < -1 || before > bytes.size()) fail("has a wrong \"HeaderSize\"");
     take_numbers(path_, bytes.substr(before), is_big, volume);
   }

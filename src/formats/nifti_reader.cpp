@@ -97,7 +97,8 @@ std::array<int64_t, 3> counts_of(const std::string& path, const NiftiHeader& hea
     if (n <= 3)
       count[static_cast<size_t>(n - 1)] = length;
     else if (length > 1)
-      fail_volume(path, "has " + std::to_string(length) + " values in each voxel, or volumes in time; save one of them by itself");
+      fail_volume(path, "has " + std::to_string(length) +
+                            " values in each voxel, or volumes in time; save one of them by itself");
   }
   return count;
 }
@@ -151,7 +152,9 @@ Affine by_rows(const NiftiHeader& header) {
 // Places of the file: those of the affine map, else of the quaternion, else none but the voxels' lengths.
 void place(const std::string& path, const NiftiHeader& header, VoxelVolume& volume) {
   const bool has_rows = header.code(header.layout().sform) > 0, has_turn = header.code(header.layout().qform) > 0;
-  const Affine map = has_rows ? by_rows(header) : has_turn ? by_quaternion(header) : Affine::scaling(spacing_of(header));
+  const Affine map = has_rows   ? by_rows(header)
+                     : has_turn ? by_quaternion(header)
+                                : Affine::scaling(spacing_of(header));
   for (const Vec3& row : map.rows)
     if (!is_finite(row)) fail_volume(path, "has an orientation that is not finite");
   if (!is_finite(map.offset)) fail_volume(path, "has an origin that is not finite");

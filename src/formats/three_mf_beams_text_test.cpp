@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "formats/mesh_objects.h"
 #include "formats/test_documents.h"
 #include "formats/test_packages.h"

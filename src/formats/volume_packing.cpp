@@ -58,12 +58,11 @@ std::string unpacked_file(const std::string& path, std::string_view bytes, uint6
     const size_t done = result.size();
     result.resize(done + room);
     size_t taken = 0, made = 0;
-    const auto status = libdeflate_gzip_decompress_ex(unpacker.get(), bytes.data(), bytes.size(),
-                                                      result.data() + done, room, &taken, &made);
+    const auto status = libdeflate_gzip_decompress_ex(unpacker.get(), bytes.data(), bytes.size(), result.data() + done,
+                                                      room, &taken, &made);
     result.resize(done + (status == LIBDEFLATE_SUCCESS ? made : 0));
     if (status == LIBDEFLATE_INSUFFICIENT_SPACE) {
-      if (done + room >= possible)
-        fail_volume(path, "unpacks to more than " + format_bytes(static_cast<double>(most)));
+      if (done + room >= possible) fail_volume(path, "unpacks to more than " + format_bytes(static_cast<double>(most)));
       room = std::min(2 * room, possible - done);
       continue;
     }

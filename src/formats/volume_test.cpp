@@ -114,7 +114,7 @@ TEST(Volume, DescriptionsSayWhatNumbersAre) {
 }
 
 TEST(Volume, WrongFilesSayWhatIsWrong) {
-  EXPECT_TRUE(is_about(problem_of("hello"), "neither an NRRD nor an NPY"));
+  EXPECT_TRUE(is_about(problem_of("hello"), "none of NRRD, NIfTI, MetaImage and NPY"));
   EXPECT_TRUE(is_about(problem_of(nrrd_with("short", "endian: little\nencoding: raw", "abc")), "cut off"));
   EXPECT_TRUE(is_about(problem_of(nrrd_with("short", "encoding: raw", "abc")), "without \"endian\""));
   EXPECT_TRUE(

@@ -29,11 +29,14 @@ int longest_axis(Vec3 size) {
 
 }  // namespace
 
-double squared_distance(const LineSegment& segment, Vec3 p) {
-  const Vec3 along = segment.to - segment.from, from = p - segment.from;
+double nearest_share(const LineSegment& segment, Vec3 p) {
+  const Vec3 along = segment.to - segment.from;
   const double way = dot(along, along);
-  const double t = way > 0 ? std::clamp(dot(from, along) / way, 0.0, 1.0) : 0;
-  const Vec3 rest = from - t * along;
+  return way > 0 ? std::clamp(dot(p - segment.from, along) / way, 0.0, 1.0) : 0;
+}
+
+double squared_distance(const LineSegment& segment, Vec3 p) {
+  const Vec3 rest = (p - segment.from) - nearest_share(segment, p) * (segment.to - segment.from);
   return dot(rest, rest);
 }
 
@@ -60,7 +63,8 @@ void SegmentTree::build(uint32_t begin, uint32_t end) {
   build(half, end);
 }
 
-double SegmentTree::distance(Vec3 p) const {
+template <class Visit>
+void SegmentTree::visit_near(Vec3 p, const Visit& visit) const {
   double best = std::numeric_limits<double>::infinity();
   struct Waiting {
     uint32_t node;
@@ -74,7 +78,7 @@ double SegmentTree::distance(Vec3 p) const {
     if (squared > best) continue;
     const Node& node = nodes_[index];
     if (node.other == 0) {
-      for (uint32_t n = node.begin; n < node.end; ++n) best = std::min(best, squared_distance(segments_[n], p));
+      for (uint32_t n = node.begin; n < node.end; ++n) best = visit(segments_[n]);
       continue;
     }
     Waiting first{index + 1, squared_distance(nodes_[index + 1].box, p)};
@@ -83,7 +87,26 @@ double SegmentTree::distance(Vec3 p) const {
     waiting[count++] = second;
     waiting[count++] = first;  // the nearer one, which comes next
   }
+}
+
+double SegmentTree::distance(Vec3 p) const {
+  double best = std::numeric_limits<double>::infinity();
+  visit_near(p, [&](const LineSegment& segment) { return best = std::min(best, squared_distance(segment, p)); });
   return std::sqrt(best);
+}
+
+const LineSegment& SegmentTree::nearest(Vec3 p) const {
+  double best = std::numeric_limits<double>::infinity();
+  const LineSegment* found = segments_.data();
+  visit_near(p, [&](const LineSegment& segment) {
+    const double squared = squared_distance(segment, p);
+    if (squared < best || (squared == best && segment.number < found->number)) {
+      best = squared;
+      found = &segment;
+    }
+    return best;
+  });
+  return *found;
 }
 
 }  // namespace ombre::importing

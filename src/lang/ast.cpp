@@ -34,6 +34,16 @@ const char* spelling(Operator op) {
       return "&&";
     case Operator::logical_or:
       return "||";
+    case Operator::bit_or:
+      return "|";
+    case Operator::bit_and:
+      return "&";
+    case Operator::shift_left:
+      return "<<";
+    case Operator::shift_right:
+      return ">>";
+    case Operator::bit_not:
+      return "~";
     case Operator::logical_not:
       break;
   }

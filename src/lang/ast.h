@@ -141,9 +141,14 @@ enum class Operator : uint8_t {
   not_equal,
   logical_and,
   logical_or,
+  bit_or,
+  bit_and,
+  shift_left,
+  shift_right,
   negate,
   plus,
-  logical_not
+  logical_not,
+  bit_not
 };
 
 const char* spelling(Operator op);

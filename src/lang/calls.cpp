@@ -163,7 +163,7 @@ void Interpreter::make_node(Invocation invocation, const ast::Span& where, Nodes
   at_ = where;
   meter_.count_instance();
   Diagnostics found;
-  design::NodePtr node = vocabulary_.make(std::move(invocation), found);
+  Product node = vocabulary_.make(std::move(invocation), found);
   for (const Diagnostic& diagnostic : found.list()) report(diagnostic);
   if (!node) ++failures_;
   if (node) out.push_back(std::move(node));

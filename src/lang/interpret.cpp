@@ -58,8 +58,8 @@ Interpreter::Nodes Interpreter::run() {
   return has_roots_ ? std::move(roots_) : std::move(nodes);
 }
 
-std::vector<design::NodePtr> run(const SourcePtr& source, Vocabulary& vocabulary, const Options& options,
-                                 Diagnostics& diagnostics) {
+std::vector<Product> run(const SourcePtr& source, Vocabulary& vocabulary, const Options& options,
+                         Diagnostics& diagnostics) {
   const size_t errors_before = diagnostics.error_count();
   const Program program = load(source, options, diagnostics);
   // What could not be read would be missed everywhere else.

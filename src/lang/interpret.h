@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "lang/dialect.h"
 #include "lang/limits.h"
 #include "lang/vocabulary.h"
 
@@ -26,11 +27,13 @@ struct Options {
   std::function<void(const std::string&)> echo;  // one line without its end; may be empty
   // What `include` and `use` read: nothing where there is no such file. Empty for the real files.
   std::function<std::optional<std::string>(const std::string& path)> read_file;
+  Dialect dialect = Dialect::vcad;
+  std::vector<std::string> libraries;  // folders where `include` and `use` look last
 };
 
 // Parses and evaluates; the top-level nodes in order. Mistakes become diagnostics, and what was
 // not affected by them is still evaluated, so that one run finds several.
-std::vector<design::NodePtr> run(const SourcePtr& source, Vocabulary& vocabulary, const Options& options,
-                                 Diagnostics& diagnostics);
+std::vector<Product> run(const SourcePtr& source, Vocabulary& vocabulary, const Options& options,
+                         Diagnostics& diagnostics);
 
 }  // namespace ombre::lang

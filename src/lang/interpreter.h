@@ -18,7 +18,7 @@ namespace ombre::lang {
 
 class Interpreter {
  public:
-  using Nodes = std::vector<design::NodePtr>;
+  using Nodes = std::vector<Product>;
 
   Interpreter(const Program& program, Vocabulary& vocabulary, const Options& options, Diagnostics& diagnostics);
   Nodes run();

@@ -1,6 +1,7 @@
 #include "lang/lexer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/utf8.h"
 
@@ -12,7 +13,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '$'; }
 bool is_name_part(char c) { return (is_name_start(c) && c != '$') || is_digit(c); }
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF", no_break_space = "\xC2\xA0";
 
 std::optional<TokenKind> single_sign(char c) {
   switch (c) {
@@ -68,10 +69,11 @@ std::optional<TokenKind> single_sign(char c) {
 // Reads one string's escapes.
 class Unescaper {
  public:
-  Unescaper(const SourcePtr& source, const Token& token, Diagnostics& diagnostics)
+  Unescaper(const SourcePtr& source, const Token& token, Dialect dialect, Diagnostics& diagnostics)
       : source_(source),
         begin_(token.begin),
         text_(source->text().substr(token.begin, token.end - token.begin)),
+        dialect_(dialect),
         diagnostics_(diagnostics) {}
 
   StringValue run() {
@@ -95,7 +97,8 @@ class Unescaper {
       ++at_;
       return;
     }
-    result_.text += text_.substr(at_, size);
+    const bool is_left_out = dialect_ == Dialect::openscad && is_line_end(text_[at_]);
+    if (!is_left_out) result_.text += text_.substr(at_, size);
     at_ += size;
   }
 
@@ -126,6 +129,10 @@ class Unescaper {
         return code(begin, 6);
       default:
         break;
+    }
+    if (dialect_ == Dialect::openscad) {  // such a backslash is as if it were not there
+      at_ = begin + 1;
+      return;
     }
     // Designs written without escapes in mind (paths, formulas) keep what they say.
     diagnostics_.warning(part(begin, begin + 1), "this backslash starts no escape and stands for itself",
@@ -163,6 +170,7 @@ class Unescaper {
   const SourcePtr& source_;
   uint32_t begin_;
   std::string_view text_;
+  Dialect dialect_;
   Diagnostics& diagnostics_;
   size_t at_ = 1;
   bool was_told_ = false;
@@ -172,7 +180,7 @@ class Unescaper {
 }  // namespace
 
 Token Lexer::next() {
-  if (at_ == 0 && text_.substr(0, 3) == byte_order_mark) at_ = 3;
+  if (at_ == 0 && text_.starts_with(byte_order_mark)) at_ = byte_order_mark.size();
   for (found_.reset(); !found_;) {
     skip_blank();
     if (at_ < text_.size())
@@ -196,6 +204,10 @@ void Lexer::skip_blank() {
   while (at_ < text_.size()) {
     if (is_space(text_[at_])) {
       ++at_;
+    } else if (dialect_ == Dialect::openscad && text_.substr(at_).starts_with(no_break_space)) {
+      at_ += no_break_space.size();
+    } else if (dialect_ == Dialect::openscad && text_.substr(at_).starts_with(byte_order_mark)) {
+      at_ += byte_order_mark.size();
     } else if (peek() == '/' && peek(1) == '/') {
       at_ = std::min(text_.find_first_of(line_ends, at_), text_.size());
     } else if (peek() == '/' && peek(1) == '*') {
@@ -249,7 +261,31 @@ void Lexer::path(size_t begin, size_t open, bool is_use) {
   put(is_use ? TokenKind::use_path : TokenKind::include_path, begin);
 }
 
+// Whichever is longer counts: 2d is a name, 2.5 and 2e3 are numbers, 0x1F is one in base 16.
+bool Lexer::name_from_digit() {
+  size_t end = at_;
+  while (end < text_.size() && is_name_part(text_[end])) ++end;
+  const std::string_view word = text_.substr(at_, end - at_);
+  const bool is_hexadecimal = word.size() > 2 && word[0] == '0' && (word[1] == 'x' || word[1] == 'X') &&
+                              word.find_first_not_of("0123456789abcdefABCDEF", 2) == std::string_view::npos;
+  const bool is_decimal = word.find_first_not_of("0123456789") == std::string_view::npos;
+  const size_t letter = word.find_first_not_of("0123456789");
+  const size_t sign = at_ + letter + 1;  // of an exponent, if it has one
+  const auto digit_at = [&](size_t place) { return place < text_.size() && is_digit(text_[place]); };
+  const bool has_signed_exponent = letter + 1 == word.size() && sign < text_.size() &&
+                                   (text_[sign] == '+' || text_[sign] == '-') && digit_at(sign + 1);
+  const bool has_plain_exponent =
+      digit_at(sign) && word.find_first_not_of("0123456789", letter + 1) == std::string_view::npos;
+  const bool has_exponent =
+      !is_decimal && (word[letter] == 'e' || word[letter] == 'E') && (has_signed_exponent || has_plain_exponent);
+  if (is_decimal || has_exponent) return false;
+  const size_t begin = std::exchange(at_, end);
+  put(is_hexadecimal ? TokenKind::number : TokenKind::name, begin);
+  return true;
+}
+
 void Lexer::number() {
+  if (dialect_ == Dialect::openscad && peek() != '.' && name_from_digit()) return;
   const size_t begin = at_;
   while (is_digit(peek())) ++at_;
   if (peek() == '.') ++at_;
@@ -262,7 +298,7 @@ void Lexer::number() {
     }
   }
   put(TokenKind::number, begin);
-  if (is_name_start(peek())) {
+  if (is_name_start(peek()) && dialect_ == Dialect::vcad) {
     size_t end = at_;
     while (end < text_.size() && is_name_part(text_[end])) ++end;
     const std::string digits(text_.substr(begin, at_ - begin));
@@ -297,6 +333,7 @@ void Lexer::sign() {
                                    {'&', '&', TokenKind::and_and},     {'|', '|', TokenKind::or_or}};
   const size_t begin = at_;
   const char next = peek(1);
+  if (dialect_ == Dialect::openscad && bit_sign()) return;
   if (next == '=' || next == '&' || next == '|') {
     for (const Pair& pair : pairs) {
       if (peek() != pair.first || next != pair.second) continue;
@@ -308,6 +345,29 @@ void Lexer::sign() {
   if (!kind) return stray();
   ++at_;
   put(*kind, begin);
+}
+
+// Operators on the bits of numbers.
+bool Lexer::bit_sign() {
+  const std::string_view rest = text_.substr(at_, 2);
+  TokenKind kind = TokenKind::end;
+  size_t size = 1;
+  if (rest == "<<" || rest == ">>") {
+    kind = rest == "<<" ? TokenKind::shift_left : TokenKind::shift_right;
+    size = 2;
+  } else if (rest[0] == '~') {
+    kind = TokenKind::tilde;
+  } else if (rest[0] == '|' && rest != "||") {
+    kind = TokenKind::bar;
+  } else if (rest[0] == '&' && rest != "&&") {
+    kind = TokenKind::ampersand;
+  } else {
+    return false;
+  }
+  const size_t begin = at_;
+  at_ += size;
+  put(kind, begin);
+  return true;
 }
 
 // A row of strange bytes is one mistake.
@@ -340,8 +400,8 @@ void Tokens::take() {
   first_ = 0;
 }
 
-StringValue read_string(const SourcePtr& source, const Token& token, Diagnostics& diagnostics) {
-  return Unescaper(source, token, diagnostics).run();
+StringValue read_string(const SourcePtr& source, const Token& token, Dialect dialect, Diagnostics& diagnostics) {
+  return Unescaper(source, token, dialect, diagnostics).run();
 }
 
 }  // namespace ombre::lang

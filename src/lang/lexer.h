@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "lang/dialect.h"
 
 namespace ombre::lang {
 
@@ -30,6 +31,11 @@ enum class TokenKind : uint8_t {
   question,
   assign,
   hash,
+  bar,
+  ampersand,
+  shift_left,
+  shift_right,
+  tilde,
   plus,
   minus,
   star,
@@ -55,8 +61,8 @@ struct Token {
 // Reads a text from a place on, token by token.
 class Lexer {
  public:
-  Lexer(const SourcePtr& source, uint32_t begin, Diagnostics& diagnostics)
-      : source_(source), text_(source->text()), diagnostics_(diagnostics), at_(begin) {}
+  Lexer(const SourcePtr& source, uint32_t begin, Dialect dialect, Diagnostics& diagnostics)
+      : source_(source), text_(source->text()), dialect_(dialect), diagnostics_(diagnostics), at_(begin) {}
 
   Token next();  // the end, again and again, where the text ends
   // A string or comment ran to the end of the text: what then seems missing is no news.
@@ -72,12 +78,15 @@ class Lexer {
   void name();
   void path(size_t begin, size_t open, bool is_use);
   void number();
+  bool name_from_digit();
   void string();
   void sign();
+  bool bit_sign();
   void stray();
 
   const SourcePtr& source_;
   std::string_view text_;
+  Dialect dialect_;
   Diagnostics& diagnostics_;
   size_t at_ = 0;
   std::optional<Token> found_;
@@ -87,8 +96,8 @@ class Lexer {
 // The tokens ahead of a reader, read when they are looked at: a file has far more than are needed at a time.
 class Tokens {
  public:
-  Tokens(const SourcePtr& source, uint32_t begin, Diagnostics& diagnostics)
-      : lexer_(source, begin, diagnostics), last_end_(begin) {}
+  Tokens(const SourcePtr& source, uint32_t begin, Dialect dialect, Diagnostics& diagnostics)
+      : lexer_(source, begin, dialect, diagnostics), last_end_(begin) {}
 
   Token ahead(size_t count = 0) {
     while (list_.size() - first_ <= count) list_.push_back(lexer_.next());
@@ -111,6 +120,6 @@ struct StringValue {
 };
 
 // What a string token, quotes included, says.
-StringValue read_string(const SourcePtr& source, const Token& token, Diagnostics& diagnostics);
+StringValue read_string(const SourcePtr& source, const Token& token, Dialect dialect, Diagnostics& diagnostics);
 
 }  // namespace ombre::lang

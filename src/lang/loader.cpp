@@ -32,6 +32,8 @@ class Loader {
   Loader(const Options& options, Diagnostics& diagnostics)
       : limits_(options.limits),
         read_(options.read_file ? options.read_file : read_real_file),
+        dialect_(options.dialect),
+        libraries_(options.libraries),
         diagnostics_(diagnostics) {}
 
   Program run(const SourcePtr& source) {
@@ -44,14 +46,14 @@ class Loader {
     Unit& result = program_.units.emplace_back();
     result.path = source->name();
     splice(source, result);
-    warn_of_replaced(result.plan, diagnostics_);
+    if (dialect_ == Dialect::vcad) warn_of_replaced(result.plan, diagnostics_);
     return result;
   }
 
   // Adds a file's statements to the unit, and those of the files that it includes in their places.
   void splice(const SourcePtr& source, Unit& into) {
     open_.push_back(normal(source->name()));
-    program_.files.push_back(parse_deferred(source, program_.names, diagnostics_));
+    program_.files.push_back(parse_deferred(source, program_.names, dialect_, diagnostics_));
     const ast::File& file = program_.files.back();
     for (const ast::StatementPtr& statement : file.statements) {
       if (statement->kind == ast::Statement::Kind::include)
@@ -112,8 +114,14 @@ class Loader {
       return nullptr;
     }
     std::vector<std::string> places = places_of(include.path, (*include.span.source)->name());
+    for (const std::string& library : libraries_) places.push_back((fs::path(library) / include.path).generic_string());
     for (const std::string& path : places)
       if (auto text = read_(path)) return make_source(path, std::move(*text));
+    if (dialect_ == Dialect::openscad) {
+      const std::string what = include.is_use ? "library" : "include file";
+      diagnostics_.warning({}, "Can't open " + what + " '" + include.path + "'.");
+      return nullptr;
+    }
     if (places.size() > 1) places.back() += " in the working directory";
     diagnostics_.error(include.path_span.range(), "there is no file \"" + include.path + '"',
                        "looked for " + join(places, " and "));
@@ -124,6 +132,8 @@ class Loader {
 
   const Limits& limits_;
   std::function<std::optional<std::string>(const std::string&)> read_;
+  Dialect dialect_;
+  const std::vector<std::string>& libraries_;
   Diagnostics& diagnostics_;
   Program program_;
   std::vector<std::string> open_;  // the files being read, outermost first

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 #include "base/math.h"
 #include "lang/builtins.h"
+#include "lang/degrees.h"
 
 namespace ombre::lang {
 
@@ -43,61 +43,6 @@ std::string Builtin::signature() const {
 }
 
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
-
-// Sine of an angle in [0, 90], exact where it is a fraction.
-double quadrant_sine(double angle) {
-  if (angle == 30) return 0.5;
-  if (angle == 90) return 1;
-  if (angle > 45) return math::cos((90 - angle) / degrees);
-  return math::sin(angle / degrees);
-}
-
-double sine(double angle) {
-  if (!std::isfinite(angle)) return std::nan("");
-  double a = std::fmod(std::abs(angle), 360);
-  double sign = angle < 0 ? -1 : 1;
-  if (a >= 180) {
-    a -= 180;
-    sign = -sign;
-  }
-  if (a > 90) a = 180 - a;
-  return a == 0 ? 0 : sign * quadrant_sine(a);
-}
-
-double cosine(double angle) {
-  if (!std::isfinite(angle)) return std::nan("");
-  double a = std::fmod(std::abs(angle), 360);
-  if (a > 180) a = 360 - a;
-  if (a == 90) return 0;
-  return a < 90 ? quadrant_sine(90 - a) : -quadrant_sine(a - 90);
-}
-
-double tangent(double angle) {
-  if (!std::isfinite(angle)) return std::nan("");
-  const double a = std::fmod(angle, 180);
-  if (a == 45 || a == -135) return 1;
-  if (a == -45 || a == 135) return -1;
-  return sine(angle) / cosine(angle);
-}
-
-// Whole degrees come back as such where the function of them is exactly the argument.
-template <class Function>
-double inverse(double angle, double argument, Function function) {
-  const double whole = std::round(angle);
-  return std::abs(angle - whole) < 1e-9 && function(whole) == argument ? whole : angle;
-}
-
-double arc_sine(double x) { return inverse(math::asin(x) * degrees, x, sine); }
-double arc_cosine(double x) { return inverse(math::acos(x) * degrees, x, cosine); }
-double arc_tangent(double x) { return inverse(math::atan(x) * degrees, x, tangent); }
-
-double arc_tangent2(double y, double x) {
-  const double angle = math::atan2(y, x) * degrees;
-  const double eighth = std::round(angle / 45) * 45;
-  return std::abs(angle - eighth) < 1e-12 ? eighth : angle;
-}
 
 double sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : x == 0 ? 0 : x; }
 
@@ -223,13 +168,13 @@ std::span<const Builtin> math_builtins() {
   static const std::vector<Builtin> table = {
       {"abs", {"x"}, 1, false, unary<absolute>},
       {"sign", {"x"}, 1, false, unary<sign_of>},
-      {"sin", {"degrees"}, 1, false, unary<sine>},
-      {"cos", {"degrees"}, 1, false, unary<cosine>},
-      {"tan", {"degrees"}, 1, false, unary<tangent>},
-      {"asin", {"x"}, 1, false, unary<arc_sine>},
-      {"acos", {"x"}, 1, false, unary<arc_cosine>},
-      {"atan", {"x"}, 1, false, unary<arc_tangent>},
-      {"atan2", {"y", "x"}, 2, false, binary<arc_tangent2>},
+      {"sin", {"degrees"}, 1, false, unary<degrees::sine>},
+      {"cos", {"degrees"}, 1, false, unary<degrees::cosine>},
+      {"tan", {"degrees"}, 1, false, unary<degrees::tangent>},
+      {"asin", {"x"}, 1, false, unary<degrees::arc_sine>},
+      {"acos", {"x"}, 1, false, unary<degrees::arc_cosine>},
+      {"atan", {"x"}, 1, false, unary<degrees::arc_tangent>},
+      {"atan2", {"y", "x"}, 2, false, binary<degrees::arc_tangent2>},
       {"floor", {"x"}, 1, false, unary<floor_of>},
       {"ceil", {"x"}, 1, false, unary<ceil_of>},
       {"round", {"x"}, 1, false, unary<round_of>},

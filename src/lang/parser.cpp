@@ -246,6 +246,7 @@ Statement::Kind Parser::call_kind(std::string_view name) {
 // F-grade is one name where a call begins: its parts stand together, before "(" or "{".
 size_t Parser::hyphenated_tokens() {
   size_t count = 1;
+  if (dialect_ == Dialect::openscad) return count;
   while (kind(count) == TokenKind::minus && kind(count + 1) == TokenKind::name &&
          token(count).begin == token(count - 1).end && token(count + 1).begin == token(count).end)
     count += 2;
@@ -284,7 +285,7 @@ StatementPtr Parser::call(Modifiers modifiers) {
   result->whole = since(callee.span.begin);
   const Repeated repeated(*this, result->kind == Statement::Kind::loop);
   // The last statement before "}" may lack its ";".
-  if (!accept(TokenKind::semicolon) && !at(TokenKind::right_brace))
+  if (!accept(TokenKind::semicolon) && !at_last_of_braces())
     block(result->children, "\";\" or the children of the call");
   result->span = since(callee.span.begin);
   return result;
@@ -313,11 +314,11 @@ void Parser::braces(Block& into) {
 
 void Parser::finish(Block& block) {
   for (const StatementPtr& statement : block.statements) block.plan.add(*statement);
-  warn_of_replaced(block.plan, diagnostics_);
+  if (dialect_ == Dialect::vcad) warn_of_replaced(block.plan, diagnostics_);
 }
 
 void Parser::end_of_statement(const char* after) {
-  if (accept(TokenKind::semicolon) || at(TokenKind::right_brace)) return;
+  if (accept(TokenKind::semicolon) || at_last_of_braces()) return;
   const Span where{source_, last_end(), last_end() + 1};
   std::string message = "expected \";\" after this " + std::string(after) + ", found " + found();
   // A new line begins a new statement, which is read as usual.
@@ -339,7 +340,8 @@ void warn_of_replaced(const Plan& plan, Diagnostics& diagnostics) {
 
 namespace {
 
-File parse(const SourcePtr& source, std::shared_ptr<Names> names, bool defer, Diagnostics& diagnostics) {
+File parse(const SourcePtr& source, std::shared_ptr<Names> names, Dialect dialect, bool defer,
+           Diagnostics& diagnostics) {
   File file;
   file.source = std::make_unique<const SourcePtr>(source);
   file.names = std::move(names);
@@ -348,7 +350,7 @@ File parse(const SourcePtr& source, std::shared_ptr<Names> names, bool defer, Di
     return file;
   }
   Diagnostics lexical, syntactic;
-  Parser parser(file.source.get(), 0, *file.names, lexical, syntactic);
+  Parser parser(file.source.get(), 0, dialect, *file.names, lexical, syntactic);
   if (defer) parser.defer_calls();
   file.statements = parser.file();
   diagnostics.add_all(lexical);
@@ -358,17 +360,17 @@ File parse(const SourcePtr& source, std::shared_ptr<Names> names, bool defer, Di
 
 }  // namespace
 
-File parse(const SourcePtr& source, Diagnostics& diagnostics) {
-  return parse(source, std::make_shared<Names>(), false, diagnostics);
+File parse(const SourcePtr& source, Diagnostics& diagnostics, Dialect dialect) {
+  return parse(source, std::make_shared<Names>(), dialect, false, diagnostics);
 }
 
-File parse_deferred(const SourcePtr& source, std::shared_ptr<Names> names, Diagnostics& diagnostics) {
-  return parse(source, std::move(names), true, diagnostics);
+File parse_deferred(const SourcePtr& source, std::shared_ptr<Names> names, Dialect dialect, Diagnostics& diagnostics) {
+  return parse(source, std::move(names), dialect, true, diagnostics);
 }
 
-StatementPtr read(const Deferred& call, Names& names) {
+StatementPtr read(const Deferred& call, Names& names, Dialect dialect) {
   Diagnostics told;
-  Parser parser(call.span.source, call.span.begin, names, told, told);
+  Parser parser(call.span.source, call.span.begin, dialect, names, told, told);
   parser.defer_calls();
   return parser.statement();
 }

@@ -3,6 +3,7 @@
 
 #include "base/diagnostic.h"
 #include "lang/ast.h"
+#include "lang/dialect.h"
 
 namespace ombre::lang {
 
@@ -10,12 +11,13 @@ namespace ombre::lang {
 constexpr int deepest_nesting = 200;
 
 // Always gives a tree, of what could be read.
-ast::File parse(const SourcePtr& source, Diagnostics& diagnostics);
+ast::File parse(const SourcePtr& source, Diagnostics& diagnostics, Dialect dialect = Dialect::vcad);
 // The same for evaluation: the calls in long lists are deferred. Files that are evaluated together share a
 // table of names.
-ast::File parse_deferred(const SourcePtr& source, std::shared_ptr<Names> names, Diagnostics& diagnostics);
+ast::File parse_deferred(const SourcePtr& source, std::shared_ptr<Names> names, Dialect dialect,
+                         Diagnostics& diagnostics);
 // The call itself, without its modifiers. The text was read before without mistakes.
-ast::StatementPtr read(const ast::Deferred& call, Names& names);
+ast::StatementPtr read(const ast::Deferred& call, Names& names, Dialect dialect = Dialect::vcad);
 
 // About variables that one file gives several values in one scope.
 void warn_of_replaced(const ast::Plan& plan, Diagnostics& diagnostics);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdlib>
 #include <optional>
 
 #include "lang/parser_state.h"
@@ -18,7 +19,7 @@ struct BinaryOperator {
   int precedence;
 };
 
-constexpr std::array<BinaryOperator, 13> binary_operators = {{{TokenKind::or_or, Operator::logical_or, 0},
+constexpr std::array<BinaryOperator, 17> binary_operators = {{{TokenKind::or_or, Operator::logical_or, 0},
                                                               {TokenKind::and_and, Operator::logical_and, 1},
                                                               {TokenKind::equal_equal, Operator::equal, 2},
                                                               {TokenKind::not_equal, Operator::not_equal, 2},
@@ -26,19 +27,28 @@ constexpr std::array<BinaryOperator, 13> binary_operators = {{{TokenKind::or_or,
                                                               {TokenKind::less_equal, Operator::less_equal, 3},
                                                               {TokenKind::greater, Operator::greater, 3},
                                                               {TokenKind::greater_equal, Operator::greater_equal, 3},
-                                                              {TokenKind::plus, Operator::add, 4},
-                                                              {TokenKind::minus, Operator::subtract, 4},
-                                                              {TokenKind::star, Operator::multiply, 5},
-                                                              {TokenKind::slash, Operator::divide, 5},
-                                                              {TokenKind::percent, Operator::modulo, 5}}};
-constexpr int tightest = 5;
+                                                              {TokenKind::bar, Operator::bit_or, 4},
+                                                              {TokenKind::ampersand, Operator::bit_and, 5},
+                                                              {TokenKind::shift_left, Operator::shift_left, 6},
+                                                              {TokenKind::shift_right, Operator::shift_right, 6},
+                                                              {TokenKind::plus, Operator::add, 7},
+                                                              {TokenKind::minus, Operator::subtract, 7},
+                                                              {TokenKind::star, Operator::multiply, 8},
+                                                              {TokenKind::slash, Operator::divide, 8},
+                                                              {TokenKind::percent, Operator::modulo, 8}}};
+constexpr int tightest = 8;
 
 const BinaryOperator* binary_operator(TokenKind token) {
   // Between values stands mostly what is none of them.
-  if (token < TokenKind::plus) return nullptr;
+  if (token < TokenKind::bar) return nullptr;
   const auto* found = std::find_if(binary_operators.begin(), binary_operators.end(),
                                    [token](const BinaryOperator& op) { return op.token == token; });
   return found == binary_operators.end() ? nullptr : found;
+}
+
+int hexadecimal_digit(char digit) {
+  if (digit <= '9') return digit - '0';
+  return (digit <= 'F' ? digit - 'A' : digit - 'a') + 10;
 }
 
 bool may_generate(const Expr& element) {
@@ -49,6 +59,7 @@ std::optional<Operator> unary_operator(TokenKind token) {
   if (token == TokenKind::minus) return Operator::negate;
   if (token == TokenKind::plus) return Operator::plus;
   if (token == TokenKind::bang) return Operator::logical_not;
+  if (token == TokenKind::tilde) return Operator::bit_not;
   return std::nullopt;
 }
 
@@ -179,8 +190,15 @@ ExprPtr Parser::number() {
   const Span where = span(token());
   const std::string_view digits = text(token());
   double value = 0;
+  if (digits.size() > 2 && (digits[1] == 'x' || digits[1] == 'X')) {
+    for (const char digit : digits.substr(2)) value = value * 16 + hexadecimal_digit(digit);
+    take();
+    return std::make_unique<Number>(where, value);
+  }
   const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (status != std::errc() || end != digits.data() + digits.size())
+  if (dialect_ == Dialect::openscad && status == std::errc::result_out_of_range)
+    value = std::strtod(std::string(digits).c_str(), nullptr);
+  else if (status != std::errc() || end != digits.data() + digits.size())
     diagnostics_.error(where.range(), "this number is out of range", "numbers reach from 1e-307 to 1e308");
   take();
   return std::make_unique<Number>(where, value);
@@ -188,7 +206,7 @@ ExprPtr Parser::number() {
 
 ExprPtr Parser::string() {
   const Span where = span(token());
-  StringValue value = read_string(*source_, token(), diagnostics_);
+  StringValue value = read_string(*source_, token(), dialect_, diagnostics_);
   take();
   return std::make_unique<String>(where, std::move(value.text), value.is_plain);
 }
@@ -200,7 +218,8 @@ ExprPtr Parser::parenthesised() {
   if (at(TokenKind::right_paren))
     fail(since(begin).to(span(token())), "these parentheses are empty", "an empty list is []");
   ExprPtr first = expression();
-  if (accept(TokenKind::right_paren)) {
+  if (dialect_ == Dialect::openscad || at(TokenKind::right_paren)) {
+    expect(TokenKind::right_paren, ")");
     first->span = since(begin);
     return first;
   }
@@ -228,6 +247,8 @@ ExprPtr Parser::bracketed() {
     list->has_generators = list->has_generators || may_generate(*list->elements.back());
     if (at(TokenKind::colon) && list->elements.size() == 1 && !list->has_generators) break;
     if (!accept(TokenKind::comma)) break;
+    while (dialect_ == Dialect::openscad && accept(TokenKind::comma)) {  // [1,,2] is [1, 2]
+    }
   }
   if (!accept(TokenKind::colon)) {
     if (!at(TokenKind::right_bracket))
@@ -404,7 +425,7 @@ void Parser::parameters(std::vector<Parameter>& into) {
     Parameter parameter{name("the name of a parameter"), nullptr};
     if (accept(TokenKind::assign)) parameter.value = expression();
     for (const Parameter& other : into)
-      if (other.name.symbol == parameter.name.symbol)
+      if (dialect_ == Dialect::vcad && other.name.symbol == parameter.name.symbol)
         diagnostics_.error(parameter.name.span.range(), "the parameter \"" + other.name.text() + "\" is there already");
     into.push_back(std::move(parameter));
     if (!accept(TokenKind::comma)) break;

@@ -19,11 +19,13 @@ struct SyntaxError {};
 class Parser {
  public:
   // Reads from `begin` on; tells of wrong tokens in `lexical`, of everything else in `diagnostics`.
-  Parser(const SourcePtr* source, uint32_t begin, Names& names, Diagnostics& lexical, Diagnostics& diagnostics)
+  Parser(const SourcePtr* source, uint32_t begin, Dialect dialect, Names& names, Diagnostics& lexical,
+         Diagnostics& diagnostics)
       : source_(source),
         text_((*source)->text()),
+        dialect_(dialect),
         names_(names),
-        tokens_(*source, begin, lexical),
+        tokens_(*source, begin, dialect, lexical),
         diagnostics_(diagnostics) {}
 
   // Of long lists of statements, keeps where the calls stand and not what they say.
@@ -98,6 +100,7 @@ class Parser {
   void braces(ast::Block& into);
   void finish(ast::Block& block);
   void end_of_statement(const char* after);
+  bool at_last_of_braces() { return dialect_ == Dialect::vcad && at(TokenKind::right_brace); }
   static ast::Statement::Kind call_kind(std::string_view name);
 
   // --- expressions
@@ -128,6 +131,7 @@ class Parser {
 
   const SourcePtr* source_;
   std::string_view text_;
+  Dialect dialect_;
   Names& names_;
   Tokens tokens_;
   Diagnostics& diagnostics_;

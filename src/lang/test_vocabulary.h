@@ -12,15 +12,9 @@
 
 namespace ombre::lang {
 
-// The interpreter never looks into a node, so anything can pass for one.
-inline design::NodePtr text_node(std::string text) {
-  const auto owner = std::make_shared<const std::string>(std::move(text));
-  return {owner, reinterpret_cast<const design::Node*>(owner.get())};
-}
+inline Product text_node(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
 
-inline const std::string& node_text(const design::NodePtr& node) {
-  return *reinterpret_cast<const std::string*>(node.get());
-}
+inline const std::string& node_text(const Product& node) { return *static_cast<const std::string*>(node.get()); }
 
 inline std::string data_text(const Data& data) {
   if (data.is_null()) return "undef";
@@ -47,7 +41,7 @@ class TestVocabulary : public Vocabulary {
   }
   std::vector<std::string> constants() const override { return {"x", "y", "z", "red", "green", "blue"}; }
 
-  design::NodePtr make(Invocation call, Diagnostics& diagnostics) override {
+  Product make(Invocation call, Diagnostics& diagnostics) override {
     calls.push_back(call);
     if (fold_name(call.name) == "broken") {
       diagnostics.error(call.where, "broken is broken");
@@ -62,7 +56,7 @@ class TestVocabulary : public Vocabulary {
     text += ')';
     if (!call.children.empty()) {
       text += '{';
-      for (const design::NodePtr& child : call.children) text += (text.back() == '{' ? "" : " ") + node_text(child);
+      for (const Product& child : call.children) text += (text.back() == '{' ? "" : " ") + node_text(child);
       text += '}';
     }
     return text_node(std::move(text));
@@ -86,7 +80,7 @@ inline Result run_script(const std::string& text, Options options = {}) {
   options.echo = [&](const std::string& line) { result.echoes += line + '\n'; };
   if (!options.read_file) options.read_file = [](const std::string&) { return std::nullopt; };
   const auto nodes = run(make_source("part.vcad", text), vocabulary, options, diagnostics);
-  for (const design::NodePtr& node : nodes) result.nodes += (result.nodes.empty() ? "" : " ") + node_text(node);
+  for (const Product& node : nodes) result.nodes += (result.nodes.empty() ? "" : " ") + node_text(node);
   result.messages = to_text(diagnostics);
   result.calls = std::move(vocabulary.calls);
   return result;

@@ -12,12 +12,10 @@
 #include "base/diagnostic.h"
 #include "lang/value.h"
 
-namespace ombre::design {
-class Node;
-using NodePtr = std::shared_ptr<const Node>;
-}  // namespace ombre::design
-
 namespace ombre::lang {
+
+// What a call makes. Only the vocabulary that made it knows its type; the engine keeps it and passes it on.
+using Product = std::shared_ptr<const void>;
 
 struct Argument {
   std::string name;        // empty when positional
@@ -31,7 +29,7 @@ struct Invocation {
   SourceRange where;  // of the name
   SourceRange whole;  // from the name to the closing parenthesis
   std::vector<Argument> arguments;
-  std::vector<design::NodePtr> children;  // null results are left out
+  std::vector<Product> children;  // null results are left out
   // The children that one statement of the braces gave stand together; each group ends before these
   // positions. Loops, modules and conditions may give several, or none.
   std::vector<size_t> group_ends;
@@ -54,7 +52,7 @@ class Vocabulary {
   virtual std::optional<Data> constant(std::string_view name) const = 0;  // materials, axes
   virtual std::vector<std::string> constants() const = 0;                 // for suggestions
   // Null when the call is wrong (and then diagnostics were added) or gives nothing.
-  virtual design::NodePtr make(Invocation call, Diagnostics& diagnostics) = 0;
+  virtual Product make(Invocation call, Diagnostics& diagnostics) = 0;
   // Names that are called in expressions, and what such a call gives; nothing when it is wrong, and then diagnostics
   // were added.
   virtual bool gives_value(std::string_view) const { return false; }

@@ -31,6 +31,10 @@ const design::Registry& registry() {
     add_supports(r);
     add_noise(r);
     add_value_nodes(r);
+    add_value_places(r);
+    add_value_cells(r);
+    add_value_curves(r);
+    add_value_colours(r);
     add_convolutions(r);
     add_whole_solids(r);
     return r;

@@ -31,6 +31,10 @@ void add_parts(design::Registry& registry);
 void add_supports(design::Registry& registry);
 void add_noise(design::Registry& registry);
 void add_value_nodes(design::Registry& registry);
+void add_value_places(design::Registry& registry);
+void add_value_cells(design::Registry& registry);
+void add_value_curves(design::Registry& registry);
+void add_value_colours(design::Registry& registry);
 void add_convolutions(design::Registry& registry);
 void add_whole_solids(design::Registry& registry);
 

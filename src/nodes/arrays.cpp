@@ -60,7 +60,7 @@ struct Array {
     for (const Point& q : asked) values.push_back(in.attribute(0, name, q, demand));
     const AttributeDeclaration declaration = in.declaration(name);
     return overlapping_values(values, owners(in, p, asked, demand), declaration.overlap,
-                              p.constant(declaration.default_value));
+                              p.constant(default_of(declaration, name)));
   }
 
   Field along(const Inputs& in, const Point& p) const {

@@ -151,11 +151,14 @@ Composition felt_composition(const Inputs& in, const Point& p, Demand demand, st
   return weighted(in, p, Demand::everywhere, shares(in, p, demand, rule, falloff));
 }
 
-Field felt_attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand, const Falloff& falloff) {
+Field felt_attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand, const Falloff& falloff,
+                     const design::AttributeDeclaration& declaration) {
   if (in.count() == 1) return in.attribute(0, name, p, demand);
+  const bool weighs = declaration.overlap == design::Overlap::mix;
   std::vector<Field> marks;
-  for (const Field share : shares(in, p, demand, "mix", falloff)) marks.push_back(truth(share));
-  return overlapping_attribute(in, name, p, Demand::everywhere, marks, in.declaration(name));
+  for (const Field share : shares(in, p, demand, weighs ? "blend" : "mix", falloff))
+    marks.push_back(weighs ? share : truth(share));
+  return overlapping_attribute(in, name, p, Demand::everywhere, marks, declaration);
 }
 
 }  // namespace ombre::nodes

@@ -43,6 +43,7 @@ Felt felt(const design::Inputs& in, const program::Point& p, design::PartQuery q
 design::Composition felt_composition(const design::Inputs& in, const program::Point& p, design::Demand demand,
                                      std::string_view rule, const design::Falloff& falloff);
 program::Field felt_attribute(const design::Inputs& in, std::string_view name, const program::Point& p,
-                              design::Demand demand, const design::Falloff& falloff);
+                              design::Demand demand, const design::Falloff& falloff,
+                              const design::AttributeDeclaration& declaration);
 
 }  // namespace ombre::nodes

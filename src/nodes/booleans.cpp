@@ -19,6 +19,18 @@ constexpr std::string_view blend_doc = "Radius of the fillet, or size of the cha
 constexpr std::string_view join_doc = "round: a fillet along seams; chamfer: a flat";
 Domain join_choices() { return one_of({"round", "chamfer"}); }
 
+constexpr std::string_view attributes_doc =
+    "How attributes combine where inputs overlap, in place of their own rules: [[\"modulus\", \"max\"]]";
+Domain attribute_rules() { return one_of({overlap_names.begin(), overlap_names.end()}); }
+
+// The attribute as it combines here.
+AttributeDeclaration declaration_here(const Inputs& in, std::string_view part, const std::vector<NamedWord>& rules) {
+  AttributeDeclaration declaration = in.declaration(part);
+  for (const NamedWord& rule : rules)
+    if (rule.name == declaration.name) declaration.overlap = overlap_called(rule.word);
+  return declaration;
+}
+
 // Weights of inputs that contain the point; where none does and it matters, the nearest counts.
 std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand demand, std::string_view rule) {
   std::vector<Field> marks = in.insides(p);
@@ -50,6 +62,7 @@ struct Union {
   Choice materials = "mix";
   Number blend_radius = 0;
   Choice join = "round";
+  std::vector<NamedWord> attribute_words;
 
   static Spec<Union> spec() {
     return {"union",
@@ -60,7 +73,8 @@ struct Union {
               "precedence; blend weighs them by how far inside the point is, across seams too",
               one_of({"mix", "first", "last", "blend"})},
              {"blend", &Union::blend_radius, blend_doc, unit::not_negative_mm},
-             {"join", &Union::join, join_doc, join_choices()}},
+             {"join", &Union::join, join_doc, join_choices()},
+             {"attributes", &Union::attribute_words, attributes_doc, attribute_rules()}},
             many_solids,
             "union(blend=1) { cube(8, \"red\"); translate(4, 4, 4) { sphere(4, \"blue\"); } }"};
   }
@@ -132,8 +146,9 @@ struct Union {
 
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
     if (in.count() == 1) return in.attribute(0, name, p, demand);
-    if (!blend().is_plain()) return felt_attribute(in, name, p, demand, blend().falloff());
-    return overlapping_attribute(in, name, p, demand, overlap_weights(in, p, demand, "mix"), in.declaration(name));
+    const AttributeDeclaration here = declaration_here(in, name, attribute_words);
+    if (!blend().is_plain()) return felt_attribute(in, name, p, demand, blend().falloff(), here);
+    return overlapping_attribute(in, name, p, demand, overlap_weights(in, p, demand, "mix"), here);
   }
 
  private:
@@ -209,6 +224,7 @@ struct Intersection {
   Choice materials = "mix";
   Number blend_radius = 0;
   Choice join = "round";
+  std::vector<NamedWord> attribute_words;
 
   static Spec<Intersection> spec() {
     return {"intersection",
@@ -216,7 +232,8 @@ struct Intersection {
             "What is in all of its children.",
             {{"materials", &Intersection::materials, overlap_doc, overlap_choices()},
              {"blend", &Intersection::blend_radius, blend_doc, unit::not_negative_mm},
-             {"join", &Intersection::join, join_doc, join_choices()}},
+             {"join", &Intersection::join, join_doc, join_choices()},
+             {"attributes", &Intersection::attribute_words, attributes_doc, attribute_rules()}},
             grouped_solids(OfNothing::gives_nothing),
             "intersection() { cube(8, \"red\"); sphere(5, \"red\"); }"};
   }
@@ -256,7 +273,7 @@ struct Intersection {
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
     const auto marks = demand == Demand::inside ? std::vector<Field>(in.count(), p.constant(1))
                                                 : overlap_weights(in, p, demand, "mix");
-    return overlapping_attribute(in, name, p, demand, marks, in.declaration(name));
+    return overlapping_attribute(in, name, p, demand, marks, declaration_here(in, name, attribute_words));
   }
 
  private:

@@ -15,7 +15,8 @@ inline expr::Variables child_variables(const design::Inputs& in, const program::
   return [&in, &p](std::string_view name) -> std::optional<program::Field> {
     if (name == "d") return in.distance(0, p);
     if (name == "t") return in.along(0, p);
-    return std::nullopt;
+    const std::string attribute = in.attribute_called(0, name);
+    return attribute.empty() ? std::nullopt : std::optional(in.attribute(0, attribute, p, design::Demand::inside));
   };
 }
 

@@ -315,7 +315,7 @@ struct Smooth {
     return box.is_empty() ? box : intersect(box.expanded(margin), where);
   }
   Field distance(const Inputs& in, const Point& p) const {
-    const Box box = in.bounds(0, design_space());
+    const Box box = in.input(0).bounds(design_space());
     if (box.is_empty()) return p.constant(Box::inf);
     const Vec3 c = box.center(), h = 0.5 * box.size();
     const Field from_box = corner(abs(p.x - c.x) - h.x, abs(p.y - c.y) - h.y, abs(p.z - c.z) - h.z);

@@ -55,7 +55,8 @@ class Sweeping {
 
   Place place(const Cell& at) const {
     Place place;
-    for (size_t a = 0; a < 3; ++a) place[a] = static_cast<float>(static_cast<double>(at[a]) * cell_[static_cast<int>(a)]);
+    for (size_t a = 0; a < 3; ++a)
+      place[a] = static_cast<float>(static_cast<double>(at[a]) * cell_[static_cast<int>(a)]);
     return place;
   }
 
@@ -178,7 +179,8 @@ class DistanceStage final : public design::WholeStage {
 
   void compute(const StageValues& read, StageValues& made, const design::StageLattice& lattice,
                const design::StageWork& work) const override {
-    Sweeping sweeping(read.channel(0), read.box(), {lattice.pitch[0].mm(), lattice.pitch[1].mm(), lattice.pitch[2].mm()});
+    Sweeping sweeping(read.channel(0), read.box(),
+                      {lattice.pitch[0].mm(), lattice.pitch[1].mm(), lattice.pitch[2].mm()});
     sweeping.run(work);
     sweeping.write(made.channel(0));
     std::ranges::fill(made.channel(1), 1.0f);

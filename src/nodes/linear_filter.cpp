@@ -50,7 +50,7 @@ std::optional<Factors> factors_of(const Kernel& kernel) {
 
 std::vector<double> gaussian_weights(double sigma) {
   constexpr double reach = 4;  // sigmas
-  const auto radius = static_cast<int>(reach * sigma + 0.5);
+  const auto radius = static_cast<int>(std::floor(reach * sigma + 0.5));
   std::vector<double> weights;
   for (int n = -radius; n <= radius; ++n) weights.push_back(math::exp(-0.5 * n * n / (sigma * sigma)));
   divide(weights, sum_of(weights));
@@ -159,8 +159,7 @@ NumberGrid LinearFilter::apply(const NumberGrid& grid) const {
   size_t n = 0;
   for (int64_t k = 0; k < made.size[2]; ++k)
     for (int64_t j = 0; j < made.size[1]; ++j) {
-      const double* own =
-          grid.values.data() + ((k + first[2]) * grid.size[1] + j + first[1]) * grid.size[0] + first[0];
+      const double* own = grid.values.data() + ((k + first[2]) * grid.size[1] + j + first[1]) * grid.size[0] + first[0];
       for (int64_t i = 0; i < made.size[0]; ++i, ++n) made.values[n] = centre_ * own[i] + scale_ * made.values[n];
     }
   return made;

@@ -38,8 +38,8 @@ TEST(LinearFilter, OfAProductIsTheSumOfItsProducts) {
   for (size_t n = 0; n < whole.values.size(); ++n) EXPECT_NEAR(product.values[n], whole.values[n], 1e-8);
 }
 
-// The mean of a normal distribution over a step is the error function. Its sum over voxels differs from the integral by at
-// most 1/24 of the greatest slope of the distribution, 0.242 / sigma^2.
+// The mean of a normal distribution over a step is the error function. Its sum over voxels differs from the integral by
+// at most 1/24 of the greatest slope of the distribution, 0.242 / sigma^2.
 TEST(LinearFilter, BlursAStepToTheErrorFunction) {
   constexpr double sigma = 3;
   const LinearFilter filter = LinearFilter::gaussian({sigma, 0, 0});
@@ -50,8 +50,11 @@ TEST(LinearFilter, BlursAStepToTheErrorFunction) {
   const NumberGrid blurred = filter.apply(step);
   for (size_t n = 0; n < blurred.values.size(); ++n) {
     // The border lies between two voxels.
-    const double from_border = static_cast<double>(n) + static_cast<double>(reach) + 0.5 - static_cast<double>(width) / 2;
-    EXPECT_NEAR(blurred.values[n], 0.5 * (1 + std::erf(from_border / (sigma * std::sqrt(2.0)))), 0.242 / (24 * sigma * sigma) + 1e-4) << n;
+    const double from_border =
+        static_cast<double>(n) + static_cast<double>(reach) + 0.5 - static_cast<double>(width) / 2;
+    EXPECT_NEAR(blurred.values[n], 0.5 * (1 + std::erf(from_border / (sigma * std::sqrt(2.0)))),
+                0.242 / (24 * sigma * sigma) + 1e-4)
+        << n;
   }
 }
 

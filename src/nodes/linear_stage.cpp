@@ -12,10 +12,7 @@ class LinearStage final : public FilterStage {
  public:
   LinearStage(const design::NodePtr& solid, const FilterUse& use, std::string key,
               std::function<LinearFilter(Vec3)> filter)
-      : FilterStage(solid, use),
-        key_(std::move(key)),
-        filter_(std::move(filter)),
-        range_(filter_({1, 1, 1}).range()) {}
+      : FilterStage(solid, use), key_(std::move(key)), filter_(std::move(filter)), range_(filter_({1, 1, 1}).range()) {}
 
   std::string name() const override { return "convolve"; }
   Hash content() const override { return hash_with(key_); }
@@ -29,10 +26,13 @@ class LinearStage final : public FilterStage {
     const LinearFilter filter = filter_(cell_mm);
     const std::vector<float>& inside = read.channel(FilterStage::inside(read));
     for (size_t c = 0; c < fractions(read); ++c)
-      add(filter, read, [&](size_t n) { return read.channel(c)[n]; }, made.channel(c));
+      add(
+          filter, read, [&](size_t n) { return read.channel(c)[n]; }, made.channel(c));
     if (use().count_void)
-      add(filter, read, [&](size_t n) { return 1 - inside[n]; }, made.channel(made_void(read, made)));
-    add(filter, read, [&](size_t n) { return inside[n]; }, made.channel(made_share(made)));
+      add(
+          filter, read, [&](size_t n) { return 1 - inside[n]; }, made.channel(made_void(read, made)));
+    add(
+        filter, read, [&](size_t n) { return inside[n]; }, made.channel(made_share(made)));
     for (size_t a = 0; a < use().attributes.size(); ++a) {
       const std::vector<float>& values = read.channel(attribute(read, a));
       add(
@@ -59,7 +59,8 @@ class LinearStage final : public FilterStage {
     }
     if (!has_values) return;
     const NumberGrid sums = filter.apply(grid);
-    for (size_t n = 0; n < made.size(); ++n) made[n] = static_cast<float>(static_cast<double>(made[n]) + sums.values[n]);
+    for (size_t n = 0; n < made.size(); ++n)
+      made[n] = static_cast<float>(static_cast<double>(made[n]) + sums.values[n]);
   }
 
   std::string key_;

@@ -1,5 +1,7 @@
 #include "nodes/mixtures.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace ombre::nodes {
@@ -120,39 +122,69 @@ Field overlapping_attribute(const Inputs& in, std::string_view name, const Point
     marks.push_back(insides[i]);
     values.push_back(in.attribute(i, name, p, demand));
   }
-  const Field otherwise = p.constant(declaration.default_value);
+  const Field otherwise = p.constant(default_of(declaration, name));
   return values.empty() ? otherwise : overlapping_values(values, marks, declaration.overlap, otherwise);
 }
 
-Field overlapping_values(const std::vector<Field>& values, const std::vector<Field>& marks, design::Overlap overlap,
-                         Field otherwise) {
-  const Field any = program::fold(marks, program::logical_or), zero = otherwise.builder->constant(0);
-  const auto total = [&](const std::vector<Field>& weights) {
+namespace {
+
+// Marks are weights here, 0 where the value does not count.
+Field weighed_mean(const std::vector<Field>& values, const std::vector<Field>& weights, Field zero) {
+  std::vector<Field> terms;
+  for (size_t i = 0; i < values.size(); ++i) {
+    const bool is_mark = zero.builder->is_truth(weights[i]);
+    terms.push_back(select(truth(weights[i]), is_mark ? values[i] : values[i] * weights[i], zero));
+  }
+  return program::sum(terms) / program::sum(weights);
+}
+
+// The least or greatest of those that count, in place of which `beyond` stands for the others.
+Field extreme(const std::vector<Field>& values, const std::vector<Field>& marks, double beyond,
+              Field (*combine)(Field, Field)) {
+  std::vector<Field> present;
+  for (size_t i = 0; i < values.size(); ++i)
+    present.push_back(select(marks[i], values[i], values[i].builder->constant(beyond)));
+  return program::fold(present, combine);
+}
+
+Field combined(const std::vector<Field>& values, const std::vector<Field>& weights, design::Overlap overlap,
+               Field zero) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<Field> marks;
+  for (const Field weight : weights) marks.push_back(truth(weight));
+  const auto total = [&](const std::vector<Field>& counted) {
     std::vector<Field> terms;
-    const size_t count = values.size();
-    for (size_t i = 0; i < count; ++i) terms.push_back(select(weights[i], values[i], zero));
+    std::ranges::transform(values, counted, std::back_inserter(terms),
+                           [&](const Field& value, const Field& mark) { return select(mark, value, zero); });
     return program::sum(terms);
   };
-  Field value = zero;
   switch (overlap) {
     case design::Overlap::first:
-      value = total(first_true(marks));
-      break;
+      return total(first_true(marks));
+    case design::Overlap::last:
+      return total(last_true(marks));
     case design::Overlap::sum:
-      value = total(marks);
-      break;
+      return total(marks);
     case design::Overlap::mean:
-      value = total(marks) / program::sum(marks);
-      break;
-    case design::Overlap::max: {
-      const Field least = otherwise.builder->constant(-std::numeric_limits<double>::infinity());
-      std::vector<Field> present;
-      for (size_t i = 0; i < values.size(); ++i) present.push_back(select(marks[i], values[i], least));
-      value = program::fold(present, static_cast<Field (*)(Field, Field)>(program::max));
-      break;
-    }
+      return total(marks) / program::sum(marks);
+    case design::Overlap::mix:
+      return weighed_mean(values, weights, zero);
+    case design::Overlap::min:
+      return extreme(values, marks, infinity, program::min);
+    case design::Overlap::max:
+      return extreme(values, marks, -infinity, program::max);
   }
-  return select(any, value, otherwise);
+  return zero;
+}
+
+}  // namespace
+
+Field overlapping_values(const std::vector<Field>& values, const std::vector<Field>& weights, design::Overlap overlap,
+                         Field otherwise) {
+  std::vector<Field> marks;
+  for (const Field weight : weights) marks.push_back(truth(weight));
+  const Field any = program::fold(marks, program::logical_or), zero = otherwise.builder->constant(0);
+  return select(any, combined(values, weights, overlap, zero), otherwise);
 }
 
 }  // namespace ombre::nodes

@@ -44,8 +44,9 @@ program::Field overlapping_attribute(const design::Inputs& in, std::string_view 
                                      design::Demand demand, const std::vector<program::Field>& insides,
                                      const design::AttributeDeclaration& declaration);
 
-// The same of values that are at hand, of which those with a mark count.
-program::Field overlapping_values(const std::vector<program::Field>& values, const std::vector<program::Field>& marks,
+// The same of values that are at hand, of which those count whose weight is not 0. How large it is matters to the rule
+// `mix` alone.
+program::Field overlapping_values(const std::vector<program::Field>& values, const std::vector<program::Field>& weights,
                                   design::Overlap overlap, program::Field otherwise);
 
 }  // namespace ombre::nodes

@@ -6,9 +6,11 @@
 // Richardson and Gustavson, "Efficient computational noise in GLSL", Journal of Graphics Tools 16, 2012: its whole
 // numbers stay below 2^24, so that single precision holds them and every evaluator finds the same gradients.
 #include <array>
+#include <cmath>
 
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
+#include "nodes/lattice_noise.h"
 
 namespace ombre::nodes {
 namespace {
@@ -36,13 +38,19 @@ struct CellAxis {
   std::array<Field, 2> from;    // the way from each corner
   Field weight, slope;          // of the upper corner, and how fast that grows
 
-  CellAxis(Field at, double offset) {
+  // `period`: after so many cells it repeats.
+  CellAxis(Field at, double offset, double period) {
     program::Builder& builder = *at.builder;
     const Field cell = builder.apply(Op::floor, at);
     // The bounds are for intervals, which see no more than that both may be anything.
     const Field t = min(max(at - cell, 0.0), builder.constant(1));
-    corner[0] = remainder(cell + offset, noise_period);
-    corner[1] = corner[0] + 1;
+    if (period == noise_period) {
+      corner[0] = remainder(cell + offset, noise_period);
+      corner[1] = corner[0] + 1;
+    } else {
+      for (size_t n = 0; n < 2; ++n)
+        corner[n] = remainder(remainder(cell + static_cast<double>(n), period) + offset, noise_period);
+    }
     from = {t, t - 1};
     weight = t * t * t * (t * (t * 6 - 15) + 10);
     slope = 30 * square(t * (1.0 - t));
@@ -52,47 +60,116 @@ struct CellAxis {
 struct Noise {
   double size = 5;
   int seed = 0;
+  Choice kind = "gradient";
+  int octaves = 1;
+  double gain = 0.5, lacunarity = 2;
+  bool turbulence = false;
+  int period = 0;
+  program::SourceField source;  // of the kinds that are no formulas, made when the node is made
 
   static Spec<Noise> spec() {
     return {
         "noise",
         "values",
-        "Smooth random values: gradient noise, which varies over lengths of its size and repeats after 289 of them. "
-        "The same seed gives the same values.",
+        "Smooth random values, which vary over lengths of its size. The same seed gives the same values.",
         {{"size", &Noise::size, "How far it is from one random gradient to the next", unit::positive_mm},
-         {"seed", &Noise::seed, "Whole number that tells noises apart", from_to(0, 1e9)}},
+         {"seed", &Noise::seed, "Whole number that tells noises apart", from_to(0, 1e9)},
+         {"kind", &Noise::kind,
+          "gradient (Perlin's), simplex (with less of a grid), or cellular (the distance to the nearest of scattered "
+          "points)",
+          one_of({"gradient", "simplex", "cellular"})},
+         {"octaves", &Noise::octaves, "How many noises are summed, each finer and weaker than the one before",
+          from_to(1, 12)},
+         {"gain", &Noise::gain, "How strong each is beside the one before", from_to(0, 1)},
+         {"lacunarity", &Noise::lacunarity, "How many times as fine each is", from_to(1, 8)},
+         {"turbulence", &Noise::turbulence, "Sum how far noises are from their mean, which gives creases"},
+         {"period", &Noise::period,
+          "Number of sizes after which it repeats along x, y and z, so that tiles fit; 0: 289 for gradient noise, none "
+          "for others",
+          from_to(0, 289)}},
         no_inputs,
         "sphere(8 + 2*noise(size=4));",
-        {{"value", &Noise::value, "From 0 to 1, 0.5 on the average", Interval(0, 1)},
-         {"slope", &Noise::slope, "How fast the value grows along x, y and z, in 1/mm"}}};
+        {{"value", &Noise::value, "From 0 to 1, 0.5 on the average (without turbulence, and not cellular)",
+          Interval(0, 1)},
+         {"slope", &Noise::slope, "How fast the value grows along x, y and z, in 1/mm; of gradient noise"}}};
   }
 
+  bool complete(const Reader& reader) {
+    const auto fail = [&](const std::string& message, const std::string& hint) {
+      reader.diagnostics.error(reader.where, message, hint);
+      return false;
+    };
+    if (period > 0 && kind == "simplex")
+      return fail("simplex noise does not repeat along x, y and z", "leave out period, or choose another kind");
+    if (period > 0 && octaves > 1 && lacunarity != std::floor(lacunarity))
+      return fail("noise that repeats needs a whole lacunarity", "write for example lacunarity=2");
+    if (kind == "gradient" && period * std::pow(lacunarity, octaves - 1) > noise_period)
+      return fail("noise repeats after at most 289 sizes of its finest octave",
+                  "choose a shorter period, fewer octaves or a smaller lacunarity");
+    const OctaveSum sum{octaves, gain, lacunarity, turbulence};
+    if (kind == "simplex") source = make_simplex_noise(static_cast<uint64_t>(seed), sum);
+    if (kind == "cellular") source = make_cellular_noise(static_cast<uint64_t>(seed), sum, period);
+    return true;
+  }
+
+  bool gives(size_t output) const { return output == 0 || (output == 1 && kind == "gradient" && !turbulence); }
+
   Field value(const Ask& ask) const {
-    const Lattice lattice(*this, ask.p);
-    return min(max(trilinear(lattice, lattice.heights) * scale + 0.5, 0.0), ask.p.constant(1));
+    const Point& p = ask.p;
+    if (source) return p.builder().source(source, 0, p.x / size, p.y / size, p.z / size);
+    if (octaves == 1 && !turbulence) return octave(p, 0);
+    Field total = p.constant(0);
+    for (int n = 0; n < octaves; ++n) {
+      const Field from_mean = octave(p, n) * 2.0 - 1;
+      total = total + (turbulence ? abs(from_mean) : from_mean) * share(n);
+    }
+    return min(max(turbulence ? total : total * 0.5 + 0.5, 0.0), p.constant(1));
   }
 
   VectorField slope(const Ask& ask) const {
-    const Lattice lattice(*this, ask.p);
-    const auto along = [&](size_t axis) {
-      return (trilinear(lattice, lattice.gradients[axis]) + lattice.axes[axis].slope * rise(lattice, axis)) *
-             (scale / size);
-    };
-    return {along(0), along(1), along(2)};
+    std::array<Field, 3> total;
+    for (int n = 0; n < octaves; ++n) {
+      const double finer = size_of(n);
+      const Lattice lattice(*this, ask.p, n);
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const Field along =
+            (trilinear(lattice, lattice.gradients[axis]) + lattice.axes[axis].slope * rise(lattice, axis)) *
+            (scale / finer);
+        total[axis] = octaves == 1 ? along : n == 0 ? along * share(n) : total[axis] + along * share(n);
+      }
+    }
+    return {total[0], total[1], total[2]};
   }
 
  private:
   static constexpr double scale = 0.5 / noise_peak;
+
+  double size_of(int n) const { return n == 0 ? size : size / std::pow(lacunarity, n); }
+  double period_of(int n) const { return period == 0 ? noise_period : std::round(period * std::pow(lacunarity, n)); }
+  // Of an octave's weight in the sum of all.
+  double share(int n) const {
+    double sum = 0;
+    for (int k = 0; k < octaves; ++k) sum += std::pow(gain, k);
+    return std::pow(gain, n) / sum;
+  }
+
+  Field octave(const Point& p, int n) const {
+    const Lattice lattice(*this, p, n);
+    return min(max(trilinear(lattice, lattice.heights) * scale + 0.5, 0.0), p.constant(1));
+  }
 
   struct Lattice {
     std::array<CellAxis, 3> axes;
     std::array<Corners, 3> gradients;  // by axis
     Corners heights;                   // of the corners' linear functions at the point
 
-    Lattice(const Noise& noise, const Point& p)
-        : axes{CellAxis(p.x / noise.size, noise.offset(0)), CellAxis(p.y / noise.size, noise.offset(1)),
-               CellAxis(p.z / noise.size, noise.offset(2))} {
+    Lattice(const Noise& noise, const Point& p, int octave)
+        : axes{axis_of(noise, p.x, 0, octave), axis_of(noise, p.y, 1, octave), axis_of(noise, p.z, 2, octave)} {
       for (size_t n = 0; n < heights.size(); ++n) add_corner(n, n & 1, n >> 1 & 1, n >> 2);
+    }
+
+    static CellAxis axis_of(const Noise& noise, Field along, int axis, int octave) {
+      return {along / noise.size_of(octave), noise.offset(axis, octave), noise.period_of(octave)};
     }
 
     void add_corner(size_t n, size_t i, size_t j, size_t k) {
@@ -125,10 +202,10 @@ struct Noise {
     return trilinear(lattice, rises);
   }
 
-  // A seed moves the lattice by whole cells.
-  double offset(int axis) const {
+  // A seed moves the lattice by whole cells; each octave has its own.
+  double offset(int axis, int n) const {
     // SplitMix64 of Steele, Lea and Flood, 2014.
-    uint64_t z = static_cast<uint64_t>(seed) + 0x9E3779B97F4A7C15u;
+    uint64_t z = static_cast<uint64_t>(seed) + static_cast<uint64_t>(n + 1) * 0x9E3779B97F4A7C15u;
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
     z ^= z >> 31;

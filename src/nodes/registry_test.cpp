@@ -74,12 +74,12 @@ class RandomDesign {
  private:
   static Data object(const NodePtr& node) { return Data(HostObjectPtr(std::make_shared<NodeObject>(node))); }
 
-  // A number from 0 to 1 that a node gives.
+  // A number from 0.01 to 1 that a node gives: sizes must not be 0.
   Data share() {
     const NodePtr node = value_node(ValueType::number, 0);
     const Data value(
         DataMembers{{"from", object(node)}, {"output", Data(node->type().outputs[node->first_output()].name)}});
-    return Data(DataMembers{{"formula", Data("clamp(0, abs(v)/20, 1)")}, {"with", Data(DataMembers{{"v", value}})}});
+    return Data(DataMembers{{"formula", Data("clamp(0.01, abs(v)/20, 1)")}, {"with", Data(DataMembers{{"v", value}})}});
   }
 
   std::vector<NamedValue> values(const NodeType& type, int depth) {
@@ -106,6 +106,12 @@ class RandomDesign {
 
   Data whole_number(const Domain& domain) { return Data(std::max(0.0, domain.least) + static_cast<double>(index(4))); }
 
+  Data attribute_value(const Domain& domain) {
+    if (lists_ == 1) return one_number(domain, true);
+    if (lists_ == 2) return vector(domain, true);
+    return Data(DataList(4, Data(0.5)));
+  }
+
   Data vector(const Domain& domain, bool fields) {
     return Data(DataList{one_number(domain, fields), one_number(domain, fields), one_number(domain, fields)});
   }
@@ -123,6 +129,11 @@ class RandomDesign {
   Data value(const NodeType& type, const ParameterInfo& parameter) {
     const Domain& domain = parameter.domain;
     const std::string_view kind = parameter.kind;
+    if (kind == "list of pairs of words")
+      return Data(DataList{Data(DataList{Data("density"), Data(domain.choices[index(domain.choices.size())])})});
+    if (kind == "number, field, vector, colour or mixture") return attribute_value(domain);
+    if (kind == "solid") return object(any_node(0));
+    if (kind == "rows of numbers, or a CSV file") return Data("table.csv");
     if (!domain.choices.empty()) return Data(domain.choices[index(domain.choices.size())]);
     if (kind == "number") return one_number(domain, false);
     if (kind == "whole number") return whole_number(domain);

@@ -76,7 +76,7 @@ struct Sum {
   }
 
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
-    if (!is_level_set()) return felt_attribute(in, name, p, demand, falloff());
+    if (!is_level_set()) return felt_attribute(in, name, p, demand, falloff(), in.declaration(name));
     return overlapping_attribute(in, name, p, Demand::everywhere, holders_or_nearest(in, p), in.declaration(name));
   }
 

@@ -90,15 +90,39 @@ class PathSource : public program::FieldSource {
     for (const Vec3& p : points_) box = hull(box, Box{p, p});
     return box;
   }
-  int channel(std::string_view channel_name) const override { return channel_name == "distance" ? 0 : -1; }
-  double sample(int, Vec3 p) const override {
-    double best = Box::inf;
+  int channel(std::string_view channel_name) const override {
+    return channel_name == "distance" ? 0 : channel_name == "along" ? 1 : -1;
+  }
+  double sample(int channel, Vec3 p) const override {
+    double best = Box::inf, before = 0, at = 0;
     for (size_t n = 1; n < points_.size(); ++n) {
       const Vec3 way = points_[n] - points_[n - 1], from = p - points_[n - 1];
       const double t = std::clamp(dot(way, from) / dot(way, way), 0.0, 1.0);
+      if (length(from - t * way) < best) at = before + t * length(way);
       best = std::min(best, length(from - t * way));
+      before += length(way);
     }
-    return best;
+    return channel == 0 ? best : at / before;
+  }
+
+ private:
+  std::vector<Vec3> points_;
+};
+
+class PointsSource : public program::FieldSource {
+ public:
+  explicit PointsSource(std::vector<Vec3> points) : points_(std::move(points)) {}
+  std::string name() const override { return "points"; }
+  Hash content() const override { return {11, 12}; }
+  Box bounds() const override { return Box::everything(); }
+  int channel(std::string_view channel_name) const override {
+    return channel_name == "distance" ? 0 : channel_name == "index" ? 1 : -1;
+  }
+  double sample(int channel, Vec3 p) const override {
+    size_t best = 0;
+    for (size_t n = 1; n < points_.size(); ++n)
+      if (length(p - points_[n]) < length(p - points_[best])) best = n;
+    return channel == 0 ? length(p - points_[best]) : static_cast<double>(best);
   }
 
  private:
@@ -188,11 +212,25 @@ class BallLoader : public design::SourceLoader {
     if (request.use.materials != "one") parts.push_back({"clear", std::make_shared<BallSource>()});
     return std::make_shared<MeshParts>(std::move(parts));
   }
+  static std::shared_ptr<const MeshParts> make(const design::SolidsRequest&) {
+    return std::make_shared<MeshParts>(MeshParts{{"", std::make_shared<BallSource>()}});
+  }
   static program::SourceField make(const design::PolygonsRequest& request) {
     return std::make_shared<EdgeSource>(request.polygons, request.turns);
   }
   static program::SourceField make(const design::PathRequest& request) {
+    if (request.are_separate) return std::make_shared<PointsSource>(request.points);
     return std::make_shared<PathSource>(request.points);
+  }
+  static std::shared_ptr<const design::ImagePixels> make(const design::PixelsRequest&) {
+    auto pixels = std::make_shared<design::ImagePixels>(design::ImagePixels{2, 2, {}});
+    for (const int level : {0, 80, 160, 255})
+      for (const int channel : {level, 255 - level, 40, 255}) pixels->rgba.push_back(static_cast<uint8_t>(channel));
+    return pixels;
+  }
+  static std::shared_ptr<const std::vector<std::vector<double>>> make(const design::TableRequest&) {
+    return std::make_shared<std::vector<std::vector<double>>>(
+        std::vector<std::vector<double>>{{-5, 1}, {0, 2}, {5, 1.5}});
   }
   static std::shared_ptr<const HeightImage> make(const design::ImageRequest&) {
     return std::make_shared<HeightImage>(HeightImage{std::make_shared<WaveSource>(), 20, 10, 0.25 / 8, 0.25 / 4});

@@ -26,7 +26,8 @@ struct VolumePlace {
       return static_cast<std::remove_reference_t<decltype(std::declval<VolumePlace>().*member)> T::*>(member);
     };
     std::vector<design::Parameter<T>> all{
-        {"path", own(&VolumePlace::path), "The file, or a folder of DICOM files or PNG images; relative to the script, then to the working directory",
+        {"path", own(&VolumePlace::path),
+         "The file, or a folder of DICOM files or PNG images; relative to the script, then to the working directory",
          design::required()}};
     for (auto& parameter : others) all.push_back(std::move(parameter));
     all.emplace_back("spacing", own(&VolumePlace::spacing), "Lengths of a voxel; none: those of the file",
@@ -36,7 +37,9 @@ struct VolumePlace {
     all.emplace_back("space", own(&VolumePlace::space),
                      "Frame of the places: the file's own, or RAS or LPS, for which the file must say what it has",
                      design::one_of({"file", "RAS", "LPS"}));
-    all.emplace_back("series", own(&VolumePlace::series), "Of several DICOM series in a folder, its number or UID; of several grids in a .vdb file, its name");
+    all.emplace_back(
+        "series", own(&VolumePlace::series),
+        "Of several DICOM series in a folder, its number or UID; of several grids in a .vdb file, its name");
     return all;
   }
 

@@ -26,16 +26,17 @@ struct KeepPartsOf : Marked {
   std::optional<Vec3> pitch;
 
   static Spec<KeepPartsOf> spec() {
-    return {"keep_parts",
-            "voxel shapes",
-            "Keeps of its child the part that is largest, or those that are large enough, or the one at a point.",
-            {{"keep", &KeepPartsOf::keep, "Which parts; voxels that touch by a side belong together",
-              one_of({"largest", "above", "at"})},
-             {"volume", &KeepPartsOf::volume, "Least volume of the parts that are kept by \"above\"", not_negative("mm3")},
-             {"at", &KeepPartsOf::at, "A point of the part that is kept by \"at\"", unit::mm},
-             {"pitch", &KeepPartsOf::pitch, about_pitch, unit::positive_mm}},
-            one_solid,
-            "keep_parts() union() { sphere(4, \"red\"); translate(8, 0, 0) sphere(2, \"red\"); }"};
+    return {
+        "keep_parts",
+        "voxel shapes",
+        "Keeps of its child the part that is largest, or those that are large enough, or the one at a point.",
+        {{"keep", &KeepPartsOf::keep, "Which parts; voxels that touch by a side belong together",
+          one_of({"largest", "above", "at"})},
+         {"volume", &KeepPartsOf::volume, "Least volume of the parts that are kept by \"above\"", not_negative("mm3")},
+         {"at", &KeepPartsOf::at, "A point of the part that is kept by \"at\"", unit::mm},
+         {"pitch", &KeepPartsOf::pitch, about_pitch, unit::positive_mm}},
+        one_solid,
+        "keep_parts() union() { sphere(4, \"red\"); translate(8, 0, 0) sphere(2, \"red\"); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
@@ -71,15 +72,16 @@ struct Redistance {
   StagePtr stage;
 
   static Spec<Redistance> spec() {
-    return {"redistance",
-            "voxel shapes",
-            "Gives its child, of which only the sign is known (a scan, a formula), distances in mm that offset, shell and "
-            "blends can use.",
-            {{"margin", &Redistance::margin, "How far around the child distances are known", positive("mm")},
-             {"pitch", &Redistance::pitch, about_pitch, unit::positive_mm}},
-            one_solid,
-            "offset(1) redistance(3, pitch=(0.25, 0.25, 0.25)) function(\"x*x + y*y + z*z - 16\", \"red\", min=(-4, -4, "
-            "-4), max=(4, 4, 4));"};
+    return {
+        "redistance",
+        "voxel shapes",
+        "Gives its child, of which only the sign is known (a scan, a formula), distances in mm that offset, shell and "
+        "blends can use.",
+        {{"margin", &Redistance::margin, "How far around the child distances are known", positive("mm")},
+         {"pitch", &Redistance::pitch, about_pitch, unit::positive_mm}},
+        one_solid,
+        "offset(1) redistance(3, pitch=(0.25, 0.25, 0.25)) function(\"x*x + y*y + z*z - 16\", \"red\", min=(-4, -4, "
+        "-4), max=(4, 4, 4));"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
@@ -94,7 +96,7 @@ struct Redistance {
   }
   // Farther away the distance to the box around the child is a lower bound.
   Field distance(const Inputs& in, const Point& p) const {
-    const Box box = in.bounds(0, design_space());
+    const Box box = in.input(0).bounds(design_space());
     if (box.is_empty()) return p.constant(Box::inf);
     const Vec3 c = box.center(), h = 0.5 * box.size();
     const Field from_box = corner(abs(p.x - c.x) - h.x, abs(p.y - c.y) - h.y, abs(p.z - c.z) - h.z);

@@ -22,8 +22,8 @@ design::StagePtr make_parts_stage(const design::NodePtr& solid, const PartChoice
 design::StagePtr make_fill_stage(const design::NodePtr& solid, double most_mm3, const std::optional<Vec3>& cell_mm);
 
 // The channel "sdf": the distance (mm) to where the solid's values, linear between voxels, change their sign; negative
-// inside. Each voxel takes the nearest of the points that its neighbours know of (Y. Tsai, Rapid and accurate computation
-// of the distance function using grids, 2002). The mark "known": 1 where that is known.
+// inside. Each voxel takes the nearest of the points that its neighbours know of (Y. Tsai, Rapid and accurate
+// computation of the distance function using grids, 2002). The mark "known": 1 where that is known.
 design::StagePtr make_distance_stage(const design::NodePtr& solid, const std::optional<Vec3>& cell_mm,
                                      double margin_mm);
 

@@ -13,6 +13,9 @@
 
 namespace ombre::solids {
 
+// Nodes that have a `convexity` keep it for .csg files, where OpenSCAD's preview reads it. Geometry does not depend on
+// it.
+
 // Into how many edges circles are cut: OpenSCAD's $fn, $fa (degrees) and $fs (mm).
 struct Fragments {
   double count = 0, angle = 12, size = 2;
@@ -29,12 +32,12 @@ struct Cube {
 };
 struct Sphere {
   double radius = 1;
-  Fragments fragments;
+  Fragments fragments = {};
 };
 struct Cylinder {
   double height = 1, bottom_radius = 1, top_radius = 1;
   bool centred = false;
-  Fragments fragments;
+  Fragments fragments = {};
 };
 struct Polyhedron {
   std::vector<Vec3> points;
@@ -49,28 +52,30 @@ struct Square {
 };
 struct Circle {
   double radius = 1;
-  Fragments fragments;
+  Fragments fragments = {};
 };
 struct Polygon {
   std::vector<Vec2> points;
   std::vector<std::vector<size_t>> paths;  // empty: one path of all points
+  int convexity = 1;
 };
 struct Text {
   std::string text;
   double size = 10;
   std::string font, horizontal = "left", vertical = "baseline", direction = "ltr", language = "en", script = "Latn";
   double spacing = 1;
-  Fragments fragments;
+  Fragments fragments = {};
 };
 
 // Leaves that are files. Paths are complete.
 struct Import {
   std::string path;
   std::string layer, id;  // of DXF and SVG files
-  Vec2 origin;
+  Vec2 origin = {};
   double scale = 1, dots_per_inch = 72;
   bool centred = false;
-  Fragments fragments;
+  int convexity = 1;
+  Fragments fragments = {};
 };
 struct Surface {  // heights from a .dat or PNG file
   std::string path;
@@ -79,11 +84,15 @@ struct Surface {  // heights from a .dat or PNG file
 
 // Of children. A group keeps solids of different attributes apart ("soft union").
 struct Group {};
-struct Union {};
+struct Union {
+  std::optional<int> render;  // the convexity of render(), which is a union
+};
 struct Difference {};
 struct Intersection {};
 struct Hull {};
-struct Minkowski {};
+struct Minkowski {
+  int convexity = 0;
+};
 struct Fill {};
 struct Transform {
   Affine parent_from_child;
@@ -91,12 +100,13 @@ struct Transform {
 struct Resize {
   Vec3 size;  // 0: as it is, or in proportion where automatic
   std::array<bool, 3> automatic{};
+  int convexity = 0;
 };
 struct Offset {
   double distance = 0;  // mm outward
   bool round = false;   // else straight edges, cut where `chamfer` says so
   bool chamfer = false;
-  Fragments fragments;
+  Fragments fragments = {};
 };
 struct LinearExtrude {
   double height = 100, twist = 0;  // mm, degrees
@@ -104,18 +114,21 @@ struct LinearExtrude {
   Vec2 scale{1, 1};
   bool centred = false;
   std::optional<int> slices, segments;
-  Fragments fragments;
+  int convexity = 1;
+  Fragments fragments = {};
 };
 struct RotateExtrude {
   double angle = 360, start = 0;  // degrees
-  Fragments fragments;
+  int convexity = 2;
+  Fragments fragments = {};
 };
 struct Projection {
   bool cut = false;
+  int convexity = 0;
 };
 
 // Attributes of all geometry below; of equal kinds, the outermost counts.
-struct SetColour {
+struct SetColour {  // a negative part is not set: color("red", 0.5) sets all four, color(alpha = 0.5) the opacity
   Colour colour{1, 1, 1, 1};
 };
 struct SetPart {

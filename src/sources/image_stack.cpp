@@ -26,8 +26,9 @@ class StackBuilder {
   void add(const formats::PngImage& image, const std::string& path) {
     if (volume_.empty()) start(image, path);
     if (image.width != width_ || image.height != height_)
-      throw Error("the image \"" + path + "\" has " + size_text(image.width, image.height) + " pixels, but those below it have " +
-                  size_text(width_, height_) + "; all images of a stack need the same size");
+      throw Error("the image \"" + path + "\" has " + size_text(image.width, image.height) +
+                  " pixels, but those below it have " + size_text(width_, height_) +
+                  "; all images of a stack need the same size");
     // Rows of images go down, those of voxels along y.
     for (uint32_t row = image.height; row-- > 0;)
       for (uint32_t column = 0; column < image.width; ++column)
@@ -106,7 +107,8 @@ std::vector<std::string> images_at(const std::string& path) {
 void tell_gaps(const std::vector<std::string>& images, const Reader& reader) {
   const auto missing = sources::missing_number(images);
   if (missing)
-    reader.diagnostics.warning(reader.where, "the images have a gap: number " + std::to_string(*missing) + " is missing",
+    reader.diagnostics.warning(reader.where,
+                               "the images have a gap: number " + std::to_string(*missing) + " is missing",
                                "the layers above it move down by one");
 }
 

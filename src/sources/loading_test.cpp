@@ -60,6 +60,11 @@ class DesignOfTest : public Loader {
     MeshRequest request{{path, {}}, std::move(use)};
     return source(request, reader());
   }
+  auto solids(std::vector<design::MadeSolid> list, design::MeshUse use = {}) {
+    design::SolidsRequest request{"made", std::make_shared<const std::vector<design::MadeSolid>>(std::move(list)),
+                                  std::move(use)};
+    return source(request, reader());
+  }
   auto volume(const std::string& path) {
     design::VolumeRequest request{{path, {}}};
     return source(request, reader());
@@ -209,6 +214,37 @@ TEST(SourceCache, ThreadsShareWhatTheyLoad) {
     });
   for (std::thread& thread : threads) thread.join();
   for (const auto& others : found) EXPECT_EQ(others, found[0]);
+}
+
+// The tetrahedron with a corner at `x` on the axis.
+design::MadeSolid made_tetrahedron(const std::string& material, double x) {
+  return {"p",
+          material,
+          {},
+          {{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}, {x, 0, 1}},
+          {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+}
+
+TEST(MadeSolids, AreMeshesByMaterial) {
+  SourceCache cache;
+  DesignOfTest own(cache);
+  const std::string first = own.reader().materials.first().name;
+  design::MeshUse use;
+  use.material = {&own.reader().materials.first()};
+  const auto one = own.solids({made_tetrahedron("", 0), made_tetrahedron("", 2)}, use);
+  ASSERT_TRUE(one);
+  ASSERT_EQ(one->size(), 1u);
+  const program::FieldSource& source = *one->front().source;
+  EXPECT_EQ(source.sample(source.channel("inside"), {2.1, 0.1, 0.1}), 1);
+  EXPECT_EQ(source.sample(source.channel("inside"), {1.5, 0.1, 0.1}), 0);
+  EXPECT_NEAR(source.sample(source.channel("distance"), {1.5, 0, 0}), 0.5, 1e-6);
+  use.materials = "names";
+  EXPECT_TRUE(own.solids({made_tetrahedron(first, 0)}, use));
+  EXPECT_FALSE(own.diagnostics.has_errors());
+  EXPECT_FALSE(own.solids({made_tetrahedron("unobtainium", 0)}, use));
+  ASSERT_EQ(own.diagnostics.list().size(), 1u);
+  EXPECT_TRUE(own.diagnostics.list()[0].hint.starts_with("there are "));
+  EXPECT_FALSE(own.solids({}, use));
 }
 
 TEST(SourceCache, FailuresAreNotKept) {

@@ -61,22 +61,17 @@ MeshPart part_of(const std::string& path, const std::string& material, formats::
   return {material, importing::make_union_source(std::move(sources)), lattices.empty()};
 }
 
-std::optional<std::vector<sources::MaterialMesh>> read_parts(const std::string& path, std::string_view bytes,
+std::optional<std::vector<sources::MaterialMesh>> cut_by_use(const std::string& path, formats::Mesh mesh,
                                                              const MeshUse& use, const Reader& reader) {
-  auto mesh = formats::read_mesh(path, bytes, reader.diagnostics);
-  if (!mesh) {
-    reader.diagnostics.note(reader.where, "the file is used here");
-    return std::nullopt;
-  }
-  if (!choose_object(path, *mesh, use.object, reader)) return std::nullopt;
-  if (!sources::make_closed(sources::mesh_called(path), *mesh, use.inside.text(), reader)) return std::nullopt;
-  if (!sources::close_clips(path, *mesh, use.inside.text(), reader)) return std::nullopt;
+  if (!choose_object(path, mesh, use.object, reader)) return std::nullopt;
+  if (!sources::make_closed(sources::mesh_called(path), mesh, use.inside.text(), reader)) return std::nullopt;
+  if (!sources::close_clips(path, mesh, use.inside.text(), reader)) return std::nullopt;
   std::vector<sources::MaterialMesh> parts;
   if (use.materials == "one") {
-    parts.push_back({use.material, std::move(*mesh)});
+    parts.push_back({use.material, std::move(mesh)});
     return parts;
   }
-  auto found = sources::by_material(path, *mesh, use, reader);
+  auto found = sources::by_material(path, mesh, use, reader);
   if (!found) return std::nullopt;
   for (const sources::MaterialMesh& part : *found)
     if (!sources::check_part_closed(path, part, use.inside.text(), reader)) return std::nullopt;
@@ -91,23 +86,63 @@ size_t bytes_of(const formats::Mesh& mesh) {
   return bytes;
 }
 
-sources::Loading::Made<std::vector<MeshPart>> make_parts(const MeshRequest& request, std::string_view bytes,
-                                                         const Reader& reader) {
-  const auto& [file, use] = request;
-  auto meshes = read_parts(file.path, bytes, use, reader);
+using MadeParts = sources::Loading::Made<std::vector<MeshPart>>;
+
+// `all` is the hash of what the mesh was made from.
+MadeParts parts_of(const std::string& path, formats::Mesh mesh, const Hash& all, const MeshUse& use,
+                   const Reader& reader) {
+  auto meshes = cut_by_use(path, std::move(mesh), use, reader);
   if (!meshes) return {};
-  const Hash content = use.object.empty() ? file.content : hash_bytes(file.content.hex() + use.object);
+  const Hash content = use.object.empty() ? all : hash_bytes(all.hex() + use.object);
   auto parts = std::make_shared<std::vector<MeshPart>>();
   size_t size = 0;
   for (sources::MaterialMesh& part : *meshes) {
     size += bytes_of(part.mesh);
     const std::string material = use.materials == "one" ? "" : part.material.material->name;
     const Hash own = material.empty() ? content : hash_bytes(content.hex() + material);
-    parts->push_back(part_of(file.path, material, std::move(part.mesh), own, rule_of(use.inside.text())));
+    parts->push_back(part_of(path, material, std::move(part.mesh), own, rule_of(use.inside.text())));
   }
   if (parts->front().source->channel("distance") >= 0) return {std::move(parts), size};
   reader.diagnostics.error(reader.where, "meshes are not available: this build has no library for their distances");
   return {};
+}
+
+MadeParts read_parts(const MeshRequest& request, std::string_view bytes, const Reader& reader) {
+  auto mesh = formats::read_mesh(request.file.path, bytes, reader.diagnostics);
+  if (mesh) return parts_of(request.file.path, std::move(*mesh), request.file.content, request.use, reader);
+  reader.diagnostics.note(reader.where, "the file is used here");
+  return {};
+}
+
+// All solids as one mesh, each a group.
+formats::Mesh joined(const std::vector<MadeSolid>& solids) {
+  formats::Mesh mesh;
+  for (const MadeSolid& solid : solids) {
+    if (solid.triangles.empty()) continue;
+    const auto first = static_cast<uint32_t>(mesh.vertices.size());
+    formats::MeshGroup group{solid.part, static_cast<uint32_t>(mesh.triangles.size()),
+                             static_cast<uint32_t>(solid.triangles.size())};
+    group.material = solid.material;
+    group.object = solid.part;
+    group.colour = solid.colour;
+    mesh.groups.push_back(std::move(group));
+    mesh.vertices.insert(mesh.vertices.end(), solid.points.begin(), solid.points.end());
+    for (const auto& [a, b, c] : solid.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+  }
+  return mesh;
+}
+
+Hash content_of(const formats::Mesh& mesh) {
+  const auto bytes = [](const auto& list) {
+    return std::string_view(reinterpret_cast<const char*>(list.data()), list.size() * sizeof list[0]);
+  };
+  sources::Key key("solids");
+  key.add(bytes(mesh.vertices)).add(bytes(mesh.triangles));
+  for (const formats::MeshGroup& group : mesh.groups) {
+    key.add(group.name).add(group.material).add(static_cast<double>(group.triangle_count));
+    if (group.colour) key.add(bytes(*group.colour));
+  }
+  return key.hash();
 }
 
 }  // namespace
@@ -124,7 +159,22 @@ std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading&
   key.add(file.content).add(sources::ending_of(file.path)).add(use.inside.text());
   sources::add_use(key, use, loading.reader());
   return loading.cached<Result>(key.hash(), file.path,
-                                [&](const Reader& reader) { return make_parts(*this, *loading.bytes(file), reader); });
+                                [&](const Reader& reader) { return read_parts(*this, *loading.bytes(file), reader); });
+}
+
+std::shared_ptr<const std::vector<MeshPart>> SolidsRequest::load(sources::Loading& loading) {
+  const Reader& reader = loading.reader();
+  formats::Mesh mesh = joined(*solids);
+  if (mesh.triangles.empty()) {
+    reader.diagnostics.error(reader.where, '"' + name + "\" gives no solids");
+    return nullptr;
+  }
+  const Hash content = content_of(mesh);
+  sources::Key key("made solids");
+  key.add(content).add(use.inside.text());
+  sources::add_use(key, use, reader);
+  return loading.cached<Result>(key.hash(), name,
+                                [&](const Reader& own) { return parts_of(name, std::move(mesh), content, use, own); });
 }
 
 }  // namespace ombre::design

@@ -21,7 +21,8 @@ constexpr double most_bytes = 16.0 * (1U << 30);
 
 std::string names_in(openvdb::io::File& file) {
   std::string names;
-  for (auto name = file.beginName(); name != file.endName(); ++name) names += (names.empty() ? "" : ", ") + name.gridName();
+  for (auto name = file.beginName(); name != file.endName(); ++name)
+    names += (names.empty() ? "" : ", ") + name.gridName();
   return names;
 }
 
@@ -68,8 +69,8 @@ bool take(const openvdb::GridBase& base, const std::string& path, DenseGrid& den
       for (int i = box.min().x(); i <= box.max().x(); ++i)
         dense.values.push_back(number_of(accessor.getValue({i, j, k})));
   const auto place = [&](int i, int j, int k) {
-    const openvdb::Vec3d p = base.transform().indexToWorld(openvdb::Vec3d(
-        box.min().x() + i, box.min().y() + j, box.min().z() + k));
+    const openvdb::Vec3d p =
+        base.transform().indexToWorld(openvdb::Vec3d(box.min().x() + i, box.min().y() + j, box.min().z() + k));
     return Vec3{p.x(), p.y(), p.z()};
   };
   const Vec3 origin = place(0, 0, 0);
@@ -91,7 +92,8 @@ DenseGrid read(const std::string& path, const std::string& name) {
   const bool is_known = take<openvdb::FloatGrid>(*grid, path, dense) || take<openvdb::BoolGrid>(*grid, path, dense) ||
                         take<openvdb::Int32Grid>(*grid, path, dense) || take<openvdb::DoubleGrid>(*grid, path, dense) ||
                         take<openvdb::Vec3SGrid>(*grid, path, dense) || take<openvdb::MaskGrid>(*grid, path, dense);
-  if (!is_known) fail(path, "has a grid of the type " + grid->valueType() + "; float, bool, int32, double and vec3s are read");
+  if (!is_known)
+    fail(path, "has a grid of the type " + grid->valueType() + "; float, bool, int32, double and vec3s are read");
   return dense;
 }
 
@@ -127,7 +129,8 @@ void ombre_read_vdb_grid(const std::string* path, const std::string* name, const
   std::error_code failed;
   const uintmax_t size = std::filesystem::file_size(*path, failed);
   constexpr double least_seconds = 30, seconds_for_a_byte = 1e-6;
-  const HelperLimits limits{least_seconds + seconds_for_a_byte * static_cast<double>(failed ? 0 : size), size_t{40} << 30};
+  const HelperLimits limits{least_seconds + seconds_for_a_byte * static_cast<double>(failed ? 0 : size),
+                            size_t{40} << 30};
   const auto explain = [&](HelperFailure failure) {
     return "the grid file \"" + *path + "\" is broken: reading it " +
            (failure == HelperFailure::crashed ? "crashes the library" : "takes too long");

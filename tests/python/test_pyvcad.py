@@ -297,9 +297,8 @@ def test_newer_nodes():
 
 
 @pytest.mark.parametrize("make", [
-    lambda: pv.Vec4Attribute("1", "0", "0", "1"), lambda: pv.TreeSampler(pv.Sphere(), pv.Vec3(1, 1, 1)),
-    lambda: pv.PNGColorMode.COLOR_RGB, lambda: pv.PNGLoader.FromImage("a.png", 1, 1), lambda: pv.resolvers.AverageConflictResolver(),
-    lambda: pv.Sphere().sample(0, 0, 0), lambda: pyvcad_compilers.VatCompiler(pv.Sphere()),
+    lambda: pv.ColorMap(), lambda: pv.PNGColorMode.COLOR_RGB, lambda: pv.PNGLoader.FromImage("a.png", 1, 1),
+    lambda: pv.resolvers.CustomFloatConflictResolver(max), lambda: pyvcad_compilers.ColorInkjetCompiler(pv.Sphere()),
     lambda: pyvcad_rendering.Render_Image(pv.Sphere(), "a.png"), lambda: pv.HexahedralMesh.from_tree(pv.Sphere())])
 def test_what_is_missing_says_so(make):
     with pytest.raises(pv.MissingFeature, match="Ombre does not have this yet"):

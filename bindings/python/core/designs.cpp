@@ -41,8 +41,8 @@ compile::SampleWishes wishes_for(const std::string& question, const design::Desi
   if (question == "inside") wishes.inside = true;
   if (question == "distance") wishes.distance = true;
   if (question == "material") wishes.inside = wishes.fractions = true;
-  if (question == "all") wishes = {true, true, true, true, compile::attribute_names(design)};
-  if (question.starts_with("attribute ")) wishes.attributes = {question.substr(10)};
+  if (question == "all") wishes = {true, true, true, true, compile::all_attribute_parts(design)};
+  if (question.starts_with("attribute ")) wishes.attributes = compile::attribute_parts(design, question.substr(10));
   return wishes;
 }
 
@@ -123,6 +123,10 @@ py::object parameter(const Data& data, const FactoryPtr& factory) {
     return result;
   }
   if (!design::is_value(data)) return to_python(data);
+  if (const Data* from = data.find("from"); from && !data.find("output")) {  // a solid
+    const auto object = std::dynamic_pointer_cast<const design::NodeObject>(from->host_object());
+    return py::module_::import("ombre._solid").attr("wrap")(NodeHandle{object->node(), factory});
+  }
   const py::module_ values = py::module_::import("ombre._values");
   if (design::is_mixture(data)) return values.attr("from_node")(output_of(data, factory)[0]);
   py::dict outputs;
@@ -199,7 +203,7 @@ std::unique_ptr<DesignHandle> make_design(const PartList& parts,
     design.sampling = design::Sampling{{corner(0), corner(1)}, read_pitches(voxel)};
   }
   Diagnostics diagnostics;
-  design::check_cells(design, diagnostics);
+  design::check_design(design, diagnostics);
   raise_errors(diagnostics);
   const SourceRange where = design.parts[0].solid->where();
   const SourcePtr source = where.source ? where.source : make_source("design", "");
@@ -242,7 +246,7 @@ std::unique_ptr<DesignHandle> from_json(const CachePtr& cache, const std::string
   std::optional<design::Design> design;
   if (const auto data = parse_json(source, diagnostics))
     design = design::read_design(*data, compile::node_registry(), &loader, diagnostics);
-  if (design) design::check_cells(*design, diagnostics);
+  if (design) design::check_design(*design, diagnostics);
   raise_errors(diagnostics);
   const auto factory = std::make_shared<compile::NodeFactory>(design->materials, cache);
   auto loaded = std::make_shared<const compile::Loaded>(compile::Loaded{"design.json", source, std::move(*design)});

@@ -175,8 +175,12 @@ class Design:
         return {name: numpy.where(inside, values, 0.0)[()] for _, name, values in columns[1:]}
 
     def attribute(self, name, points, threads=0):
-        """An attribute's values at points of the shape (..., 3), mm."""
-        return self._sample(points, "attribute " + name, threads)[0][2][()]
+        """An attribute's values at points of the shape (..., 3), mm. Of vectors, colours and mixtures the result has one
+        more axis, for their numbers: x, y, z; red, green, blue, alpha; or the materials, in the order of their ids.
+        """
+        columns = self._sample(points, "attribute " + name, threads)
+        is_one_number = len(columns) == 1 and columns[0][1] == name
+        return columns[0][2][()] if is_one_number else numpy.stack([values for _, _, values in columns], axis=-1)
 
     def gradient(self, points, step=1e-4, threads=0):
         """Gradient of the distance at points of the shape (..., 3), by central differences of `step` mm."""

@@ -61,19 +61,26 @@ def _split(positional, most):
     return inputs, tuple(values)
 
 
+def _as_value(argument):
+    """A solid as it is given to values that are measured on it; anything else as it is."""
+    return wrap(_nodes(argument)[0]) if _is_solid(argument) else argument
+
+
 def _mixtures(argument):
     """The nodes among an argument that are mixtures of materials."""
     if isinstance(argument, (list, tuple)):
         return [node for element in argument for node in _mixtures(element)]
     node = getattr(argument, "_ombre_node_", None)
-    return [node] if node and node.outputs[0][1] == "mixture" else []
+    return [node] if node and node.outputs and node.outputs[0][1] == "mixture" else []
 
 
 def make(name, info, positional, named):
     """A node of the type `name`; solids among the positional arguments are its inputs. An empty list of solids is
     nothing."""
     least, most = info["inputs"]["least"], info["inputs"]["most"]
-    inputs, values = _split(positional, most)
+    takes_solids_as_values = most == 0 and any(p["kind"] == "solid" for p in info["parameters"])
+    inputs, values = ([], positional) if takes_solids_as_values else _split(positional, most)
+    values, named = tuple(map(_as_value, values)), {key: _as_value(value) for key, value in named.items()}
     if len(inputs) < least:
         raise TypeError(f"{name} needs {'a solid' if least == 1 else f'{least:.0f} solids'} to work on; "
                         f"write {name}(sphere(5), ...) or sphere(5).{name}(...)")
@@ -83,9 +90,10 @@ def make(name, info, positional, named):
         values, named = (stored(values[0], named.get("affine")), *values[1:]), {**named}
         named.pop("affine", None)
     mixtures = [node for argument in (*values, *named.values()) for node in _mixtures(argument)]
+    mixtures += [value._node for value in (*values, *named.values()) if isinstance(value, Solid)]
     factory = next((node.factory for node in (*inputs, *mixtures) if node), None) or current_factory()
     if not all(node.names_materials_of(factory) for node in mixtures):
-        raise ValueError(f"{name}: a mixture was made with other materials; give all of them the same")
+        raise ValueError(f"{name}: a mixture or a solid was made with other materials; give all of them the same")
     inputs = [node or factory.make("empty", (), {}, [], _place.get()) for node in inputs]
     child = wrap(inputs[0]) if inputs else None
     try:
@@ -120,6 +128,10 @@ class Solid:
             raise TypeError("a Solid is made by its node: ombre.sphere(5), ombre.cube(10), ...")
         self._node = make(self._info["name"], self._info, arguments, named)
         self._design = self._operands = None
+
+    @property
+    def _ombre_node_(self):
+        return self._node
 
     # What it is.
 

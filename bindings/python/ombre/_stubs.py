@@ -106,6 +106,9 @@ _kinds = {"number": "float", "whole number": "int", "3 whole numbers": "Sequence
           "list of materials": "Union[Material, Sequence[Material]]",
           "list of numbers with materials": "Sequence[tuple[float, Material]]",
           "lists of lists of numbers": "ArrayLike", "list of texts": "Sequence[str]",
+          "solid": "Solid", "rows of numbers, or a CSV file": "Union[Path, Sequence[Sequence[float]]]",
+          "number, field, vector, colour or mixture": "Union[Number, Numbers, Material]",
+          "list of pairs of words": "Sequence[tuple[str, str]]",
           "font": "Path", "list of points": "ArrayLike", "lists of points": "Sequence[ArrayLike]",
           "list of names with materials": "Union[Mapping[str, Material], Sequence[tuple[str, Material]]]"}
 

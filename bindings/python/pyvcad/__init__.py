@@ -5,7 +5,11 @@
     materials = pv.default_materials
     root = pv.RectPrism(pv.Vec3(0, 0, 0), pv.Vec3(10, 10, 10), materials.id("red"))
 """
-from ._attributes import Attribute, DefaultAttributes, FloatAttribute, VolumeFractionsAttribute
+from ._attributes import (Attribute, DefaultAttributes, DerivedFloatAttribute, FloatAttribute, Vec3Attribute,
+                          Vec4Attribute, VolumeFractionsAttribute)
+from ._converters import (AttributeConverterBase, AttributeModifier, ExpressionConverter, InterpolationMode,
+                          LookupTableConverter, LookupTableEntry, ScalarsToVec3Converter, ScalarsToVec4Converter,
+                          Vec3ToScalarsConverter, Vec4Mode, VolumeFractionsExpressionConverter, resolvers)
 from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
 from ._errors import MissingFeature
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
@@ -14,6 +18,7 @@ from ._missing import (Blend, Convolution, HexahedralMesh, Map, PointMap, Simula
 from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference, FGrade, Identity, Intersection, Mirror,
                           Offset, Rotate, Scale, Shell, Sum, Tile, Translate, Union)
 from ._outlines import PolygonExtrude, Text
+from ._sampling import AttributeSamples, TreeSampler
 from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, Sphere, Strut, Torus
 from ._supports import SupportAnalyzer, SupportAnalyzerParallel
 from ._texts import parse_vcad_text, version
@@ -22,7 +27,11 @@ from ._vectors import Vec2, Vec3, Vec4
 
 __version__ = version()
 
-__all__ = ["Attribute", "DefaultAttributes", "FloatAttribute", "VolumeFractionsAttribute", "BBoxIntersection", "Identity",
+__all__ = ["Attribute", "AttributeConverterBase", "AttributeModifier", "AttributeSamples", "DefaultAttributes",
+           "DerivedFloatAttribute", "ExpressionConverter", "FloatAttribute", "InterpolationMode", "LookupTableConverter",
+           "LookupTableEntry", "ScalarsToVec3Converter", "ScalarsToVec4Converter", "TreeSampler", "Vec3Attribute",
+           "Vec3ToScalarsConverter", "Vec4Attribute", "Vec4Mode", "VolumeFractionsAttribute",
+           "VolumeFractionsExpressionConverter", "resolvers", "BBoxIntersection", "Identity",
            "Mirror", "Torus", "FontAspect", "HorizontalAlignment", "LatticeType", "VerticalAlignment", "MissingFeature", "MaterialDefs",
            "default_materials", "j750_materials", "resources_path", "CAD", "Blend", "ConformalMap", "Convolution",
            "HexahedralMesh", "Map", "Offset", "PointMap", "PolygonExtrude", "Shell", "SimulationField",

@@ -9,7 +9,6 @@ from ._errors import missing
 from ._tree import Node
 
 _grids = "ombre voxels writes grids, and node.toSignedDistanceArray and toRGBAArray give arrays"
-_fractions = "set a VolumeFractionsAttribute"
 _lattices = "tile a GraphLattice, or write the lattice as a Function"
 _surfaces = "ombre.conformal_map, surface_map and relief lay things along surfaces"
 _images = "ombre.relief reads images as heights"
@@ -23,13 +22,7 @@ MISSING: dict[str, dict[str, str]] = {
         "Beam": "", "Ball": "", "BallMode": "", "CapMode": "", "ClipMode": "", "read_3mf_beam_lattice": "",
         "SurfaceReliefVolume": _surfaces, "ImageHeightField": _images, "FunctionalHeightField": _surfaces,
         "Mix": "Union(True, [...]) mixes compositions", "Convolve": "", "BoxKernel": "", "CustomKernel": "",
-        "Vec3Attribute": _fractions, "Vec4Attribute": _fractions, "DerivedFloatAttribute": "FloatAttribute(formula)",
-        "AttributeSamples": "node.distribution(x, y, z)", "AttributeModifier": _fractions,
-        "AttributeConverterBase": _fractions, "LookupTableConverter": _fractions, "LookupTableEntry": _fractions,
-        "InterpolationMode": _fractions, "ExpressionConverter": _fractions,
-        "VolumeFractionsExpressionConverter": _fractions, "Vec3ToScalarsConverter": "", "ScalarsToVec3Converter": "",
-        "ScalarsToVec4Converter": "", "resolvers": "Union(True, [...]) mixes compositions", "Vec4Mode": "",
-        "TreeSampler": _grids, "ColorMap": "", "FloatVolume": _grids, "Vec2sVolume": _grids, "Vec3sVolume": _grids,
+        "ColorMap": "", "FloatVolume": _grids, "Vec2sVolume": _grids, "Vec3sVolume": _grids,
         "Vec4sVolume": _grids, "FloatGrid": _grids, "BoolGrid": _grids, "vdb_loader": _grids, "DICOMLoader": "",
         "PNGLoader": _images, "PNGColorMode": _images, "CellMap": _surfaces, "CellMapCollection": _surfaces,
         "MappedImplicitLattice": _lattices, "MappedGraphLattice": _lattices, "ImplicitUnitCell": _lattices,
@@ -39,12 +32,11 @@ MISSING: dict[str, dict[str, str]] = {
         "probe_ray": "node.snap(point)", "surface_normal": "node.gradient(point)", "alignment_angles": "",
         "Point2": "Vec2", "Segment2": "", "Polygon2": "", "Polyline2": "", "Arrangement2": ""},
     "pyvcad_compilers": dict.fromkeys(
-        ("MaterialInkjetCompiler", "MaterialInkjetExportMode", "ColorInkjetCompiler", "ColorInkjetExportMode",
+        ("ColorInkjetCompiler", "ColorInkjetExportMode",
          "ColorPipelineOptions", "ColorPipeline", "GCVFCompiler"),
-        "DirectMaterialCompiler writes the images of a material printer") | dict.fromkeys(
-        ("VatCompiler", "MultiMaterialVatCompiler", "MultiMaterialVatSystem", "MultiMaterialVatOutputMode",
-         "MyersonCompiler"), "GrayscaleCompiler writes gray images") | {
-        "VdbCompiler": "Export(root, materials, path=\"part.vdb\") writes grids"} | dict.fromkeys(
+        "MaterialInkjetCompiler writes the images of a material printer") | dict.fromkeys(
+        ("MultiMaterialVatCompiler", "MultiMaterialVatSystem", "MultiMaterialVatOutputMode",
+         "MyersonCompiler"), "VatCompiler writes gray images") | dict.fromkeys(
         ("SimulationCompiler", "SimulationCompilerSettings", "SimulationBackend", "SimulationMeshKind",
          "SimulationHexMeshSettings", "SimulationTetFixedMeshSettings"), "") | dict.fromkeys(
         ("PrusaSlicerProjectCompiler", "FullSpectrumSlicerProjectCompiler"),
@@ -59,9 +51,8 @@ MISSING: dict[str, dict[str, str]] = {
 
 # Methods of nodes that are missing, with what to use instead.
 _methods = {
-    "sample": "node.evaluate and node.distribution tell of a point", "to_diagram": "",
-    "set_attribute_conflict_resolver": "Union(True, [...]) mixes compositions",
-    "attribute_conflict_resolvers": "Union(True, [...]) mixes compositions", "get_gradient_epsilon": "",
+    "to_diagram": "", "set_attribute_conflict_resolver": "it is a method of Union, Intersection and BBoxUnion",
+    "attribute_conflict_resolvers": "it is a method of Union, Intersection and BBoxUnion", "get_gradient_epsilon": "",
     "set_gradient_epsilon": "", "component_parameter": "", "segment_info": ""}
 
 

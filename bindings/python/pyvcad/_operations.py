@@ -107,8 +107,9 @@ class _Boolean(NAry):
         self._blend: float = values.get("k", 0.0)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        rule = "mix" if self._mix else "first"
-        return getattr(ombre, self._operation)(solids, materials=rule, blend=self._blend)
+        rule = "mix" if self._mix or self._mixes() else "first"
+        return getattr(ombre, self._operation)(solids, materials=rule, blend=self._blend,
+                                               attributes=self._attribute_rules())
 
 
 class Union(_Boolean):
@@ -134,7 +135,8 @@ class BBoxUnion(NAry):
         self._blend: float = values.get("k", 0.0)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return ombre.union(solids, materials="first", blend=self._blend)
+        return ombre.union(solids, materials="mix" if self._mixes() else "first", blend=self._blend,
+                           attributes=self._attribute_rules())
 
 
 class BBoxIntersection(NAry):
@@ -145,7 +147,8 @@ class BBoxIntersection(NAry):
         super().__init__(values["children"])
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return ombre.intersection(solids, materials="first")
+        return ombre.intersection(solids, materials="mix" if self._mixes() else "first",
+                                  attributes=self._attribute_rules())
 
 
 class Difference(Binary):

@@ -343,6 +343,7 @@ class NAry(Node):
 
     def __init__(self, children: Any = None) -> None:
         super().__init__()
+        self._rules: dict[str, Any] = {}  # resolvers, by attributes
         self._is_given = children is not None  # an empty list is nothing, no list a mistake
         self._children: list[Node] = list(children or ())
 
@@ -358,6 +359,23 @@ class NAry(Node):
 
     def num_children(self) -> int:
         return len(self._children)
+
+    def set_attribute_conflict_resolver(self, name: str, resolver: Any) -> None:
+        """How an attribute combines where children overlap, in place of the first child that has it."""
+        if not isinstance(name, str) or not getattr(resolver, "_rule", ""):
+            raise TypeError("set_attribute_conflict_resolver: expected a name and a resolver such as "
+                            "resolvers.AverageConflictResolver()")
+        self._rules[name] = resolver
+        self._changed()
+
+    def attribute_conflict_resolvers(self) -> dict[str, Any]:
+        return dict(self._rules)
+
+    def _attribute_rules(self) -> list[tuple[str, str]]:
+        return [(name, resolver._rule) for name, resolver in self._rules.items() if name != "volume_fractions"]
+
+    def _mixes(self) -> bool:
+        return "volume_fractions" in self._rules
 
     def _inputs(self) -> list[Node]:
         if not self._children and not self._is_given:

@@ -4,9 +4,10 @@ A callback gets the share that is done, 0 to 1.
 """
 from pyvcad._missing import attribute_of
 
+from ._attribute_compilers import MaterialInkjetCompiler, MaterialInkjetExportMode, VatCompiler, VdbCompiler
 from ._compilers import (CrossSectionSlicer, DirectMaterialCompiler, GrayscaleCompiler, InpWriter, MeshCompiler)
 
-__all__ = ["CrossSectionSlicer", "DirectMaterialCompiler", "GrayscaleCompiler", "InpWriter", "MeshCompiler"]
+__all__ = ["MaterialInkjetCompiler", "MaterialInkjetExportMode", "VatCompiler", "VdbCompiler", "CrossSectionSlicer", "DirectMaterialCompiler", "GrayscaleCompiler", "InpWriter", "MeshCompiler"]
 
 
 def __getattr__(name: str) -> object:

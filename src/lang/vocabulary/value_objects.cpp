@@ -200,7 +200,31 @@ std::optional<Value> ValueObject::mixed(std::span<const Value> operands, Meter& 
   return node ? std::optional(value_of(node, maker_, meter)) : std::nullopt;
 }
 
+// A solid that values are measured on, or that is a part of another.
+class SolidObject final : public Object {
+ public:
+  SolidObject(NodePtr node, Meter& meter) : node_(std::move(node)), meter_(meter) { meter_.claim_text(object_bytes); }
+  ~SolidObject() override { meter_.release_text(object_bytes); }
+  SolidObject(const SolidObject&) = delete;
+  SolidObject& operator=(const SolidObject&) = delete;
+
+  std::string describe() const override { return "a " + node_->type().name; }
+  std::string text() const override { return node_->type().name; }
+  Data data() const override { return Data(HostObjectPtr(std::make_shared<design::NodeObject>(node_))); }
+  std::optional<Value> part(const std::string&, std::string& names, Meter&) const override {
+    names = "a solid has no parts; values such as distance_to(s) are measured on it";
+    return std::nullopt;
+  }
+  std::optional<Value> apply(std::string_view, std::span<const Value>, Meter&) const override { return std::nullopt; }
+
+ private:
+  NodePtr node_;
+  Meter& meter_;
+};
+
 }  // namespace
+
+Value solid_value(const NodePtr& node, Meter& meter) { return ObjectPtr(std::make_shared<SolidObject>(node, meter)); }
 
 Value value_of(const NodePtr& node, const ValueMaker& maker, Meter& meter) {
   const size_t first = node->first_output();

@@ -17,5 +17,7 @@ struct ValueMaker {
 
 // What a call of a value node gives: its first output, which stands for it, and the others as parts.
 Value value_of(const design::NodePtr& node, const ValueMaker& maker, Meter& meter);
+// What a call of a solid gives in an expression.
+Value solid_value(const design::NodePtr& node, Meter& meter);
 
 }  // namespace ombre::lang

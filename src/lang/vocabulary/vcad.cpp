@@ -19,6 +19,38 @@ namespace {
 
 constexpr std::string_view axes[] = {"x", "y", "z"};
 
+NodePtr solid_of(const Data& data) {
+  const auto* object = dynamic_cast<const design::NodeObject*>(data.host_object().get());
+  return object && object->node()->type().is_solid() ? object->node() : nullptr;
+}
+
+bool is_solid(const Data& data) { return solid_of(data) != nullptr; }
+
+// The solids among the arguments, alone or in lists, which are the call's children: translate([1, 2, 3], sphere(5)).
+std::vector<NodePtr> take_solids(std::vector<Argument>& arguments) {
+  std::vector<NodePtr> solids;
+  std::erase_if(arguments, [&](const Argument& argument) {
+    if (!argument.name.empty()) return false;
+    const DataList* list = argument.value.list();
+    if (const NodePtr solid = solid_of(argument.value)) {
+      solids.push_back(solid);
+      return true;
+    }
+    if (!list || list->empty() || !std::ranges::all_of(*list, is_solid)) return false;
+    for (const Data& element : *list) solids.push_back(solid_of(element));
+    return true;
+  });
+  return solids;
+}
+
+// Everything that this vocabulary makes is a node.
+std::vector<NodePtr> nodes_of(std::vector<Product> products) {
+  std::vector<NodePtr> nodes;
+  nodes.reserve(products.size());
+  for (Product& product : products) nodes.push_back(std::static_pointer_cast<const design::Node>(std::move(product)));
+  return nodes;
+}
+
 // Does each statement of the braces give one solid?
 bool has_single_children(const Invocation& call) {
   if (call.group_ends.size() != call.children.size()) return false;
@@ -38,10 +70,7 @@ bool VcadVocabulary::knows(std::string_view name) const {
   return fold_name(name) == "root" || (type && type->is_solid());
 }
 
-bool VcadVocabulary::gives_value(std::string_view name) const {
-  const NodeType* type = registry_.find(name);
-  return type && !type->is_solid();
-}
+bool VcadVocabulary::gives_value(std::string_view name) const { return registry_.find(name) != nullptr; }
 
 std::vector<std::string> VcadVocabulary::names() const {
   std::vector<std::string> names = registry_.solid_names();
@@ -50,9 +79,9 @@ std::vector<std::string> VcadVocabulary::names() const {
 }
 
 std::string VcadVocabulary::hint(std::string_view unknown) const {
-  if (!gives_value(unknown)) return openscad_module_hint(unknown);
-  const NodeType& type = *registry_.find(unknown);
-  return type.name + " gives values; use it in an expression: " + type.example;
+  const NodeType* type = registry_.find(unknown);
+  if (!type || type->is_solid()) return openscad_module_hint(unknown);
+  return type->name + " gives values; use it in an expression: " + type->example;
 }
 
 std::optional<Data> VcadVocabulary::constant(std::string_view name) const {
@@ -72,7 +101,7 @@ std::vector<std::string> VcadVocabulary::constants() const {
   return names;
 }
 
-NodePtr VcadVocabulary::make(Invocation call, Diagnostics& diagnostics) {
+Product VcadVocabulary::make(Invocation call, Diagnostics& diagnostics) {
   const size_t errors_before = diagnostics.error_count();
   const NodeType* type = registry_.find(node_name(call.name));
   NodePtr node = fold_name(call.name) == "root" ? make_root(call, diagnostics)
@@ -86,21 +115,24 @@ NodePtr VcadVocabulary::make(Invocation call, Diagnostics& diagnostics) {
 std::optional<Value> VcadVocabulary::value(Invocation call, Diagnostics& diagnostics, Meter& meter) {
   const NodeType& type = *registry_.find(call.name);
   const Reader reader{materials_, diagnostics, loader_, call.whole, type.name, "", &call.variable};
+  std::vector<NodePtr> solids;
+  if (type.is_solid()) solids = take_solids(call.arguments);
   const auto values = bound_arguments(type, std::move(call.arguments), reader);
-  NodePtr node = values ? known_.first(design::make_node(type, *values, {}, reader)) : nullptr;
-  if (node) return value_of(node, maker_, meter);
+  NodePtr node = values ? known_.first(make_called(type, *values, std::move(solids), registry_, reader)) : nullptr;
+  if (node) return type.is_solid() ? solid_value(node, meter) : value_of(node, maker_, meter);
   for (const SourceRange& from : call.called_from) diagnostics.note(from, "called from here");
   return std::nullopt;
 }
 
 NodePtr VcadVocabulary::make_of_type(const NodeType& type, Invocation& call, Diagnostics& diagnostics) {
   const Reader reader{materials_, diagnostics, loader_, call.whole, type.name, "", &call.variable};
-  std::vector<NodePtr>& children = call.children;
   const auto values = bound_arguments(type, std::move(call.arguments), reader);
   if (!values) return nullptr;
-  if (children.empty() && call.has_wrong_children && type.inputs.least > 0) return nullptr;  // told already
-  if (type.inputs.grouped && !has_single_children(call)) {
-    children = groups(type, call, reader);
+  if (call.children.empty() && call.has_wrong_children && type.inputs.least > 0) return nullptr;  // told already
+  const bool is_grouped = type.inputs.grouped && !has_single_children(call);
+  std::vector<NodePtr> children = nodes_of(std::move(call.children));
+  if (is_grouped) {
+    children = groups(type, call, children, reader);
     if (children.empty()) return nullptr;
   }
   if (children.empty() && type.inputs.least == 1 && call.braces != Invocation::Braces::none)
@@ -118,12 +150,13 @@ NodePtr VcadVocabulary::nothing_inside(const NodeType& type, const Invocation& c
 }
 
 // As OpenSCAD has it: difference() { for (...) ...; sphere(5); } takes the ball out of all that the loop makes.
-std::vector<NodePtr> VcadVocabulary::groups(const NodeType& type, const Invocation& call, const Reader& reader) {
+std::vector<NodePtr> VcadVocabulary::groups(const NodeType& type, const Invocation& call,
+                                            const std::vector<NodePtr>& children, const Reader& reader) {
   std::vector<NodePtr> result;
   size_t begin = 0;
   for (const size_t end : call.group_ends) {
-    const auto first = call.children.begin() + static_cast<std::ptrdiff_t>(begin),
-               last = call.children.begin() + static_cast<std::ptrdiff_t>(end);
+    const auto first = children.begin() + static_cast<std::ptrdiff_t>(begin),
+               last = children.begin() + static_cast<std::ptrdiff_t>(end);
     result.push_back(
         known_.first(begin == end ? design::make_nothing(type, call.whole) : joined({first, last}, registry_, reader)));
     if (!result.back()) return {};
@@ -132,7 +165,7 @@ std::vector<NodePtr> VcadVocabulary::groups(const NodeType& type, const Invocati
   return result;
 }
 
-NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnostics) {
+NodePtr VcadVocabulary::make_root(Invocation& call, Diagnostics& diagnostics) {
   const auto fail = [&](const SourceRange& where, const std::string& message, const std::string& hint = "") {
     diagnostics.error(where, message, hint);
     return nullptr;
@@ -175,12 +208,13 @@ NodePtr VcadVocabulary::make_root(const Invocation& call, Diagnostics& diagnosti
   }
   if (call.children.empty()) return nullptr;  // told of as an empty design
   sampling_ = sampling;
-  root_children_ = call.children;
-  return root_ = joined(call.children, registry_, {materials_, diagnostics, loader_, call.whole, "root", ""});
+  root_children_ = nodes_of(std::move(call.children));
+  return root_ = joined(root_children_, registry_, {materials_, diagnostics, loader_, call.whole, "root", ""});
 }
 
-std::optional<design::Design> VcadVocabulary::finish(const std::vector<NodePtr>& top_level, const SourceRange& whole,
+std::optional<design::Design> VcadVocabulary::finish(std::vector<Product> products, const SourceRange& whole,
                                                      Diagnostics& diagnostics) {
+  const std::vector<NodePtr> top_level = nodes_of(std::move(products));
   known_ = {};  // none is added any more, and the table is large
   if (diagnostics.has_errors()) return std::nullopt;
   if (root_where_) {

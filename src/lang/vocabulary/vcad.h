@@ -21,21 +21,21 @@ class VcadVocabulary : public Vocabulary {
   std::string hint(std::string_view unknown) const override;
   std::optional<Data> constant(std::string_view name) const override;
   std::vector<std::string> constants() const override;
-  design::NodePtr make(Invocation call, Diagnostics& diagnostics) override;
+  Product make(Invocation call, Diagnostics& diagnostics) override;
   bool gives_value(std::string_view name) const override;
   std::vector<std::string> value_names() const override { return registry_.value_names(); }
   std::optional<Value> value(Invocation call, Diagnostics& diagnostics, Meter& meter) override;
 
   // The design that the top-level nodes make; nothing, and a diagnostic, when there is none.
-  std::optional<design::Design> finish(const std::vector<design::NodePtr>& top_level, const SourceRange& whole,
+  std::optional<design::Design> finish(std::vector<Product> top_level, const SourceRange& whole,
                                        Diagnostics& diagnostics);
 
  private:
-  design::NodePtr make_root(const Invocation& call, Diagnostics& diagnostics);
+  design::NodePtr make_root(Invocation& call, Diagnostics& diagnostics);
   design::NodePtr make_of_type(const design::NodeType& type, Invocation& call, Diagnostics& diagnostics);
   design::NodePtr nothing_inside(const design::NodeType& type, const Invocation& call, Diagnostics& diagnostics);
   std::vector<design::NodePtr> groups(const design::NodeType& type, const Invocation& call,
-                                      const design::Reader& reader);
+                                      const std::vector<design::NodePtr>& children, const design::Reader& reader);
 
   const design::Registry& registry_;
   const design::MaterialTable& materials_;

@@ -1,0 +1,21 @@
+// What `ombre scad` writes of the solids that a script makes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ombre/commands.h"
+#include "solids/tree.h"
+
+namespace ombre::cli {
+
+// Endings that the command writes, ".echo" and the like included.
+std::vector<std::string> scad_formats();
+// Whether the format is one of solids or areas: a mesh, or a drawing.
+bool writes_solids(const std::string& format);
+// Writes the tree's solids or areas to all paths, each in the format of its ending; "{part}" in a path makes a file for
+// each part. False, and diagnostics on the console, where they do not fit.
+bool write_solids(const solids::TreePtr& tree, const std::vector<std::string>& paths, bool no_overlap,
+                  Session& session);
+
+}  // namespace ombre::cli

@@ -1,0 +1,143 @@
+"""What a tree says at points and on grids, attribute by attribute."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy
+
+import ombre
+
+from . import _grids
+from ._arguments import voxel_size as read_voxel
+from ._materials import expect_table
+from ._tree import Node, as_node
+from ._vectors import Vec3, Vec4
+
+
+class AttributeSamples:
+    """Values of attributes at one point, by their names."""
+
+    def __init__(self, values: dict[str, Any] | None = None) -> None:
+        self._values = dict(values or {})
+
+    def has_sample(self, name: str) -> bool:
+        return name in self._values
+
+    def get_sample(self, name: str) -> Any:
+        if name not in self._values:
+            raise RuntimeError(f"get_sample: there is no sample of {name!r} here")
+        return self._values[name]
+
+    def get_type(self, name: str) -> str:
+        value = self.get_sample(name)
+        return {Vec3: "vec3", Vec4: "vec4", dict: "vfm_ptr"}.get(type(value), "dbl")
+
+    def set_sample(self, name: str, value: Any) -> None:
+        self._values[name] = value
+
+
+def _kind_of(values: numpy.ndarray, name: str) -> Any:
+    numbers = [float(v) for v in numpy.atleast_1d(values)]
+    return {3: Vec3, 4: Vec4}[len(numbers)](*numbers) if len(numbers) in (3, 4) else numbers[0]
+
+
+def sampled(node: Node, x: float, y: float, z: float) -> tuple[float, AttributeSamples | None]:
+    """The distance at a point, and the attributes there; None outside."""
+    design, point = node._design(), [float(x), float(y), float(z)]
+    distance = float(design.distance(point))
+    if distance > 0:
+        return distance, None
+    values: dict[str, Any] = {name: _kind_of(design.attribute(name, point), name) for name in design.attributes}
+    if "volume_fractions" in node.attribute_list():
+        values["volume_fractions"] = node.distribution(x, y, z)
+    return distance, AttributeSamples(values)
+
+
+class TreeSampler:
+    """Samples a tree on the voxels of its bounding box: TreeSampler(root, voxel_size, material_defs=None).
+
+    Arrays have the shape (nx, ny, nz), with one more axis for vectors, colours and materials.
+    """
+
+    def __init__(self, root: Any, voxel_size: Any, material_defs: Any = None) -> None:
+        self._root, self._voxel = as_node(root), read_voxel(voxel_size)
+        self._materials = None if material_defs is None else expect_table("TreeSampler", material_defs)
+        self._design: ombre.Design = self._root._ombre_design_(self._materials) if self._materials \
+            else self._root._design()
+
+    def _points(self) -> numpy.ndarray:
+        axes = _grids.centers(self._design.bounds, self._voxel)
+        return numpy.stack(numpy.meshgrid(*axes, indexing="ij"), axis=-1)
+
+    def sample_dimensions(self) -> tuple[int, int, int]:
+        x, y, z = (len(axis) for axis in _grids.centers(self._design.bounds, self._voxel))
+        return x, y, z
+
+    def as_signed_distance_array(self, progress: Any = None) -> tuple[int, int, int, numpy.ndarray]:
+        grid = _grids.distances(self._design, self._voxel, progress)
+        nx, ny, nz = grid.shape
+        return nx, ny, nz, grid.transpose(2, 1, 0).reshape(-1)
+
+    def as_float_array(self, name: str, progress: Any = None) -> numpy.ndarray:
+        return self._attribute(name, 1)
+
+    def as_vec3_array(self, name: str, progress: Any = None) -> numpy.ndarray:
+        return self._attribute(name, 3)
+
+    def as_vec4_array(self, name: str, progress: Any = None) -> numpy.ndarray:
+        return self._attribute(name, 4)
+
+    def _attribute(self, name: str, size: int, points: Any = None) -> numpy.ndarray:
+        values = self._design.attribute(name, self._points() if points is None else points)
+        found = 1 if values.ndim == (4 if points is None else 2) - 1 else values.shape[-1]
+        if found != size:
+            raise RuntimeError(f"TreeSampler: the attribute {name!r} has {found} numbers, not {size}")
+        return values.astype(numpy.float32)
+
+    def as_material_fraction_array(self, name: str = "volume_fractions", progress: Any = None) -> numpy.ndarray:
+        if self._materials is None:
+            raise RuntimeError("TreeSampler: fractions of materials need material_defs")
+        points = self._points().reshape(-1, 3)
+        return self._fractions(points)
+
+    def _fractions(self, points: numpy.ndarray) -> numpy.ndarray:
+        design = self._design
+        names = design.materials.names
+        result = numpy.zeros((len(points), len(names)), dtype=numpy.float32)
+        for material, values in design.material(points).items():
+            result[:, names.index(material)] = values
+        return result
+
+    def evaluate_points(self, points: Any) -> list[float]:
+        return [float(d) for d in self._design.distance(_array(points))]
+
+    def sample_points(self, points: Any) -> list[tuple[float, AttributeSamples | None]]:
+        return [sampled(self._root, *point) for point in _array(points)]
+
+    def sample_line(self, start: Any, end: Any, count: int) -> list[tuple[float, AttributeSamples | None]]:
+        if count < 2:
+            raise ValueError(f"sample_line: expected 2 points or more, found {count}")
+        a, b = numpy.array(list(start)), numpy.array(list(end))
+        return self.sample_points([a + (b - a) * n / (count - 1) for n in range(count)])
+
+    def sample_points_to_float_array(self, points: Any, name: str) -> list[float]:
+        return [float(v) for v in self._attribute(name, 1, _array(points))]
+
+    def sample_points_to_vec3_array(self, points: Any, name: str) -> list[Vec3]:
+        return [Vec3(*map(float, v)) for v in self._attribute(name, 3, _array(points))]
+
+    def sample_points_to_vec4_array(self, points: Any, name: str) -> list[Vec4]:
+        return [Vec4(*map(float, v)) for v in self._attribute(name, 4, _array(points))]
+
+    def sample_points_to_material_fraction_array(self, points: Any, name: str = "volume_fractions") -> numpy.ndarray:
+        if self._materials is None:
+            raise RuntimeError("TreeSampler: fractions of materials need material_defs")
+        return self._fractions(_array(points))
+
+
+def _array(points: Any) -> numpy.ndarray:
+    return numpy.array([list(point) for point in points], dtype=float).reshape(-1, 3)
+
+
+# Put here instead of into the class, which samples know.
+Node.sample = lambda self, x, y, z: sampled(self, x, y, z)  # type: ignore[attr-defined]

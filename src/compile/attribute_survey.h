@@ -1,0 +1,22 @@
+// The attributes of a design, with the values that they have in it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/interval.h"
+#include "compile/load.h"
+
+namespace ombre::compile {
+
+struct SurveyedAttribute {
+  design::AttributeDeclaration declaration;
+  // Of each of its numbers, from samples on a coarse lattice; nothing where none is inside or none is a number.
+  std::vector<std::pair<std::string, std::optional<Interval>>> ranges;
+};
+
+// Nothing, and diagnostics, when the design has no bounds or is too large.
+std::optional<std::vector<SurveyedAttribute>> survey_attributes(const Loaded& loaded, Diagnostics& diagnostics);
+
+}  // namespace ombre::compile

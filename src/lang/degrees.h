@@ -1,0 +1,15 @@
+// Functions of angles in degrees, exact where the result is a fraction: sine(30) is 0.5.
+#pragma once
+
+namespace ombre::lang::degrees {
+
+// NaN of what is not finite.
+double sine(double angle);
+double cosine(double angle);
+double tangent(double angle);
+double arc_sine(double x);
+double arc_cosine(double x);
+double arc_tangent(double x);
+double arc_tangent2(double y, double x);
+
+}  // namespace ombre::lang::degrees

@@ -1,0 +1,175 @@
+// Functions of numbers.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/math.h"
+#include "lang/degrees.h"
+#include "lang/openscad/functions.h"
+#include "lang/openscad/value_text.h"
+
+namespace ombre::lang::openscad {
+namespace {
+
+using Call = FunctionCall;
+
+double sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
+double absolute(double x) { return std::abs(x); }
+double rounded(double x) { return std::round(x); }
+double rounded_up(double x) { return std::ceil(x); }
+double rounded_down(double x) { return std::floor(x); }
+double root(double x) { return std::sqrt(x); }
+double exponential(double x) { return math::exp(x); }
+double natural_logarithm(double x) { return math::log(x); }
+
+template <double (*function)(double)>
+Value of_number(const Call& call) {
+  if (call.size() != 1) return call.wrong_count();
+  const double* x = call[0].number();
+  return x ? Value(function(*x)) : call.wrong_type();
+}
+
+template <double (*function)(double, double)>
+Value of_two(const Call& call) {
+  if (call.size() != 2) return call.wrong_count();
+  const double *x = call[0].number(), *y = call[1].number();
+  return x && y ? Value(function(*x, *y)) : call.wrong_type();
+}
+
+double power(double x, double y) { return math::pow(x, y); }
+
+// Base 10, or the first of two arguments.
+Value logarithm(const Call& call) {
+  if (call.size() != 1 && call.size() != 2) return call.wrong_count();
+  const double *x = call[0].number(), *y = call.size() == 2 ? call[1].number() : x;
+  if (!x || !y) return call.wrong_type();
+  if (call.size() == 1) return std::log10(*x);
+  return math::log(*y) / math::log(*x);
+}
+
+// Of the elements of one vector, whatever they are, or of several numbers.
+template <bool is_greatest>
+Value extreme(const Call& call) {
+  if (call.size() == 0) return call.wrong_count();
+  if (const List* list = call[0].list(); list && call.size() == 1) {
+    if (list->items.empty()) return call.wrong_type();
+    Value best = list->items.front();
+    Problems ignored;
+    for (const Value& item : list->items) {
+      const Value is_less = is_greatest ? binary(ast::Operator::less, best, item, call.meter, ignored)
+                                        : binary(ast::Operator::less, item, best, call.meter, ignored);
+      if (truth(is_less)) best = item;
+    }
+    return best;
+  }
+  double best = 0;
+  for (size_t i = 0; i < call.size(); ++i) {
+    const double* x = call[i].number();
+    if (!x) return call.wrong_type();
+    if (i == 0 || (is_greatest ? *x > best : *x < best)) best = *x;
+  }
+  return best;
+}
+
+Value norm(const Call& call) {
+  if (call.size() != 1) return call.wrong_count();
+  const List* list = call[0].list();
+  if (!list) return {};
+  double sum = 0;
+  for (const Value& item : list->items) {
+    if (!item.number()) return call.fail("Incorrect arguments to norm()");
+    sum += *item.number() * *item.number();
+  }
+  return std::sqrt(sum);
+}
+
+Value cross_of_three(const Call& call) {
+  std::array<double, 3> a{}, b{};
+  for (size_t i = 0; i < 3; ++i) {
+    const double *x = call[0].list()->items[i].number(), *y = call[1].list()->items[i].number();
+    if (!x || !y) return call.fail("Invalid value in parameter vector for cross()");
+    if (std::isnan(*x) || std::isnan(*y)) return call.fail("Invalid value (NaN) in parameter vector for cross()");
+    if (std::isinf(*x) || std::isinf(*y)) return call.fail("Invalid value (INF) in parameter vector for cross()");
+    a[i] = *x, b[i] = *y;
+  }
+  ListBuilder result(call.meter);
+  result.push(a[1] * b[2] - a[2] * b[1]);
+  result.push(a[2] * b[0] - a[0] * b[2]);
+  result.push(a[0] * b[1] - a[1] * b[0]);
+  return result.finish();
+}
+
+Value cross(const Call& call) {
+  if (call.size() != 2) return call.fail("Invalid number of parameters for cross()");
+  const List *a = call[0].list(), *b = call[1].list();
+  if (!a || !b) return call.fail("Invalid type of parameters for cross()");
+  const auto number = [](const List& list, size_t i) { return list.items[i].number() ? *list.items[i].number() : 0; };
+  if (a->items.size() == 2 && b->items.size() == 2)
+    return number(*a, 0) * number(*b, 1) - number(*a, 1) * number(*b, 0);
+  if (a->items.size() != 3 || b->items.size() != 3) return call.fail("Invalid vector size of parameter for cross()");
+  return cross_of_three(call);
+}
+
+// From 0 to below 1: 64 bits of two numbers of the generator, as C++'s std::generate_canonical makes them.
+double draw(std::mt19937& random) {
+  const auto low = static_cast<double>(random()), high = static_cast<double>(random());
+  return std::min((low + high * 0x1p32) * 0x1p-64, std::nextafter(1.0, 0.0));
+}
+
+double finite_bound(const Call& call, double bound, const char* which, double otherwise) {
+  if (std::isfinite(bound)) return bound;
+  call.fail(std::string("rands() range ") + which + " cannot be infinite");
+  call.fail("resetting to " + std::to_string(otherwise));
+  return otherwise;
+}
+
+Value rands(const Call& call) {
+  if (call.size() != 3 && call.size() != 4) return call.wrong_count();
+  const double *from = call[0].number(), *to = call[1].number(), *wanted = call[2].number();
+  if (!from || !to || !wanted || (call.size() == 4 && !call[3].number())) return {};
+  constexpr double most = std::numeric_limits<double>::max() / 2;
+  double low = finite_bound(call, *from, "min", -most), high = finite_bound(call, *to, "max", most);
+  if (low > high) std::swap(low, high);
+  const double count = std::isfinite(*wanted) ? std::trunc(std::abs(*wanted)) : 1;
+  if (count > static_cast<double>(call.meter.limits().elements)) call.meter.too_many_elements();
+  std::mt19937 seeded;
+  if (call.size() == 4) {
+    const double seed = std::clamp(std::trunc(*call[3].number()), -0x1p62, 0x1p62);
+    seeded.seed(static_cast<uint32_t>(static_cast<int64_t>(std::isnan(seed) ? 0 : seed)));
+  }
+  std::mt19937& random = call.size() == 4 ? seeded : call.random;
+  ListBuilder result(call.meter);
+  call.meter.spend(static_cast<uint64_t>(count));
+  for (double i = 0; i < count; ++i) result.push(low == high ? low : low + (high - low) * draw(random));
+  return result.finish();
+}
+
+}  // namespace
+
+std::vector<NamedFunction> math_functions() {
+  return {{"abs", of_number<absolute>},
+          {"sign", of_number<sign_of>},
+          {"sin", of_number<degrees::sine>},
+          {"cos", of_number<degrees::cosine>},
+          {"tan", of_number<degrees::tangent>},
+          {"asin", of_number<degrees::arc_sine>},
+          {"acos", of_number<degrees::arc_cosine>},
+          {"atan", of_number<degrees::arc_tangent>},
+          {"atan2", of_two<degrees::arc_tangent2>},
+          {"round", of_number<rounded>},
+          {"ceil", of_number<rounded_up>},
+          {"floor", of_number<rounded_down>},
+          {"sqrt", of_number<root>},
+          {"exp", of_number<exponential>},
+          {"ln", of_number<natural_logarithm>},
+          {"log", logarithm},
+          {"pow", of_two<power>},
+          {"min", extreme<false>},
+          {"max", extreme<true>},
+          {"norm", norm},
+          {"cross", cross},
+          {"rands", rands}};
+}
+
+}  // namespace ombre::lang::openscad

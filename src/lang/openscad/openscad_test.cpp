@@ -1,0 +1,153 @@
+// OpenSCAD scripts: what is expected here was said by OpenSCAD 2021.01, or follows from the language's documentation.
+// Whole scripts are compared with it in tests/run_openscad.py.
+#include <gtest/gtest.h>
+
+#include "lang/openscad/csg_text.h"
+#include "lang/openscad/customizer.h"
+#include "lang/openscad/run.h"
+#include "lang/openscad/value_text.h"
+
+namespace ombre::lang::openscad {
+namespace {
+
+struct Said {
+  std::string lines, tree;
+};
+
+Said run_text(const std::string& text, Options options = {}) {
+  if (!options.read_file) options.read_file = [](const std::string&) { return std::nullopt; };
+  Messages messages;
+  const solids::TreePtr tree = run(make_source("t.scad", text), options, messages);
+  return {messages.text(), tree ? csg_text(*tree, "") : "none"};
+}
+
+std::string value_of(const std::string& expression) { return run_text("echo(" + expression + ");").lines; }
+
+TEST(Openscad, PrintsSixDigits) {
+  EXPECT_EQ(number_text(1.0 / 3), "0.333333");
+  EXPECT_EQ(number_text(0.00001), "0.00001");
+  EXPECT_EQ(number_text(0.000001), "1e-6");
+  EXPECT_EQ(number_text(123456.5), "123457");  // a tie, away from zero
+  EXPECT_EQ(number_text(999999.5), "1e+6");
+  EXPECT_EQ(number_text(-1e-7), "-1e-7");
+  EXPECT_EQ(number_text(-0.0), "0");
+  EXPECT_EQ(stream_text(1e6), "1e+06");
+}
+
+TEST(Openscad, OperatorsWithoutMeaningGiveUndefAndAWarning) {
+  EXPECT_EQ(value_of("1 + \"a\""),
+            "WARNING: undefined operation (number + string) in file t.scad, line 1\nECHO: undef\n");
+  EXPECT_EQ(value_of("[1, 2] * [[1, 2, 3], [4, 5, 6]]"), "ECHO: [9, 12, 15]\n");
+  EXPECT_EQ(value_of("[6 | 1, 6 & 3, 1 << 4, 16 >> 2, ~0, 0xFF]"), "ECHO: [7, 2, 16, 4, -1, 255]\n");
+}
+
+// std::mt19937's numbers, two for each.
+TEST(Openscad, RandomNumbersAreThoseOfTheMersenneTwister) {
+  EXPECT_EQ(value_of("rands(0, 1, 3, 42)"), "ECHO: [0.796543, 0.183435, 0.779691]\n");
+}
+
+TEST(Openscad, AMessageIsNotRepeatedMoreThanFiveTimes) {
+  std::string five;
+  for (int i = 0; i < 5; ++i) five += "WARNING: Ignoring unknown variable 'x' in file t.scad, line 1\n";
+  EXPECT_EQ(run_text("for (i = [0:9]) if (x) cube();").lines, five);
+}
+
+TEST(Openscad, TailCallsTakeNoDepth) {
+  EXPECT_EQ(run_text("function f(n) = n == 0 ? 7 : f(n - 1); echo(f(50000));").lines, "ECHO: 7\n");
+}
+
+TEST(Openscad, EndlessScriptsEndAtLimits) {
+  Options options;
+  options.limits.steps = 100'000;
+  options.limits.calls = 1000;
+  options.limits.depth = 500;
+  EXPECT_NE(run_text("function f(n) = f(n + 1); echo(f(0));", options).lines.find("steps"), std::string::npos);
+  EXPECT_NE(run_text("module m() { m(); m(); } m();", options).lines.find("Recursion detected calling module 'm'"),
+            std::string::npos);
+  EXPECT_NE(run_text("module m(n) { if (n > 0) { m(n - 1); m(n - 1); } } m(20);", options).lines.find("calls modules"),
+            std::string::npos);
+  EXPECT_NE(run_text("function f(n) = 1 + f(n); echo(f(0));", options).lines.find("Recursion detected"),
+            std::string::npos);
+  EXPECT_NE(run_text("a = [for (i = [0:9999]) [for (j = [0:9999]) j]];", options).lines.find("ERROR"),
+            std::string::npos);
+}
+
+TEST(Openscad, PartsAndMaterialsAreKeptAsWritten) {
+  EXPECT_EQ(run_text("part(\"Lid 1\") material(\"PLA\") color(\"red\") cube();").tree,
+            "part(name = \"Lid 1\") {\n\tmaterial(name = \"PLA\") {\n\t\tcolor([1, 0, 0, 1]) {\n"
+            "\t\t\tcube(size = [1, 1, 1], center = false);\n\t\t}\n\t}\n}\n");
+}
+
+TEST(Openscad, SemanticsHoldBelow) {
+  Messages messages;
+  const auto tree =
+      run(make_source("t.scad", "union() { $semantics = \"strict\"; union() cube(); } union() cube();"), {}, messages);
+  ASSERT_TRUE(tree);
+  ASSERT_EQ(tree->children.size(), 2U);
+  EXPECT_EQ(tree->children[0]->children.at(0)->semantics, solids::Semantics::strict);
+  EXPECT_EQ(tree->children[1]->semantics, solids::Semantics::standard);
+}
+
+TEST(Openscad, DefinitionsReplaceVariables) {
+  Options options;
+  options.definitions = {"a=5", "b=\"x\""};
+  EXPECT_EQ(run_text("a = 1; c = a + 1; echo(a, b, c);", options).lines, "ECHO: 5, \"x\", 6\n");
+}
+
+TEST(Openscad, MistakesInTheTextHaveTheLineOfOpenscadAndMoreWords) {
+  Messages messages;
+  EXPECT_FALSE(run(make_source("t.scad", "x = 1\ny = 2;\n"), {}, messages));
+  EXPECT_EQ(to_line(messages.list().front()), "ERROR: Parser error: syntax error in file t.scad, line 2");
+  EXPECT_NE(to_text(messages.syntax).find("expected \";\""), std::string::npos);
+}
+
+TEST(Openscad, CommentsDescribeParameters) {
+  const auto parameters = parameters_of(make_source("t.scad", R"(
+/* [Size] */
+// How wide
+width = 20; // [5:0.5:100]
+offset = [1, -2]; // [0:10]
+/* [Look] */
+name = "box"; // [box, lid:Cover]
+count = 3; // [1:one, 2:two]
+label = "abc"; // 8
+step = 1; // 0.25
+on = true;
+sum = 1 + 2;
+/* [Hidden] */
+fine = 4;
+module m() { }
+late = 1;
+)"));
+  ASSERT_EQ(parameters.size(), 8U);
+  EXPECT_EQ(parameters[0].description, "How wide");
+  EXPECT_EQ(parameters[0].section, "Size");
+  EXPECT_EQ(parameters[0].least, 5);
+  EXPECT_EQ(parameters[0].step, 0.5);
+  EXPECT_EQ(parameters[0].most, 100);
+  EXPECT_EQ(parameters[1].kind, Parameter::Kind::vector);
+  EXPECT_EQ(parameters[1].most, 10);
+  ASSERT_EQ(parameters[2].choices.size(), 2U);
+  EXPECT_EQ(parameters[2].choices[1].second, "Cover");
+  EXPECT_EQ(parameters[3].choices[0].first, Data(1.0));
+  EXPECT_EQ(parameters[4].longest, 8U);
+  EXPECT_EQ(parameters[5].step, 0.25);
+  EXPECT_EQ(parameters[6].kind, Parameter::Kind::boolean);
+  EXPECT_EQ(parameters[7].section, "Hidden");
+}
+
+TEST(Openscad, ParameterSetsAreDefinitions) {
+  const auto parameters = parameters_of(make_source("t.scad", "width = 1;\nname = \"x\";\n"));
+  const SourcePtr sets =
+      make_source("sets.json", R"({"parameterSets": {"a": {"width": "7", "name": "5\"", "gone": "1"}}})");
+  Diagnostics diagnostics;
+  const auto definitions = parameter_set(sets, "a", parameters, diagnostics);
+  ASSERT_TRUE(definitions);
+  EXPECT_EQ(*definitions, (std::vector<std::string>{"width=7", "name=\"5\\\"\""}));
+  EXPECT_NE(to_text(diagnostics).find("gone"), std::string::npos);
+  EXPECT_FALSE(parameter_set(sets, "b", parameters, diagnostics));
+  EXPECT_TRUE(diagnostics.has_errors());
+}
+
+}  // namespace
+}  // namespace ombre::lang::openscad

@@ -1,0 +1,122 @@
+// Operations on children: groups, booleans, hulls, extrusions.
+#include <algorithm>
+#include <cmath>
+
+#include "lang/openscad/evaluator.h"
+#include "lang/openscad/vectors.h"
+
+namespace ombre::lang::openscad {
+namespace {
+
+using solids::TreePtr;
+
+template <class Operation>
+TreePtr plain(ModuleCall& call) {
+  return call.with_children(Operation{});
+}
+
+TreePtr minkowski(ModuleCall& call) {
+  return call.with_children(solids::Minkowski{whole(call.number("convexity", 0))});
+}
+
+TreePtr render(ModuleCall& call) { return call.with_children(solids::Union{whole(call.number("convexity", 1))}); }
+
+TreePtr resize(ModuleCall& call) {
+  solids::Resize result;
+  if (const List* size = call["newsize"].list())
+    for (size_t i = 0; i < std::min<size_t>(3, size->items.size()); ++i)
+      if (size->items[i].number()) result.size[static_cast<int>(i)] = *size->items[i].number();
+  if (const List* each = call["auto"].list()) {
+    for (size_t i = 0; i < std::min<size_t>(3, each->items.size()); ++i) result.automatic[i] = is_true(each->items[i]);
+  } else {
+    result.automatic.fill(call.flag("auto", false));
+  }
+  result.convexity = whole(call.number("convexity", 0));
+  return call.with_children(result);
+}
+
+TreePtr offset(ModuleCall& call) {
+  solids::Offset result{1, true, false, call.fragments()};
+  if (const auto radius = call.number("r")) {
+    result.distance = *radius;
+  } else if (const auto delta = call.number("delta")) {
+    result = {*delta, false, call.flag("chamfer", false), call.fragments()};
+  }
+  return call.with_children(result);
+}
+
+TreePtr projection(ModuleCall& call) {
+  return call.with_children(solids::Projection{call.flag("cut", false), whole(call.number("convexity", 0))});
+}
+
+// Older scripts name a file instead of a child: its area is extruded.
+TreePtr extruded_file(ModuleCall& call, solids::Operation operation) {
+  call.deprecate("Support for reading files in " + call.name() +
+                 " will be removed in future releases. Use a child import() instead.");
+  solids::Import file;
+  file.path = call.complete_path(call.text("file"));
+  file.layer = call.text("layer");
+  file.fragments = call.fragments();
+  if (const auto origin = numbers<2>(call["origin"])) file.origin = {(*origin)[0], (*origin)[1]};
+  const auto result = call.node(std::move(operation));
+  result->children.push_back(call.node(std::move(file)));
+  return result;
+}
+
+TreePtr linear_extrude(ModuleCall& call) {
+  solids::LinearExtrude result;
+  result.fragments = call.fragments();
+  const auto first = call.number("file");  // linear_extrude(10)
+  result.height = std::max(0.0, call.number("height", first.value_or(100)));
+  if (!std::isfinite(result.height)) result.height = 100;
+  if (const auto direction = vector3(call["v"], 0); direction && length(*direction) > 0) {
+    result.direction = *direction;
+    if (!call.has("height") && !first) result.height = length(*direction);
+  }
+  result.centred = call.flag("center", false);
+  if (const auto all = call.number("scale"))
+    result.scale = {*all, *all};
+  else if (const auto each = numbers<2>(call["scale"]))
+    result.scale = {(*each)[0], (*each)[1]};
+  result.scale = {std::max(0.0, result.scale.x), std::max(0.0, result.scale.y)};
+  result.twist = call.number("twist", 0);
+  if (const auto slices = call.number("slices"); slices && *slices >= 1) result.slices = whole(*slices);
+  if (const auto segments = call.number("segments")) result.segments = std::max(0, whole(*segments));
+  result.convexity = std::max(1, whole(call.number("convexity", 1)));
+  if (call["file"].text()) return extruded_file(call, result);
+  return call.with_children(result);
+}
+
+TreePtr rotate_extrude(ModuleCall& call) {
+  solids::RotateExtrude result;
+  result.fragments = call.fragments();
+  const double angle = call.number("angle", call.number("file", 360));
+  if (std::isfinite(angle) && std::abs(angle) <= 360) result.angle = angle;
+  result.start = call.number("start", 0);
+  result.convexity = std::max(2, whole(call.number("convexity", 2)));
+  if (call["file"].text()) return extruded_file(call, result);
+  return call.with_children(result);
+}
+
+}  // namespace
+
+std::vector<Module> operation_modules() {
+  return {{"group", {}, {}, plain<solids::Group>, true},
+          {"union", {}, {}, plain<solids::Union>, true},
+          {"difference", {}, {}, plain<solids::Difference>, true},
+          {"intersection", {}, {}, plain<solids::Intersection>, true},
+          {"hull", {}, {}, plain<solids::Hull>},
+          {"fill", {}, {}, plain<solids::Fill>},
+          {"minkowski", {"convexity"}, {}, minkowski},
+          {"render", {"convexity"}, {}, render},
+          {"resize", {"newsize", "auto", "convexity"}, {}, resize},
+          {"offset", {"r"}, {"delta", "chamfer"}, offset},
+          {"projection", {"cut"}, {"convexity"}, projection},
+          {"linear_extrude",
+           {"file", "layer", "height", "origin", "scale", "center", "twist", "slices"},
+           {"convexity", "v", "segments"},
+           linear_extrude},
+          {"rotate_extrude", {"file", "layer", "origin", "scale"}, {"convexity", "angle", "start"}, rotate_extrude}};
+}
+
+}  // namespace ombre::lang::openscad

@@ -1,0 +1,308 @@
+// Functions of strings, vectors and any values.
+#include <array>
+#include <cmath>
+
+#include "base/utf8.h"
+#include "lang/openscad/functions.h"
+#include "lang/openscad/ranges.h"
+#include "lang/openscad/value_text.h"
+
+namespace ombre::lang::openscad {
+namespace {
+
+using Call = FunctionCall;
+
+Value len(const Call& call) {
+  if (call.size() != 1) return call.wrong_count();
+  if (const List* list = call[0].list()) return static_cast<double>(list->items.size());
+  const Text* text = call[0].text();
+  if (!text) return call.wrong_type();
+  call.meter.spend(text->text.size() / 16);
+  return static_cast<double>(count_code_points(text->text));
+}
+
+Value str(const Call& call) {
+  std::string text;
+  for (const Value& argument : call.arguments) append_value(text, argument, false, call.meter);
+  return make_text(std::move(text), call.meter);
+}
+
+void append_character(std::string& text, double code, const Call& call) {
+  call.meter.spend();
+  call.meter.check_text(text.size());
+  const double whole = std::trunc(code);
+  if (whole > 0 && is_code_point(whole)) append_code_point(text, static_cast<uint32_t>(whole));
+}
+
+Value chr(const Call& call) {
+  std::string text;
+  for (const Value& argument : call.arguments) {
+    if (const double* code = argument.number()) append_character(text, *code, call);
+    if (const List* list = argument.list())
+      for (const Value& item : list->items)
+        if (item.number()) append_character(text, *item.number(), call);
+    const Range* range = argument.range();
+    if (!range || element_count(*range) >= most_range_elements) continue;
+    for (double i = 0; i < element_count(*range); ++i) append_character(text, range->at(i), call);
+  }
+  return make_text(std::move(text), call.meter);
+}
+
+Value ord(const Call& call) {
+  if (call.size() == 0) return {};
+  if (call.size() > 1)
+    return call.fail("ord() called with " + std::to_string(call.size()) + " arguments, only 1 argument expected");
+  const Text* text = call[0].text();
+  if (!text) return call.fail("ord() argument " + value_text(call[0], true, call.meter) + " is not of type string");
+  if (text->text.empty() || code_point_size(text->text, 0) == 0) return {};
+  return static_cast<double>(code_point(text->text, 0));
+}
+
+Value concat(const Call& call) {
+  ListBuilder result(call.meter);
+  for (const Value& argument : call.arguments) {
+    const List* list = argument.list();
+    if (!list) {
+      result.push(argument);
+      continue;
+    }
+    call.meter.spend(list->items.size());
+    for (const Value& item : list->items) result.push(item);
+  }
+  return result.finish();
+}
+
+// Linear between the keys, constant outside of them; rows that are no pairs of numbers are left out.
+Value lookup(const Call& call) {
+  if (call.size() != 2) return call.wrong_count();
+  const double* key = call[0].number();
+  if (!key || !std::isfinite(*key))
+    return call.fail("lookup(" + value_text(call[0], true, call.meter) + ", ...) first argument is not a number");
+  const List* table = call[1].list();
+  const auto pair = [&](size_t row) -> const List* {
+    const List* list = table->items[row].list();
+    return list && list->items.size() == 2 && is_number_list(*list) ? list : nullptr;
+  };
+  if (!table || table->items.empty() || !pair(0)) return {};
+  const List *below = nullptr, *above = nullptr;
+  const auto at = [](const List* row) { return *row->items[0].number(); };
+  for (size_t row = 0; row < table->items.size(); ++row) {
+    call.meter.spend();
+    const List* next = pair(row);
+    if (!next) continue;
+    if (at(next) <= *key && (!below || at(next) > at(below))) below = next;
+    if (at(next) >= *key && (!above || at(next) < at(above))) above = next;
+  }
+  if (!below) return above->items[1];
+  if (!above || at(above) == at(below)) return below->items[1];
+  const double part = (*key - at(below)) / (at(above) - at(below));
+  return *below->items[1].number() * (1 - part) + *above->items[1].number() * part;
+}
+
+// Places in a vector or string where something stands.
+class Search {
+ public:
+  explicit Search(const Call& call)
+      : call_(call), most_(call.size() > 2 ? whole(call[2], 1) : 1), column_(call.size() > 3 ? whole(call[3], 0) : 0) {}
+
+  Value run() {
+    const Value &wanted = call_[0], &table = call_[1];
+    if (wanted.number()) return of_value(wanted);
+    if (const Text* text = wanted.text()) {
+      if (table.text()) return of_characters(text->text, table.text()->text);
+      return of_rows(text->text);
+    }
+    return wanted.list() ? of_values(*wanted.list()) : Value();
+  }
+
+ private:
+  static double whole(const Value& value, double otherwise) {
+    return value.number() && std::isfinite(*value.number()) ? std::trunc(*value.number()) : otherwise;
+  }
+
+  const List* table() const { return call_[1].list(); }
+  bool has_all(size_t found) const { return most_ > 0 && static_cast<double>(found) >= most_; }
+
+  static std::vector<std::string> characters(const std::string& text) {
+    std::vector<std::string> result;
+    for (size_t at = 0; at < text.size();) {
+      const size_t size = std::max<size_t>(1, code_point_size(text, at));
+      result.push_back(text.substr(at, size));
+      at += size;
+    }
+    return result;
+  }
+
+  const Value* in_column(const Value& row) const {
+    const List* list = row.list();
+    const bool has_it = list && column_ >= 0 && column_ < static_cast<double>(list->items.size());
+    return has_it ? &list->items[static_cast<size_t>(column_)] : nullptr;
+  }
+
+  // One place as a number, several as a vector.
+  void push(const std::vector<double>& places, bool is_empty_kept, ListBuilder& result) const {
+    if (most_ == 1 && !places.empty()) return result.push(places.front());
+    if (most_ == 1 && !is_empty_kept) return;
+    ListBuilder all(call_.meter);
+    for (const double place : places) all.push(place);
+    result.push(all.finish());
+  }
+
+  std::vector<double> places_of(const Value& wanted, bool takes_columns_only) const {
+    std::vector<double> places;
+    if (!table()) return places;
+    for (size_t i = 0; i < table()->items.size() && !has_all(places.size()); ++i) {
+      const Value& row = table()->items[i];
+      const Value* cell = in_column(row);
+      if ((!takes_columns_only && equal(row, wanted, call_.meter)) || (cell && equal(*cell, wanted, call_.meter)))
+        places.push_back(static_cast<double>(i));
+    }
+    return places;
+  }
+
+  Value of_value(const Value& wanted) const {
+    ListBuilder result(call_.meter);
+    for (const double place : places_of(wanted, false)) result.push(place);
+    return result.finish();
+  }
+
+  Value of_values(const List& wanted) const {
+    ListBuilder result(call_.meter);
+    for (const Value& value : wanted.items) push(places_of(value, column_ != 0), true, result);
+    return result.finish();
+  }
+
+  Value of_characters(const std::string& wanted, const std::string& text) const {
+    const std::vector<std::string> all = characters(text);
+    ListBuilder result(call_.meter);
+    for (const std::string& character : characters(wanted)) {
+      std::vector<double> places;
+      for (size_t i = 0; i < all.size() && !has_all(places.size()); ++i) {
+        call_.meter.spend();
+        if (all[i] == character) places.push_back(static_cast<double>(i));
+      }
+      push(places, false, result);
+    }
+    return result.finish();
+  }
+
+  // Each character against the first one of a column's strings. A row without that column ends the search.
+  Value of_rows(const std::string& wanted) const {
+    ListBuilder result(call_.meter);
+    for (const std::string& character : characters(wanted)) {
+      std::vector<double> places;
+      for (size_t i = 0; table() && i < table()->items.size() && !has_all(places.size()); ++i) {
+        call_.meter.spend();
+        const Value* cell = in_column(table()->items[i]);
+        if (!cell) return wrong_row(i);
+        const Text* text = cell->text();
+        if (text && text->text.substr(0, std::max<size_t>(1, code_point_size(text->text, 0))) == character)
+          places.push_back(static_cast<double>(i));
+      }
+      if (places.empty()) call_.problems.push_back("search term not found: \"" + character + '"');
+      push(places, false, result);
+    }
+    return result.finish();
+  }
+
+  Value wrong_row(size_t index) const {
+    call_.problems.push_back("Invalid entry in search vector at index " + std::to_string(index) +
+                             ", required number of values in the entry: " + number_text(column_ + 1) +
+                             ". Invalid entry: " + value_text(table()->items[index], true, call_.meter));
+    return ListBuilder(call_.meter).finish();
+  }
+
+  const Call& call_;
+  double most_, column_;
+};
+
+Value search(const Call& call) {
+  if (call.size() < 2 || call.size() > 4) return call.fail("search() number of parameters does not match");
+  return Search(call).run();
+}
+
+template <class Test>
+Value test_of(const Call& call, const Test& test) {
+  return call.size() == 1 ? Value(test(call[0])) : call.wrong_count();
+}
+
+Value is_undef(const Call& call) {
+  return test_of(call, [](const Value& value) { return value.is_undef(); });
+}
+Value is_bool(const Call& call) {
+  return test_of(call, [](const Value& value) { return value.boolean() != nullptr; });
+}
+Value is_num(const Call& call) {
+  return test_of(call, [](const Value& value) { return value.number() && !std::isnan(*value.number()); });
+}
+Value is_string(const Call& call) {
+  return test_of(call, [](const Value& value) { return value.text() != nullptr; });
+}
+Value is_list(const Call& call) {
+  return test_of(call, [](const Value& value) { return value.list() != nullptr; });
+}
+Value is_function(const Call& call) {
+  return test_of(call, [](const Value& value) { return value.closure() != nullptr; });
+}
+
+// Of the language that is followed.
+constexpr std::array<double, 3> release{2021, 1, 0};
+
+Value version(const Call& call) {
+  ListBuilder result(call.meter);
+  for (const double part : release) result.push(part);
+  return result.finish();
+}
+
+// 20190500 of [2019, 5]
+Value version_num(const Call& call) {
+  std::array<double, 3> parts = release;
+  if (call.size() > 0) {
+    const List* list = call[0].list();
+    if (!list || list->items.size() < 2 || list->items.size() > 3 || !is_number_list(*list)) return {};
+    parts = {};
+    for (size_t i = 0; i < list->items.size(); ++i) parts[i] = *list->items[i].number();
+  }
+  return parts[0] * 10000 + parts[1] * 100 + parts[2];
+}
+
+Value parent_module(const Call& call) {
+  double index = 1;
+  if (call.size() > 1) return call.wrong_count();
+  if (call.size() == 1) {
+    if (!call[0].number()) return {};
+    index = std::trunc(*call[0].number());
+  }
+  const std::string shown = number_text(index);
+  if (index < 0) return call.fail("Negative parent module index (" + shown + ") not allowed");
+  if (index >= static_cast<double>(call.modules.size()))
+    return call.fail("Parent module index (" + shown + ") greater than the number of modules on the stack");
+  return make_text(call.modules[call.modules.size() - 1 - static_cast<size_t>(index)], call.meter);
+}
+
+Value unsupported(const Call& call) { return call.fail(std::string(call.name) + "() is not supported"); }
+
+}  // namespace
+
+std::vector<NamedFunction> value_functions() {
+  return {{"len", len},
+          {"str", str},
+          {"chr", chr},
+          {"ord", ord},
+          {"concat", concat},
+          {"lookup", lookup},
+          {"search", search},
+          {"is_undef", is_undef},
+          {"is_bool", is_bool},
+          {"is_num", is_num},
+          {"is_string", is_string},
+          {"is_list", is_list},
+          {"is_function", is_function},
+          {"version", version},
+          {"version_num", version_num},
+          {"parent_module", parent_module},
+          {"dxf_dim", unsupported},
+          {"dxf_cross", unsupported}};
+}
+
+}  // namespace ombre::lang::openscad

@@ -1,0 +1,120 @@
+#include "lang/openscad/value_text.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "lang/scope.h"
+
+namespace ombre::lang::openscad {
+namespace {
+
+// Of "1.23457e-05": digits without the point, and the exponent of the first.
+struct Decimal {
+  std::string digits;
+  int exponent = 0;
+};
+
+// Ties are rounded away from zero: 123456.5 is 123457.
+Decimal six_digits(double number) {
+  std::array<char, 64> buffer;
+  std::snprintf(buffer.data(), buffer.size(), "%.24e", number);
+  const std::string text = buffer.data();
+  const size_t e = text.find('e');
+  constexpr size_t kept = 6;
+  Decimal result{text.substr(0, 1) + text.substr(2, e - 2), std::atoi(text.c_str() + e + 1)};
+  const bool is_rounded_up = result.digits[kept] >= '5';
+  result.digits.resize(kept);
+  if (is_rounded_up) {
+    size_t at = kept;
+    while (at > 0 && result.digits[at - 1] == '9') result.digits[--at] = '0';
+    if (at > 0) {
+      ++result.digits[at - 1];
+    } else {
+      result.digits = "1";
+      ++result.exponent;
+    }
+  }
+  while (result.digits.size() > 1 && result.digits.back() == '0') result.digits.pop_back();
+  return result;
+}
+
+std::string positive_text(double number) {
+  constexpr int least = -5, most = 5;  // exponents that are written out
+  const auto [digits, exponent] = six_digits(number);
+  if (exponent > most || exponent < least) {
+    const std::string mantissa = digits.size() > 1 ? digits.substr(0, 1) + '.' + digits.substr(1) : digits;
+    return mantissa + (exponent < 0 ? "e-" : "e+") + std::to_string(std::abs(exponent));
+  }
+  if (exponent < 0) return "0." + std::string(static_cast<size_t>(-exponent - 1), '0') + digits;
+  const auto whole = static_cast<size_t>(exponent) + 1;
+  if (digits.size() <= whole) return digits + std::string(whole - digits.size(), '0');
+  return digits.substr(0, whole) + '.' + digits.substr(whole);
+}
+
+void append_vector(std::string& text, const List& list, Meter& meter) {
+  text += '[';
+  for (size_t i = 0; i < list.items.size(); ++i) {
+    if (i > 0) text += ", ";
+    append_value(text, list.items[i], true, meter);
+  }
+  text += ']';
+}
+
+}  // namespace
+
+std::string number_text(double number) {
+  if (std::isnan(number)) return "nan";
+  if (std::isinf(number)) return number > 0 ? "inf" : "-inf";
+  if (number == 0) return "0";
+  return (number < 0 ? "-" : "") + positive_text(std::abs(number));
+}
+
+std::string stream_text(double number) {
+  if (number == 0) return "0";
+  if (std::isnan(number)) return "nan";
+  std::array<char, 32> buffer;
+  std::snprintf(buffer.data(), buffer.size(), "%g", number);
+  return buffer.data();
+}
+
+void append_value(std::string& text, const Value& value, bool quoted, Meter& meter) {
+  meter.spend();
+  meter.check_text(text.size());
+  if (const bool* b = value.boolean()) {
+    text += *b ? "true" : "false";
+  } else if (const double* n = value.number()) {
+    text += number_text(*n);
+  } else if (const Text* t = value.text()) {
+    meter.check_text(text.size() + t->text.size());
+    text += quoted ? '"' + t->text + '"' : t->text;
+  } else if (const List* list = value.list()) {
+    append_vector(text, *list, meter);
+  } else if (const Range* range = value.range()) {
+    text += '[' + number_text(range->begin) + " : " + number_text(range->step) + " : " + number_text(range->end) + ']';
+  } else if (const Closure* closure = value.closure()) {
+    text += expression_text(*closure->function);
+  } else {
+    text += "undef";
+  }
+}
+
+std::string value_text(const Value& value, bool quoted, Meter& meter) {
+  std::string text;
+  append_value(text, value, quoted, meter);
+  return text;
+}
+
+const char* type_name(const Value& value) {
+  if (value.boolean()) return "bool";
+  if (value.number()) return "number";
+  if (value.text()) return "string";
+  if (value.list()) return "vector";
+  if (value.range()) return "range";
+  if (value.closure()) return "function";
+  return "undefined";
+}
+
+}  // namespace ombre::lang::openscad

@@ -1,0 +1,83 @@
+// Nef polyhedra: booleans where surfaces touch themselves, and cutting into convex pieces.
+#include <CGAL/Nef_polyhedron_3.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h>
+#include <CGAL/convex_decomposition_3.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.h"
+#include "solids/cgal_body.h"
+
+namespace ombre::solids {
+
+using Nef = CGAL::Nef_polyhedron_3<Exact>;
+
+namespace {
+
+// The library goes through a Nef polyhedron in an order that may depend on addresses.
+void put_in_order(std::vector<Exact::Point_3>& points, std::vector<std::vector<std::size_t>>& polygons) {
+  std::vector<size_t> order(points.size()), place(points.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](size_t a, size_t b) { return CGAL::lexicographically_xyz_smaller(points[a], points[b]); });
+  std::vector<Exact::Point_3> sorted;
+  for (size_t n = 0; n < order.size(); ++n) {
+    sorted.push_back(points[order[n]]);
+    place[order[n]] = n;
+  }
+  points = std::move(sorted);
+  for (auto& polygon : polygons) {
+    for (size_t& corner : polygon) corner = place[corner];
+    std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
+  }
+  std::sort(polygons.begin(), polygons.end());
+}
+
+std::vector<ExactMesh> surfaces_of(const Nef& nef) {
+  if (nef.is_empty()) return {};
+  std::vector<Exact::Point_3> points;
+  std::vector<std::vector<std::size_t>> polygons;
+  CGAL::convert_nef_polyhedron_to_polygon_soup(nef, points, polygons, true);
+  put_in_order(points, polygons);
+  return apart(mesh_of_soup(std::move(points), std::move(polygons)));
+}
+
+}  // namespace
+
+std::vector<ExactMesh> combine_nef(Boolean operation, const ExactMesh& a, const ExactMesh& b) {
+  try {
+    const Nef first(a), second(b);
+    switch (operation) {
+      case Boolean::unite:
+        return surfaces_of((first + second).regularization());
+      case Boolean::intersect:
+        return surfaces_of((first * second).regularization());
+      case Boolean::subtract:
+        return surfaces_of((first - second).regularization());
+    }
+  } catch (const std::exception& failure) {
+    throw Error(std::string("two solids cannot be combined, most likely since a surface crosses itself: ") +
+                failure.what());
+  }
+  return {};
+}
+
+std::vector<TriangleMesh> convex_parts_nef(const ExactMesh& mesh) {
+  Nef nef(mesh);
+  CGAL::convex_decomposition_3(nef);
+  std::vector<TriangleMesh> parts;
+  for (auto volume = ++nef.volumes_begin(); volume != nef.volumes_end(); ++volume) {
+    if (!volume->mark()) continue;
+    CGAL::Polyhedron_3<Exact> shell;
+    nef.convert_inner_shell_to_polyhedron(volume->shells_begin(), shell);
+    std::vector<Vec3> points;
+    for (auto p = shell.points_begin(); p != shell.points_end(); ++p)
+      points.push_back({CGAL::to_double(p->x()), CGAL::to_double(p->y()), CGAL::to_double(p->z())});
+    parts.push_back(hull_of(points));
+  }
+  return parts;
+}
+
+}  // namespace ombre::solids

@@ -1,0 +1,320 @@
+#include "solids/extrusions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numeric>
+
+#include "base/math.h"
+#include "solids/fragments.h"
+#include "solids/kernel.h"
+#include "solids/regions.h"
+
+namespace ombre::solids {
+namespace {
+
+// The points of a region's rings, one after the other, and which lie behind each other in a ring.
+struct Outline {
+  std::vector<Vec2> points;
+  std::vector<uint32_t> next;
+};
+
+Outline outline_of(const Region& region) {
+  Outline outline;
+  for (const Ring& ring : region.rings) {
+    const auto first = static_cast<uint32_t>(outline.points.size());
+    for (uint32_t n = 0; n < ring.size(); ++n) {
+      outline.points.push_back(ring[n]);
+      outline.next.push_back(first + (n + 1) % static_cast<uint32_t>(ring.size()));
+    }
+  }
+  return outline;
+}
+
+// The length of the way of the point that goes farthest. Where it turns, it is that of a spiral in the plane, read from
+// its outer end to its inner one as if that were the outline's own size, and of the height: so OpenSCAD 2021.01 has it.
+double longest_way(const Outline& outline, const LinearExtrude& by) {
+  double radius = 0, shift = 0;
+  for (const Vec2& p : outline.points) {
+    radius = std::max(radius, length(p));
+    shift = std::max(shift, length(Vec2{p.x * (by.scale.x - 1), p.y * (by.scale.y - 1)}));
+  }
+  if (by.twist == 0) return std::hypot(by.height, shift);
+  constexpr int steps = 1000;
+  const double scale = std::max(by.scale.x, by.scale.y), end = scale > 1 ? 1 / scale : scale;
+  const double turn = by.twist * math::degree, growth = radius * (end - 1);
+  double spiral = 0;
+  for (int n = 0; n < steps; ++n) {
+    const double here = radius + growth * (n + 0.5) / steps;
+    spiral += std::sqrt(growth * growth + here * here * turn * turn) / steps;
+  }
+  return std::hypot(by.height, spiral);
+}
+
+int slices_of(const Outline& outline, const LinearExtrude& by) {
+  if (by.slices) return std::clamp(*by.slices, 1, most_edges);
+  const bool is_even = by.scale.x == by.scale.y;
+  if (by.twist == 0 && is_even) return 1;
+  const Fragments& fragments = by.fragments;
+  constexpr double least_step = 0.01;
+  const double turn = std::abs(by.twist);
+  double count = 0;
+  if (fragments.count > 0)
+    count = turn > 0 ? std::max(3.0, std::floor(fragments.count)) * turn / 360 : std::floor(fragments.count);
+  else {
+    count = longest_way(outline, by) / std::max(fragments.size, least_step);
+    if (turn > 0) count = std::min(count, turn / std::max(fragments.angle, least_step));
+  }
+  return static_cast<int>(std::clamp(std::ceil(count), 1.0, static_cast<double>(most_edges)));
+}
+
+// Edges of a ring cut so that it has at least `count`, each the more often the longer it is.
+Ring cut_edges(const Ring& ring, int count) {
+  double around = 0;
+  for (size_t n = 0; n < ring.size(); ++n) around += length(ring[(n + 1) % ring.size()] - ring[n]);
+  Ring result;
+  for (size_t n = 0; n < ring.size(); ++n) {
+    const Vec2 along = ring[(n + 1) % ring.size()] - ring[n];
+    const int pieces = std::max(1, static_cast<int>(std::ceil(count * length(along) / around - 1e-9)));
+    for (int k = 0; k < pieces; ++k) result.push_back(ring[n] + (static_cast<double>(k) / pieces) * along);
+  }
+  return result;
+}
+
+class Extruder {
+ public:
+  Extruder(const Region& region, const LinearExtrude& by)
+      : region_(region), by_(by), outline_(outline_of(region)), slices_(slices_of(outline_, by)) {
+    const double up = by.direction.z;
+    along_ = (by.height / length(by.direction)) * by.direction;
+    if (by.direction == Vec3{0, 0, up}) along_ = {0, 0, by.height};
+    foot_ = by.centred ? -0.5 * along_ : Vec3{};
+  }
+
+  TriangleMesh make() {
+    for (int n = 0; n <= slices_; ++n) add_slice(n);
+    for (int n = 0; n < slices_; ++n) add_wall(n);
+    add_caps();
+    return tidied(mesh_);
+  }
+
+ private:
+  uint32_t count() const { return static_cast<uint32_t>(outline_.points.size()); }
+  uint32_t number(int slice, uint32_t point) const { return static_cast<uint32_t>(slice) * count() + point; }
+  const Vec3& at(int slice, uint32_t point) const { return mesh_.points[number(slice, point)]; }
+
+  void add_slice(int n) {
+    const double share = static_cast<double>(n) / slices_, turn = -by_.twist * share;
+    const double c = cosine(turn), s = sine(turn);
+    const Vec2 scale{1 + share * (by_.scale.x - 1), 1 + share * (by_.scale.y - 1)};
+    for (const Vec2& p : outline_.points) {
+      const Vec2 turned{c * p.x - s * p.y, s * p.x + c * p.y};
+      mesh_.points.push_back(foot_ + share * along_ + Vec3{scale.x * turned.x, scale.y * turned.y, 0});
+    }
+  }
+
+  void add_wall(int n) {
+    for (uint32_t i = 0; i < count(); ++i) {
+      const uint32_t j = outline_.next[i];
+      const double rising = length(at(n + 1, j) - at(n, i)), falling = length(at(n + 1, i) - at(n, j));
+      constexpr double rounding = 1e-9;
+      const bool is_even = std::abs(rising - falling) <= rounding * (rising + falling);
+      const uint32_t a = number(n, i), b = number(n, j), c = number(n + 1, j), d = number(n + 1, i);
+      if (is_even ? by_.twist > 0 : rising < falling) {
+        mesh_.triangles.push_back({a, b, c});
+        mesh_.triangles.push_back({a, c, d});
+      } else {
+        mesh_.triangles.push_back({a, b, d});
+        mesh_.triangles.push_back({b, c, d});
+      }
+    }
+  }
+
+  void add_caps() {
+    const std::vector<Triangle> caps = kernel().triangulate(region_.rings);
+    for (const auto& [a, b, c] : caps) mesh_.triangles.push_back({a, c, b});
+    if (by_.scale.x == 0 || by_.scale.y == 0) return;
+    for (const auto& [a, b, c] : caps)
+      mesh_.triangles.push_back({number(slices_, a), number(slices_, b), number(slices_, c)});
+  }
+
+  const Region& region_;
+  const LinearExtrude& by_;
+  Outline outline_;
+  int slices_;
+  Vec3 along_, foot_;
+  TriangleMesh mesh_;
+};
+
+// Rings of a profile turned in steps.
+class Revolver {
+ public:
+  Revolver(const Region& region, const RotateExtrude& by, double reach)
+      : region_(region), outline_(outline_of(region)), is_whole_(std::abs(by.angle) >= 360) {
+    angle_ = is_whole_ ? 360 : by.angle;
+    start_ = by.start;
+    const double edges = edges_of_circle(reach, by.fragments);
+    steps_ = is_whole_ ? static_cast<int>(edges) : std::max(1, static_cast<int>(edges * std::abs(angle_) / 360));
+    const double side = outline_.points.empty() ? 0
+                                                : std::accumulate(outline_.points.begin(), outline_.points.end(), 0.0,
+                                                                  [](double sum, const Vec2& p) { return sum + p.x; });
+    turns_faces_ = (side < 0) != (angle_ < 0);
+  }
+
+  TriangleMesh make() {
+    const int sections = is_whole_ ? steps_ : steps_ + 1;
+    for (int n = 0; n < sections; ++n) add_section(n);
+    for (int n = 0; n < steps_; ++n) add_wall(n, (n + 1) % sections);
+    if (!is_whole_) add_ends();
+    return tidied(mesh_);
+  }
+
+ private:
+  uint32_t count() const { return static_cast<uint32_t>(outline_.points.size()); }
+
+  void add_section(int n) {
+    const double angle = start_ + angle_ * n / steps_;
+    for (const Vec2& p : outline_.points) mesh_.points.push_back({p.x * cosine(angle), p.x * sine(angle), p.y});
+  }
+
+  void add(uint32_t a, uint32_t b, uint32_t c) {
+    mesh_.triangles.push_back(turns_faces_ ? Triangle{a, c, b} : Triangle{a, b, c});
+  }
+
+  void add_wall(int n, int behind) {
+    const uint32_t here = static_cast<uint32_t>(n) * count(), there = static_cast<uint32_t>(behind) * count();
+    for (uint32_t i = 0; i < count(); ++i) {
+      const uint32_t j = outline_.next[i];
+      if (outline_.points[i].x == 0 && outline_.points[j].x == 0) continue;  // on the axis
+      add(here + i, there + i, here + j);
+      add(here + j, there + i, there + j);
+    }
+  }
+
+  void add_ends() {
+    const uint32_t last = static_cast<uint32_t>(steps_) * count();
+    for (const auto& [a, b, c] : kernel().triangulate(region_.rings)) {
+      add(a, b, c);
+      add(last + a, last + c, last + b);
+    }
+  }
+
+  const Region& region_;
+  Outline outline_;
+  bool is_whole_, turns_faces_ = false;
+  double angle_ = 360, start_ = 0;
+  int steps_ = 1;
+  TriangleMesh mesh_;
+};
+
+std::string two_digits(double number) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.2f", number);
+  return text;
+}
+
+// Rings from pieces that each begin where another ends.
+template <class Key>
+std::vector<std::vector<Key>> chained(std::multimap<Key, Key>& next) {
+  std::vector<std::vector<Key>> rings;
+  while (!next.empty()) {
+    std::vector<Key> ring;
+    for (auto at = next.begin(); at != next.end(); at = next.find(ring.back())) {
+      if (ring.empty()) ring.push_back(at->first);
+      ring.push_back(at->second);
+      next.erase(at);
+    }
+    ring.pop_back();
+    rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
+using Edge = std::pair<uint32_t, uint32_t>;  // from a point above the plane to one below
+
+// Where the plane cuts, if points in it count as above or as below.
+std::vector<Ring> cut(const TriangleMesh& mesh, bool counts_as_above) {
+  const auto is_above = [&](uint32_t n) { return mesh.points[n].z > 0 || (counts_as_above && mesh.points[n].z == 0); };
+  std::multimap<Edge, Edge> next;
+  for (const Triangle& triangle : mesh.triangles) {
+    Edge in, out;
+    bool is_cut = false;
+    for (int n = 0; n < 3; ++n) {
+      const uint32_t a = triangle[n], b = triangle[(n + 1) % 3];
+      if (is_above(a) == is_above(b)) continue;
+      is_cut = true;
+      (is_above(a) ? in : out) = is_above(a) ? Edge{a, b} : Edge{b, a};
+    }
+    if (is_cut) next.emplace(in, out);
+  }
+  std::vector<Ring> rings;
+  for (const std::vector<Edge>& chain : chained(next)) {
+    Ring& ring = rings.emplace_back();
+    for (const auto& [above, below] : chain) {
+      const Vec3 &p = mesh.points[above], &q = mesh.points[below];
+      const double share = p.z == q.z ? 0 : p.z / (p.z - q.z);
+      ring.push_back({p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)});
+    }
+  }
+  return rings;
+}
+
+}  // namespace
+
+TriangleMesh extruded(const Region& region, const LinearExtrude& by) {
+  if (region.is_empty() || !(by.height > 0) || !(by.direction.z > 0) || !std::isfinite(by.height)) return {};
+  if (by.segments && *by.segments > 0) {
+    Region finer = region;
+    for (Ring& ring : finer.rings) ring = cut_edges(ring, std::min(*by.segments, most_edges));
+    return Extruder(finer, by).make();
+  }
+  return Extruder(region, by).make();
+}
+
+TriangleMesh revolved(const Region& region, const RotateExtrude& by, const SourceRange& where, Diagnostics& messages) {
+  if (region.is_empty() || by.angle == 0 || !std::isfinite(by.angle)) return {};
+  const Box box = bounds_of(region);
+  if (box.lo.x < 0 && box.hi.x > 0) {
+    messages.error(where, "all points for rotate_extrude() must have the same X coordinate sign (range is " +
+                              two_digits(box.lo.x) + " -> " + two_digits(box.hi.x) + ")");
+    return {};
+  }
+  return Revolver(region, by, std::max(-box.lo.x, box.hi.x)).make();
+}
+
+Region section(const TriangleMesh& mesh) {
+  const std::vector<Region> sides{wound_region_of(cut(mesh, true)), wound_region_of(cut(mesh, false))};
+  return unite(sides);
+}
+
+// A point has as many faces above it that look up as rings of their border go round it.
+Region shadow(const TriangleMesh& mesh) {
+  const auto looks_up = [&](const Triangle& t) {
+    const Vec3 a = mesh.points[t[0]], b = mesh.points[t[1]], c = mesh.points[t[2]];
+    return cross(Vec2{b.x - a.x, b.y - a.y}, Vec2{c.x - a.x, c.y - a.y}) > 0;
+  };
+  std::map<Edge, int> borders;
+  for (const Triangle& t : mesh.triangles) {
+    if (!looks_up(t)) continue;
+    for (int n = 0; n < 3; ++n) {
+      const Edge edge{t[n], t[(n + 1) % 3]};
+      const auto other = borders.find({edge.second, edge.first});
+      if (other == borders.end())
+        ++borders[edge];
+      else if (--other->second == 0)
+        borders.erase(other);
+    }
+  }
+  std::multimap<uint32_t, uint32_t> next;
+  for (const auto& [edge, count] : borders)
+    for (int n = 0; n < count; ++n) next.insert(edge);
+  std::vector<Ring> rings;
+  for (const std::vector<uint32_t>& chain : chained(next)) {
+    Ring& ring = rings.emplace_back();
+    for (const uint32_t point : chain) ring.push_back({mesh.points[point].x, mesh.points[point].y});
+  }
+  return wound_region_of(rings);
+}
+
+}  // namespace ombre::solids

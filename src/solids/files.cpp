@@ -1,0 +1,136 @@
+#include "solids/files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "formats/file.h"
+#include "formats/mesh.h"
+#include "formats/mesh_objects.h"
+#include "formats/plane_files.h"
+#include "formats/uncoloured.h"
+#include "solids/kernel.h"
+#include "solids/regions.h"
+
+namespace ombre::solids {
+namespace {
+
+std::string ending_of(const std::string& path) { return to_lower(std::filesystem::path(path).extension().string()); }
+
+std::optional<std::string> bytes_of(const std::string& path, const SourceRange& where, Diagnostics& messages) {
+  try {
+    return formats::read_file(path);
+  } catch (const Error&) {
+    messages.warning(where, "Can't open import file '" + path + "'");
+    return std::nullopt;
+  }
+}
+
+TriangleMesh mesh_of(const formats::Mesh& mesh, double scale) {
+  TriangleMesh result{mesh.vertices, {mesh.triangles.begin(), mesh.triangles.end()}};
+  if (scale != 1)
+    for (Vec3& p : result.points) p = scale * p;
+  return tidied(result);
+}
+
+// A name that a reader made up, for files where something has to have one: "object 3", or the material's, or that of
+// an object with several volumes.
+bool is_made_up(const std::string& name, const formats::MeshGroup& group, const formats::Mesh& mesh) {
+  constexpr std::string_view numbered = "object ";
+  if (name == group.material) return true;
+  if (name.starts_with(numbered) && name.find_first_not_of("0123456789", numbered.size()) == std::string::npos)
+    return true;
+  return name == group.object && std::count_if(mesh.groups.begin(), mesh.groups.end(),
+                                               [&](const auto& other) { return other.object == group.object; }) > 1;
+}
+
+Attributes attributes_of(const formats::MeshGroup& group, const formats::Mesh& mesh) {
+  Attributes attributes;
+  attributes.material = group.material;
+  if (!is_made_up(group.name, group, mesh)) attributes.part = group.name;
+  if (!group.colour || *group.colour == formats::uncoloured) return attributes;
+  Colour colour{};
+  for (size_t n = 0; n < colour.size(); ++n) colour[n] = (*group.colour)[n] / 255.0;
+  attributes.colour = colour;
+  return attributes;
+}
+
+bool names_attributes(const std::string& ending) { return ending == ".3mf" || ending == ".amf" || ending == ".obj"; }
+
+Pieces mesh_pieces(const Import& import, const std::string& bytes, const SourceRange& where, Diagnostics& messages) {
+  const auto mesh = formats::read_mesh(import.path, bytes, messages);
+  if (!mesh) {
+    messages.note(where, "the file is imported here");
+    return {};
+  }
+  Pieces pieces;
+  const auto add = [&](const formats::Mesh& part, Attributes attributes) {
+    if (const auto solid = checked_solid(mesh_of(part, import.scale), "\"" + import.path + '"', where, messages))
+      pieces.push_back({std::move(attributes), *solid});
+  };
+  if (!names_attributes(ending_of(import.path)) || mesh->groups.size() < 2) {
+    const bool is_named = names_attributes(ending_of(import.path)) && !mesh->groups.empty();
+    add(*mesh, is_named ? attributes_of(mesh->groups[0], *mesh) : Attributes{});
+    return pieces;
+  }
+  std::vector<bool> is_done(mesh->groups.size());
+  for (size_t n = 0; n < is_done.size(); ++n) {
+    const Attributes attributes = attributes_of(mesh->groups[n], *mesh);
+    if (is_done[n]) continue;
+    std::vector<bool> marks(formats::all_groups(*mesh).size());
+    for (size_t other = n; other < is_done.size(); ++other)
+      if (attributes_of(mesh->groups[other], *mesh) == attributes) marks[other] = is_done[other] = true;
+    add(formats::groups_of(*mesh, marks), attributes);
+  }
+  return pieces;
+}
+
+Pieces region_pieces(const Import& import, const std::string& bytes, const SourceRange& where, Diagnostics& messages) {
+  const formats::PlaneOptions options{import.layer, import.id, import.dots_per_inch};
+  const bool is_svg = ending_of(import.path) == ".svg";
+  auto shapes = is_svg ? formats::read_svg(import.path, bytes, options, messages)
+                       : formats::read_dxf(import.path, bytes, options, messages);
+  if (!shapes) {
+    messages.note(where, "the file is imported here");
+    return {};
+  }
+  std::vector<Region> regions;
+  for (const std::vector<Ring>& rings : shapes->shapes) regions.push_back(region_of(rings));
+  const Region region = unite(std::span(std::as_const(regions)));
+  if (region.is_empty()) return {};
+  Affine map = Affine::scaling({import.scale, import.scale, 1});
+  if (!is_svg) map = map * Affine::translation({-import.origin.x, -import.origin.y, 0});
+  if (import.centred) {
+    const Vec3 middle = bounds_of(region).center();
+    map = Affine::scaling({import.scale, import.scale, 1}) * Affine::translation({-middle.x, -middle.y, 0});
+  }
+  return {{{}, moved(region, map)}};
+}
+
+}  // namespace
+
+std::optional<Solid> checked_solid(const TriangleMesh& mesh, const std::string& what, const SourceRange& where,
+                                   Diagnostics& messages) {
+  std::string remark;
+  try {
+    Solid solid(kernel().body(mesh, false, remark));
+    if (!remark.empty()) messages.warning(where, what + ' ' + remark);
+    return solid;
+  } catch (const Error& error) {
+    messages.error(where, what + " cannot be used: " + error.what(),
+                   "close its surface, and turn all faces so that they are clockwise when seen from outside");
+    return std::nullopt;
+  }
+}
+
+Pieces import_pieces(const Import& import, const SourceRange& where, Diagnostics& messages) {
+  const auto bytes = bytes_of(import.path, where, messages);
+  if (!bytes) return {};
+  const std::string ending = ending_of(import.path);
+  if (ending == ".svg" || ending == ".dxf") return region_pieces(import, *bytes, where, messages);
+  return mesh_pieces(import, *bytes, where, messages);
+}
+
+}  // namespace ombre::solids

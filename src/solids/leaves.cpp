@@ -1,0 +1,85 @@
+// The geometry of leaves: numbers, texts and files.
+#include <algorithm>
+
+#include "base/error.h"
+#include "solids/files.h"
+#include "solids/kernel.h"
+#include "solids/operations.h"
+#include "solids/primitives.h"
+#include "solids/regions.h"
+#include "solids/texts.h"
+
+namespace ombre::solids {
+namespace {
+
+Pieces piece_of(TriangleMesh mesh) {
+  if (mesh.triangles.empty()) return {{}};
+  return {{{}, Solid(std::move(mesh))}};
+}
+
+Pieces piece_of(Region region) {
+  if (region.is_empty()) return {{}};
+  return {{{}, std::move(region)}};
+}
+
+class Leaf {
+ public:
+  Leaf(const Tree& tree, const OperationContext& context) : tree_(tree), context_(context) {}
+
+  Pieces operator()(const Cube& cube) const { return piece_of(mesh_of(cube)); }
+  Pieces operator()(const Sphere& sphere) const { return piece_of(mesh_of(sphere)); }
+  Pieces operator()(const Cylinder& cylinder) const { return piece_of(mesh_of(cylinder)); }
+  Pieces operator()(const Polyhedron& polyhedron) const {
+    TriangleMesh mesh = mesh_of(polyhedron, tree_.where, messages());
+    if (mesh.triangles.empty()) return {{}};
+    const auto solid = checked_solid(mesh, "the polyhedron", tree_.where, messages());
+    return {{{}, solid ? std::variant<std::monostate, Solid, Region>(*solid) : std::monostate{}}};
+  }
+  Pieces operator()(const Square& square) const { return piece_of(region_of(rings_of(square))); }
+  Pieces operator()(const Circle& circle) const { return piece_of(region_of(rings_of(circle))); }
+  Pieces operator()(const Polygon& polygon) const {
+    return piece_of(region_of(rings_of(polygon, tree_.where, messages())));
+  }
+  Pieces operator()(const Text& text) const { return piece_of(region_of_text(text, tree_.where, messages())); }
+  Pieces operator()(const Import& import) const {
+    Pieces pieces = import_pieces(import, tree_.where, messages());
+    if (pieces.empty()) pieces.push_back({});
+    return pieces;
+  }
+  Pieces operator()(const Surface& surface) const { return piece_of(mesh_of(surface, tree_.where, messages())); }
+  template <class Operator>
+  Pieces operator()(const Operator&) const {
+    return {{}};
+  }
+
+ private:
+  Diagnostics& messages() const { return *context_.messages; }
+
+  const Tree& tree_;
+  const OperationContext& context_;
+};
+
+}  // namespace
+
+Pieces leaf_pieces(const Tree& tree, const OperationContext& context) {
+  try {
+    return std::visit(Leaf(tree, context), tree.operation);
+  } catch (const Error& error) {
+    context.messages->error(tree.where, error.what());
+    return {{}};
+  }
+}
+
+bool is_leaf(const Operation& operation) {
+  return std::visit(
+      [](const auto& v) {
+        using T = std::decay_t<decltype(v)>;
+        return std::is_same_v<T, Cube> || std::is_same_v<T, Sphere> || std::is_same_v<T, Cylinder> ||
+               std::is_same_v<T, Polyhedron> || std::is_same_v<T, Square> || std::is_same_v<T, Circle> ||
+               std::is_same_v<T, Polygon> || std::is_same_v<T, Text> || std::is_same_v<T, Import> ||
+               std::is_same_v<T, Surface>;
+      },
+      operation);
+}
+
+}  // namespace ombre::solids

@@ -1,0 +1,377 @@
+#include "solids/operations.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "solids/attributes.h"
+#include "solids/extrusions.h"
+#include "solids/kernel.h"
+#include "solids/regions.h"
+
+namespace ombre::solids {
+namespace {
+
+Piece piece_of(Attributes attributes, Solid solid) {
+  if (solid.is_empty()) return {std::move(attributes), {}};
+  return {std::move(attributes), std::move(solid)};
+}
+
+Piece piece_of(Attributes attributes, Region region) {
+  if (region.is_empty()) return {std::move(attributes), {}};
+  return {std::move(attributes), std::move(region)};
+}
+
+std::vector<Solid> solids_of(const Pieces& pieces) {
+  std::vector<Solid> solids;
+  for (const Piece& piece : pieces)
+    if (piece.solid()) solids.push_back(*piece.solid());
+  return solids;
+}
+
+std::vector<Region> regions_of(const Pieces& pieces) {
+  std::vector<Region> regions;
+  for (const Piece& piece : pieces)
+    if (piece.region()) regions.push_back(*piece.region());
+  return regions;
+}
+
+bool has_empty(const Pieces& pieces) {
+  return std::any_of(pieces.begin(), pieces.end(), [](const Piece& piece) { return piece.dimension() == 0; });
+}
+
+int dimension_of(const Pieces& pieces) {
+  for (const Piece& piece : pieces)
+    if (piece.dimension() != 0) return piece.dimension();
+  return 0;
+}
+
+// Works on the children of one operation.
+class Applier {
+ public:
+  Applier(const Tree& tree, const std::vector<const Pieces*>& children, const OperationContext& context)
+      : tree_(tree), context_(context) {
+    for (const Pieces* child : children) {
+      children_.push_back(*child);
+      if (child->empty()) children_.back().push_back({});
+    }
+    if (children_.empty()) children_.push_back({Piece{}});
+  }
+
+  Pieces operator()(const Group&) { return soft_union(of_any_dimension()); }
+  Pieces operator()(const Union&) {
+    return for_groups([&](const PieceGroup& group) { return united(group); });
+  }
+  Pieces operator()(const Intersection&) {
+    warn_of_colours("intersection");
+    return for_groups([&](const PieceGroup& group) { return intersected(group); });
+  }
+  Pieces operator()(const Hull&) {
+    return for_groups([&](const PieceGroup& group) { return hulled(group); });
+  }
+  Pieces operator()(const Minkowski&) {
+    warn_of_colours("minkowski");
+    return for_groups([&](const PieceGroup& group) { return summed(group); });
+  }
+  Pieces operator()(const Difference&);
+
+  Pieces operator()(const Fill&) {
+    return for_regions([&](const Region& region) { return fill(region); });
+  }
+  Pieces operator()(const Offset& by) {
+    return for_regions([&](const Region& region) { return offset(region, by); });
+  }
+  Pieces operator()(const LinearExtrude& by) {
+    // Else slices may cross, or their ends meet in a line.
+    const bool is_sound = by.twist == 0 && ((by.scale.x > 0 && by.scale.y > 0) || by.scale == Vec2{0, 0});
+    return for_regions([&](const Region& region) { return checked(extruded(region, by), is_sound); });
+  }
+  Pieces operator()(const RotateExtrude& by) {
+    return for_regions(
+        [&](const Region& region) { return checked(revolved(region, by, tree_.where, *context_.messages), true); });
+  }
+  Pieces operator()(const Projection& by) {
+    return for_solids([&](const Solid& solid) { return by.cut ? section(solid.mesh()) : shadow(solid.mesh()); });
+  }
+  Pieces operator()(const Resize& to);
+  Pieces operator()(const Transform& by);
+  Pieces operator()(const SetColour& set) {
+    return with([&](Attributes& attributes) { attributes.colour = set.colour; });
+  }
+  Pieces operator()(const SetPart& set) {
+    return with([&](Attributes& attributes) { attributes.part = set.name; });
+  }
+  Pieces operator()(const SetMaterial& set) {
+    return with([&](Attributes& attributes) { attributes.material = set.name; });
+  }
+  template <class Leaf>
+  Pieces operator()(const Leaf&) {
+    return {};
+  }
+
+ private:
+  Matching matching() const {
+    switch (tree_.semantics) {
+      case Semantics::strict:
+        return Matching::all;
+      case Semantics::permissive:
+        return Matching::none;
+      case Semantics::standard:
+        break;
+    }
+    return Matching::material;
+  }
+
+  void warn(const std::string& text) const { context_.messages->warning(tree_.where, text); }
+
+  Pieces all() const {
+    Pieces pieces;
+    for (const Pieces& child : children_) pieces.insert(pieces.end(), child.begin(), child.end());
+    return pieces;
+  }
+
+  // Those of one dimension, empty in the place of others, with a warning.
+  void keep_dimension(int dimension, bool warns) {
+    bool has_other = false;
+    for (Pieces& child : children_)
+      for (Piece& piece : child) {
+        if (piece.dimension() == 0 || piece.dimension() == dimension) continue;
+        has_other = true;
+        piece.shape = std::monostate{};
+      }
+    if (has_other && warns)
+      warn(dimension == 3 ? "Ignoring 2D child object for 3D operation" : "Ignoring 3D child object for 2D operation");
+  }
+
+  // All pieces of the first one's dimension.
+  Pieces of_any_dimension() {
+    const int dimension = dimension_of(all());
+    const Pieces pieces = all();
+    if (std::any_of(pieces.begin(), pieces.end(),
+                    [&](const Piece& piece) { return piece.dimension() != 0 && piece.dimension() != dimension; }))
+      warn("Mixing 2D and 3D objects is not supported");
+    keep_dimension(dimension, true);
+    return all();
+  }
+
+  Piece united(const PieceGroup& group) const {
+    if (dimension_of(group.members) == 2) {
+      const std::vector<Region> regions = regions_of(group.members);
+      return piece_of(group.attributes, unite(std::span(regions)));
+    }
+    return piece_of(group.attributes, unite(solids_of(group.members), context_.work));
+  }
+
+  Piece intersected(const PieceGroup& group) const {
+    if (group.members.size() == 1) return group.members[0];
+    if (has_empty(group.members)) return {group.attributes, {}};
+    if (dimension_of(group.members) == 3)
+      return piece_of(group.attributes, intersect(solids_of(group.members), context_.work));
+    Region region = *group.members[0].region();
+    for (size_t n = 1; n < group.members.size(); ++n) region = intersect(region, *group.members[n].region());
+    return piece_of(group.attributes, std::move(region));
+  }
+
+  Piece hulled(const PieceGroup& group) const {
+    if (dimension_of(group.members) == 2) {
+      const std::vector<Region> regions = regions_of(group.members);
+      return piece_of(group.attributes, hull(std::span(regions)));
+    }
+    return piece_of(group.attributes, hull(solids_of(group.members)));
+  }
+
+  Piece summed(const PieceGroup& group) const {
+    if (dimension_of(group.members) == 2) {
+      const std::vector<Region> regions = regions_of(group.members);
+      Region sum = regions.at(0);
+      for (size_t n = 1; n < regions.size(); ++n) sum = minkowski(sum, regions[n]);
+      return piece_of(group.attributes, std::move(sum));
+    }
+    const std::vector<Solid> solids = solids_of(group.members);
+    if (solids.empty()) return {group.attributes, {}};
+    Solid sum = solids[0];
+    for (size_t n = 1; n < solids.size(); ++n) sum = minkowski(sum, solids[n], context_.work);
+    return piece_of(group.attributes, std::move(sum));
+  }
+
+  // One piece for each set of attributes; nothing where one of them is something else.
+  Pieces soft_union(const Pieces& pieces) const {
+    Pieces result;
+    for (const PieceGroup& group : grouped(pieces, Matching::all)) result.push_back(united(group));
+    if (!context_.keeps_empty && dimension_of(result) != 0)
+      std::erase_if(result, [](const Piece& piece) { return piece.dimension() == 0; });
+    return result;
+  }
+
+  // Where attributes do not matter each child is one piece.
+  void join_children() {
+    if (tree_.semantics != Semantics::permissive) return;
+    for (Pieces& child : children_)
+      if (child.size() > 1) child = {united(grouped(child, Matching::none).at(0))};
+  }
+
+  template <class Operate>
+  Pieces for_groups(const Operate& operate) {
+    of_any_dimension();
+    join_children();
+    Pieces result;
+    for (const PieceGroup& group : grouped(all(), matching())) result.push_back(operate(group));
+    return result;
+  }
+
+  template <class Operate>
+  Pieces for_regions(const Operate& operate) {
+    keep_dimension(2, true);
+    Pieces result;
+    for (const PieceGroup& group : grouped(all(), matching())) {
+      const Piece piece = united(group);
+      result.push_back(piece.region() ? piece_of(group.attributes, operate(*piece.region())) : piece);
+    }
+    return result;
+  }
+
+  template <class Operate>
+  Pieces for_solids(const Operate& operate) {
+    keep_dimension(3, false);
+    Pieces result;
+    for (const PieceGroup& group : grouped(all(), matching())) {
+      const Piece piece = united(group);
+      result.push_back(piece.solid() ? piece_of(group.attributes, operate(*piece.solid())) : piece);
+    }
+    return result;
+  }
+
+  template <class Set>
+  Pieces with(const Set& set) {
+    Pieces pieces = soft_union(of_any_dimension());
+    for (Piece& piece : pieces)
+      if (piece.dimension() != 0 || context_.keeps_empty) set(piece.attributes);
+    return soft_union(pieces);
+  }
+
+  // A solid of a mesh that may cross itself.
+  Solid checked(TriangleMesh mesh, bool is_sound) const {
+    if (is_sound || mesh.triangles.empty()) return Solid(std::move(mesh));
+    std::string remark;
+    try {
+      return Solid(kernel().body(mesh, false, remark));
+    } catch (const Error& error) {
+      context_.messages->error(tree_.where, std::string("the extrusion cannot be used: ") + error.what(),
+                               "twist less, or use more slices");
+      return Solid(TriangleMesh{});
+    }
+  }
+
+  void warn_of_colours(const std::string& name) const {
+    if (tree_.semantics != Semantics::standard) return;
+    for (const Pieces& child : children_)
+      for (size_t n = 1; n < child.size(); ++n)
+        for (size_t other = 0; other < n; ++other)
+          if (do_match(child[n].attributes, child[other].attributes, Matching::material))
+            return warn(name +
+                        " takes differently coloured solids of one child each by itself; unite them first, or "
+                        "write semantics=\"permissive\"");
+  }
+
+  const Tree& tree_;
+  const OperationContext& context_;
+  std::vector<Pieces> children_;
+};
+
+Pieces Applier::operator()(const Difference&) {
+  of_any_dimension();
+  join_children();
+  Pieces others;
+  for (size_t n = 1; n < children_.size(); ++n) others.insert(others.end(), children_[n].begin(), children_[n].end());
+  Pieces result;
+  for (const Piece& piece : children_[0]) {
+    Pieces matching = others;
+    if (tree_.semantics == Semantics::strict)
+      std::erase_if(matching,
+                    [&](const Piece& other) { return !do_match(other.attributes, piece.attributes, Matching::all); });
+    if (piece.solid())
+      result.push_back(piece_of(piece.attributes, subtract(*piece.solid(), solids_of(matching), context_.work)));
+    else if (piece.region()) {
+      const std::vector<Region> regions = regions_of(matching);
+      result.push_back(piece_of(piece.attributes, subtract(*piece.region(), unite(std::span(regions)))));
+    } else
+      result.push_back(piece);
+  }
+  return result;
+}
+
+Pieces Applier::operator()(const Transform& by) {
+  const Affine& map = by.parent_from_child;
+  Pieces pieces = soft_union(of_any_dimension());
+  const bool is_finite_map =
+      is_finite(map.rows[0]) && is_finite(map.rows[1]) && is_finite(map.rows[2]) && is_finite(map.offset);
+  if (!is_finite_map) {
+    warn("Transformation matrix contains Not-a-Number and/or Infinity - removing object.");
+    for (Piece& piece : pieces) piece.shape = std::monostate{};
+    return pieces;
+  }
+  for (Piece& piece : pieces) {
+    if (piece.region()) {
+      piece = piece_of(piece.attributes, moved(*piece.region(), map));
+      if (piece.dimension() == 0) warn("Scaling a 2D object with 0 - removing object");
+    } else if (piece.solid()) {
+      const double factor = determinant(map);
+      if (factor == 0) warn("Scaling a 3D object with 0 - removing object");
+      piece = factor == 0 ? Piece{piece.attributes, {}} : piece_of(piece.attributes, moved(*piece.solid(), map));
+    }
+  }
+  return pieces;
+}
+
+// Factors by which the box gets its new size; automatic ones follow the axis with the greatest.
+Vec3 factors_of(const Resize& to, const Vec3& size, int axes) {
+  Vec3 factors{1, 1, 1};
+  int greatest = 0;
+  for (int axis = 1; axis < axes; ++axis)
+    if (to.size[axis] > to.size[greatest]) greatest = axis;
+  const auto factor = [&](int axis) { return size[axis] > 0 ? to.size[axis] / size[axis] : 1; };
+  if (!(to.size[greatest] > 0)) return factors;
+  for (int axis = 0; axis < axes; ++axis) {
+    if (to.size[axis] > 0)
+      factors[axis] = factor(axis);
+    else if (to.automatic[axis])
+      factors[axis] = factor(greatest);
+  }
+  return factors;
+}
+
+Pieces Applier::operator()(const Resize& to) {
+  of_any_dimension();
+  Pieces result;
+  for (const PieceGroup& group : grouped(all(), matching())) {
+    const Piece piece = united(group);
+    if (piece.solid())
+      result.push_back(piece_of(
+          piece.attributes, moved(*piece.solid(), Affine::scaling(factors_of(to, piece.solid()->bounds().size(), 3)))));
+    else if (piece.region())
+      result.push_back(
+          piece_of(piece.attributes,
+                   moved(*piece.region(), Affine::scaling(factors_of(to, bounds_of(*piece.region()).size(), 2)))));
+    else
+      result.push_back(piece);
+  }
+  return result;
+}
+
+}  // namespace
+
+Pieces apply(const Tree& tree, const std::vector<const Pieces*>& children, const OperationContext& context) {
+  Pieces result;
+  try {
+    result = std::visit(Applier(tree, children, context), tree.operation);
+  } catch (const Error& error) {
+    context.messages->error(tree.where, error.what());
+  }
+  if (!context.keeps_empty)
+    for (Piece& piece : result)
+      if (piece.dimension() == 0) piece.attributes = {};
+  if (result.empty()) result.push_back({});
+  return result;
+}
+
+}  // namespace ombre::solids

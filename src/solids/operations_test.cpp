@@ -1,0 +1,344 @@
+// Sizes of what operations give: from mathematics, and from OpenSCAD 2021.01 where it decides how circles are cut.
+#include <numbers>
+#include <random>
+
+#include "draw/font_search.h"
+#include "draw/text_outlines.h"
+#include "solids/kernel.h"
+#include "solids/test_trees.h"
+
+namespace ombre::solids {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+class Operations : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_kernel()) GTEST_SKIP();
+  }
+};
+
+// OpenSCAD writes six digits.
+constexpr double six_digits = 1e-5;
+#define EXPECT_SIZE(size, expected) EXPECT_NEAR(size, expected, six_digits*(expected))
+
+// Of a regular polygon in a circle.
+double polygon_area(double radius, int edges) { return 0.5 * edges * radius * radius * std::sin(2 * pi / edges); }
+
+TEST_F(Operations, Primitives) {
+  EXPECT_DOUBLE_EQ(size_of(cube(2, 3, 4)), 24);
+  EXPECT_NEAR(size_of(node(Cylinder{5, 2, 2, true, {7}})), 5 * polygon_area(2, 7), 1e-12);
+  EXPECT_NEAR(size_of(node(Cylinder{5, 2, 0, false, {7}})), 5 * polygon_area(2, 7) / 3, 1e-12);
+  EXPECT_NEAR(size_of(node(Cylinder{5, 0, 2, false, {7}})), 5 * polygon_area(2, 7) / 3, 1e-12);
+  const double a = polygon_area(1, 9);
+  EXPECT_NEAR(size_of(node(Cylinder{3, 1, 2, false, {9}})), 3 * (a + 4 * a + 2 * a) / 3, 1e-12);
+  EXPECT_NEAR(size_of(circle(3, 5)), polygon_area(3, 5), 1e-8);
+  EXPECT_NEAR(size_of(square(3, 5)), 15, 1e-8);
+  for (const TreePtr& empty :
+       {cube(0), cube(-1), sphere(0), node(Cylinder{-1, 1, 1, false, {}}), node(Cylinder{1, -1, 2, false, {}}),
+        circle(-1), square(0, 1), node(Polyhedron{}), node(Polygon{})})
+    EXPECT_TRUE(evaluated(empty).empty());
+}
+
+TEST_F(Operations, FragmentsOfCircles) {
+  const auto points = [](double radius, Fragments fragments) {
+    return evaluated(node(Circle{radius, fragments}))[0].region()->rings[0].size();
+  };
+  EXPECT_EQ(points(1, {}), 5U);     // at least
+  EXPECT_EQ(points(3, {}), 10U);    // 2 pi 3 / 2 = 9.4
+  EXPECT_EQ(points(100, {}), 30U);  // 360 / 12
+  EXPECT_EQ(points(100, {1}), 3U);
+  EXPECT_EQ(points(100, {0, 5, 2}), 72U);
+}
+
+TEST_F(Operations, SphereHasNoPoles) {
+  const Pieces pieces = evaluated(sphere(1, 5));
+  const TriangleMesh& mesh = pieces[0].solid()->mesh();
+  EXPECT_EQ(mesh.points.size(), 15U);
+  double top = 0;
+  for (const Vec3& p : mesh.points) top = std::max(top, p.z);
+  EXPECT_NEAR(top, std::cos(pi / 6), 1e-15);
+}
+
+TEST_F(Operations, PolyhedraFacesAreClockwise) {
+  const Polyhedron tetrahedron{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                               {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
+  EXPECT_NEAR(size_of(node(tetrahedron)), 1.0 / 6, 1e-15);
+}
+
+TEST_F(Operations, WrongPolyhedra) {
+  const auto message = [](Polyhedron polyhedron) {
+    Diagnostics messages;
+    const Pieces pieces = evaluate(node(std::move(polyhedron)), {}, messages);
+    EXPECT_TRUE(pieces.empty() || messages.list().size() == 1);
+    return messages.list().empty() ? "" : messages.list()[0].message;
+  };
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_EQ(message({points, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}}}),
+            "the polyhedron cannot be used: its surface is not closed");
+  EXPECT_EQ(message({points, {{2, 1, 0}, {1, 3, 0}, {3, 2, 0}, {2, 3, 1}}}),
+            "the polyhedron is inside out, in part or as a whole; it was turned");
+  EXPECT_EQ(message({points, {{0, 1, 2, 9}}}), "Point index 9 is out of bounds (from faces[0][3])");
+}
+
+TEST_F(Operations, PolygonsAreEvenOdd) {
+  const std::vector<Vec2> points{{0, 0}, {10, 0}, {10, 10}, {0, 10}, {5, 5}, {15, 5}, {15, 15}, {5, 15}};
+  EXPECT_NEAR(size_of(node(Polygon{points, {{0, 1, 2, 3}, {4, 5, 6, 7}}})), 150, 1e-8);
+  EXPECT_NEAR(size_of(node(Polygon{{{0, 0}, {10, 10}, {10, 0}, {0, 10}}, {}})), 50, 1e-8);
+}
+
+TEST_F(Operations, BooleansOfTouchingCubes) {
+  EXPECT_DOUBLE_EQ(size_of(unite({cube(1), moved(1, 0, 0, {cube(1)})})), 2);  // a face
+  EXPECT_DOUBLE_EQ(size_of(unite({cube(1), moved(1, 1, 0, {cube(1)})})), 2);  // an edge
+  EXPECT_DOUBLE_EQ(size_of(unite({cube(1), moved(1, 1, 1, {cube(1)})})), 2);  // a corner
+  EXPECT_DOUBLE_EQ(size_of(unite({cube(1), cube(1)})), 1);
+  EXPECT_DOUBLE_EQ(size_of(difference({cube(2), cube(1)})), 7);
+  EXPECT_DOUBLE_EQ(size_of(difference({cube(1), cube(2)})), 0);
+  EXPECT_DOUBLE_EQ(size_of(intersection({cube(1), moved(1, 0, 0, {cube(1)})})), 0);
+  EXPECT_DOUBLE_EQ(size_of(difference({node(Cube{{3, 3, 3}, true}), node(Cube{{1, 1, 1}, true})})), 26);  // a cavity
+  EXPECT_DOUBLE_EQ(size_of(difference({cube(3, 3, 1), moved(1, 1, 0, {cube(1)})})), 8);                   // a hole
+}
+
+TEST_F(Operations, WhatTouchesItselfGoesOn) {
+  const TreePtr touching = unite({cube(1), moved(1, 1, 0, {cube(1)})});
+  EXPECT_DOUBLE_EQ(size_of(difference({touching, moved(0.5, 0.5, 0, {cube(1)})})), 1.5);
+  EXPECT_DOUBLE_EQ(size_of(unite({touching, moved(0.5, 0.5, 0, {cube(1)})})), 2.5);
+}
+
+// Whole-numbered boxes, so that counting cells gives the volume.
+TEST_F(Operations, RandomTreesOfBoxes) {
+  constexpr int size = 6;
+  using Cells = std::array<bool, size * size * size>;
+  std::mt19937 random(7);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  const auto box = [&](Cells& cells) {
+    std::array<int, 3> lo{}, hi{};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      lo[axis] = below(size - 1);
+      hi[axis] = lo[axis] + 1 + below(size - lo[axis]);
+    }
+    for (int n = 0; n < size * size * size; ++n) {
+      const std::array<int, 3> p{n % size, n / size % size, n / size / size};
+      cells[static_cast<size_t>(n)] =
+          p[0] >= lo[0] && p[0] < hi[0] && p[1] >= lo[1] && p[1] < hi[1] && p[2] >= lo[2] && p[2] < hi[2];
+    }
+    return moved(lo[0], lo[1], lo[2], {cube(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2])});
+  };
+  for (int round = 0; round < 12; ++round) {
+    Cells cells{};
+    TreePtr tree = box(cells);
+    for (int n = 0; n < 5; ++n) {
+      Cells other{};
+      const TreePtr next = box(other);
+      const int kind = below(3);
+      tree = kind == 0 ? unite({tree, next}) : kind == 1 ? difference({tree, next}) : unite({next, tree});
+      for (size_t k = 0; k < cells.size(); ++k) cells[k] = kind == 1 ? cells[k] && !other[k] : cells[k] || other[k];
+    }
+    EXPECT_NEAR(size_of(tree), static_cast<double>(std::count(cells.begin(), cells.end(), true)), 1e-9) << round;
+  }
+}
+
+TEST_F(Operations, RotatedBoxesMeetExactly) {
+  const TreePtr two = unite({cube(1), moved(1, 0, 0, {cube(1)})});
+  EXPECT_NEAR(size_of(turned({1, 2, 3}, 37, {two})), 2, 1e-12);
+  EXPECT_NEAR(size_of(unite({turned({1, 2, 3}, 37, {two}), turned({1, 2, 3}, 37, {cube(1, 2, 1)})})), 3, 1e-9);
+}
+
+TEST_F(Operations, MirroredSolidsStayOutward) {
+  const TreePtr tree = node(Transform{Affine::scaling({-1, 1, 1})}, {difference({cube(2), cube(1)})});
+  EXPECT_DOUBLE_EQ(size_of(tree), 7);
+  EXPECT_DOUBLE_EQ(size_of(node(Transform{Affine::scaling({-1, 1, 1})}, {cube(2)})), 8);
+}
+
+TEST_F(Operations, HullAndMinkowski) {
+  EXPECT_NEAR(size_of(hull({cube(1), moved(2, 0, 0, {cube(1)})})), 3, 1e-12);
+  EXPECT_NEAR(size_of(hull({square(1, 1), node(Transform{Affine::translation({2, 0, 0})}, {square(1, 1)})})), 3, 1e-8);
+  EXPECT_NEAR(size_of(minkowski({cube(10), node(Cube{{2, 2, 2}, true})})), 12 * 12 * 12, 1e-9);
+  // Steiner's formula for a convex region: area + perimeter * r + area of the polygon around.
+  EXPECT_NEAR(size_of(minkowski({square(10, 10), circle(1, 8)})), 100 + 40 + polygon_area(1, 8), 1e-7);
+  const TreePtr frame = difference({square(10, 10), moved(3, 3, 0, {square(4, 4)})});
+  EXPECT_NEAR(size_of(minkowski({frame, circle(1, 8)})), 142.8284271 - 4, 1e-6);
+  // A ring thick enough to close its hole.
+  EXPECT_NEAR(size_of(minkowski({frame, square(5, 5)})), 225, 1e-7);
+  const TreePtr corner = difference({cube(4), moved(1, 1, -1, {cube(9)})});
+  EXPECT_NEAR(size_of(minkowski({corner, cube(1)})), 5 * (25 - 9), 1e-9);
+}
+
+TEST_F(Operations, OffsetsAsOpenScadCutsCorners) {
+  const auto by = [](double distance, bool round, bool chamfer, double edges) {
+    return size_of(node(Offset{distance, round, chamfer, {edges}}, {square(10, 10)}));
+  };
+  EXPECT_NEAR(by(2, false, false, 0), 196, 1e-6);
+  EXPECT_SIZE(by(2, true, false, 0), 191.24268);
+  EXPECT_SIZE(by(2, true, false, 20), 192.360577);
+  EXPECT_SIZE(by(2, false, true, 0), 193.254777);
+  EXPECT_NEAR(by(-2, false, false, 0), 36, 1e-6);
+  EXPECT_NEAR(by(-9, false, false, 0), 0, 1e-6);
+  const TreePtr frame = difference({square(20, 20), moved(5, 5, 0, {square(10, 10)})});
+  EXPECT_SIZE(size_of(node(Offset{-2, true, false, {}}, {frame})), 64.75732);
+  EXPECT_NEAR(size_of(node(Fill{}, {frame})), 400, 1e-6);
+}
+
+// Volumes by Debian's openscad 2021.01.
+TEST_F(Operations, LinearExtrusions) {
+  const auto by = [](LinearExtrude extrusion, const TreePtr& of) { return size_of(node(extrusion, {of})); };
+  LinearExtrude plain;
+  plain.height = 10;
+  EXPECT_NEAR(by(plain, square(5, 5)), 250, 1e-7);
+  LinearExtrude twisted = plain;
+  twisted.twist = 90;
+  EXPECT_SIZE(by(twisted, square(5, 5)), 264.6563371);
+  twisted.fragments.count = 20;
+  EXPECT_SIZE(by(twisted, square(5, 5)), 271.6727007);
+  twisted.slices = 3;
+  EXPECT_SIZE(by(twisted, square(5, 5)), 280.5023101);
+  LinearExtrude both = plain;
+  both.twist = 30;
+  both.scale = {2, 2};
+  EXPECT_SIZE(by(both, square(5, 5)), 597.0404312);
+  LinearExtrude scaled = plain;
+  scaled.scale = {2, 2};
+  EXPECT_NEAR(by(scaled, square(5, 5)), 583.3333333, 1e-6);
+  scaled.scale = {2, 1};
+  EXPECT_NEAR(by(scaled, square(5, 5)), 375, 1e-6);
+  scaled.scale = {0, 0};
+  EXPECT_NEAR(by(scaled, square(5, 5)), 250.0 / 3, 1e-6);
+  scaled.scale = {0, 1};
+  EXPECT_NEAR(by(scaled, square(5, 5)), 125, 1e-6);
+  LinearExtrude leaning = plain;
+  leaning.direction = {1, 0, 1};
+  EXPECT_NEAR(by(leaning, square(5, 5)), 250 / std::sqrt(2.0), 1e-6);
+  LinearExtrude flat;
+  flat.height = 0;
+  EXPECT_EQ(by(flat, square(5, 5)), 0);
+  EXPECT_NEAR(by(plain, difference({square(5, 5), moved(1, 1, 0, {square(1, 1)}), moved(3, 3, 0, {square(1, 1)})})),
+              230, 1e-6);
+}
+
+// Volumes by Debian's openscad 2021.01.
+TEST_F(Operations, SlicesOfScaledExtrusions) {
+  const TreePtr triangle = node(Polygon{{{1, 1}, {5, 1}, {3, 5}}, {}});
+  const auto by = [&](double twist, Vec2 scale, double edges = 0) {
+    LinearExtrude extrusion;
+    extrusion.height = 10;
+    extrusion.twist = twist;
+    extrusion.scale = scale;
+    extrusion.fragments.count = edges;
+    return size_of(node(extrusion, {triangle}));
+  };
+  EXPECT_SIZE(by(0, {1, 2}, 8), 118.333333);
+  EXPECT_SIZE(by(0, {1, 2}, 20), 119.333333);
+  EXPECT_SIZE(by(-60, {1, 1}, 20), 75.640471);
+  EXPECT_SIZE(by(60, {1, 3}), 154.926005);
+  EXPECT_SIZE(by(60, {0, 0}), 27.3672769);
+  EXPECT_SIZE(by(60, {3, 3}), 361.969694);
+  EXPECT_SIZE(by(400, {3, 3}), 337.619056);
+}
+
+// Volumes by Debian's openscad 2021.01.
+TEST_F(Operations, RotateExtrusions) {
+  const auto by = [](RotateExtrude extrusion, const TreePtr& of) { return size_of(node(extrusion, {of})); };
+  const TreePtr ring = moved(2, 0, 0, {square(1, 1)});
+  EXPECT_SIZE(by({360, 180, 2, {}}, ring), 14.6946765);
+  EXPECT_SIZE(by({90, 0, 2, {}}, ring), 3.53554);
+  EXPECT_SIZE(by({360, 180, 2, {}}, moved(2, 0, 0, {circle(1, 0)})), 27.9509086);
+  EXPECT_SIZE(by({100, 0, 2, {7}}, moved(2, 0, 0, {circle(1, 5)})), 4.6830415);
+  EXPECT_SIZE(by({-100, 0, 2, {7}}, moved(2, 0, 0, {circle(1, 5)})), 4.6830415);
+  EXPECT_SIZE(by({360, 180, 2, {7}}, moved(-2, 0, 0, {circle(1, 5)})), 26.0248563);
+  EXPECT_SIZE(by({360, 180, 2, {7}}, square(3, 3)), 73.8830164);
+  EXPECT_SIZE(by({360, 180, 2, {2}}, square(3, 3)), 35.07408);
+}
+
+TEST_F(Operations, Projections) {
+  EXPECT_SIZE(size_of(node(Projection{}, {sphere(5, 10)})), 73.472888);
+  EXPECT_SIZE(size_of(node(Projection{true}, {moved(0, 0, 1, {sphere(5, 10)})})), 64.234282);
+  EXPECT_NEAR(size_of(node(Projection{true}, {cube(5)})), 25, 1e-6);                     // whose foot lies in the plane
+  EXPECT_NEAR(size_of(node(Projection{true}, {moved(0, 0, -5, {cube(5)})})), 25, 1e-6);  // whose top does
+  EXPECT_NEAR(size_of(node(Projection{}, {difference({cube(5), moved(1, 1, -1, {cube(1, 1, 9)})})})), 24, 1e-6);
+}
+
+TEST_F(Operations, Resizing) {
+  const auto to = [](Vec3 size, std::array<bool, 3> automatic, const TreePtr& of) {
+    return size_of(node(Resize{size, automatic}, {of}));
+  };
+  EXPECT_NEAR(to({10, 12, 0}, {true, true, true}, cube(1, 2, 3)), 2160, 1e-9);
+  EXPECT_NEAR(to({10, 0, 0}, {false, true, false}, cube(1, 2, 3)), 600, 1e-9);
+  EXPECT_NEAR(to({0, 0, 5}, {true, true, true}, cube(1, 2, 3)), 27.7777778, 1e-6);
+  EXPECT_NEAR(to({10, 0, 0}, {}, circle(1, 8)), 14.1421356, 1e-6);
+  EXPECT_NEAR(to({10, 0, 0}, {true, true, true}, circle(1, 8)), 70.7106781, 1e-6);
+}
+
+// Boxes and areas by Debian's openscad 2021.01, whose letters differ from the font's outlines by up to 0.003 mm here.
+TEST_F(Operations, Texts) {
+  const auto found = draw::search_font("DejaVu Sans", false, false);
+  if (!draw::can_outline_text() || !found || !found->has_name) GTEST_SKIP();
+  const auto written = [](const std::string& words, const std::string& across, const std::string& up, double edges) {
+    Text text;
+    text.text = words;
+    text.font = "DejaVu Sans";
+    text.horizontal = across;
+    text.vertical = up;
+    text.fragments.count = edges;
+    return *evaluated(node(text)).at(0).region();
+  };
+  const auto expect_box = [&](const Box& box, double x0, double x1, double y0, double y1) {
+    constexpr double grid = 4e-3;
+    EXPECT_NEAR(box.lo.x, x0, grid);
+    EXPECT_NEAR(box.hi.x, x1, grid);
+    EXPECT_NEAR(box.lo.y, y0, grid);
+    EXPECT_NEAR(box.hi.y, y1, grid);
+  };
+  expect_box(bounds_of(written("Hg", "left", "baseline", 0)), 1.36299, 17.7533, -2.8864, 10.1248);
+  expect_box(bounds_of(written("Hg", "right", "top", 0)), -17.4456, -1.05527, -12.7739, 0.237289);
+  expect_box(bounds_of(written("Hg", "center", "center", 0)), -8.04129, 8.34901, -6.42076, 6.59042);
+  EXPECT_NEAR(area_of(written("O", "left", "bottom", 0)), 35.926843, 0.02);
+  EXPECT_NEAR(area_of(written("O", "left", "bottom", 100)), 36.136056, 0.02);
+  EXPECT_NEAR(area_of(written("O", "left", "bottom", 4)), 35.234009, 0.02);
+}
+
+TEST_F(Operations, DimensionsAreNotMixed) {
+  const auto messages_of = [](const TreePtr& tree, double size) {
+    Diagnostics messages;
+    double sum = 0;
+    for (const Piece& piece : evaluate(tree, {}, messages)) sum += size_of(piece);
+    EXPECT_NEAR(sum, size, 1e-6);
+    std::string text;
+    for (const Diagnostic& message : messages.list()) text += message.message + "\n";
+    return text;
+  };
+  EXPECT_EQ(messages_of(group({cube(1), square(3, 3)}), 1),
+            "Mixing 2D and 3D objects is not supported\nIgnoring 2D child object for 3D operation\n");
+  EXPECT_EQ(messages_of(group({square(3, 3), cube(1)}), 9),
+            "Mixing 2D and 3D objects is not supported\nIgnoring 3D child object for 2D operation\n");
+  EXPECT_EQ(messages_of(node(LinearExtrude{}, {cube(1)}), 0), "Ignoring 3D child object for 2D operation\n");
+  EXPECT_EQ(messages_of(node(Projection{}, {square(3, 3)}), 0), "");
+}
+
+TEST_F(Operations, BackgroundIsLeftOut) {
+  auto background = std::make_shared<Tree>(*cube(9));
+  background->background = true;
+  EXPECT_DOUBLE_EQ(size_of(difference({background, cube(2), cube(1)})), 7);
+}
+
+TEST_F(Operations, DeepTreesNeedNoStack) {
+  TreePtr tree = cube(1);
+  for (int n = 0; n < 20'000; ++n) tree = moved(1, 0, 0, {tree});
+  EXPECT_DOUBLE_EQ(size_of(tree), 1);
+  while (tree) {  // which destroying it would
+    TreePtr child = tree->children.empty() ? nullptr : tree->children[0];
+    tree = std::move(child);
+  }
+}
+
+TEST_F(Operations, StopsWhenAsked) {
+  StopFlag stop;
+  stop.request();
+  EvaluateOptions options;
+  options.stop = &stop;
+  Diagnostics messages;
+  EXPECT_THROW(evaluate(unite({cube(1), sphere(1)}), options, messages), Cancelled);
+}
+
+}  // namespace
+}  // namespace ombre::solids

@@ -1,0 +1,165 @@
+#include "solids/primitives.h"
+
+#include <algorithm>
+
+#include "formats/polygon.h"
+#include "solids/fragments.h"
+
+namespace ombre::solids {
+namespace {
+
+bool is_length(double x) { return x > 0 && std::isfinite(x); }
+
+Ring circle_ring(double radius, int edges) {
+  Ring ring;
+  for (int n = 0; n < edges; ++n) ring.push_back(on_circle(radius, 360.0 * n / edges));
+  return ring;
+}
+
+// A fan over points that lie in a plane, counter-clockwise from outside.
+void add_fan(std::span<const uint32_t> corners, TriangleMesh& mesh) {
+  for (size_t n = 2; n < corners.size(); ++n) mesh.triangles.push_back({corners[0], corners[n - 1], corners[n]});
+}
+
+std::vector<uint32_t> numbers(uint32_t first, uint32_t count) {
+  std::vector<uint32_t> result(count);
+  for (uint32_t n = 0; n < count; ++n) result[n] = first + n;
+  return result;
+}
+
+// Between two rings of as many points, one above the other.
+void add_wall(uint32_t below, uint32_t above, uint32_t count, TriangleMesh& mesh) {
+  for (uint32_t n = 0; n < count; ++n) {
+    const uint32_t next = (n + 1) % count;
+    mesh.triangles.push_back({below + n, below + next, above + next});
+    mesh.triangles.push_back({below + n, above + next, above + n});
+  }
+}
+
+void add_ring(double radius, double z, int edges, TriangleMesh& mesh) {
+  for (const Vec2& p : circle_ring(radius, edges)) mesh.points.push_back({p.x, p.y, z});
+}
+
+TriangleMesh cone(double radius, double foot, double tip, int edges) {
+  TriangleMesh mesh;
+  add_ring(radius, foot, edges, mesh);
+  const auto count = static_cast<uint32_t>(edges);
+  mesh.points.push_back({0, 0, tip});
+  std::vector<uint32_t> base = numbers(0, count);
+  const bool is_up = tip > foot;
+  for (uint32_t n = 0; n < count; ++n) {
+    const uint32_t next = (n + 1) % count;
+    mesh.triangles.push_back(is_up ? Triangle{n, next, count} : Triangle{next, n, count});
+  }
+  if (is_up) std::reverse(base.begin(), base.end());
+  add_fan(base, mesh);
+  return mesh;
+}
+
+// Layers of rings, closed by their first and last.
+void close_rings(uint32_t rings, uint32_t count, TriangleMesh& mesh) {
+  std::vector<uint32_t> bottom = numbers(0, count);
+  std::reverse(bottom.begin(), bottom.end());
+  add_fan(bottom, mesh);
+  for (uint32_t n = 0; n + 1 < rings; ++n) add_wall(n * count, (n + 1) * count, count, mesh);
+  add_fan(numbers((rings - 1) * count, count), mesh);
+}
+
+// The numbers of a face that are points, reported where they are not.
+bool check_indices(const std::vector<size_t>& indices, size_t points, const std::string& list, size_t row,
+                   const SourceRange& where, Diagnostics& messages) {
+  for (size_t n = 0; n < indices.size(); ++n)
+    if (indices[n] >= points) {
+      messages.warning(where, "Point index " + std::to_string(indices[n]) + " is out of bounds (from " + list + "[" +
+                                  std::to_string(row) + "][" + std::to_string(n) + "])");
+      return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+TriangleMesh mesh_of(const Cube& cube) {
+  const Vec3& s = cube.size;
+  TriangleMesh mesh;
+  if (!is_length(s.x) || !is_length(s.y) || !is_length(s.z)) return mesh;
+  const Vec3 lo = cube.centred ? -0.5 * s : Vec3{}, hi = cube.centred ? 0.5 * s : s;
+  for (const double z : {lo.z, hi.z})
+    for (const Vec2 p : {Vec2{lo.x, lo.y}, Vec2{hi.x, lo.y}, Vec2{hi.x, hi.y}, Vec2{lo.x, hi.y}})
+      mesh.points.push_back({p.x, p.y, z});
+  close_rings(2, 4, mesh);
+  return mesh;
+}
+
+TriangleMesh mesh_of(const Sphere& sphere) {
+  TriangleMesh mesh;
+  if (!is_length(sphere.radius)) return mesh;
+  const int edges = edges_of_circle(sphere.radius, sphere.fragments), rings = (edges + 1) / 2;
+  for (int n = rings - 1; n >= 0; --n) {
+    const double from_pole = 180.0 * (n + 0.5) / rings;
+    add_ring(sphere.radius * sine(from_pole), sphere.radius * cosine(from_pole), edges, mesh);
+  }
+  close_rings(static_cast<uint32_t>(rings), static_cast<uint32_t>(edges), mesh);
+  return mesh;
+}
+
+TriangleMesh mesh_of(const Cylinder& cylinder) {
+  const double below = cylinder.bottom_radius, above = cylinder.top_radius;
+  TriangleMesh mesh;
+  if (!is_length(cylinder.height) || !(below >= 0) || !(above >= 0) || !is_length(below + above)) return mesh;
+  const int edges = edges_of_circle(std::max(below, above), cylinder.fragments);
+  const double foot = cylinder.centred ? -cylinder.height / 2 : 0, top = foot + cylinder.height;
+  if (above == 0) return cone(below, foot, top, edges);
+  if (below == 0) return cone(above, top, foot, edges);
+  add_ring(below, foot, edges, mesh);
+  add_ring(above, top, edges, mesh);
+  close_rings(2, static_cast<uint32_t>(edges), mesh);
+  return mesh;
+}
+
+TriangleMesh mesh_of(const Polyhedron& polyhedron, const SourceRange& where, Diagnostics& messages) {
+  TriangleMesh mesh{polyhedron.points, {}};
+  formats::PolygonCutter cutter;
+  for (size_t row = 0; row < polyhedron.faces.size(); ++row) {
+    const std::vector<size_t>& face = polyhedron.faces[row];
+    if (!check_indices(face, mesh.points.size(), "faces", row, where, messages)) continue;
+    std::vector<Vec3> corners;
+    std::vector<uint32_t> number;
+    // Counter-clockwise from outside. NOLINTNEXTLINE(modernize-loop-convert): clang 14 has no std::views::reverse
+    for (auto corner = face.rbegin(); corner != face.rend(); ++corner) {
+      if (!corners.empty() && (mesh.points[*corner] == corners.back())) continue;
+      corners.push_back(mesh.points[*corner]);
+      number.push_back(static_cast<uint32_t>(*corner));
+    }
+    while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+    if (corners.size() < 3) continue;
+    for (const auto& [a, b, c] : cutter.cut(corners)) mesh.triangles.push_back({number[a], number[b], number[c]});
+  }
+  return tidied(mesh);
+}
+
+std::vector<Ring> rings_of(const Square& square) {
+  const Vec2& s = square.size;
+  if (!is_length(s.x) || !is_length(s.y)) return {};
+  const Vec2 lo = square.centred ? -0.5 * s : Vec2{}, hi = square.centred ? 0.5 * s : s;
+  return {{lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}};
+}
+
+std::vector<Ring> rings_of(const Circle& circle) {
+  if (!is_length(circle.radius)) return {};
+  return {circle_ring(circle.radius, edges_of_circle(circle.radius, circle.fragments))};
+}
+
+std::vector<Ring> rings_of(const Polygon& polygon, const SourceRange& where, Diagnostics& messages) {
+  if (polygon.paths.empty()) return {polygon.points};
+  std::vector<Ring> rings;
+  for (size_t row = 0; row < polygon.paths.size(); ++row) {
+    const std::vector<size_t>& path = polygon.paths[row];
+    if (!check_indices(path, polygon.points.size(), "paths", row, where, messages)) continue;
+    Ring& ring = rings.emplace_back();
+    for (const size_t point : path) ring.push_back(polygon.points[point]);
+  }
+  return rings;
+}
+
+}  // namespace ombre::solids

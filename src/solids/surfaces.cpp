@@ -1,0 +1,152 @@
+// Solids below a grid of heights.
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "formats/file.h"
+#include "formats/png.h"
+#include "formats/text_scanner.h"
+#include "solids/files.h"
+
+namespace ombre::solids {
+namespace {
+
+constexpr size_t most_heights = 4'000'000;
+
+struct Heights {
+  size_t columns = 0, rows = 0;
+  std::vector<double> values;  // row by row, the first at y = 0
+
+  double at(size_t column, size_t row) const { return values[row * columns + column]; }
+};
+
+// Lines of numbers; "#" begins a comment. Shorter lines end in zeros.
+Heights heights_of_text(const std::string& path, const std::string& bytes, Diagnostics& messages) {
+  formats::TextScanner scanner(path, bytes, messages, {'#', false});
+  std::vector<std::vector<double>> rows;
+  Heights heights;
+  size_t count = 0;
+  while (!scanner.at_end()) {
+    std::vector<double>& row = rows.emplace_back();
+    while (!scanner.at_line_end()) {
+      row.push_back(scanner.coordinate("a height"));
+      if (++count > most_heights) scanner.fail_here("there are more than 4 million heights", "use a coarser grid");
+    }
+    heights.columns = std::max(heights.columns, row.size());
+  }
+  heights.rows = rows.size();
+  if (heights.rows * heights.columns > most_heights)
+    scanner.fail_here("the grid has more than 4 million places", "use a coarser grid");
+  for (std::vector<double>& row : rows) {
+    row.resize(heights.columns);
+    heights.values.insert(heights.values.end(), row.begin(), row.end());
+  }
+  return heights;
+}
+
+// From 0 for black to 100 for white.
+Heights heights_of_picture(const std::string& path, const std::string& bytes, bool is_inverted) {
+  const formats::PngImage image = formats::decode_png(bytes, path, most_heights);
+  Heights heights{image.width, image.height, {}};
+  for (uint32_t row = image.height; row-- > 0;)
+    for (uint32_t column = 0; column < image.width; ++column) {
+      const formats::Rgba c = image.colour(column, row);
+      const double bright = (0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]) / 255;
+      heights.values.push_back(100 * (is_inverted ? 1 - bright : bright));
+    }
+  return heights;
+}
+
+// Four triangles for each square of the grid, around its middle, and one wall for each edge of the border.
+class HeightMesh {
+ public:
+  HeightMesh(const Heights& heights, bool is_centred) : heights_(heights) {
+    if (is_centred)
+      shift_ = {-0.5 * static_cast<double>(heights.columns - 1), -0.5 * static_cast<double>(heights.rows - 1)};
+    foot_ = *std::min_element(heights.values.begin(), heights.values.end()) - 1;
+  }
+
+  TriangleMesh make() {
+    for (size_t row = 0; row < heights_.rows; ++row)
+      for (size_t column = 0; column < heights_.columns; ++column) add_point(column, row, heights_.at(column, row));
+    for (size_t row = 0; row + 1 < heights_.rows; ++row)
+      for (size_t column = 0; column + 1 < heights_.columns; ++column) add_square(column, row);
+    add_walls();
+    return std::move(mesh_);
+  }
+
+ private:
+  uint32_t top(size_t column, size_t row) const { return static_cast<uint32_t>(row * heights_.columns + column); }
+
+  uint32_t add_point(double x, double y, double z) {
+    mesh_.points.push_back({x + shift_.x, y + shift_.y, z});
+    return static_cast<uint32_t>(mesh_.points.size() - 1);
+  }
+  uint32_t add_point(size_t column, size_t row, double z) {
+    return add_point(static_cast<double>(column), static_cast<double>(row), z);
+  }
+
+  void add_square(size_t column, size_t row) {
+    const std::array<uint32_t, 4> corners{top(column, row), top(column + 1, row), top(column + 1, row + 1),
+                                          top(column, row + 1)};
+    double mean = 0;
+    for (const uint32_t corner : corners) mean += mesh_.points[corner].z / 4;
+    const uint32_t middle = add_point(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5, mean);
+    for (size_t n = 0; n < 4; ++n) mesh_.triangles.push_back({corners[n], corners[(n + 1) % 4], middle});
+  }
+
+  void add_walls() {
+    std::vector<uint32_t> around;
+    const size_t columns = heights_.columns, rows = heights_.rows;
+    for (size_t n = 0; n + 1 < columns; ++n) around.push_back(top(n, 0));
+    for (size_t n = 0; n + 1 < rows; ++n) around.push_back(top(columns - 1, n));
+    for (size_t n = columns - 1; n > 0; --n) around.push_back(top(n, rows - 1));
+    for (size_t n = rows - 1; n > 0; --n) around.push_back(top(0, n));
+    const auto first = static_cast<uint32_t>(mesh_.points.size()), count = static_cast<uint32_t>(around.size());
+    for (const uint32_t point : around) {
+      const Vec3 p = mesh_.points[point];
+      mesh_.points.push_back({p.x, p.y, foot_});
+    }
+    mesh_.points.push_back(
+        {shift_.x + 0.5 * static_cast<double>(columns - 1), shift_.y + 0.5 * static_cast<double>(rows - 1), foot_});
+    for (uint32_t n = 0; n < count; ++n) {
+      const uint32_t next = (n + 1) % count;
+      mesh_.triangles.push_back({first + n, first + next, around[next]});
+      mesh_.triangles.push_back({first + n, around[next], around[n]});
+      mesh_.triangles.push_back({first + next, first + n, first + count});
+    }
+  }
+
+  const Heights& heights_;
+  Vec2 shift_;
+  double foot_ = 0;
+  TriangleMesh mesh_;
+};
+
+}  // namespace
+
+TriangleMesh mesh_of(const Surface& surface, const SourceRange& where, Diagnostics& messages) {
+  std::string bytes;
+  try {
+    bytes = formats::read_file(surface.path);
+  } catch (const Error&) {
+    messages.warning(where, "The file '" + surface.path + "' couldn't be opened.");
+    return {};
+  }
+  const bool is_picture = to_lower(std::filesystem::path(surface.path).extension().string()) == ".png";
+  try {
+    const Heights heights = is_picture ? heights_of_picture(surface.path, bytes, surface.inverted)
+                                       : heights_of_text(surface.path, bytes, messages);
+    if (heights.columns < 2 || heights.rows < 2) {
+      messages.error(where, "surface needs at least two rows and two columns of heights");
+      return {};
+    }
+    return HeightMesh(heights, surface.centred).make();
+  } catch (const DesignError&) {
+    messages.note(where, "the surface is used here");
+    return {};
+  }
+}
+
+}  // namespace ombre::solids

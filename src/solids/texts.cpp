@@ -1,0 +1,78 @@
+#include "solids/texts.h"
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "draw/font_search.h"
+#include "draw/text_outlines.h"
+#include "formats/file.h"
+#include "solids/fragments.h"
+#include "solids/regions.h"
+
+namespace ombre::solids {
+namespace {
+
+constexpr const char* usual_font = "Liberation Sans";
+
+struct FontName {
+  std::string family = usual_font;
+  bool is_bold = false, is_italic = false;
+};
+
+// "Family:style=Bold Italic".
+FontName font_name(const std::string& text) {
+  FontName name;
+  const std::vector<std::string> words = split(text, ':');
+  if (!words.empty() && !words[0].empty()) name.family = words[0];
+  for (size_t n = 1; n < words.size(); ++n) {
+    const std::string style = to_lower(words[n]);
+    if (!style.starts_with("style=")) continue;
+    name.is_bold |= style.find("bold") != std::string::npos;
+    name.is_italic |= style.find("italic") != std::string::npos || style.find("oblique") != std::string::npos;
+  }
+  return name;
+}
+
+draw::RunLayout layout_of(const Text& text) {
+  constexpr double em_of_size = 100.0 / 72;
+  draw::RunLayout layout{em_of_size * text.size, text.spacing};
+  layout.chords_per_curve = std::max(2, edges_of_circle(text.size, text.fragments) / 8 + 1);
+  layout.direction = text.direction;
+  layout.language = text.language;
+  layout.script = text.script;
+  layout.side = text.horizontal == "center"  ? draw::TextSide::center
+                : text.horizontal == "right" ? draw::TextSide::right
+                                             : draw::TextSide::left;
+  layout.level = text.vertical == "top"      ? draw::TextLevel::top
+                 : text.vertical == "center" ? draw::TextLevel::center
+                 : text.vertical == "bottom" ? draw::TextLevel::bottom
+                                             : draw::TextLevel::first_line;
+  return layout;
+}
+
+}  // namespace
+
+Region region_of_text(const Text& text, const SourceRange& where, Diagnostics& messages) {
+  constexpr size_t most_bytes = 100'000;
+  if (text.text.empty() || !(text.size > 0)) return {};
+  if (text.text.size() > most_bytes) {
+    messages.error(where, "a text has at most " + std::to_string(most_bytes) + " bytes");
+    return {};
+  }
+  if (!draw::can_outline_text()) {
+    messages.error(where, "this ombre was built without HarfBuzz and fontconfig, which texts need",
+                   "install libharfbuzz-dev and libfontconfig-dev, configure with -DOMBRE_TEXT=ON and build again");
+    return {};
+  }
+  const FontName name = font_name(text.font);
+  const auto font = draw::search_font(name.family, name.is_bold, name.is_italic);
+  if (!font) {
+    messages.error(where, "there is no font \"" + name.family + "\", and none to take its place",
+                   "install fonts-liberation or fonts-dejavu-core");
+    return {};
+  }
+  const auto outlines = draw::outline_run(formats::read_file(font->file), font->index, text.text, layout_of(text));
+  return outlines ? wound_region_of(outlines->rings) : Region{};
+}
+
+}  // namespace ombre::solids

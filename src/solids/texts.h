@@ -1,0 +1,13 @@
+// Texts as regions of the plane.
+#pragma once
+
+#include "base/diagnostic.h"
+#include "solids/solid.h"
+
+namespace ombre::solids {
+
+// `size` is about the height of capital letters: the em is size * 100 / 72. A font is named as in OpenSCAD,
+// "Liberation Sans:style=Bold", or is the path of a file.
+Region region_of_text(const Text& text, const SourceRange& where, Diagnostics& messages);
+
+}  // namespace ombre::solids

@@ -1,0 +1,137 @@
+// The listings of the thesis on multi-material OpenSCAD (2023), with volumes worked out by hand.
+#include "solids/kernel.h"
+#include "solids/test_trees.h"
+
+namespace ombre::solids {
+namespace {
+
+class Thesis : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_kernel()) GTEST_SKIP();
+  }
+};
+
+TEST_F(Thesis, Listing3_2ModulesUniteWhatTheyHold) {
+  EXPECT_EQ(described(intersection({group({cube(1, 1, 2), cube(2, 1, 1)}), cube(1, 1, 1.5)})), "1.5");
+}
+
+TEST_F(Thesis, Listing3_3ColoursOfAModuleStayApart) {
+  EXPECT_EQ(described(group({colour(red, {moved(0, 0, 10, {cube(10)})}), colour(green, {cube(20, 10, 10)}),
+                             colour(green, {cube(10, 20, 10)})})),
+            "1000 red; 3000 green");
+}
+
+TreePtr two_colours() { return group({colour(red, {cube(10, 10, 20)}), colour(blue, {cube(20, 10, 10)})}); }
+
+TEST_F(Thesis, Listing3_4ColoursOfAModuleAreIntersectedToo) {
+  EXPECT_EQ(described(intersection({two_colours(), cube(15, 10, 15)})), "1000 red");
+}
+
+TEST_F(Thesis, Listing3_4InPlainOpenScad) {
+  EXPECT_EQ(described(with(intersection({two_colours(), cube(15, 10, 15)}), Semantics::permissive)), "2000 red");
+}
+
+TEST_F(Thesis, Listing3_5And3_6DifferenceOfEachSolid) {
+  const auto two = [](const TreePtr& second) { return group({colour(red, {cube(10, 20, 10)}), second}); };
+  const TreePtr plain = colour(blue, {moved(0, 0, 10, {cube(20, 10, 10)})});
+  EXPECT_EQ(described(difference({two(part("other_part", {plain})), cube(10, 10, 20)})),
+            "1000 red; 1000 blue part other_part");
+  EXPECT_EQ(described(difference({two(plain), cube(10, 10, 20)})), "1000 red; 1000 blue");
+}
+
+TEST_F(Thesis, Listing3_8ColoursDoNotKeepSolidsApart) {
+  const Pieces pieces = evaluated(intersection({colour(red, {sphere(10)}), node(Cube{{15, 15, 15}, true})}));
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces[0].attributes.colour, red);
+}
+
+TEST_F(Thesis, Listing3_11OutermostAttributeWins) {
+  EXPECT_EQ(described(material("PLA", {material("ABS", {cube(1)})})), "1 of PLA");
+}
+
+TEST_F(Thesis, Listing3_12And3_13Empty) {
+  const TreePtr empty = difference({cube(1), cube(1)});
+  EXPECT_EQ(described(empty), "");
+  EXPECT_EQ(described(hull({empty})), "");
+}
+
+TEST_F(Thesis, Listing3_14EmptySolidsHaveNoAttributesUnlessAskedFor) {
+  const auto support = [](Children children) { return part("support", {material("PLA", std::move(children))}); };
+  const TreePtr tree = intersection({support({}), support({cube(1)})});
+  EXPECT_EQ(described(tree), "1 part support of PLA");
+  EXPECT_EQ(described(tree, true), "");
+}
+
+TreePtr rods() {
+  return group({hull({part("left", {sphere(1)}), part("left", {moved(10, 0, 0, {sphere(1)})}),
+                      part("right", {moved(10, 10, 0, {sphere(1)})}), part("right", {moved(0, 10, 0, {sphere(1)})})})});
+}
+
+TEST_F(Thesis, Listing3_16And3_17PartsAreHulledByThemselves) {
+  const Pieces pieces = evaluated(rods());
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_EQ(pieces[0].attributes.part, "left");
+  EXPECT_EQ(pieces[1].attributes.part, "right");
+  EXPECT_NEAR(size_of(pieces[0]), size_of(pieces[1]), 1e-9);
+  // The sphere, and its greatest cross section along x, as far as it goes: hulls of equal slices.
+  EXPECT_GT(size_of(pieces[0]), 10 * 3);
+  const Pieces both = evaluated(part("both", {rods()}));
+  ASSERT_EQ(both.size(), 1U);
+  EXPECT_EQ(both[0].attributes.part, "both");
+  EXPECT_NEAR(size_of(both[0]), 2 * size_of(pieces[0]), 1e-9);
+}
+
+TEST_F(Thesis, Listing3_18EqualSubtreesOfOtherColours) {
+  const TreePtr shape = unite({cube(10, 20, 10), cube(20, 10, 10)});
+  EXPECT_EQ(described(group({colour(blue, {moved(-15, 0, 0, {shape})}), colour(red, {moved(15, 0, 0, {shape})})})),
+            "3000 blue; 3000 red");
+}
+
+TEST_F(Thesis, Listing3_19And3_20TheFirstColourCounts) {
+  EXPECT_EQ(described(difference({colour(red, {cube(10)}), moved(5, 5, 5, {colour(green, {cube(10)})})})), "875 red");
+  EXPECT_EQ(described(unite({colour(green, {cube(5)}), moved(10, 0, 0, {cube(5)})})), "250 green");
+}
+
+TEST_F(Thesis, Listing3_21PartsAreNotIntersected) {
+  EXPECT_EQ(described(intersection({part("part1", {cube(1)}), part("part2", {moved(2, 1, 1, {cube(1)})})})),
+            "1 part part1; 1 part part2");
+}
+
+TEST_F(Thesis, Listing4_1SolidsMayOverlap) {
+  EXPECT_EQ(described(group({colour(red, {cube(10, 10, 20)}), colour(green, {cube(10, 20, 10)})})),
+            "2000 red; 2000 green");
+}
+
+TEST_F(Thesis, Listing4_4StrictUnionsKeepColoursApart) {
+  EXPECT_EQ(described(with(unite({colour(red, {cube(1)}), colour(green, {cube(2)}), colour(red, {cube(3)})}),
+                           Semantics::strict)),
+            "27 red; 8 green");
+}
+
+TEST_F(Thesis, Listing4_7PermissiveUnionsKeepNothingApart) {
+  EXPECT_EQ(described(with(unite({material("PLA", {cube(5, 5, 20)}), material("ABS", {cube(5, 20, 5)})}),
+                           Semantics::permissive)),
+            "875 of PLA");
+}
+
+TEST_F(Thesis, Listing4_8And4_9EmptySolidsWithAttributes) {
+  EXPECT_EQ(described(unite({part("part1", {}), part("part2", {cube(1)})}), true), "1 part part2");
+  const TreePtr both = intersection({part("part1", {}), part("part1", {cube(1)})});
+  EXPECT_EQ(described(both, true), "");
+  EXPECT_EQ(described(both), "1 part part1");
+}
+
+TEST_F(Thesis, TransformsDoNotOpenUpWhatTheyHold) {
+  // Without attributes a transform is one child, as in plain OpenSCAD.
+  EXPECT_EQ(described(intersection({moved(1, 0, 0, {cube(1, 1, 2), cube(2, 1, 1)}), cube(3)})), "3");
+}
+
+TEST_F(Thesis, StrictDifferencesSubtractWhatMatches) {
+  const TreePtr tree = difference({part("a", {cube(2)}), part("a", {cube(1)}), part("b", {moved(1, 1, 1, {cube(1)})})});
+  EXPECT_EQ(described(tree), "6 part a");
+  EXPECT_EQ(described(with(tree, Semantics::strict)), "7 part a");
+}
+
+}  // namespace
+}  // namespace ombre::solids

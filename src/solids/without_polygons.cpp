@@ -1,0 +1,31 @@
+// What operations on regions are in builds without the polygon library: an error.
+#ifndef OMBRE_SOLIDS
+
+#include "base/error.h"
+#include "solids/kernel.h"
+#include "solids/regions.h"
+
+namespace ombre::solids {
+namespace {
+
+[[noreturn]] void report() {
+  kernel();  // which is missing too, and says so
+  throw Error("this ombre was built without polyclipping");
+}
+
+}  // namespace
+
+Region region_of(std::span<const Ring>) { report(); }
+Region wound_region_of(std::span<const Ring>) { report(); }
+Region unite(std::span<const Region>) { report(); }
+Region intersect(const Region&, const Region&) { report(); }
+Region subtract(const Region&, const Region&) { report(); }
+Region moved(const Region&, const Affine&) { report(); }
+Region offset(const Region&, const Offset&) { report(); }
+Region fill(const Region&) { report(); }
+Region hull(std::span<const Region>) { report(); }
+Region minkowski(const Region&, const Region&) { report(); }
+
+}  // namespace ombre::solids
+
+#endif

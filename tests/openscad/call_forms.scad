@@ -1,0 +1,27 @@
+union(3) cube();
+difference(x = 1) { cube(); }
+hull(5) cube();
+group(1) cube();
+minkowski(4) cube();
+minkowski(x = 4) cube();
+intersection(2) cube();
+render(1, 2) cube();
+render(x = 1) cube();
+projection(1, 2, 3) cube();
+rotate(1, [0, 0, 1], 3) cube();
+translate([1, 2, 3], w = 2) cube();
+color("red", 1, 2) cube();
+offset(1, 2, 3, 4) square();
+resize([1, 2, 3], false, 3, 4) cube();
+text("a", 1, "f", "left");
+linear_extrude(height = 5, center = 3, foo = 3) square();
+polygon([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]], 1, 2);
+circle(1, 2);
+square(1, true, 3);
+cylinder(1, 2, 3, true, 5);
+multmatrix([[1]], 2) cube();
+scale(1, 2) cube();
+mirror([1, 0, 0], 2) cube();
+intersection_for (i = [1, 2], j = 3) cube();
+surface("a", true, 2, 3);
+import("a", "b", 2, [0, 0], 4, 5);

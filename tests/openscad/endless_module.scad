@@ -1,0 +1,3 @@
+module m(x) { m(x + 1); }
+m(0);
+echo("after");

@@ -1,0 +1,17 @@
+function f(a, b = 2) = [a, b];
+echo(f(1), f(1, 5), f(b = 1, a = 2), f(), f(b = 7));
+echo(f(1, 2, 3));
+echo(f(z = 1));
+echo(f(a = 1, a = 2));
+function fact(n) = n <= 1 ? 1 : n * fact(n - 1);
+echo(fact(20), fact(170));
+function g(a, b = a) = [a, b];
+echo(g(1));
+function one() = 1;
+function one() = 2;
+echo(one());
+tan = 5;
+echo(tan, tan(45));
+echo(later(3));
+function later(n) = n > 0 ? concat(later(n - 1), n) : [];
+echo(assert(true) 5, echo("inner") 6, let (a = 1) a, let (a = 1, b = a + 1) b);

@@ -1,0 +1,13 @@
+f = function (x, y = 2) x + y;
+echo(f(1), f(1, 5), f(y = 1, x = 2), f);
+echo((function (x) x * x)(5));
+g = 5;
+echo(g(1));
+compose = function (a, b) function (x) a(b(x));
+echo(compose(function (x) x + 1, function (x) x * 2)(5));
+fib = function (n) n < 2 ? n : fib(n - 1) + fib(n - 2);
+echo(fib(10));
+echo(function (a, b = 2) a + b * 2 - c[1].x ? [for (i = [1:2]) if (i) i else each i] : let (a = 1) -f(x = 1, 2));
+echo(function () !a && b || c == d, function (x) "str\"", function (x) [1:2:3], function (x) x ^ 2 % 3);
+echo(function (x) assert(x, "m") echo(x) undef, function (x) [for (i = 0; i < 1; i = i + 1) let (z = 1) (i)]);
+echo(str(function (x) x), is_function(f), is_function(1));

@@ -1,0 +1,3 @@
+include <parts/none.inc>
+use <parts/none_either.inc>
+cube();

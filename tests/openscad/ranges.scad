@@ -1,0 +1,13 @@
+echo([1:3], [3:1], [1:-1:3], [3:-1:1], [0:0.1:1], [0:"a"], ["a":1], [0:undef:2]);
+for (i = [3:1]) echo(i);
+for (i = [1:0:3]) echo(i);
+for (i = "abc") echo(i);
+for (i = undef) echo(i);
+for (i = 5) echo(i);
+for (i = [0:0.1:1]) echo(i);
+for (i = [0:1:1000000]) cube();
+for (i = [0:10000000]) cube();
+for (i = [0:1 / 0]) cube();
+echo(len([for (i = [1:-1:3]) i]), len([for (i = [3:1:1]) i]));
+echo([for (i = [0:0.1:0.3]) i]);
+echo([for (i = [0:2000000]) 1][0]);

@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""OpenSCAD scripts: what `ombre scad` says and makes of them, line by line beside OpenSCAD itself.
+
+tests/openscad/NAME.scad is a script; NAME.echo holds the messages and NAME.csg the tree that OpenSCAD 2021.01 made of it.
+The test does not need it: only those scripts that use its libraries are skipped where these are missing.
+
+    python3 tests/run_openscad.py build/dev/apps/ombre/ombre [--update] [NAME...]
+
+--update asks an installed openscad for the .echo and .csg files again.
+"""
+import argparse
+import difflib
+import pathlib
+import re
+import struct
+import subprocess
+import tempfile
+import zipfile
+
+import program
+
+FOLDER = program.TESTS / "openscad"
+LIBRARIES = pathlib.Path("/usr/share/openscad/libraries")
+
+
+def ask_openscad(script):
+    for ending in ("echo", "csg"):
+        output = script.with_suffix("." + ending)
+        output.unlink(missing_ok=True)
+        subprocess.run(["openscad", "-o", output.name, script.name], cwd=FOLDER, timeout=100, check=False,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def difference(expected, made, name):
+    return "\n".join(difflib.unified_diff(expected.splitlines(), made.splitlines(), f"expected {name}", f"made {name}",
+                                          lineterm="", n=1))
+
+
+def without_places(text):
+    """Where libraries lie, and how old files are, differs from machine to machine."""
+    return re.sub(r"timestamp = \d+", "timestamp = 0", re.sub(r"in file \S*/libraries/", "in file LIBRARIES/", text)).strip()
+
+
+def check(ombre, script):
+    if "<MCAD/" in script.read_text(encoding="utf-8") and not (LIBRARIES / "MCAD").exists():
+        return "skipped: OpenSCAD's libraries are not installed"
+    with tempfile.TemporaryDirectory() as scratch:
+        outputs = {ending: pathlib.Path(scratch) / f"out.{ending}" for ending in ("echo", "csg")}
+        for ending, output in outputs.items():
+            result = program.run([ombre, "scad", script.name, "-o", output], cwd=FOLDER, timeout=60)
+            if result.returncode not in (0, 1):
+                return f"ended with {result.returncode}: {result.stderr}"
+        problems = []
+        for ending, output in outputs.items():
+            expected = script.with_suffix("." + ending)
+            made = output.read_text(encoding="utf-8") if output.exists() else ""
+            wanted = expected.read_text(encoding="utf-8") if expected.exists() else ""
+            made, wanted = without_places(made), without_places(wanted)
+            if made != wanted:
+                problems.append(difference(wanted, made, script.with_suffix("." + ending).name))
+    return "\n".join(problems)
+
+
+def check_rounds(ombre):
+    """A .csg file is a script that makes the same tree."""
+    with tempfile.TemporaryDirectory() as scratch:
+        first, second = pathlib.Path(scratch) / "first.csg", pathlib.Path(scratch) / "second.csg"
+        program.run([ombre, "scad", FOLDER / "operations.scad", "-o", first])
+        program.run([ombre, "scad", first, "-o", second])
+        return difference(first.read_text(), second.read_text(), "a .csg read again")
+
+
+def check_options(ombre):
+    script = FOLDER / "parameters.scad"
+
+    def said(*arguments):
+        result = program.run([ombre, "scad", script, *arguments, "-o", "-", "--export-format", "echo"])
+        return result.stdout.strip(), result.returncode
+
+    sets = FOLDER / "parameters.json"
+    cases = [
+        ((), 'ECHO: 20, "box", true, [1, 2, 3], 3'),
+        (("-D", "width=5 * 2", "-D", 'name="lid"'), 'ECHO: 10, "lid", true, [1, 2, 3], 3'),
+        (("-p", sets, "-P", "small"), 'ECHO: 7, "a \\"small\\" one", false, [4, 5, 6], 3'.replace('\\"', '"')),
+        (("-p", sets, "-P", "small", "-D", "width=8"), 'ECHO: 8, "a "small" one", false, [4, 5, 6], 3'),
+    ]
+    problems = [f"{arguments}: {said(*arguments)}" for arguments, wanted in cases if said(*arguments) != (wanted, 0)]
+    if program.run([ombre, "scad", script, "-p", sets, "-P", "none"]).returncode != 1:
+        problems.append("a missing parameter set is no error")
+    warned = program.run([ombre, "scad", FOLDER / "unknown_names.scad", "--hardwarnings"])
+    if warned.returncode != 1:
+        problems.append("--hardwarnings goes on after a warning")
+    return "\n".join(problems)
+
+
+TWO_PARTS = """part("block") material("PLA") color("red") difference() { cube(10); translate([5, 5, -1]) cube([9, 9, 20]); }
+part("lid") material("TPU") translate([20, 0, 0]) linear_extrude(3) square(4);"""
+
+
+def volume_of_stl(path):
+    """Of an STL file, binary or text, by the divergence theorem."""
+    data = path.read_bytes()
+    if data[:5] == b"solid" and b"facet" in data[:300]:
+        numbers = [tuple(map(float, line.split()[1:])) for line in data.decode().splitlines() if "vertex" in line]
+        triangles = [numbers[n:n + 3] for n in range(0, len(numbers), 3)]
+    else:
+        count = struct.unpack_from("<I", data, 80)[0]
+        values = [struct.unpack_from("<12f", data, 84 + 50 * n) for n in range(count)]
+        triangles = [(v[3:6], v[6:9], v[9:12]) for v in values]
+    def six(a, b, c):
+        return (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]))
+    return sum(six(*t) for t in triangles) / 6
+
+
+def check_meshes(ombre):
+    problems = []
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
+        (folder / "two.scad").write_text(TWO_PARTS, encoding="utf-8")
+        result = program.run([ombre, "scad", "two.scad", "-o", "all.stl", "-o", "two-{part}.stl", "-o", "two.3mf"], cwd=folder)
+        if result.returncode != 0:
+            return result.stderr
+        for name, wanted in (("all.stl", 798), ("two-block.stl", 750), ("two-lid.stl", 48)):
+            found = volume_of_stl(folder / name)
+            if abs(found - wanted) > 1e-3:
+                problems.append(f"{name} has a volume of {found}, not {wanted}")
+        with zipfile.ZipFile(folder / "two.3mf") as package:
+            model = package.read("3D/3dmodel.model").decode("utf-8")
+        problems += [f"no {word} in the .3mf" for word in ("block", "lid", "PLA", "TPU", "#FF0000") if word not in model]
+        (folder / "area.scad").write_text("difference() { square(10); translate([2, 2]) circle(1); }", encoding="utf-8")
+        if program.run([ombre, "scad", "area.scad", "-o", "area.svg"], cwd=folder).returncode != 0 \
+                or "<path" not in (folder / "area.svg").read_text():
+            problems.append("no area.svg")
+        wrong = program.run([ombre, "scad", "area.scad", "-o", "area.stl"], cwd=folder)
+        if wrong.returncode != 1 or (folder / "area.stl").exists():
+            problems.append("an area was written as a mesh")
+    return "\n".join(problems)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("ombre")
+    parser.add_argument("--update", action="store_true")
+    parser.add_argument("names", nargs="*")
+    arguments = parser.parse_args()
+    ombre = pathlib.Path(arguments.ombre).resolve()
+    scripts = [s for s in sorted(FOLDER.glob("*.scad")) if not arguments.names or s.stem in arguments.names]
+    if arguments.update:
+        for script in scripts:
+            ask_openscad(script)
+    checks = [(script.stem, lambda script=script: check(ombre, script)) for script in scripts if script.stem != "parameters"]
+    if not arguments.names:
+        checks += [("a .csg file is a script", lambda: check_rounds(ombre)), ("options", lambda: check_options(ombre)),
+                   ("meshes", lambda: check_meshes(ombre))]
+    return program.check_all(checks)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
