@@ -14,7 +14,7 @@ namespace {
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Exact::Point_3>;
 
-// As OpenSCAD's sphere: rings at half steps from the poles.
+// Makes a ball as OpenSCAD does, with rings at half steps from the poles.
 Mesh sphere(double radius, int edges, double x, double y, double z) {
   Mesh mesh;
   const int rings = (edges + 1) / 2;

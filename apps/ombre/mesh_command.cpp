@@ -101,7 +101,7 @@ formats::SlicerFlavour flavour_of(const std::string& name) {
   return name == "bambu" ? formats::SlicerFlavour::bambu : formats::SlicerFlavour::generic;
 }
 
-// What slicers call an attribute whose bands are bodies; empty: it is none of their settings.
+// Returns the slicer setting that an attribute's bands set on their bodies; empty if slicers have no such setting.
 std::string slicer_key(const std::string& attribute) {
   if (attribute == "infill_density") return "fill_density";
   if (attribute == "fuzzy_skin_point_distance") return "fuzzy_skin_point_dist";

@@ -1,4 +1,4 @@
-// What `ombre scad` writes of the solids that a script makes.
+// This file writes the solids of a script for `ombre scad`.
 #pragma once
 
 #include <string>

@@ -12,7 +12,8 @@ namespace ombre::compile {
 
 struct SurveyedAttribute {
   design::AttributeDeclaration declaration;
-  // Of each of its numbers, from samples on a coarse lattice; nothing where none is inside or none is a number.
+  // Each of its numbers with the range found by samples on a coarse lattice; no range where no sample lies inside, or
+  // none is a number.
   std::vector<std::pair<std::string, std::optional<Interval>>> ranges;
 };
 

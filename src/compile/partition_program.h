@@ -32,7 +32,7 @@ struct Region {
   std::string name;                       // "red", "red 25-50 %", "density 0.2-0.4"
   std::optional<MaterialId> material;     // of Kind::materials
   std::optional<double> least, greatest;  // of bands: values from `least`, up to and without `greatest`
-  // Of bands of attributes: each with the value in the middle of its band.
+  // A body made by bands of attributes has each attribute here, with the value in the middle of its band.
   std::vector<std::pair<std::string, double>> attributes = {};
 };
 // More are refused: each has a body of its own.

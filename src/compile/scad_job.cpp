@@ -38,7 +38,7 @@ std::string name_of(const Piece& piece) {
   return attributes.material.empty() ? "a solid without a name" : "a solid of \"" + attributes.material + '"';
 }
 
-// Where a surface is open, if it is: edges that are not passed as often in each direction.
+// Returns a point of an edge that triangles do not pass equally often in both directions: the surface is open there.
 std::optional<Vec3> open_place(const solids::TriangleMesh& mesh) {
   using Point = std::array<double, 3>;
   std::map<Point, uint32_t> known;
@@ -67,7 +67,7 @@ bool check_closed(const Piece& piece, const std::string& path, Diagnostics& mess
   return false;
 }
 
-// What of a part's name can stand in a file's name.
+// Returns a part's name without what cannot stand in the name of a file.
 std::string file_word(const std::string& part) {
   if (part.empty()) return "rest";
   std::string word = part;

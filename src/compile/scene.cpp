@@ -75,7 +75,7 @@ bool is_colour(Question& question, const std::string& name) {
          design::parts_of(*declared).size() >= 3 && declared->type != design::ValueType::mixture;
 }
 
-// Of an attribute that is a colour, in linear light; of a vector as if its numbers were red, green and blue.
+// Returns the colour of an attribute in linear light; the numbers of a vector count as red, green and blue.
 std::optional<std::array<Field, 3>> own_colour(Question& question, const std::string& name, Diagnostics& diagnostics) {
   std::array<Field, 3> colour;
   const std::vector<std::string> parts = design::parts_of(*question.declaration(name));

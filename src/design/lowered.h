@@ -81,7 +81,8 @@ inline std::string_view name(Metric::Kind kind) {
   return kind == Metric::Kind::exact ? "exact" : kind == Metric::Kind::bounded ? "bounded" : "implicit";
 }
 
-// What a value is. A vector has three numbers, a colour red, green, blue and alpha from 0 to 1, in sRGB.
+// A value has one of these types. A vector has three numbers; a colour has red, green, blue and alpha from 0 to 1, in
+// sRGB.
 enum class ValueType : uint8_t { number, vector, colour, mixture };
 std::string_view name(ValueType type);
 
@@ -107,7 +108,7 @@ struct AttributeDeclaration {
 std::vector<std::string> parts_of(const AttributeDeclaration& declaration);
 // "fibre" of "fibre.x".
 std::string_view attribute_of_part(std::string_view part);
-// Of one of its numbers.
+// Returns the default of one of an attribute's numbers.
 double default_of(const AttributeDeclaration& declaration, std::string_view part);
 
 }  // namespace ombre::design

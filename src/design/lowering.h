@@ -88,7 +88,7 @@ class LoweringContext {
   std::map<PartsKey, std::unique_ptr<ManyParts>> many_parts_;
 };
 
-// Those that a material parameter may give at some point, ascending.
+// Returns the materials that a material parameter may give at some point, in ascending order.
 std::vector<MaterialId> materials_of(const MaterialName& name, const MaterialTable& table);
 
 // Lowers nodes into one builder. A node that is used more than once becomes a body, a sub-program
