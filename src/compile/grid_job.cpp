@@ -212,7 +212,7 @@ std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, con
   }
   auto tiles = field_tiles(loaded, job, diagnostics);
   if (!tiles) return std::nullopt;
-  job.tiles = wishes.materials ? with_materials(material_tiles(plan.regions), std::move(*tiles)) : std::move(*tiles);
+  job.tiles = wishes.materials ? with_materials(material_tiles(plan.regions), *tiles) : std::move(*tiles);
   return job;
 }
 
