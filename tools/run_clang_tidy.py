@@ -4,8 +4,8 @@
     run_clang_tidy.py build/lint/UnifiedSource [--since REF | --all]
 
 Changed is what differs from REF; without it, from where the branch left its upstream branch, or, where that is HEAD, from
-the last commit that is older than a day; with what is not committed yet. A changed header stands for the sources that
-include it. Where most of what the build folder compiles together (CMake's unity builds) has changed, headers are read once
+the last commit that is older than a day; with what is not committed yet. A changed header is read with the source of its
+name, or with one that includes it; --all reads everything. Where most of what the build folder compiles together (CMake's unity builds) has changed, headers are read once
 for all of it. The folder's name matters: by it the static analyser knows that the sources included are no headers.
 Status 1 where something was found, which is printed.
 """
@@ -64,13 +64,16 @@ def changed_files(since):
 
 
 def with_includers(changed, sources):
-    """The changed sources, and those that include a changed header, which is known by the end of its path."""
-    headers = {path for path in changed if path.suffix == ".h"}
+    """The changed sources, and for each changed header one source that includes it, of its own name if there is one: what
+    is found in a header is found there."""
     found = {path for path in sources if path in changed}
-    for source in sources:
-        for name in INCLUDE.findall(source.read_text(encoding="utf-8")):
-            if any(header.match(name) for header in headers):
-                found.add(source)
+    names = {source: [Path(name) for name in INCLUDE.findall(source.read_text(encoding="utf-8"))] for source in sorted(sources)}
+    for header in sorted(path for path in changed if path.suffix == ".h"):
+        includers = [source for source, included in names.items() if any(header.match(str(name)) for name in included)]
+        if any(source in found for source in includers):
+            continue
+        own = [source for source in includers if source.stem == header.stem]
+        found.update((own or includers)[:1])
     return found
 
 
