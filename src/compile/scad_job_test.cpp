@@ -22,7 +22,9 @@ class ScadJob : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!has_kernel()) GTEST_SKIP();
-    folder_ = fs::path(testing::TempDir()) / "ombre_scad_job";
+    // Tests run beside each other, each in a folder of its own.
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / (std::string("ombre_scad_job_") + test->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
