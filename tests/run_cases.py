@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Designs with what they give. The expectations stand in comments at the top of tests/cases/*/*.vcad:
+"""Designs with what they give. The expectations stand in comments at the top of tests/cases/*/*.vcad and *.scad:
 
     // arguments: --voxel 0.1
     // expect volume red 4/3*pi*5^3 within 0.5%
@@ -186,7 +186,7 @@ def main():
     parser.add_argument("ombre", type=pathlib.Path, help="the program")
     parser.add_argument("names", nargs="*", help="only these")
     a = parser.parse_args()
-    designs = sorted(FOLDER.glob("*/*.vcad"))
+    designs = sorted([*FOLDER.glob("*/*.vcad"), *FOLDER.glob("*/*.scad")])
     if a.names:
         designs = [d for d in designs if d.stem in a.names]
     ombre = a.ombre.resolve()

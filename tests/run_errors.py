@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Wrong designs, and what a person is told about them.
 
-tests/errors/NAME.vcad or NAME.json is a design with a mistake, NAME.txt the text on stderr. The first lines of
+tests/errors/NAME.vcad, NAME.scad or NAME.json is a design with a mistake, NAME.txt the text on stderr. The first lines of
 a .vcad may say how it is run:
 
     // arguments: --printer j750 --voxel 0.1
@@ -79,7 +79,7 @@ def main():
     parser.add_argument("--update", action="store_true", help="rewrite the expected texts")
     parser.add_argument("names", nargs="*", help="only these")
     a = parser.parse_intermixed_args()
-    designs = sorted([*FOLDER.glob("*.vcad"), *FOLDER.glob("*.json")])
+    designs = sorted(path for ending in ("vcad", "scad", "json") for path in FOLDER.glob(f"*.{ending}"))
     if a.names:
         designs = [d for d in designs if d.stem in a.names]
     ombre = a.ombre.resolve()

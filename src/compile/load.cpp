@@ -15,24 +15,14 @@
 namespace ombre::compile {
 namespace {
 
+using design::NodePtr;
+using design::Reader;
+
 SourcePtr read_source(const std::string& path, sources::SourceCache& cache) {
   return make_source(path, *cache.text(path));
 }
 
 bool ends_with(const std::string& path, std::string_view ending) { return to_lower(path).ends_with(ending); }
-
-constexpr std::uintmax_t largest_included = 256u << 20;
-
-std::optional<std::string> read_included(const std::string& path, sources::SourceCache& cache) {
-  std::error_code status;
-  if (!std::filesystem::is_regular_file(path, status) || std::filesystem::file_size(path, status) > largest_included)
-    return std::nullopt;
-  try {
-    return *cache.text(path);
-  } catch (const Error&) {
-    return std::nullopt;
-  }
-}
 
 // "name=value": numbers, true, false and JSON lists as such, everything else as a text.
 std::optional<lang::Definition> parse_definition(const std::string& text, Diagnostics& diagnostics) {
@@ -66,15 +56,62 @@ std::optional<design::Design> run_script(const SourcePtr& source, const LoadOpti
   lang::Options run;
   run.echo = options.echo;
   run.stop = options.stop;
-  run.read_file = [&](const std::string& name) { return read_included(name, cache); };
+  run.read_file = [&](const std::string& name) { return sources::read_included(name, cache); };
   run.threads = options.threads > 0 ? options.threads : core_count();
   for (const std::string& text : options.definitions)
     if (auto definition = parse_definition(text, diagnostics)) run.definitions.push_back(std::move(*definition));
   if (!materials || diagnostics.has_errors()) return std::nullopt;
-  DesignSources loader(cache, options.stop);
+  DesignSources loader(cache, options.stop, run.threads);
   lang::VcadVocabulary vocabulary(nodes::registry(), *materials, &loader);
   auto top_level = lang::run(source, vocabulary, run, diagnostics);
   return vocabulary.finish(std::move(top_level), {source, 0, 0}, diagnostics);
+}
+
+// A definition's value as `-D` gives it to an OpenSCAD script.
+DataMembers script_values(const std::vector<std::string>& definitions, Diagnostics& diagnostics) {
+  DataMembers values;
+  for (const std::string& text : definitions)
+    if (auto definition = parse_definition(text, diagnostics))
+      values.emplace_back(std::move(definition->name), std::move(definition->value));
+  return values;
+}
+
+std::string file_name(const SourcePtr& source) { return std::filesystem::path(source->name()).filename().string(); }
+
+// A node for the solids of a script, or of one of its parts.
+NodePtr scad_node(const SourcePtr& source, const std::string& part, const DataMembers& values, const Reader& reader) {
+  const design::NodeType& type = *nodes::registry().find("scad");
+  const auto parameter = [&](const char* name) { return &type.parameters[static_cast<size_t>(type.parameter(name))]; };
+  std::vector<design::NamedValue> arguments{{parameter("path"), Data(file_name(source))}};
+  if (!part.empty()) arguments.push_back({parameter("part"), Data(part)});
+  if (!values.empty()) arguments.push_back({parameter("variables"), Data(values)});
+  return design::make_node(type, arguments, {}, reader);
+}
+
+std::optional<design::Design> run_scad_script(const SourcePtr& source, const LoadOptions& options,
+                                              sources::SourceCache& cache, Diagnostics& diagnostics) {
+  const auto materials = read_materials(options.materials, cache, diagnostics);
+  const DataMembers values = script_values(options.definitions, diagnostics);
+  if (!materials || diagnostics.has_errors()) return std::nullopt;
+  DesignSources loader(cache, options.stop, options.threads > 0 ? options.threads : core_count());
+  const SourceRange whole{source, 0, 0};
+  const Reader reader{*materials, diagnostics, &loader, whole, "scad", ""};
+  design::ScadRequest request;
+  request.file.path = file_name(source);
+  request.variables.values = values;
+  request.material = {&materials->first()};
+  const auto solids = loader.source(request, reader);
+  if (!solids) return std::nullopt;
+  design::Design design{*materials, {}, {}};
+  Diagnostics told;  // what the script says was reported with the first request
+  const Reader again{*materials, told, &loader, whole, "scad", ""};
+  for (const std::string& name : solids->part_names) {
+    const bool is_all = solids->part_names.size() == 1;
+    const NodePtr node = scad_node(source, is_all ? "" : design::part_word(name), values, again);
+    if (node) design.parts.push_back({name.empty() ? "part" : name, node});
+  }
+  if (told.has_errors()) diagnostics.add_all(told);
+  return design;
 }
 
 std::optional<design::Design> read_json_design(const SourcePtr& source, const LoadOptions& options,
@@ -92,8 +129,10 @@ std::optional<design::Design> read_json_design(const SourcePtr& source, const Lo
 
 LoadedPtr read_design(const SourcePtr& source, const LoadOptions& options, sources::SourceCache& cache,
                       Diagnostics& diagnostics) {
-  auto design = ends_with(source->name(), ".json") ? read_json_design(source, options, cache, diagnostics)
-                                                   : run_script(source, options, cache, diagnostics);
+  const auto read = ends_with(source->name(), ".json")   ? read_json_design
+                    : ends_with(source->name(), ".scad") ? run_scad_script
+                                                         : run_script;
+  auto design = read(source, options, cache, diagnostics);
   if (!design || diagnostics.has_errors() || !design::check_design(*design, diagnostics)) return nullptr;
   return std::make_shared<const Loaded>(Loaded{source->name(), source, std::move(*design)});
 }

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "compile/solid_parts.h"
+#include "sources/solid_parts.h"
 #include "formats/file.h"
 #include "formats/mesh.h"
 #include "solids/kernel.h"
@@ -169,9 +169,8 @@ TEST_F(ScadJob, Surfaces) {
 }
 
 TEST_F(ScadJob, PiecesBecomeMadeSolids) {
-  const design::SolidsRequest request = solids_request(evaluated(two_parts()), "two.scad");
+  const design::SolidsRequest request = sources::solids_request(evaluated(two_parts()), "two.scad");
   ASSERT_EQ(request.solids->size(), 3U);
-  EXPECT_EQ(request.use.materials.text(), "names");
   EXPECT_EQ((*request.solids)[0].material, "PLA");
   EXPECT_EQ((*request.solids)[0].colour, (design::Rgba{255, 0, 0, 255}));
   EXPECT_EQ((*request.solids)[1].part, "right");

@@ -160,4 +160,14 @@ Data write(const NumberTable& value, bool for_hash) {
   return Data(std::move(list));
 }
 
+bool read(const Data& data, const Domain&, ScriptVariables& value, const Reader& reader) {
+  value = {};
+  if (data.is_null()) return true;
+  if (!data.members()) return reader.fail(data, "values by name", "write for example {\"width\": 20}");
+  value.values = *data.members();
+  return true;
+}
+
+Data write(const ScriptVariables& value, bool) { return Data(value.values); }
+
 }  // namespace ombre::design

@@ -100,6 +100,25 @@ struct SolidsRequest {
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
+// An OpenSCAD script in the same way. Its parts, materials and colours are those that the script sets; where solids
+// overlap, the first wins.
+struct ScadSolids {
+  std::vector<MeshPart> parts;
+  std::vector<std::string> part_names;  // each once, in the order of the script; "" for solids of no part
+};
+// The word for a part in a request: solids of no part are the "rest".
+inline std::string part_word(const std::string& name) { return name.empty() ? "rest" : name; }
+struct ScadRequest {
+  using Result = ScadSolids;
+  FilePath file;
+  ScriptVariables variables;  // take the place of the script's own
+  std::string part;           // the word for one part; empty: all of them
+  Choice materials = "auto";  // or as in MeshUse; auto: names where the script has some, else colours, else one
+  MaterialName material;
+  std::vector<MaterialForName> material_map;
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
 // A CAD file in the same way.
 struct CadRequest {
   using Result = std::vector<CadPart>;
@@ -200,7 +219,7 @@ struct ImageStackRequest {
 
 // The kinds of sources there are.
 using SourceRequest =
-    std::variant<MeshRequest*, SolidsRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*,
+    std::variant<MeshRequest*, SolidsRequest*, ScadRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*,
                  PixelsRequest*, TableRequest*, TextRequest*, VolumeRequest*, ImageStackRequest*>;
 
 // Which parts of a solid need support, on which grid.

@@ -181,6 +181,12 @@ struct NumberTable {
   bool operator==(const NumberTable&) const = default;
 };
 
+// Values by name for the variables of a script in another language: numbers, texts, truth values, and lists of them.
+struct ScriptVariables {
+  DataMembers values;
+  bool operator==(const ScriptVariables&) const = default;
+};
+
 // What a parameter may be, for checks, help and forms.
 struct Domain {
   std::string_view unit;  // "mm", "deg", or none
@@ -294,6 +300,7 @@ bool read(const Data& data, const Domain& domain, AttributeValue& value, const R
 bool read(const Data& data, const Domain& domain, SolidName& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::vector<NamedWord>& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, NumberTable& value, const Reader& reader);
+bool read(const Data& data, const Domain& domain, ScriptVariables& value, const Reader& reader);
 
 // The reverse. For hashes, files are named by their content.
 Data write(double value, bool for_hash);
@@ -325,6 +332,10 @@ Data write(const AttributeValue& value, bool for_hash);
 Data write(const SolidName& value, bool for_hash);
 Data write(const std::vector<NamedWord>& value, bool for_hash);
 Data write(const NumberTable& value, bool for_hash);
+Data write(const ScriptVariables& value, bool for_hash);
+
+// Of the parameter that takes arguments of a call whose names no other parameter has.
+inline constexpr std::string_view variables_kind = "values by name";
 
 // "number or field", "material", ...: for help.
 template <class M>
@@ -355,6 +366,7 @@ constexpr std::string_view kind_name() {
   if constexpr (std::is_same_v<M, SolidName>) return "solid";
   if constexpr (std::is_same_v<M, std::vector<NamedWord>>) return "list of pairs of words";
   if constexpr (std::is_same_v<M, NumberTable>) return "rows of numbers, or a CSV file";
+  if constexpr (std::is_same_v<M, ScriptVariables>) return variables_kind;
 }
 
 }  // namespace ombre::design

@@ -148,6 +148,63 @@ struct Mesh {
   }
 };
 
+struct Scad {
+  FilePath path;
+  MaterialName material;
+  std::string part;
+  Choice materials = "auto";
+  std::vector<MaterialForName> material_map;
+  ScriptVariables variables;
+  std::shared_ptr<const ScadSolids> loaded;  // when the node is made
+  Parts parts;
+
+  static Spec<Scad> spec() {
+    return {
+        "scad",
+        "imported",
+        "Solid that an OpenSCAD script makes, in mm; arguments of other names are values for the script's "
+        "variables.",
+        {{"path", &Scad::path, "The script; relative to this one, then to the working directory", required()},
+         {"material", &Scad::material, "Its material; beside the script's own, that of what has none there"},
+         {"part", &Scad::part, "The name of one of the script's parts, rest for solids of no part; none: all of them"},
+         {"materials", &Scad::materials,
+          "Whose materials: one (the node's), names (those of material() in the script), colours (those whose "
+          "colours are nearest to color()), or auto: names if the script has some, else colours, else one; where "
+          "solids overlap, the script's first wins",
+          one_of({"auto", "one", "names", "colours"})},
+         {"material_map", &Scad::material_map,
+          "Materials for names of the script, before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
+         {"variables", &Scad::variables, "Values for the script's variables: scad(\"box.scad\", width=20)"}},
+        no_inputs,
+        "scad(\"box.scad\", width=20);"};
+  }
+
+  bool complete(const Reader& reader) {
+    if (!reader.loader) {
+      reader.diagnostics.error(reader.where, "OpenSCAD scripts cannot be run here");
+      return false;
+    }
+    ScadRequest request{path, variables, part, materials, material, material_map};
+    loaded = reader.loader->source(request, reader);
+    if (!loaded) return false;
+    path.path = request.file.path;
+    for (const MeshPart& one : loaded->parts)
+      parts.push_back({material_of(one.material, material, reader), one.source});
+    path.content = content_of(parts);
+    return true;
+  }
+
+  // Walls between two parts are nearer than the surface of the whole.
+  Metric metric() const { return parts.size() == 1 ? Metric::exact() : Metric::bounded(); }
+  Box bounds(const Box&) const { return bounds_of(parts); }
+  Field distance(const Point& p) const { return least_distance(parts, p); }
+  Field inside(const Inputs&, const Point& p) const { return inside_any(parts, p); }
+  Field interior(const Inputs& in, const Point& p) const { return inside(in, p); }
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return composition_of(parts, in, p, demand);
+  }
+};
+
 struct Cad {
   FilePath path;
   MaterialName material;
@@ -223,6 +280,6 @@ struct Cad {
 
 }  // namespace
 
-void add_imported(Registry& registry) { registry.add<Mesh, Cad>(); }
+void add_imported(Registry& registry) { registry.add<Mesh, Scad, Cad>(); }
 
 }  // namespace ombre::nodes

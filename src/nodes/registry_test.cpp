@@ -133,6 +133,7 @@ class RandomDesign {
       return Data(DataList{Data(DataList{Data("density"), Data(domain.choices[index(domain.choices.size())])})});
     if (kind == "number, field, vector, colour or mixture") return attribute_value(domain);
     if (kind == "solid") return object(any_node(0));
+    if (kind == design::variables_kind) return Data(DataMembers{{"width", Data(number(1, 9))}, {"name", Data("lid")}});
     if (kind == "rows of numbers, or a CSV file") return Data("table.csv");
     if (!domain.choices.empty()) return Data(domain.choices[index(domain.choices.size())]);
     if (kind == "number") return one_number(domain, false);

@@ -215,6 +215,10 @@ class BallLoader : public design::SourceLoader {
   static std::shared_ptr<const MeshParts> make(const design::SolidsRequest&) {
     return std::make_shared<MeshParts>(MeshParts{{"", std::make_shared<BallSource>()}});
   }
+  static std::shared_ptr<const design::ScadSolids> make(const design::ScadRequest&) {
+    return std::make_shared<design::ScadSolids>(
+        design::ScadSolids{{{"", std::make_shared<BallSource>()}, {"clear", std::make_shared<BallSource>()}}, {""}});
+  }
   static program::SourceField make(const design::PolygonsRequest& request) {
     return std::make_shared<EdgeSource>(request.polygons, request.turns);
   }

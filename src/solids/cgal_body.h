@@ -36,7 +36,7 @@ Box box_of(const ExactMesh& mesh);
 std::vector<ExactMesh> combine_nef(Boolean operation, const ExactMesh& a, const ExactMesh& b);
 std::vector<TriangleMesh> convex_parts_nef(const ExactMesh& mesh);
 TriangleMesh hull_of(std::span<const Vec3> points);
-std::vector<Triangle> triangulate_rings(std::span<const Ring> rings);
+PlaneTriangles triangulate_rings(std::span<const Ring> rings);
 // The surface of triangles; where more than two share an edge, those that bound the same sector of the solid stay
 // joined, so that solids touch along it.
 ExactMesh mesh_of_soup(std::vector<Exact::Point_3> points, std::vector<std::vector<std::size_t>> polygons);

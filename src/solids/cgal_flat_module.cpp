@@ -95,14 +95,21 @@ TriangleMesh hull_of(std::span<const Vec3> points) {
   return result;
 }
 
-std::vector<Triangle> triangulate_rings(std::span<const Ring> rings) {
+PlaneTriangles triangulate_rings(std::span<const Ring> rings) {
   Triangulation triangles = triangulation_of(rings);
   count_rings(triangles);
-  std::vector<Triangle> result;
+  PlaneTriangles result;
+  uint32_t count = 0;
+  for (const Ring& ring : rings) count += static_cast<uint32_t>(ring.size());
+  for (auto vertex = triangles.finite_vertices_begin(); vertex != triangles.finite_vertices_end(); ++vertex) {
+    if (vertex->info().value != no_point) continue;
+    vertex->info().value = count++;
+    result.crossings.push_back({vertex->point().x(), vertex->point().y()});
+  }
   for (auto face = triangles.finite_faces_begin(); face != triangles.finite_faces_end(); ++face) {
     if (face->info() % 2 == 0) continue;
-    const Triangle corners{face->vertex(0)->info().value, face->vertex(1)->info().value, face->vertex(2)->info().value};
-    if (corners[0] != no_point && corners[1] != no_point && corners[2] != no_point) result.push_back(corners);
+    result.triangles.push_back(
+        {face->vertex(0)->info().value, face->vertex(1)->info().value, face->vertex(2)->info().value});
   }
   return result;
 }

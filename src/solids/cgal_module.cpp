@@ -229,7 +229,7 @@ class CgalKernel : public Kernel {
     return all;
   }
 
-  std::vector<Triangle> triangulate(std::span<const Ring> rings) const override { return triangulate_rings(rings); }
+  PlaneTriangles triangulate(std::span<const Ring> rings) const override { return triangulate_rings(rings); }
 };
 
 void append(const ExactMesh& mesh, TriangleMesh& all) {

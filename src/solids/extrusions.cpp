@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "base/math.h"
 #include "solids/fragments.h"
@@ -14,21 +15,42 @@
 namespace ombre::solids {
 namespace {
 
-// The points of a region's rings, one after the other, and which lie behind each other in a ring.
+using Side = std::pair<uint32_t, uint32_t>;  // from one point to the next, with the inside on the left
+
+// A region as points, the sides around it, and triangles that fill it.
 struct Outline {
   std::vector<Vec2> points;
-  std::vector<uint32_t> next;
+  std::vector<Side> sides;
+  std::vector<Triangle> triangles;
 };
 
+// Edges that no other triangle has in the other direction.
+std::vector<Side> sides_of(const std::vector<Triangle>& triangles) {
+  std::set<Side> edges;
+  for (const Triangle& t : triangles)
+    for (size_t n = 0; n < 3; ++n) edges.insert({t[n], t[(n + 1) % 3]});
+  std::vector<Side> sides;
+  for (const auto& [a, b] : edges)
+    if (!edges.contains({b, a})) sides.push_back({a, b});
+  return sides;
+}
+
+// The sides are those of the rings, unless rings touch or cross: then they are cut there.
 Outline outline_of(const Region& region) {
   Outline outline;
   for (const Ring& ring : region.rings) {
     const auto first = static_cast<uint32_t>(outline.points.size());
     for (uint32_t n = 0; n < ring.size(); ++n) {
       outline.points.push_back(ring[n]);
-      outline.next.push_back(first + (n + 1) % static_cast<uint32_t>(ring.size()));
+      outline.sides.push_back({first + n, first + (n + 1) % static_cast<uint32_t>(ring.size())});
     }
   }
+  PlaneTriangles filling = kernel().triangulate(region.rings);
+  outline.points.insert(outline.points.end(), filling.crossings.begin(), filling.crossings.end());
+  outline.triangles = std::move(filling.triangles);
+  std::vector<Side> around = sides_of(outline.triangles), of_rings = outline.sides;
+  std::ranges::sort(of_rings);
+  if (around != of_rings) outline.sides = std::move(around);
   return outline;
 }
 
@@ -85,7 +107,7 @@ Ring cut_edges(const Ring& ring, int count) {
 class Extruder {
  public:
   Extruder(const Region& region, const LinearExtrude& by)
-      : region_(region), by_(by), outline_(outline_of(region)), slices_(slices_of(outline_, by)) {
+      : by_(by), outline_(outline_of(region)), slices_(slices_of(outline_, by)) {
     const double up = by.direction.z;
     along_ = (by.height / length(by.direction)) * by.direction;
     if (by.direction == Vec3{0, 0, up}) along_ = {0, 0, by.height};
@@ -115,8 +137,7 @@ class Extruder {
   }
 
   void add_wall(int n) {
-    for (uint32_t i = 0; i < count(); ++i) {
-      const uint32_t j = outline_.next[i];
+    for (const auto& [i, j] : outline_.sides) {
       const double rising = length(at(n + 1, j) - at(n, i)), falling = length(at(n + 1, i) - at(n, j));
       constexpr double rounding = 1e-9;
       const bool is_even = std::abs(rising - falling) <= rounding * (rising + falling);
@@ -132,14 +153,12 @@ class Extruder {
   }
 
   void add_caps() {
-    const std::vector<Triangle> caps = kernel().triangulate(region_.rings);
-    for (const auto& [a, b, c] : caps) mesh_.triangles.push_back({a, c, b});
+    for (const auto& [a, b, c] : outline_.triangles) mesh_.triangles.push_back({a, c, b});
     if (by_.scale.x == 0 || by_.scale.y == 0) return;
-    for (const auto& [a, b, c] : caps)
+    for (const auto& [a, b, c] : outline_.triangles)
       mesh_.triangles.push_back({number(slices_, a), number(slices_, b), number(slices_, c)});
   }
 
-  const Region& region_;
   const LinearExtrude& by_;
   Outline outline_;
   int slices_;
@@ -151,7 +170,7 @@ class Extruder {
 class Revolver {
  public:
   Revolver(const Region& region, const RotateExtrude& by, double reach)
-      : region_(region), outline_(outline_of(region)), is_whole_(std::abs(by.angle) >= 360) {
+      : outline_(outline_of(region)), is_whole_(std::abs(by.angle) >= 360) {
     angle_ = is_whole_ ? 360 : by.angle;
     start_ = by.start;
     const double edges = edges_of_circle(reach, by.fragments);
@@ -184,8 +203,7 @@ class Revolver {
 
   void add_wall(int n, int behind) {
     const uint32_t here = static_cast<uint32_t>(n) * count(), there = static_cast<uint32_t>(behind) * count();
-    for (uint32_t i = 0; i < count(); ++i) {
-      const uint32_t j = outline_.next[i];
+    for (const auto& [i, j] : outline_.sides) {
       if (outline_.points[i].x == 0 && outline_.points[j].x == 0) continue;  // on the axis
       add(here + i, there + i, here + j);
       add(here + j, there + i, there + j);
@@ -194,13 +212,12 @@ class Revolver {
 
   void add_ends() {
     const uint32_t last = static_cast<uint32_t>(steps_) * count();
-    for (const auto& [a, b, c] : kernel().triangulate(region_.rings)) {
+    for (const auto& [a, b, c] : outline_.triangles) {
       add(a, b, c);
       add(last + a, last + c, last + b);
     }
   }
 
-  const Region& region_;
   Outline outline_;
   bool is_whole_, turns_faces_ = false;
   double angle_ = 360, start_ = 0;

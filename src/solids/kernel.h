@@ -19,6 +19,13 @@ class Body {
 
 enum class Boolean { unite, intersect, subtract };
 
+// Corners are numbers of points: those of the rings, ring after ring, where the first of equal ones counts, then those
+// where rings cross.
+struct PlaneTriangles {
+  std::vector<Vec2> crossings;
+  std::vector<Triangle> triangles;
+};
+
 // Thread-safe. Bodies may be empty. What fails throws Error.
 class Kernel {
  public:
@@ -35,9 +42,8 @@ class Kernel {
   virtual bool is_convex(const Body& body) const = 0;
   // Convex pieces whose union is the body.
   virtual std::vector<TriangleMesh> convex_parts(const Body& body) const = 0;
-  // Triangles between the points of rings that do not cross, counter-clockwise; inside is what an odd number of rings
-  // goes round. Corners are numbers of points, ring after ring.
-  virtual std::vector<Triangle> triangulate(std::span<const Ring> rings) const = 0;
+  // Triangles between the points of rings, counter-clockwise; inside is what an odd number of rings goes round.
+  virtual PlaneTriangles triangulate(std::span<const Ring> rings) const = 0;
 };
 
 // The one of this build. Throws Error when there is none.

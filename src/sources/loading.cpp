@@ -30,6 +30,8 @@ bool Loading::find(design::FilePath& file) {
   return found.has_value();
 }
 
+std::optional<std::string> Loading::included(const std::string& path) { return read_included(path, loader_.cache()); }
+
 bool Loading::look_at(design::FilePath& file) {
   try {
     const auto content = loader_.cache().files().content(file.path);

@@ -16,11 +16,13 @@ namespace ombre::sources {
 // Loads what one design requests. Thread-safe.
 class Loader : public design::SourceLoader {
  public:
-  // `stop`, which may be null, ends what takes long. Both outlive the loader.
-  explicit Loader(SourceCache& cache, const StopFlag* stop = nullptr) : cache_(cache), stop_(stop) {}
+  // `stop`, which may be null, ends what takes long. Both outlive the loader. `threads` 0: all cores.
+  explicit Loader(SourceCache& cache, const StopFlag* stop = nullptr, int threads = 0)
+      : cache_(cache), stop_(stop), threads_(threads) {}
 
   SourceCache& cache() { return cache_; }
   const StopFlag* stop() const { return stop_; }
+  int threads() const { return threads_; }
   // Is this the first time that the design gets what has this key?
   bool is_new(const Hash& key);
 
@@ -30,6 +32,7 @@ class Loader : public design::SourceLoader {
  private:
   SourceCache& cache_;
   const StopFlag* stop_;
+  int threads_;
   std::mutex mutex_;
   std::set<Hash> told_;
 };
@@ -54,7 +57,10 @@ class Loading {
 
   const design::Reader& reader() const { return reader_; }
   const StopFlag* stop() const { return loader_.stop(); }
+  int threads() const { return loader_.threads(); }
 
+  // The bytes of a file that a script includes; nothing where there is none, or it is larger than 256 MiB.
+  std::optional<std::string> included(const std::string& path);
   // The file that a design names: beside the script first, then beside what this links to, then in the working
   // directory. False, and a diagnostic, when there is none.
   bool find(design::FilePath& file);

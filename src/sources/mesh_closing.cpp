@@ -58,7 +58,7 @@ void turn_shells(const std::string& subject, formats::Mesh& mesh, const design::
 
 }  // namespace
 
-std::string mesh_called(const std::string& path) { return "the mesh \"" + path + '"'; }
+std::string mesh_called(const std::string& path) { return kind_of(path) + " \"" + path + '"'; }
 
 bool make_closed(const std::string& subject, formats::Mesh& mesh, std::string_view rule, const design::Reader& reader) {
   if (mesh.triangles.empty()) return true;

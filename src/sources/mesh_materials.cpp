@@ -158,7 +158,8 @@ std::optional<std::vector<const Material*>> find_materials(const GroupedFile& fi
 std::optional<std::vector<MaterialMesh>> by_material(const std::string& path, const formats::Mesh& mesh,
                                                      const design::MeshUse& use, const design::Reader& reader) {
   const auto materials =
-      find_materials({"the mesh", "mesh", path, remedy_of(mesh)}, formats::all_groups(mesh), use, reader);
+      find_materials({kind_of(path), ending_of(path) == ".scad" ? "scad" : "mesh", path, remedy_of(mesh)},
+                     formats::all_groups(mesh), use, reader);
   if (!materials) return std::nullopt;
   std::vector<MaterialMesh> parts;
   std::set<const Material*> done;
@@ -177,6 +178,8 @@ void add_use(Key& key, const design::MeshUse& use, const design::Reader& reader)
   key.add(print_json_line(reader.materials.to_data())).add(use.material.material->name);
   for (const auto& [name, material] : use.material_map) key.add(name).add(material.material->name);
 }
+
+std::string kind_of(const std::string& path) { return ending_of(path) == ".scad" ? "the script" : "the mesh"; }
 
 std::string ending_of(const std::string& path) { return to_lower(std::filesystem::path(path).extension().string()); }
 

@@ -40,6 +40,9 @@ std::optional<std::vector<MaterialMesh>> by_material(const std::string& path, co
 // What of a use decides the parts that a file gives, the design's materials included if they do.
 void add_use(Key& key, const design::MeshUse& use, const design::Reader& reader);
 
+// "the mesh", or "the script" for one that made it; for messages.
+std::string kind_of(const std::string& path);
+
 // ".stl": what tells the formats apart that their content does not.
 std::string ending_of(const std::string& path);
 

@@ -1,5 +1,9 @@
 #include "sources/source_cache.h"
 
+#include <filesystem>
+
+#include "base/error.h"
+
 namespace ombre::sources {
 
 CacheEntryPtr SourceCache::find(const Hash& key) {
@@ -76,6 +80,18 @@ void SourceCache::forget_unused() {
   if (slots_.size() < next_sweep_) return;
   std::erase_if(slots_, [](const auto& slot) { return slot.second.known.expired(); });
   next_sweep_ = std::max<size_t>(1024, 2 * slots_.size());
+}
+
+std::optional<std::string> read_included(const std::string& path, SourceCache& cache) {
+  constexpr std::uintmax_t largest = 256u << 20;
+  std::error_code status;
+  if (!std::filesystem::is_regular_file(path, status) || std::filesystem::file_size(path, status) > largest)
+    return std::nullopt;
+  try {
+    return *cache.text(path);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace ombre::sources

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "base/diagnostic.h"
@@ -58,5 +59,9 @@ class SourceCache {
   std::list<std::pair<Hash, CacheEntryPtr>> kept_;  // the most recently used first
   size_t most_bytes_, bytes_ = 0, next_sweep_ = 1024;
 };
+
+// The bytes of a file that a script includes; nothing where there is no such regular file, or it is larger than 256
+// MiB.
+std::optional<std::string> read_included(const std::string& path, SourceCache& cache);
 
 }  // namespace ombre::sources

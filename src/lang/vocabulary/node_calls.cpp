@@ -1,5 +1,7 @@
 #include "lang/vocabulary/node_calls.h"
 
+#include <algorithm>
+
 #include "base/text.h"
 #include "lang/vocabulary/legacy_forms.h"
 #include "lang/vocabulary/openscad.h"
@@ -11,6 +13,17 @@ using design::NodePtr;
 using design::NodeType;
 using design::Reader;
 
+namespace {
+
+// The number of the parameter for arguments that no other has the name of; -1 where there is none.
+int variables_of(const NodeType& type) {
+  for (size_t n = 0; n < type.parameters.size(); ++n)
+    if (type.parameters[n].kind == design::variables_kind) return static_cast<int>(n);
+  return -1;
+}
+
+}  // namespace
+
 std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std::vector<Argument> arguments,
                                                        const Reader& reader) {
   arguments = modern_arguments(type, std::move(arguments));
@@ -18,6 +31,8 @@ std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std
   std::vector<bool> taken(type.parameters.size(), false);
   bool good = true;
   size_t position = 0, positional = 0;
+  const int rest = variables_of(type);
+  DataMembers variables;
   for (Argument& argument : arguments) {
     const SourceRange where = argument.name_where.source    ? argument.name_where
                               : argument.value.where.source ? argument.value.where
@@ -34,6 +49,14 @@ std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std
       index = static_cast<int>(position);
     } else {
       index = type.parameter(argument.name);
+    }
+    if (index < 0 && rest >= 0) {
+      if (std::ranges::find(variables, argument.name, &DataMembers::value_type::first) != variables.end()) {
+        reader.diagnostics.error(where, '"' + argument.name + "\" of " + type.name + " is given twice");
+        good = false;
+      }
+      variables.emplace_back(argument.name, std::move(argument.value));
+      continue;
     }
     if (index < 0) {
       std::string hint = openscad_argument_hint(type, argument.name);
@@ -58,7 +81,15 @@ std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std
     taken[at] = true;
     if (!argument.value.is_null()) values.push_back({&type.parameters[at], std::move(argument.value)});
   }
+  if (!variables.empty() && taken[static_cast<size_t>(rest)]) {
+    reader.diagnostics.error(
+        reader.where,
+        type.name + " gets values both by name and by \"" + type.parameters[static_cast<size_t>(rest)].name + '"',
+        "write all of them one way");
+    return std::nullopt;
+  }
   if (!good) return std::nullopt;
+  if (!variables.empty()) values.push_back({&type.parameters[static_cast<size_t>(rest)], Data(std::move(variables))});
   return values;
 }
 

@@ -1,0 +1,1 @@
+translate([0, 0, 1] cube(4);
