@@ -1,10 +1,10 @@
 // Reads DXF files, as text.
-#include <charconv>
 #include <cmath>
 #include <map>
 
 #include "base/text.h"
 #include "formats/arcs.h"
+#include "formats/dxf_entities.h"
 #include "formats/plane_files.h"
 #include "formats/text_scanner.h"
 
@@ -14,52 +14,9 @@ namespace {
 constexpr int deepest = 16;  // blocks within each other
 constexpr size_t most_points = 10'000'000;
 
-// A code that says what the value is.
-struct Pair {
-  int code = 0;
-  std::string_view value;
-  size_t begin = 0, end = 0;  // of the value
-};
-
-struct Entity {
-  std::string_view kind;
-  std::vector<Pair> pairs;
-  std::vector<Vec2> vertices = {};  // of polylines
-  std::vector<double> bulges = {};  // one for each
-};
-
-// Numbers of one entity, each by its code.
-class Values {
- public:
-  Values(const TextScanner& scanner, const Entity& entity) : scanner_(scanner), entity_(entity) {}
-
-  double number(int code, double otherwise = 0) const {
-    for (const Pair& pair : entity_.pairs)
-      if (pair.code == code) return parsed(pair);
-    return otherwise;
-  }
-  Vec2 point(int code) const { return {number(code), number(code + 10)}; }
-  std::string_view text(int code) const {
-    for (const Pair& pair : entity_.pairs)
-      if (pair.code == code) return pair.value;
-    return {};
-  }
-
-  double parsed(const Pair& pair) const {
-    const auto number = parse_number(pair.value);
-    if (!number || std::abs(*number) > 1e15)
-      scanner_.fail_at(pair.begin, pair.end,
-                       "a number is expected for code " + std::to_string(pair.code) + ", not " + quoted(pair.value));
-    return *number;
-  }
-
- private:
-  const TextScanner& scanner_;
-  const Entity& entity_;
-};
-
 // A quarter of the angle that an arc between two points spans has this tangent.
-void append_bulge(Vec2 from, Vec2 to, double bulge, int chords, Ring& ring) {
+template <class Chords>
+void append_bulge(Vec2 from, Vec2 to, double bulge, const Chords& chords, Ring& ring) {
   if (bulge == 0) {
     ring.push_back(to);
     return;
@@ -70,7 +27,7 @@ void append_bulge(Vec2 from, Vec2 to, double bulge, int chords, Ring& ring) {
   const Vec2 center = middle + rise * Vec2{-chord.y, chord.x};
   const Vec2 first = from - center;
   Ring arc;
-  append_arc({center, first, {-first.y, first.x}, 0, turn}, chords, arc);
+  append_arc({center, first, {-first.y, first.x}, 0, turn}, chords(length(first)), arc);
   ring.insert(ring.end(), arc.begin() + 1, arc.end() - 1);
   ring.push_back(to);
 }
@@ -82,7 +39,8 @@ class LineJoiner {
     if (line.size() > 1) lines_.push_back(std::move(line));
   }
 
-  // Closed rings; `open` counts lines that do not close.
+  // Closed rings. `open` counts chains of lines whose ends do not meet: a straight line joins them, as OpenSCAD does
+  // it.
   std::vector<Ring> rings(size_t& open) {
     for (size_t n = 0; n < lines_.size(); ++n) {
       ends_.emplace(key(lines_[n].front()), n);
@@ -94,19 +52,14 @@ class LineJoiner {
       if (used[n]) continue;
       used[n] = true;
       Ring ring = lines_[n];
-      while (key(ring.front()) != key(ring.back())) {
-        const auto next = unused_at(key(ring.back()), used);
-        if (!next) break;
-        used[*next] = true;
-        Ring line = lines_[*next];
-        if (key(line.front()) != key(ring.back())) std::reverse(line.begin(), line.end());
-        ring.insert(ring.end(), line.begin() + 1, line.end());
-      }
-      if (key(ring.front()) != key(ring.back())) {
+      extend(ring, used);
+      std::reverse(ring.begin(), ring.end());
+      extend(ring, used);
+      std::reverse(ring.begin(), ring.end());
+      if (key(ring.front()) == key(ring.back()))
+        ring.pop_back();
+      else
         ++open;
-        continue;
-      }
-      ring.pop_back();
       if (ring.size() > 2) rings.push_back(std::move(ring));
     }
     return rings;
@@ -117,6 +70,17 @@ class LineJoiner {
   static Key key(Vec2 p) {
     constexpr double places_per_mm = 1000;  // beyond that, ends meet
     return {std::llround(p.x * places_per_mm), std::llround(p.y * places_per_mm)};
+  }
+  // By lines at its end, until it is closed.
+  void extend(Ring& ring, std::vector<bool>& used) const {
+    while (key(ring.front()) != key(ring.back())) {
+      const auto next = unused_at(key(ring.back()), used);
+      if (!next) return;
+      used[*next] = true;
+      Ring line = lines_[*next];
+      if (key(line.front()) != key(ring.back())) std::reverse(line.begin(), line.end());
+      ring.insert(ring.end(), line.begin() + 1, line.end());
+    }
   }
   std::optional<size_t> unused_at(const Key& key, const std::vector<bool>& used) const {
     const auto [begin, end] = ends_.equal_range(key);
@@ -135,14 +99,15 @@ class DxfReader {
       : name_(name), scanner_(name, bytes, diagnostics), bytes_(bytes), options_(options), diagnostics_(diagnostics) {}
 
   PlaneShapes read() {
-    read_sections();
-    for (const Entity& entity : entities_) add(entity, {1, 0, 0, 1, 0, 0}, 0, options_.layer.empty());
+    document_ = read_dxf_document(name_, bytes_, scanner_, diagnostics_);
+    for (const DxfEntity& entity : document_.entities) add(entity, {1, 0, 0, 1, 0, 0}, 0, options_.layer.empty());
     size_t open = 0;
     std::vector<Ring> rings = joiner_.rings(open);
     if (open > 0)
-      diagnostics_.warning({make_source(name_, ""), 0, 0},
-                           std::to_string(open) + " lines or chains of lines do not close and are left out",
-                           "join their ends in the program that made the file");
+      diagnostics_.warning(
+          {make_source(name_, ""), 0, 0},
+          std::to_string(open) + " lines or chains of lines do not close; a straight line joins the ends of each",
+          "join their ends in the program that made the file");
     PlaneShapes shapes;
     if (!rings.empty()) shapes.shapes.push_back(std::move(rings));
     return shapes;
@@ -158,131 +123,38 @@ class DxfReader {
     }
   };
 
-  std::string_view line() {
-    const size_t end = std::min(bytes_.find_first_of("\r\n", at_), bytes_.size());
-    std::string_view text = bytes_.substr(at_, end - at_);
-    at_ = end;
-    if (bytes_.substr(at_).starts_with("\r\n")) ++at_;
-    if (at_ < bytes_.size()) ++at_;
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-    return text;
-  }
-
-  bool next(Pair& pair) {
-    if (at_ >= bytes_.size()) return false;
-    const size_t begin = at_;
-    const std::string_view code = line();
-    if (code.empty() && at_ >= bytes_.size()) return false;
-    const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), pair.code);
-    if (error != std::errc() || end != code.data() + code.size())
-      scanner_.fail_at(begin, begin + std::max<size_t>(1, code.size()),
-                       "a group code is expected, a whole number, not " + quoted(code),
-                       "save the drawing as DXF in text form");
-    pair.begin = at_;
-    pair.value = line();
-    pair.end = pair.begin + pair.value.size();
-    return true;
-  }
-
-  void read_sections();
-  // The entities up to the end of a section or block.
-  void read_entities(std::vector<Entity>& entities, Pair& pair);
-  void read_blocks(Pair& pair);
-  void add_vertex(std::vector<Entity>& entities, const Entity& vertex) const;
-
-  void add(const Entity& entity, const Map& map, int depth, bool is_wanted);
+  void add(const DxfEntity& entity, const Map& map, int depth, bool is_wanted);
   void add_line(Ring line, const Map& map) {
     for (Vec2& p : line) p = map(p);
     points_ += line.size();
     if (points_ > most_points) fail(diagnostics_, name_, "the drawing has more than ten million points");
     joiner_.add(std::move(line));
   }
-  void add_polyline(const Entity& entity, const Values& values, const Map& map);
-  void add_ellipse(const Values& values, const Map& map);
-  void add_block(const Values& values, const Map& map, int depth);
+  int chords(double radius) const {
+    return options_.chords_of_radius ? options_.chords_of_radius(radius) : options_.chords_per_turn;
+  }
+  void add_polyline(const DxfEntity& entity, const DxfValues& values, const Map& map);
+  void add_ellipse(const DxfValues& values, const Map& map);
+  void add_block(const DxfValues& values, const Map& map, int depth);
 
   std::string name_;
   TextScanner scanner_;
   std::string_view bytes_;
   const PlaneOptions& options_;
   Diagnostics& diagnostics_;
-  size_t at_ = 0, points_ = 0;
-  std::vector<Entity> entities_;
-  struct Block {
-    Vec2 base;
-    std::vector<Entity> entities;
-  };
-  std::map<std::string, Block, std::less<>> blocks_;
+  size_t points_ = 0;
+  DxfDocument document_;
   LineJoiner joiner_;
 };
 
-void DxfReader::read_sections() {
-  Pair pair;
-  bool has_entities = false;
-  while (next(pair)) {
-    if (pair.code != 0 || pair.value != "SECTION" || !next(pair)) continue;
-    if (pair.value == "BLOCKS") read_blocks(pair);
-    if (pair.value != "ENTITIES") continue;
-    has_entities = true;
-    read_entities(entities_, pair);
-  }
-  if (!has_entities) fail(diagnostics_, name_, "there is no section ENTITIES", "save the drawing as DXF in text form");
-}
-
-void DxfReader::read_entities(std::vector<Entity>& entities, Pair& pair) {
-  Entity entity;
-  const auto finish = [&] {
-    if (entity.kind == "VERTEX")
-      add_vertex(entities, entity);
-    else if (!entity.kind.empty() && entity.kind != "SEQEND")
-      entities.push_back(entity);
-    entity = {};
-  };
-  while (next(pair)) {
-    if (pair.code != 0) {
-      if (!entity.kind.empty()) entity.pairs.push_back(pair);
-      continue;
-    }
-    finish();
-    if (pair.value == "ENDSEC" || pair.value == "ENDBLK") return;
-    entity.kind = pair.value;
-  }
-  finish();
-}
-
-void DxfReader::read_blocks(Pair& pair) {
-  while (next(pair)) {
-    if (pair.code == 0 && pair.value == "ENDSEC") return;
-    if (pair.code != 0 || pair.value != "BLOCK") continue;
-    std::vector<Entity> entities{{"BLOCK", {}}};
-    // The block's own values stand before its first entity.
-    const size_t begin = at_;
-    while (next(pair) && pair.code != 0) entities[0].pairs.push_back(pair);
-    const Values values(scanner_, entities[0]);
-    Block block{values.point(10), {}};
-    const std::string name(values.text(2));
-    at_ = begin;
-    read_entities(block.entities, pair);
-    blocks_[name] = std::move(block);
-  }
-}
-
-void DxfReader::add_vertex(std::vector<Entity>& entities, const Entity& vertex) const {
-  if (entities.empty() || entities.back().kind != "POLYLINE") return;
-  const Values values(scanner_, vertex);
-  entities.back().vertices.push_back(values.point(10));
-  entities.back().bulges.push_back(values.number(42));
-}
-
-void DxfReader::add(const Entity& entity, const Map& map, int depth, bool is_wanted) {
-  const Values values(scanner_, entity);
+void DxfReader::add(const DxfEntity& entity, const Map& map, int depth, bool is_wanted) {
+  const DxfValues values(scanner_, entity);
   if (!is_wanted && values.text(8) != options_.layer) return;
   const auto arc = [&](double begin, double turn) {
     const double radius = values.number(40);
     Ring ring;
-    append_arc({values.point(10), {radius, 0}, {0, radius}, begin * math::degree, turn * math::degree},
-               options_.chords_per_turn, ring);
+    append_arc({values.point(10), {radius, 0}, {0, radius}, begin * math::degree, turn * math::degree}, chords(radius),
+               ring);
     if (turn == 360) ring.back() = ring.front();
     add_line(std::move(ring), map);
   };
@@ -303,11 +175,11 @@ void DxfReader::add(const Entity& entity, const Map& map, int depth, bool is_wan
     add_block(values, map, depth);
 }
 
-void DxfReader::add_polyline(const Entity& entity, const Values& values, const Map& map) {
+void DxfReader::add_polyline(const DxfEntity& entity, const DxfValues& values, const Map& map) {
   std::vector<Vec2> corners = entity.vertices;
   std::vector<double> bulges = entity.bulges;
   if (entity.kind == "LWPOLYLINE")
-    for (const Pair& pair : entity.pairs) {
+    for (const DxfPair& pair : entity.pairs) {
       if (pair.code == 10) {
         corners.push_back({values.parsed(pair), 0});
         bulges.push_back(0);
@@ -321,11 +193,12 @@ void DxfReader::add_polyline(const Entity& entity, const Values& values, const M
   Ring line{corners[0]};
   const size_t edges = corners.size() - (is_closed ? 0 : 1);
   for (size_t n = 0; n < edges; ++n)
-    append_bulge(corners[n], corners[(n + 1) % corners.size()], bulges[n], options_.chords_per_turn, line);
+    append_bulge(
+        corners[n], corners[(n + 1) % corners.size()], bulges[n], [&](double radius) { return chords(radius); }, line);
   add_line(std::move(line), map);
 }
 
-void DxfReader::add_ellipse(const Values& values, const Map& map) {
+void DxfReader::add_ellipse(const DxfValues& values, const Map& map) {
   constexpr double whole = 2 * std::numbers::pi;
   const Vec2 first = values.point(11);
   const double ratio = values.number(40, 1), begin = values.number(41), end = values.number(42, whole);
@@ -333,21 +206,20 @@ void DxfReader::add_ellipse(const Values& values, const Map& map) {
   if (turn <= 0) turn += whole;
   if (std::abs(end - begin - whole) < 1e-6) turn = whole;
   Ring ring;
-  append_arc({values.point(10), first, {-ratio * first.y, ratio * first.x}, begin, turn}, options_.chords_per_turn,
-             ring);
+  append_arc({values.point(10), first, {-ratio * first.y, ratio * first.x}, begin, turn}, chords(length(first)), ring);
   if (turn == whole) ring.back() = ring.front();
   add_line(std::move(ring), map);
 }
 
-void DxfReader::add_block(const Values& values, const Map& map, int depth) {
-  const auto block = blocks_.find(values.text(2));
-  if (block == blocks_.end() || depth >= deepest) return;
+void DxfReader::add_block(const DxfValues& values, const Map& map, int depth) {
+  const auto block = document_.blocks.find(values.text(2));
+  if (block == document_.blocks.end() || depth >= deepest) return;
   const double sx = values.number(41, 1), sy = values.number(42, 1), angle = values.number(50) * math::degree;
   const double c = math::cos(angle), s = math::sin(angle);
   const Vec2 at = values.point(10), base = block->second.base;
   const Map own{c * sx, s * sx, -s * sy, c * sy, at.x, at.y};
   const Map all = map * own * Map{1, 0, 0, 1, -base.x, -base.y};
-  for (const Entity& entity : block->second.entities) {
+  for (const DxfEntity& entity : block->second.entities) {
     add(entity, all, depth + 1, true);
     if (++points_ > most_points) fail(diagnostics_, name_, "the drawing's blocks have more than ten million lines");
   }

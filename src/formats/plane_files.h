@@ -1,6 +1,7 @@
 // Drawings in files: the closed outlines that SVG and DXF files hold.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,8 @@ struct PlaneOptions {
   std::string layer, id;      // only what is on the layer (DXF), or in the element (SVG); empty: all
   double dots_per_inch = 72;  // of SVG lengths without a unit
   int chords_per_turn = 40;   // of circles and arcs
+  // Of those of a radius, in units of the drawing (DXF); empty: the same for all.
+  std::function<int(double radius)> chords_of_radius = {};
 };
 
 // Inside of a shape is what an odd number of its rings goes round.
@@ -30,7 +33,8 @@ std::optional<PlaneShapes> read_svg(const std::string& name, std::string_view by
                                     Diagnostics& diagnostics);
 
 // LINE, ARC, CIRCLE, ELLIPSE, LWPOLYLINE (with bulges), POLYLINE, and INSERT of blocks; lines whose ends meet become
-// rings of one shape, others are left out with a warning. Nothing, and diagnostics, for what is no DXF.
+// rings of one shape, and where the ends of a chain do not meet, a straight line joins them, with a warning. Nothing,
+// and diagnostics, for what is no DXF.
 std::optional<PlaneShapes> read_dxf(const std::string& name, std::string_view bytes, const PlaneOptions& options,
                                     Diagnostics& diagnostics);
 

@@ -152,7 +152,8 @@ TEST(Dxf, LinesBecomeRings) {
   Diagnostics diagnostics;
   EXPECT_TRUE(read_dxf("test.dxf", dxf_of(square + line(9, 9, 8, 8)), {}, diagnostics));
   ASSERT_EQ(diagnostics.list().size(), 1U);
-  EXPECT_EQ(diagnostics.list()[0].message, "1 lines or chains of lines do not close and are left out");
+  EXPECT_EQ(diagnostics.list()[0].message,
+            "1 lines or chains of lines do not close; a straight line joins the ends of each");
 }
 
 TEST(Dxf, ArcsAndBulges) {

@@ -2,6 +2,7 @@
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 
@@ -51,6 +52,7 @@ class Splitter {
         const auto partner = partner_of(edge.first, edge.second, use, uses.backward);
         join(use.triangle, partner->triangle, edge.first);
         join(use.triangle, partner->triangle, edge.second);
+        if (uses.forward.size() > 1) pairs_.push_back({edge, use.triangle, partner->triangle});
         uses.backward.erase(partner);
       }
     }
@@ -67,9 +69,50 @@ class Splitter {
         triangles[t][n] = place->second;
       }
     points = std::move(all);
+    cut_shared_edges(numbers, points, triangles);
   }
 
  private:
+  using Edge = std::pair<size_t, size_t>;
+
+  // Triangles of the same sector at an edge that others use too.
+  struct Pair {
+    Edge edge;
+    size_t forward = 0, backward = 0;
+  };
+
+  // Where sheets that share an edge are joined at both of its ends, they would share the edge of the mesh as well. So
+  // each pair gets a middle of its own.
+  void cut_shared_edges(const std::map<size_t, size_t>& numbers, std::vector<Point>& points, Polygons& triangles) {
+    std::map<Edge, int> users;
+    for (const auto& triangle : triangles)
+      for (size_t n = 0; n < 3; ++n) ++users[{triangle[n], triangle[(n + 1) % 3]}];
+    std::multimap<size_t, size_t> pieces;  // of a triangle that was cut
+    const auto cut = [&](size_t triangle, Edge edge, size_t middle) {
+      const auto has_edge = [&](size_t t) {
+        for (size_t n = 0; n < 3; ++n)
+          if (triangles[t][n] == edge.first && triangles[t][(n + 1) % 3] == edge.second) return true;
+        return false;
+      };
+      size_t piece = triangle;
+      for (auto [at, end] = pieces.equal_range(triangle); at != end && !has_edge(piece); ++at) piece = at->second;
+      std::vector<size_t> rest = triangles[piece];
+      std::replace(triangles[piece].begin(), triangles[piece].end(), edge.second, middle);
+      std::replace(rest.begin(), rest.end(), edge.first, middle);
+      pieces.emplace(triangle, triangles.size());
+      triangles.push_back(std::move(rest));
+    };
+    for (const Pair& pair : pairs_) {
+      const auto number = [&](size_t point) { return numbers.at(first(corner(pair.forward, point))); };
+      const Edge edge{number(pair.edge.first), number(pair.edge.second)};
+      if (users[edge] < 2) continue;
+      const size_t middle = points.size();
+      points.push_back(CGAL::midpoint(points_[pair.edge.first], points_[pair.edge.second]));
+      cut(pair.forward, edge, middle);
+      cut(pair.backward, {edge.second, edge.first}, middle);
+    }
+  }
+
   // Outside is where a triangle that passes the edge forward turns to, so its sector ends at the last of the others.
   std::vector<Use>::iterator partner_of(size_t a, size_t b, const Use& use, std::vector<Use>& others) const {
     const auto turn = [&](size_t apex) {
@@ -95,6 +138,7 @@ class Splitter {
     first_[std::max(a, b)] = std::min(a, b);
   }
 
+  std::vector<Pair> pairs_;
   const std::vector<Point> points_;
   const Polygons triangles_;
   std::map<std::pair<size_t, size_t>, EdgeUses> edges_;

@@ -248,6 +248,9 @@ std::vector<std::vector<Key>> chained(std::multimap<Key, Key>& next) {
   return rings;
 }
 
+// Points of a solid are rounded, and so faces of it that meet leave gaps and slivers in the plane.
+constexpr double plane_noise_mm = 1e-6;
+
 using Edge = std::pair<uint32_t, uint32_t>;  // from a point above the plane to one below
 
 // Where the plane cuts, if points in it count as above or as below.
@@ -302,7 +305,7 @@ TriangleMesh revolved(const Region& region, const RotateExtrude& by, const Sourc
 
 Region section(const TriangleMesh& mesh) {
   const std::vector<Region> sides{wound_region_of(cut(mesh, true)), wound_region_of(cut(mesh, false))};
-  return unite(sides);
+  return cleaned(unite(sides), plane_noise_mm);
 }
 
 // A point has as many faces above it that look up as rings of their border go round it.
@@ -331,7 +334,7 @@ Region shadow(const TriangleMesh& mesh) {
     Ring& ring = rings.emplace_back();
     for (const uint32_t point : chain) ring.push_back({mesh.points[point].x, mesh.points[point].y});
   }
-  return wound_region_of(rings);
+  return cleaned(wound_region_of(rings), plane_noise_mm);
 }
 
 }  // namespace ombre::solids

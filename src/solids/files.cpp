@@ -11,6 +11,7 @@
 #include "formats/mesh_objects.h"
 #include "formats/plane_files.h"
 #include "formats/uncoloured.h"
+#include "solids/fragments.h"
 #include "solids/kernel.h"
 #include "solids/regions.h"
 
@@ -88,7 +89,8 @@ Pieces mesh_pieces(const Import& import, const std::string& bytes, const SourceR
 }
 
 Pieces region_pieces(const Import& import, const std::string& bytes, const SourceRange& where, Diagnostics& messages) {
-  const formats::PlaneOptions options{import.layer, import.id, import.dots_per_inch};
+  formats::PlaneOptions options{import.layer, import.id, import.dots_per_inch};
+  options.chords_of_radius = [&](double radius) { return edges_of_circle(radius * import.scale, import.fragments); };
   const bool is_svg = ending_of(import.path) == ".svg";
   auto shapes = is_svg ? formats::read_svg(import.path, bytes, options, messages)
                        : formats::read_dxf(import.path, bytes, options, messages);

@@ -190,6 +190,13 @@ Region offset(const Region& region, const Offset& by) {
   return grid.region(result);
 }
 
+Region cleaned(const Region& region, double distance_mm) {
+  const Grid grid(reach_of(region.rings));
+  Paths paths = grid.paths(region.rings);
+  clip::CleanPolygons(paths, distance_mm * grid.steps());
+  return wound_region_of(grid.region(paths).rings);
+}
+
 Region fill(const Region& region) {
   std::vector<Ring> outer;
   for (const Ring& ring : region.rings)

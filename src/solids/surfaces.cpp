@@ -1,6 +1,8 @@
 // Solids below a grid of heights.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <span>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -8,6 +10,7 @@
 #include "formats/png.h"
 #include "formats/text_scanner.h"
 #include "solids/files.h"
+#include "solids/kernel.h"
 
 namespace ombre::solids {
 namespace {
@@ -96,26 +99,41 @@ class HeightMesh {
     for (size_t n = 0; n < 4; ++n) mesh_.triangles.push_back({corners[n], corners[(n + 1) % 4], middle});
   }
 
+  // One polygon for each side and two triangles below: other solids often stand on the same plane, and what meets there
+  // is computed faster from few triangles.
   void add_walls() {
-    std::vector<uint32_t> around;
     const size_t columns = heights_.columns, rows = heights_.rows;
-    for (size_t n = 0; n + 1 < columns; ++n) around.push_back(top(n, 0));
-    for (size_t n = 0; n + 1 < rows; ++n) around.push_back(top(columns - 1, n));
-    for (size_t n = columns - 1; n > 0; --n) around.push_back(top(n, rows - 1));
-    for (size_t n = rows - 1; n > 0; --n) around.push_back(top(0, n));
-    const auto first = static_cast<uint32_t>(mesh_.points.size()), count = static_cast<uint32_t>(around.size());
-    for (const uint32_t point : around) {
-      const Vec3 p = mesh_.points[point];
+    std::array<std::vector<uint32_t>, 4> sides;  // counter-clockwise as seen from above
+    for (size_t n = 0; n < columns; ++n) {
+      sides[0].push_back(top(n, 0));
+      sides[2].push_back(top(columns - 1 - n, rows - 1));
+    }
+    for (size_t n = 0; n < rows; ++n) {
+      sides[1].push_back(top(columns - 1, n));
+      sides[3].push_back(top(0, rows - 1 - n));
+    }
+    const auto first = static_cast<uint32_t>(mesh_.points.size());
+    for (const std::vector<uint32_t>& side : sides) {
+      const Vec3 p = mesh_.points[side.front()];
       mesh_.points.push_back({p.x, p.y, foot_});
     }
-    mesh_.points.push_back(
-        {shift_.x + 0.5 * static_cast<double>(columns - 1), shift_.y + 0.5 * static_cast<double>(rows - 1), foot_});
-    for (uint32_t n = 0; n < count; ++n) {
-      const uint32_t next = (n + 1) % count;
-      mesh_.triangles.push_back({first + n, first + next, around[next]});
-      mesh_.triangles.push_back({first + n, around[next], around[n]});
-      mesh_.triangles.push_back({first + next, first + n, first + count});
+    for (uint32_t n = 0; n < 4; ++n) add_wall(first + n, first + (n + 1) % 4, sides[n]);
+    mesh_.triangles.push_back({first, first + 2, first + 1});
+    mesh_.triangles.push_back({first, first + 3, first + 2});
+  }
+
+  // From one corner of the foot to the next, below the points of a side.
+  void add_wall(uint32_t begin, uint32_t end, const std::vector<uint32_t>& side) {
+    std::vector<uint32_t> corners{begin, end};
+    corners.insert(corners.end(), side.rbegin(), side.rend());
+    const Vec3 from = mesh_.points[begin];
+    Ring ring;
+    for (const uint32_t corner : corners) {
+      const Vec3 p = mesh_.points[corner];
+      ring.push_back({std::abs(p.x - from.x) + std::abs(p.y - from.y), p.z});
     }
+    for (const Triangle& t : kernel().triangulate(std::span(&ring, 1)).triangles)
+      mesh_.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
   }
 
   const Heights& heights_;

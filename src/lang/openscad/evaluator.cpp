@@ -19,7 +19,7 @@ Evaluator::Evaluator(const Program& program, const Options& options, Messages& m
   intersection_for_name_ = symbol("intersection_for"), assign_name_ = symbol("assign");
   children_count_ = symbol("$children"), parent_modules_ = symbol("$parent_modules");
   fn_ = symbol("$fn"), fa_ = symbol("$fa"), fs_ = symbol("$fs"), semantics_ = symbol("$semantics");
-  for (const auto& table : {math_functions(), value_functions()})
+  for (const auto& table : {math_functions(), value_functions(), drawing_functions()})
     for (const NamedFunction& function : table) functions_[symbol(function.name)] = function;
   for (const auto& table : {shape_modules(), plane_modules(), transform_modules(), operation_modules(), file_modules()})
     module_table_.insert(module_table_.end(), table.begin(), table.end());
@@ -271,13 +271,14 @@ solids::Fragments ModuleCall::checked_fragments() const {
   return result;
 }
 
-std::string ModuleCall::complete_path(const std::string& path) const {
+std::string path_beside(const ast::Span& where, const std::string& path) {
   namespace fs = std::filesystem;
   if (path.empty() || fs::path(path).is_absolute()) return path;
-  const ast::Span& where = statement_.span;
   const fs::path folder = where.source ? fs::path((*where.source)->name()).parent_path() : fs::path();
   return (folder / path).lexically_normal().generic_string();
 }
+
+std::string ModuleCall::complete_path(const std::string& path) const { return path_beside(statement_.span, path); }
 
 const Trees& ModuleCall::children() {
   if (!children_) {

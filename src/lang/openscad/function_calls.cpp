@@ -155,7 +155,7 @@ Value Evaluator::call_builtin(const ast::Call& call, const ScopePtr& scope) {
   for (const ast::Argument& argument : call.arguments) arguments.push_back(eval(*argument.value, scope));
   at_ = call.span;
   Problems problems;
-  const FunctionCall made{found->second.name, std::move(arguments), meter_, problems, module_names_, random_};
+  const FunctionCall made{found->second.name, std::move(arguments), meter_, problems, module_names_, random_, call};
   Value result = found->second.call(made);
   warn_all(problems, call.span);
   return result;

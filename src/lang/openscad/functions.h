@@ -6,11 +6,12 @@
 #include <string_view>
 #include <vector>
 
+#include "lang/ast.h"
 #include "lang/openscad/operators.h"
 
 namespace ombre::lang::openscad {
 
-// One call. Arguments count by their order, whatever their names.
+// One call. Of most functions arguments count by their order, whatever their names.
 struct FunctionCall {
   std::string_view name;
   std::vector<Value> arguments;
@@ -18,6 +19,7 @@ struct FunctionCall {
   Problems& problems;
   const std::vector<std::string>& modules;  // names of the modules being evaluated, outermost first
   std::mt19937& random;                     // for rands() without a seed
+  const ast::Call& written;
 
   size_t size() const { return arguments.size(); }
   const Value& operator[](size_t i) const { return arguments[i]; }
@@ -32,6 +34,9 @@ struct FunctionCall {
 
 using Function = Value (*)(const FunctionCall& call);
 
+// A path that a script gives, from the folder of the file where it stands.
+std::string path_beside(const ast::Span& where, const std::string& path);
+
 struct NamedFunction {
   const char* name;
   Function call;
@@ -39,5 +44,6 @@ struct NamedFunction {
 
 std::vector<NamedFunction> math_functions();
 std::vector<NamedFunction> value_functions();
+std::vector<NamedFunction> drawing_functions();
 
 }  // namespace ombre::lang::openscad

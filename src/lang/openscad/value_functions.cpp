@@ -280,8 +280,6 @@ Value parent_module(const Call& call) {
   return make_text(call.modules[call.modules.size() - 1 - static_cast<size_t>(index)], call.meter);
 }
 
-Value unsupported(const Call& call) { return call.fail(std::string(call.name) + "() is not supported"); }
-
 }  // namespace
 
 std::vector<NamedFunction> value_functions() {
@@ -300,9 +298,7 @@ std::vector<NamedFunction> value_functions() {
           {"is_function", is_function},
           {"version", version},
           {"version_num", version_num},
-          {"parent_module", parent_module},
-          {"dxf_dim", unsupported},
-          {"dxf_cross", unsupported}};
+          {"parent_module", parent_module}};
 }
 
 }  // namespace ombre::lang::openscad

@@ -1,0 +1,68 @@
+#include "solids/drawing_measures.h"
+
+#include "base/error.h"
+#include "formats/dxf_measures.h"
+#include "formats/file.h"
+
+namespace ombre::solids {
+namespace {
+
+// Nothing, and a warning, where the file cannot be read.
+std::optional<formats::DxfMeasures> measures_of(const std::string& path, std::string& warning) {
+  try {
+    Diagnostics found;
+    auto measures = formats::read_dxf_measures(path, formats::read_file(path), found);
+    if (!measures)
+      warning = "Can't read DXF file '" + path + "'" + (found.list().empty() ? "" : ": " + found.list()[0].message);
+    return measures;
+  } catch (const Error&) {
+    warning = "Can't open DXF file '" + path + "'!";
+    return std::nullopt;
+  }
+}
+
+bool fits(const std::string& wanted, const std::string& found) { return wanted.empty() || wanted == found; }
+
+}  // namespace
+
+Measure<double> dimension_of(const MeasureChoice& choice) {
+  Measure<double> result;
+  const auto measures = measures_of(choice.path, result.warning);
+  if (!measures) return result;
+  for (const formats::DxfDimension& dimension : measures->dimensions) {
+    if (!fits(choice.name, dimension.name) || !fits(choice.layer, dimension.layer)) continue;
+    result.value = dimension.value;
+    if (!result.value)
+      result.warning = "Dimension '" + choice.name + "' in '" + choice.path + "', layer '" + choice.layer +
+                       "' has unsupported type!";
+    else if (!dimension.is_angle)
+      *result.value *= choice.scale;
+    return result;
+  }
+  result.warning = "Can't find dimension '" + choice.name + "' in '" + choice.path + "', layer '" + choice.layer + "'!";
+  return result;
+}
+
+Measure<Vec2> crossing_of(const MeasureChoice& choice) {
+  Measure<Vec2> result;
+  const auto measures = measures_of(choice.path, result.warning);
+  if (!measures) return result;
+  const formats::DxfLine* first = nullptr;
+  for (const formats::DxfLine& line : measures->lines) {
+    if (!fits(choice.layer, line.layer)) continue;
+    if (!first) {
+      first = &line;
+      continue;
+    }
+    const Vec2 a = first->to - first->from, b = line.to - line.from;
+    const double turn = cross(a, b);
+    if (turn == 0) break;  // parallel
+    const Vec2 place = first->from + (cross(line.from - first->from, b) / turn) * a;
+    result.value = choice.scale * (place - choice.origin);
+    return result;
+  }
+  result.warning = "Can't find cross in '" + choice.path + "', layer '" + choice.layer + "'!";
+  return result;
+}
+
+}  // namespace ombre::solids
