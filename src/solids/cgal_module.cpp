@@ -69,22 +69,27 @@ bool corefined(Boolean operation, const ExactMesh& a, const ExactMesh& b, ExactM
 
 using Meshes = std::vector<ExactMesh>;
 
-void add_combined(Boolean operation, const ExactMesh& a, const ExactMesh& b, Meshes& results) {
+bool corefined(Boolean operation, const Part& a, const Part& b, ExactMesh& result) {
+  return !a.nef && !b.nef && corefined(operation, a.surface, b.surface, result);
+}
+
+void add_combined(Boolean operation, const Part& a, const Part& b, Parts& results) {
   ExactMesh result;
   if (!corefined(operation, a, b, result)) {
-    for (ExactMesh& part : combine_nef(operation, a, b)) results.push_back(std::move(part));
+    for (Part& part : combine_nef(operation, a, b)) results.push_back(std::move(part));
   } else if (result.number_of_faces() > 0) {
-    results.push_back(std::move(result));
+    results.emplace_back(std::move(result));
   }
 }
 
-Exact::FT volume_of(const ExactMesh& mesh) { return processing::volume(mesh); }
+Exact::FT volume_of(const Part& part) { return processing::volume(part.surface); }
+Box box_of(const Part& part) { return solids::box_of(part.surface); }
 
-Meshes subtracted(const Meshes& from, const Meshes& others) {
-  Meshes left = from;
-  for (const ExactMesh& other : others) {
-    Meshes next;
-    for (const ExactMesh& part : left) {
+Parts subtracted(const Parts& from, const Parts& others) {
+  Parts left = from;
+  for (const Part& other : others) {
+    Parts next;
+    for (const Part& part : left) {
       if (meet(box_of(part), box_of(other)))
         add_combined(Boolean::subtract, part, other, next);
       else
@@ -95,34 +100,35 @@ Meshes subtracted(const Meshes& from, const Meshes& others) {
   return left;
 }
 
-Meshes intersected(const Meshes& some, const Meshes& others) {
-  Meshes common;
-  for (const ExactMesh& a : some)
-    for (const ExactMesh& b : others)
+Parts intersected(const Parts& some, const Parts& others) {
+  Parts common;
+  for (const Part& a : some)
+    for (const Part& b : others)
       if (meet(box_of(a), box_of(b))) add_combined(Boolean::intersect, a, b, common);
   return common;
 }
 
 // Unites two that meet. False where they only touch, and stay two.
-bool join(const ExactMesh& a, const ExactMesh& b, Meshes& joined) {
+bool join(const Part& a, const Part& b, Parts& joined) {
   ExactMesh result;
   if (corefined(Boolean::unite, a, b, result)) {
-    joined = {std::move(result)};
+    joined.clear();
+    joined.emplace_back(std::move(result));
     return true;
   }
   joined = combine_nef(Boolean::unite, a, b);
   Exact::FT volume = 0;
-  for (const ExactMesh& part : joined) volume += volume_of(part);
+  for (const Part& part : joined) volume += volume_of(part);
   return joined.size() < 2 || volume != volume_of(a) + volume_of(b);
 }
 
-Meshes united(Meshes some, Meshes waiting) {
+Parts united(Parts some, Parts waiting) {
   std::reverse(waiting.begin(), waiting.end());
   while (!waiting.empty()) {
-    ExactMesh next = std::move(waiting.back());
+    Part next = std::move(waiting.back());
     waiting.pop_back();
-    Meshes joined;
-    const auto other = std::find_if(some.begin(), some.end(), [&](const ExactMesh& part) {
+    Parts joined;
+    const auto other = std::find_if(some.begin(), some.end(), [&](const Part& part) {
       return meet(box_of(part), box_of(next)) && join(part, next, joined);
     });
     if (other == some.end()) {
@@ -130,25 +136,26 @@ Meshes united(Meshes some, Meshes waiting) {
       continue;
     }
     some.erase(other);
-    for (ExactMesh& part : joined) waiting.push_back(std::move(part));
+    for (Part& part : joined) waiting.push_back(std::move(part));
   }
   return some;
 }
 
 // Of shells that cross or touch each other: what the outward ones hold, less what the inward ones do.
-Meshes of_shells(const ExactMesh& mesh) {
-  Meshes shells, solids, cavities;
+Parts of_shells(const ExactMesh& mesh) {
+  Meshes shells;
+  Parts solids, cavities;
   processing::split_connected_components(mesh, shells);
   for (ExactMesh& shell : shells) {
     if (processing::does_self_intersect(shell)) throw Error("its surface crosses itself");
     const bool is_cavity = !processing::is_outward_oriented(shell);
     if (is_cavity) processing::reverse_face_orientations(shell);
-    (is_cavity ? cavities : solids).push_back(std::move(shell));
+    (is_cavity ? cavities : solids).emplace_back(std::move(shell));
   }
   return subtracted(united({}, std::move(solids)), cavities);
 }
 
-BodyPtr body_of(Meshes parts) { return std::make_shared<CgalBody>(std::move(parts)); }
+BodyPtr body_of(Parts parts) { return std::make_shared<CgalBody>(std::move(parts)); }
 
 // A closed connected surface without a reflex edge is convex.
 bool has_reflex_edge(const ExactMesh& mesh) {
@@ -174,15 +181,22 @@ class CgalKernel : public Kernel {
       if (processing::does_self_intersect(exact)) return body_of(of_shells(exact));
       turn_outward(exact, remark);
     }
-    return body_of({std::move(exact)});
+    Parts parts;
+    parts.emplace_back(std::move(exact));
+    return body_of(std::move(parts));
   }
 
   BodyPtr moved(const Body& body, const Affine& map) const override {
     const auto& [x, y, z] = map.rows;
     const Vec3& t = map.offset;
     const CGAL::Aff_transformation_3<Exact> exact(x.x, x.y, x.z, t.x, y.x, y.y, y.z, t.y, z.x, z.y, z.z, t.z, 1);
-    Meshes parts = cgal(body).parts();
-    for (ExactMesh& mesh : parts) {
+    Parts parts = cgal(body).parts();
+    for (Part& part : parts) {
+      if (part.nef) {
+        part = moved_nef(part, exact);
+        continue;
+      }
+      ExactMesh& mesh = part.surface;
       for (const auto vertex : mesh.vertices()) mesh.point(vertex) = exact(mesh.point(vertex));
       if (exact.is_odd()) processing::reverse_face_orientations(mesh);
     }
@@ -190,7 +204,7 @@ class CgalKernel : public Kernel {
   }
 
   BodyPtr combine(Boolean operation, const Body& a, const Body& b) const override {
-    const Meshes &first = cgal(a).parts(), &second = cgal(b).parts();
+    const Parts &first = cgal(a).parts(), &second = cgal(b).parts();
     switch (operation) {
       case Boolean::unite:
         return body_of(united(first, second));
@@ -203,29 +217,36 @@ class CgalKernel : public Kernel {
   }
 
   BodyPtr gathered(std::span<const BodyPtr> bodies) const override {
-    Meshes all;
+    Parts all, touching;
     for (const BodyPtr& body : bodies) {
-      const Meshes& parts = cgal(*body).parts();
-      if (all.size() < parts.size()) all.resize(parts.size());
-      for (size_t n = 0; n < parts.size(); ++n) CGAL::copy_face_graph(parts[n], all[n]);
+      size_t n = 0;
+      for (const Part& part : cgal(*body).parts()) {
+        if (part.nef) {
+          touching.push_back(part);
+          continue;
+        }
+        if (all.size() <= n) all.emplace_back();
+        CGAL::copy_face_graph(part.surface, all[n++].surface);
+      }
     }
+    all.insert(all.end(), touching.begin(), touching.end());
     return body_of(std::move(all));
   }
 
   TriangleMesh hull(std::span<const Vec3> points) const override { return hull_of(points); }
 
   bool is_convex(const Body& body) const override {
-    const Meshes& parts = cgal(body).parts();
-    if (parts.size() != 1 || has_reflex_edge(parts[0])) return false;
+    const Parts& parts = cgal(body).parts();
+    if (parts.size() != 1 || parts[0].nef || has_reflex_edge(parts[0].surface)) return false;
     Meshes shells;
-    processing::split_connected_components(parts[0], shells);
+    processing::split_connected_components(parts[0].surface, shells);
     return shells.size() == 1;
   }
 
   std::vector<TriangleMesh> convex_parts(const Body& body) const override {
     std::vector<TriangleMesh> all;
-    for (const ExactMesh& mesh : cgal(body).parts())
-      for (TriangleMesh& part : convex_parts_nef(mesh)) all.push_back(std::move(part));
+    for (const Part& part : cgal(body).parts())
+      for (TriangleMesh& piece : convex_parts_nef(part)) all.push_back(std::move(piece));
     return all;
   }
 
@@ -248,8 +269,9 @@ void append(const ExactMesh& mesh, TriangleMesh& all) {
 
 }  // namespace
 
-CgalBody::CgalBody(std::vector<ExactMesh> parts) : parts_(std::move(parts)) {
-  for (const ExactMesh& mesh : parts_) {
+CgalBody::CgalBody(Parts parts) : parts_(std::move(parts)) {
+  for (const Part& part : parts_) {
+    const ExactMesh& mesh = part.surface;
     for (const auto vertex : mesh.vertices()) CGAL::exact(mesh.point(vertex));
     bounds_ = hull(bounds_, box_of(mesh));
   }
@@ -257,7 +279,7 @@ CgalBody::CgalBody(std::vector<ExactMesh> parts) : parts_(std::move(parts)) {
 
 TriangleMesh CgalBody::mesh() const {
   TriangleMesh all;
-  for (const ExactMesh& mesh : parts_) append(mesh, all);
+  for (const Part& part : parts_) append(part.surface, all);
   return all;
 }
 
@@ -285,7 +307,7 @@ std::vector<ExactMesh> apart(const ExactMesh& mesh) {
       const bool holds = std::all_of(corners.begin(), corners.end(), [&](const auto vertex) {
         return side(cavity.point(vertex)) != CGAL::ON_UNBOUNDED_SIDE;
       });
-      if (holds && (!own || volume_of(solid) < volume_of(*own))) own = &solid;
+      if (holds && (!own || processing::volume(solid) < processing::volume(*own))) own = &solid;
     }
     if (own) CGAL::copy_face_graph(cavity, *own);
   }

@@ -14,7 +14,24 @@ namespace ombre::solids {
 
 using Nef = CGAL::Nef_polyhedron_3<Exact>;
 
+class NefSolid {
+ public:
+  explicit NefSolid(Nef solid) : solid_(std::move(solid)) {}
+  const Nef& solid() const { return solid_; }
+
+ private:
+  Nef solid_;
+};
+
 namespace {
+
+Nef solid_of(const Part& part) { return part.nef ? part.nef->solid() : Nef(ExactMesh(part.surface)); }
+
+bool touches_itself(const ExactMesh& mesh) {
+  std::vector<Exact::Point_3> points(mesh.points().begin(), mesh.points().end());
+  std::ranges::sort(points, [](const auto& a, const auto& b) { return CGAL::lexicographically_xyz_smaller(a, b); });
+  return std::adjacent_find(points.begin(), points.end()) != points.end();
+}
 
 // The library goes through a Nef polyhedron in an order that may depend on addresses.
 void put_in_order(std::vector<Exact::Point_3>& points, std::vector<std::vector<std::size_t>>& polygons) {
@@ -35,27 +52,40 @@ void put_in_order(std::vector<Exact::Point_3>& points, std::vector<std::vector<s
   std::sort(polygons.begin(), polygons.end());
 }
 
-std::vector<ExactMesh> surfaces_of(const Nef& nef) {
-  if (nef.is_empty()) return {};
+Part whole_of(const Nef& nef, ExactMesh surface) { return {std::move(surface), std::make_shared<const NefSolid>(nef)}; }
+
+ExactMesh surface_of(const Nef& nef) {
   std::vector<Exact::Point_3> points;
   std::vector<std::vector<std::size_t>> polygons;
   CGAL::convert_nef_polyhedron_to_polygon_soup(nef, points, polygons, true);
   put_in_order(points, polygons);
-  return apart(mesh_of_soup(std::move(points), std::move(polygons)));
+  return mesh_of_soup(std::move(points), std::move(polygons));
+}
+
+// Shells that touch each other become parts; one that touches itself keeps the solid together.
+Parts parts_of(const Nef& nef) {
+  if (nef.is_empty()) return {};
+  ExactMesh surface = surface_of(nef);
+  Parts parts;
+  for (ExactMesh& shell : apart(surface)) {
+    if (touches_itself(shell)) return {whole_of(nef, std::move(surface))};
+    parts.emplace_back(std::move(shell));
+  }
+  return parts;
 }
 
 }  // namespace
 
-std::vector<ExactMesh> combine_nef(Boolean operation, const ExactMesh& a, const ExactMesh& b) {
+Parts combine_nef(Boolean operation, const Part& a, const Part& b) {
   try {
-    const Nef first(a), second(b);
+    const Nef first = solid_of(a), second = solid_of(b);
     switch (operation) {
       case Boolean::unite:
-        return surfaces_of((first + second).regularization());
+        return parts_of((first + second).regularization());
       case Boolean::intersect:
-        return surfaces_of((first * second).regularization());
+        return parts_of((first * second).regularization());
       case Boolean::subtract:
-        return surfaces_of((first - second).regularization());
+        return parts_of((first - second).regularization());
     }
   } catch (const std::exception& failure) {
     throw Error(std::string("two solids cannot be combined, most likely since a surface crosses itself: ") +
@@ -64,8 +94,15 @@ std::vector<ExactMesh> combine_nef(Boolean operation, const ExactMesh& a, const 
   return {};
 }
 
-std::vector<TriangleMesh> convex_parts_nef(const ExactMesh& mesh) {
-  Nef nef(mesh);
+Part moved_nef(const Part& part, const CGAL::Aff_transformation_3<Exact>& map) {
+  Nef nef = solid_of(part);
+  nef.transform(map);
+  ExactMesh surface = surface_of(nef);
+  return whole_of(nef, std::move(surface));
+}
+
+std::vector<TriangleMesh> convex_parts_nef(const Part& part) {
+  Nef nef = solid_of(part);
   CGAL::convex_decomposition_3(nef);
   std::vector<TriangleMesh> parts;
   for (auto volume = ++nef.volumes_begin(); volume != nef.volumes_end(); ++volume) {
