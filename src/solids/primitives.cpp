@@ -16,9 +16,23 @@ Ring circle_ring(double radius, int edges) {
   return ring;
 }
 
-// A fan over points that lie in a plane, counter-clockwise from outside.
-void add_fan(std::span<const uint32_t> corners, TriangleMesh& mesh) {
-  for (size_t n = 2; n < corners.size(); ++n) mesh.triangles.push_back({corners[0], corners[n - 1], corners[n]});
+// Fills a convex polygon, counter-clockwise from outside: every second corner is cut off, then of those that are left.
+// Faces of other solids often lie in its plane, and meet fewer of these triangles than of a fan.
+void add_convex(std::span<const uint32_t> corners, TriangleMesh& mesh) {
+  std::vector<uint32_t> left(corners.begin(), corners.end());
+  while (left.size() > 2) {
+    std::vector<uint32_t> next;
+    for (size_t n = 0; n < left.size(); n += 2) {
+      next.push_back(left[n]);
+      if (n + 1 < left.size() && left.size() > 3)
+        mesh.triangles.push_back({left[n], left[n + 1], left[(n + 2) % left.size()]});
+    }
+    if (left.size() == 3) {
+      mesh.triangles.push_back({left[0], left[1], left[2]});
+      return;
+    }
+    left = std::move(next);
+  }
 }
 
 std::vector<uint32_t> numbers(uint32_t first, uint32_t count) {
@@ -52,7 +66,7 @@ TriangleMesh cone(double radius, double foot, double tip, int edges) {
     mesh.triangles.push_back(is_up ? Triangle{n, next, count} : Triangle{next, n, count});
   }
   if (is_up) std::reverse(base.begin(), base.end());
-  add_fan(base, mesh);
+  add_convex(base, mesh);
   return mesh;
 }
 
@@ -60,9 +74,9 @@ TriangleMesh cone(double radius, double foot, double tip, int edges) {
 void close_rings(uint32_t rings, uint32_t count, TriangleMesh& mesh) {
   std::vector<uint32_t> bottom = numbers(0, count);
   std::reverse(bottom.begin(), bottom.end());
-  add_fan(bottom, mesh);
+  add_convex(bottom, mesh);
   for (uint32_t n = 0; n + 1 < rings; ++n) add_wall(n * count, (n + 1) * count, count, mesh);
-  add_fan(numbers((rings - 1) * count, count), mesh);
+  add_convex(numbers((rings - 1) * count, count), mesh);
 }
 
 // The numbers of a face that are points, reported where they are not.
