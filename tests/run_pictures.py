@@ -30,16 +30,18 @@ FURTHER = {
     "knob_annotated": ("knob", "--annotate"),
     "gear_annotated": ("gear", "--perspective", "30", "--annotate", "--background", "black"),
 }
-CASES = {example.stem: (example.stem,) for example in sorted(EXAMPLES.glob("*.vcad"))} | FURTHER
+DESIGNS = {example.stem: example for example in [*sorted(EXAMPLES.glob("*.vcad")), *sorted(EXAMPLES.glob("openscad/*.scad"))]}
+CASES = {name: (name,) for name in DESIGNS} | FURTHER
 
 
 def render(ombre, name, picture):
     """Returns what keeps it from being compared, or nothing."""
     example, *options = CASES[name]
     size = "320x240" if "--annotate" in options else "200x150"
-    result = program.run([ombre, "render", EXAMPLES / f"{example}.vcad", "-o", picture, "--force", "--size", size,
+    result = program.run([ombre, "render", DESIGNS[example], "-o", picture, "--force", "--size", size,
                           *options])
-    if "without FreeType" in result.stderr or "no font" in result.stderr or "DejaVu" in result.stderr:
+    lacking = ("without FreeType", "no font", "DejaVu", "no library for polyhedra")
+    if any(word in result.stderr for word in lacking):
         return "skipped: " + result.stderr.strip()
     return result.stderr if result.returncode else ""
 

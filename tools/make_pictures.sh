@@ -30,11 +30,14 @@ declare -A options=(
   [turned_handle]="--cut z=12 --from -50,35"
 )
 
+# Designs of Ombre, and scripts of OpenSCAD in a folder of their own.
+design() { [ -f "examples/$1.vcad" ] && echo "examples/$1.vcad" || echo "examples/openscad/$1.scad"; }
+
 # render NAME PICTURE SIZE [OPTION ...]
 render() {
   local name=$1 picture=$2 size=$3
   shift 3
-  "$ombre" render "examples/$name.vcad" -o "$picture" --size "$size" --force --quiet "$@"
+  "$ombre" render "$(design "$name")" -o "$picture" --size "$size" --force --quiet "$@"
   echo "$picture"
 }
 
@@ -51,8 +54,8 @@ draw_layers() {
 
 # What an example's first lines say of it, and its picture.
 describe() {
-  printf '\n## [%s](../examples/%s.vcad)\n\n' "$1" "$1"
-  sed -n '/^\/\//!q; s/^\/\/ \?//; s/[*<]/\\&/g; s/^\(From\|After\|Try\):/\n&/; p' "examples/$1.vcad"
+  printf '\n## [%s](../%s)\n\n' "$1" "$(design "$1")"
+  sed -n '/^\/\//!q; s/^\/\/ \?//; s/[*<]/\\&/g; s/^\(From\|After\|Try\):/\n&/; p' "$(design "$1")"
   printf '\n![%s](../examples/pictures/%s.png)\n' "$1" "$1"
 }
 
@@ -69,8 +72,8 @@ DESIGN
 }
 
 mkdir -p examples/pictures
-for file in examples/*.vcad; do
-  name=$(basename "$file" .vcad)
+for file in examples/*.vcad examples/openscad/*.scad; do
+  name=$(basename "${file%.*}")
   if [[ $# -gt 0 && " $* " != *" $name "* ]]; then continue; fi
   read -ra chosen <<<"${options[$name]:-}"
   render "$name" "examples/pictures/$name.png" 640x480 "${chosen[@]}"
@@ -79,6 +82,8 @@ if [[ $# -eq 0 || " $* " == *" docs "* ]]; then
   {
     printf '# Examples\n\nWhat their first lines say, and pictures by `ombre render`. tools/make_pictures.sh writes this page.\n'
     for file in examples/*.vcad; do describe "$(basename "$file" .vcad)"; done
+    printf '\n# OpenSCAD scripts\n\nDesigns as they are usual there; [openscad.md](openscad.md) says what Ombre does with them.\n'
+    for file in examples/openscad/*.scad; do describe "$(basename "$file" .scad)"; done
   } >docs/examples.md
   echo docs/examples.md
   render graded_wing docs/hero.png 1000x360 --from -20,35 --aa 3

@@ -176,7 +176,7 @@ struct Scad {
           "Materials for names of the script, before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
          {"variables", &Scad::variables, "Values for the script's variables: scad(\"box.scad\", width=20)"}},
         no_inputs,
-        "scad(\"box.scad\", width=20);"};
+        "scad(\"openscad/handle.scad\", thickness=6);"};
   }
 
   bool complete(const Reader& reader) {

@@ -416,7 +416,9 @@ TEST_P(EverySolid, KeepsItsLipschitzBound) {
     for (int i = 0; i < 200; ++i) {
       const Vec3 p{random.number(-15, 15), random.number(-15, 15), random.number(-15, 15)};
       const Vec3 step{random.number(-1, 1), random.number(-1, 1), random.number(-1, 1)};
-      const double change = std::abs(at(lowered.program, p)[2] - at(lowered.program, p + step)[2]);
+      const double here = at(lowered.program, p)[2], there = at(lowered.program, p + step)[2];
+      if (here == there) continue;  // endless, where there is nothing at all
+      const double change = std::abs(here - there);
       ASSERT_LE(change, metric.lipschitz * length(step) * (1 + 1e-9) + 1e-9)
           << print_json(round_trip(node, random.materials));
     }
