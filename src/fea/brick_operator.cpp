@@ -7,6 +7,15 @@ namespace {
 
 constexpr size_t piece_size = size_t{1} << 14, bricks_of_piece = 1024;
 
+size_t colour_of(const Cell& cell, const Cell& period) {
+  size_t colour = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const bool is_last_of_odd = (period[axis] & 1) != 0 && cell[axis] == period[axis] - 1;
+    colour = 3 * colour + static_cast<size_t>(is_last_of_odd ? 2 : cell[axis] & 1);
+  }
+  return colour;
+}
+
 }  // namespace
 
 void for_pieces(size_t count, int threads, const std::function<void(size_t, size_t)>& body) {
@@ -36,7 +45,7 @@ BrickOperator::BrickOperator(Bricks bricks, std::vector<Moduli> moduli, std::vec
       inverse_diagonal_(free_.size()) {
   for (uint32_t n = 0; n < bricks_.count(); ++n) {
     const Cell& cell = bricks_.cells[n];
-    colours_[static_cast<size_t>((cell[0] & 1) | (cell[1] & 1) << 1 | (cell[2] & 1) << 2)].push_back(n);
+    colours_[colour_of(cell, bricks_.period)].push_back(n);
     for (size_t d = 0; d < 24; ++d)
       inverse_diagonal_[3 * size_t{bricks_.nodes[n][d / 3]} + d % 3] +=
           stiffness_.diagonal(moduli_[n].shear, moduli_[n].bulk, d);

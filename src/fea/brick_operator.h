@@ -16,6 +16,12 @@ struct Moduli {
   float shear = 0, bulk = 0;
 };
 
+// Of E and Poisson's ratio.
+inline Moduli moduli_of(double modulus_mpa, double poissons_ratio) {
+  return {static_cast<float>(modulus_mpa / (2 * (1 + poissons_ratio))),
+          static_cast<float>(modulus_mpa / (3 * (1 - 2 * poissons_ratio)))};
+}
+
 // A number for each degree of freedom: x, y, z of node 0, and so on.
 using Vector = std::vector<double>;
 
@@ -43,8 +49,9 @@ class BrickOperator {
   std::vector<uint8_t> free_;
   int threads_;
   BrickStiffness stiffness_;
-  // Bricks of one colour share no node, so their forces can be added at the same time, in any order.
-  std::array<std::vector<uint32_t>, 8> colours_;
+  // Bricks of one colour share no node, so their forces can be added at the same time, in any order. Along an axis with
+  // an odd period the last one needs a third colour.
+  std::array<std::vector<uint32_t>, 27> colours_;
   Vector inverse_diagonal_;
 };
 

@@ -12,8 +12,13 @@ size_t find(const List& list, const Cell& cell) {
   return place != list.end() && *place == cell ? static_cast<size_t>(place - list.begin()) : list.size();
 }
 
-Cell corner_of(const Cell& cell, const Cell& offset) {
-  return {cell[0] + offset[0], cell[1] + offset[1], cell[2] + offset[2]};
+Cell corner_of(const Cell& cell, const Cell& offset, const Cell& period) {
+  Cell corner;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    corner[axis] = cell[axis] + offset[axis];
+    if (corner[axis] == period[axis]) corner[axis] = 0;
+  }
+  return corner;
 }
 
 // Number n's representative in a forest of numbers.
@@ -24,27 +29,33 @@ uint32_t root_of(std::vector<uint32_t>& parents, uint32_t n) {
 
 }  // namespace
 
-Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells) {
-  Bricks bricks{origin, size_mm, std::move(cells), {}, {}};
+Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells, const Cell& period) {
+  Bricks bricks{origin, size_mm, std::move(cells), {}, {}, period};
   bricks.corners.reserve(bricks.cells.size() * 2);
-  // Layer by layer, so that no more than two layers' corners are there several times.
+  // Layer by layer, so that no more than two layers' corners are there several times; those of the first layer come
+  // again at the end where the mesh repeats along z.
   std::vector<Cell> found;
+  const auto sort = [](std::vector<Cell>& list) {
+    std::ranges::sort(list, is_before);
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  };
   const auto take = [&](int32_t below) {
-    std::ranges::sort(found, is_before);
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    sort(found);
     const auto rest = std::ranges::find_if(found, [&](const Cell& corner) { return corner[2] >= below; });
     bricks.corners.insert(bricks.corners.end(), found.begin(), rest);
     found.erase(found.begin(), rest);
   };
   for (size_t n = 0; n < bricks.cells.size(); ++n) {
     if (n > 0 && bricks.cells[n][2] != bricks.cells[n - 1][2]) take(bricks.cells[n][2]);
-    for (const Cell& offset : brick_corners) found.push_back(corner_of(bricks.cells[n], offset));
+    for (const Cell& offset : brick_corners) found.push_back(corner_of(bricks.cells[n], offset, period));
   }
   take(std::numeric_limits<int32_t>::max());
+  if (period[2] > 0) sort(bricks.corners);
   bricks.nodes.resize(bricks.cells.size());
   for (size_t n = 0; n < bricks.cells.size(); ++n)
     for (size_t c = 0; c < 8; ++c)
-      bricks.nodes[n][c] = static_cast<uint32_t>(find(bricks.corners, corner_of(bricks.cells[n], brick_corners[c])));
+      bricks.nodes[n][c] =
+          static_cast<uint32_t>(find(bricks.corners, corner_of(bricks.cells[n], brick_corners[c], period)));
   return bricks;
 }
 

@@ -25,6 +25,8 @@ struct Bricks {
   std::vector<Cell> cells;
   std::vector<Cell> corners;  // a node's place: its coordinates in bricks from the origin
   std::vector<std::array<uint32_t, 8>> nodes;
+  // After how many bricks along an axis the mesh repeats, so that its last bricks share nodes with its first; 0: never.
+  Cell period{};
 
   size_t count() const { return cells.size(); }
   size_t node_count() const { return corners.size(); }
@@ -44,8 +46,8 @@ inline constexpr std::array<Cell, 8> brick_corners{
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
 // The cells come in ascending order of z, then y, then x. Nodes are numbered in the same order, and none is there
-// twice.
-Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells);
+// twice. With a period cells are from 0 to below it.
+Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells, const Cell& period = {});
 
 // One of a brick's six faces that no other brick touches.
 struct OuterFace {

@@ -6,90 +6,21 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "fea/brick_operator.h"
-#include "fea/multigrid.h"
+#include "fea/conjugate_gradients.h"
 
 namespace ombre::fea {
 namespace {
 
-Moduli moduli_of(const Elastic& elastic) {
-  const double e = elastic.modulus_mpa, nu = elastic.poissons_ratio;
-  return {static_cast<float>(e / (2 * (1 + nu))), static_cast<float>(e / (3 * (1 - 2 * nu)))};
-}
-
 BrickOperator operator_of(const Model& model, const Conditions& conditions, int threads) {
   std::vector<Moduli> of_sections, moduli;
-  for (const Section& section : model.sections) of_sections.push_back(moduli_of(section.elastic));
+  for (const Section& section : model.sections)
+    of_sections.push_back(moduli_of(section.elastic.modulus_mpa, section.elastic.poissons_ratio));
   moduli.reserve(model.bricks.count());
   for (const uint16_t section : model.section_of) moduli.push_back(of_sections[section]);
   std::vector<uint8_t> free(3 * model.bricks.node_count(), 1);
   for (const Prescribed& held : conditions.displacements) free[3 * size_t{held.node} + held.axis] = 0;
   return {model.bricks, std::move(moduli), std::move(free), threads};
 }
-
-// Conjugate gradients (Hestenes and Stiefel, 1952) from the displacements that are given.
-class Gradients {
- public:
-  Gradients(const BrickOperator& stiffness, const SolveOptions& options, Progress* progress, const StopFlag* stop)
-      : stiffness_(stiffness), options_(options), progress_(progress), stop_(stop), multigrid_(stiffness) {}
-
-  // `residual` is what the forces lack; 0 where it is held.
-  void run(Vector residual, Vector& x, Solution& solution) {
-    const int threads = stiffness_.threads();
-    const double scale = std::sqrt(dot(residual, residual, threads));
-    if (!(scale > 0)) return;
-    Vector z, p, q;
-    multigrid_.apply(residual, z);
-    p = z;
-    double rz = dot(residual, z, threads);
-    for (solution.iterations = 1;; ++solution.iterations) {
-      if (stop_ && stop_->requested()) throw Cancelled();
-      stiffness_.forces(p, q);
-      const double alpha = rz / dot(p, q, threads);
-      for_pieces(x.size(), threads, [&](size_t begin, size_t end) {
-        for (size_t n = begin; n < end; ++n) {
-          x[n] += alpha * p[n];
-          residual[n] -= alpha * q[n];
-        }
-      });
-      solution.residual = std::sqrt(dot(residual, residual, threads)) / scale;
-      tell(solution.residual);
-      if (solution.residual <= options_.tolerance) return;
-      if (!std::isfinite(solution.residual) || solution.iterations >= options_.most_iterations) fail(solution);
-      multigrid_.apply(residual, z);
-      const double next = dot(residual, z, threads), beta = next / rz;
-      rz = next;
-      for_pieces(x.size(), threads, [&](size_t begin, size_t end) {
-        for (size_t n = begin; n < end; ++n) p[n] = z[n] + beta * p[n];
-      });
-    }
-  }
-
- private:
-  void tell(double residual) {
-    constexpr double parts = 1000;
-    if (!progress_ || !(residual > 0)) return;
-    const double way = std::clamp(std::log(residual) / std::log(options_.tolerance), 0.0, 1.0);
-    farthest_ = std::max(farthest_, static_cast<uint64_t>(parts * way));
-    HowFar how_far{farthest_, static_cast<uint64_t>(parts)};
-    if (farthest_ > 0) how_far.seconds_left = watch_.seconds() * (parts / static_cast<double>(farthest_) - 1);
-    progress_->update(how_far);
-  }
-
-  [[noreturn]] static void fail(const Solution& solution) {
-    throw Error("the equations did not converge: after " + format_count(solution.iterations) +
-                " iterations the forces are still off by " + format_rounded(solution.residual, 2) +
-                " of the loads; parts that hang together at an edge or a corner may turn about it, or moduli differ " +
-                "too much: choose smaller bricks, or support more of the part");
-  }
-
-  const BrickOperator& stiffness_;
-  const SolveOptions& options_;
-  Progress* progress_;
-  const StopFlag* stop_;
-  Multigrid multigrid_;
-  Stopwatch watch_;
-  uint64_t farthest_ = 0;
-};
 
 std::array<double, 6> strain_at_middle(const Bricks& bricks, size_t brick, const std::array<Vec3, 8>& gradients,
                                        const Vector& x) {
@@ -134,7 +65,9 @@ Solution solve(const Model& model, const Conditions& conditions, const SolveOpti
   for (const Prescribed& force : conditions.forces) loads[3 * size_t{force.node} + force.axis] = force.value;
   for (size_t n = 0; n < x.size(); ++n) residual[n] = stiffness.free()[n] != 0 ? loads[n] - forces[n] : 0;
   Solution solution;
-  Gradients(stiffness, options, progress, stop).run(std::move(residual), x, solution);
+  const Convergence found = Gradients(stiffness, options, progress, stop).run(std::move(residual), x);
+  solution.iterations = found.iterations;
+  solution.residual = found.residual;
 
   stiffness.all_forces(x, forces);
   solution.energy_mj = 0.5 * dot(x, forces, options.threads);

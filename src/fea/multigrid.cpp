@@ -23,6 +23,10 @@ struct Parent {
 
 Cell half(const Cell& cell) { return {cell[0] >> 1, cell[1] >> 1, cell[2] >> 1}; }
 
+bool can_halve(const Cell& period) {
+  return std::ranges::none_of(period, [](int32_t along) { return (along & 1) != 0; });
+}
+
 // Shares of a fine node that the corners of its parent have.
 std::array<double, 8> weights_at(const std::array<uint8_t, 3>& offset) {
   std::array<double, 8> weights{};
@@ -52,7 +56,7 @@ Coarse coarsen(const BrickOperator& fine) {
   std::ranges::sort(cells, is_before);
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   Coarse coarse;
-  coarse.bricks = make_bricks(bricks.origin, 2.0 * bricks.size_mm, std::move(cells));
+  coarse.bricks = make_bricks(bricks.origin, 2.0 * bricks.size_mm, std::move(cells), half(bricks.period));
   coarse.moduli.resize(coarse.bricks.count());
   coarse.parents.resize(bricks.node_count());
   for (size_t n = 0; n < bricks.count(); ++n) {
@@ -61,11 +65,12 @@ Coarse coarsen(const BrickOperator& fine) {
     const auto parent = static_cast<uint32_t>(place - coarse.bricks.cells.begin());
     coarse.moduli[parent].shear += fine.moduli()[n].shear / 8;
     coarse.moduli[parent].bulk += fine.moduli()[n].bulk / 8;
-    for (const uint32_t node : bricks.nodes[n])
-      for (size_t axis = 0; axis < 3; ++axis) {
-        coarse.parents[node].brick = parent;
-        coarse.parents[node].offset[axis] = static_cast<uint8_t>(bricks.corners[node][axis] - 2 * cell[axis]);
-      }
+    for (size_t c = 0; c < 8; ++c) {
+      Parent& of_node = coarse.parents[bricks.nodes[n][c]];
+      of_node.brick = parent;
+      for (size_t axis = 0; axis < 3; ++axis)
+        of_node.offset[axis] = static_cast<uint8_t>(bricks.cells[n][axis] + brick_corners[c][axis] - 2 * cell[axis]);
+    }
   }
   // A coarse node is held as the fine node in its place.
   coarse.free.assign(3 * coarse.bricks.node_count(), 1);
@@ -194,6 +199,7 @@ Multigrid::Multigrid(const BrickOperator& finest) {
   levels_.back()->fine = &finest;
   while (levels_.back()->fine->bricks().node_count() > most_direct_nodes) {
     const BrickOperator& fine = *levels_.back()->fine;
+    if (!can_halve(fine.bricks().period)) break;
     Coarse coarse = coarsen(fine);
     if (coarse.bricks.count() == fine.bricks().count()) break;  // single bricks far apart
     levels_.back()->parents = std::move(coarse.parents);

@@ -1,0 +1,205 @@
+// ombre homogenise: how stiff a cell of a design is as a material.
+#include <memory>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "base/stopwatch.h"
+#include "base/text.h"
+#include "compile/homogenise_job.h"
+#include "export/output_file.h"
+#include "fea/homogenise.h"
+#include "formats/file.h"
+#include "ombre/arguments.h"
+#include "ombre/checks.h"
+#include "ombre/command_line.h"
+#include "ombre/commands.h"
+#include "ombre/job_arguments.h"
+#include "ombre/overwrite.h"
+#include "ombre/progress_line.h"
+
+namespace ombre::cli {
+namespace {
+
+struct HomogeniseArguments {
+  DesignArguments design;
+  std::string study, box, output, assign = "draw", seed = "0", memory = "8G";
+  double cell = 0, tolerance = 1e-6;
+  int threads = 0;
+  bool force = false;
+};
+
+constexpr const char* homogenise_footer =
+    "The box is cut into bricks and repeated in all directions. Six strains, one after the other, give the stiffness "
+    "of the\n"
+    "even material that it is equal to: stresses over strains as xx, yy, zz, xy, yz, zx, in MPa. Void holds "
+    "nothing.\n\n"
+    "Properties of materials come from the study (\"materials\") or the materials file:\n"
+    "  {\"materials\": {\"red\": {\"modulus_mpa\": 2850, \"poissons_ratio\": 0.39}}}\n\n"
+    "Examples:\n"
+    "  ombre homogenise cell.vcad --cell 0.25 -o cell.svg\n"
+    "  ombre homogenise part.vcad --box 0,0,0,2,2,2 --cell 0.05 --assign draw --seed 3   # what dithering prints "
+    "there\n";
+
+void add_arguments(CLI::App& app, HomogeniseArguments& a) {
+  add_design_arguments(app, a.design);
+  app.add_option("--cell", a.cell, "About how large bricks are, mm")
+      ->required()
+      ->check(between(1e-6, 1e6))
+      ->type_name("MM");
+  app.add_option("--box", a.box, "The box that repeats, mm (default: that of the design)")
+      ->type_name("X0,Y0,Z0,X1,Y1,Z1");
+  app.add_option("--study", a.study, "Properties of materials; a .json file")->type_name("FILE");
+  app.add_option("--assign", a.assign,
+                 "What a brick of a mixture is made of: draw (default: one material, by the odds of its fractions) or\n"
+                 "mix (mean properties)")
+      ->check(one_of({"draw", "mix"}))
+      ->type_name("RULE");
+  app.add_option("--seed", a.seed, "Seed of draw (default 0)")->type_name("N");
+  app.add_option("-o,--output", a.output, "A chart of Young's modulus by direction, .svg")->type_name("FILE");
+  app.add_option("--tolerance", a.tolerance, "How near the forces must come to balance (default 1e-6)")
+      ->check(between(1e-12, 0.1))
+      ->type_name("X");
+  add_threads(app, a.threads);
+  app.add_option("--memory", a.memory, "Most memory for solving (default 8G)")->type_name("SIZE");
+  app.add_flag("--force", a.force, "Replace a file that is there");
+}
+
+std::optional<fea::Study> study_of(const HomogeniseArguments& a, Diagnostics& diagnostics) {
+  if (a.study.empty()) return fea::Study{};
+  const auto data = parse_json(make_source(a.study, formats::read_file(a.study)), diagnostics);
+  return data ? fea::read_study(*data, diagnostics) : std::nullopt;
+}
+
+std::optional<fea::Model> make_model(const HomogeniseArguments& a, Session& session, Diagnostics& diagnostics) {
+  const auto study = study_of(a, diagnostics);
+  const compile::LoadedPtr loaded = study ? load_design(a.design, session, diagnostics, a.threads) : nullptr;
+  if (!loaded) return std::nullopt;
+  const std::optional<Box> wanted = a.box.empty() ? std::nullopt : std::optional(parse_box(a.box));
+  const auto box = compile::periodic_box(loaded, wanted, a.cell, diagnostics);
+  if (!box) return std::nullopt;
+  const compile::LoadedPtr sampled = compile::sampled_by(loaded, *box);
+  JobArguments job;
+  static_cast<DesignArguments&>(job) = a.design;
+  job.seed = a.seed;
+  auto options = plan_options(job, diagnostics);
+  if (!options) return std::nullopt;
+  options->threads = a.threads;
+  options->stop = &session.stop;
+  const auto plan = compile::plan_slice(sampled, *options, diagnostics);
+  if (!plan) return std::nullopt;
+  compile::FeaRequest request;
+  if (a.assign == "mix") request.assign = compile::FeaRequest::Assign::mix;
+  request.threads = a.threads;
+  ProgressLine progress(session.console);
+  auto model = compile::fea_model(sampled, *plan, *study, request, diagnostics, &progress, &session.stop);
+  progress.finish();
+  if (!model || diagnostics.has_errors()) return std::nullopt;
+  return compile::repeating(std::move(*model), *box);
+}
+
+std::string percent(double share) { return format_rounded(100 * share, 4) + " %"; }
+
+Data rows_of(const fea::Stiffness& stiffness) {
+  DataList rows;
+  for (const auto& row : stiffness) rows.emplace_back(DataList(row.begin(), row.end()));
+  return rows;
+}
+
+Data list_of(const std::array<double, 3>& values) { return DataList(values.begin(), values.end()); }
+
+std::string text_of(const std::array<double, 3>& values) {
+  return format_rounded(values[0], 4) + ", " + format_rounded(values[1], 4) + ", " + format_rounded(values[2], 4);
+}
+
+void tell(const Console& console, const fea::Homogenised& found, double seconds) {
+  console.say(percent(found.solid_share) + " of the box is solid; solved in " + format_count(found.iterations) +
+              " iterations and " + format_rounded(seconds, 3) + " s");
+  console.say("stiffness, MPa (xx, yy, zz, xy, yz, zx):");
+  // What is nothing but rounding is shown as 0.
+  const double greatest = std::max({found.stiffness_mpa[0][0], found.stiffness_mpa[1][1], found.stiffness_mpa[2][2]});
+  for (const auto& row : found.stiffness_mpa) {
+    std::string line;
+    for (const double value : row) {
+      const std::string text = format_rounded(std::abs(value) < 1e-6 * greatest ? 0 : value, 5);
+      line += std::string(text.size() < 12 ? 12 - text.size() : 1, ' ') + text;
+    }
+    console.say(line);
+  }
+  const auto constants = fea::constants_of(found.stiffness_mpa);
+  DataMembers event{{"stiffness_mpa", rows_of(found.stiffness_mpa)},
+                    {"voigt_mpa", rows_of(found.voigt_mpa)},
+                    {"reuss_mpa", rows_of(found.reuss_mpa)},
+                    {"solid_share", found.solid_share},
+                    {"iterations", static_cast<double>(found.iterations)},
+                    {"seconds", seconds}};
+  if (!constants) {
+    console.say("it holds no load in some direction: what is solid does not hang together there");
+  } else {
+    console.say("Young's modulus along x, y, z: " + text_of(constants->modulus_mpa) + " MPa");
+    console.say("shear modulus xy, yz, zx: " + text_of(constants->shear_modulus_mpa) + " MPa");
+    console.say("Poisson's ratio xy, yz, zx: " + text_of(constants->poissons_ratio));
+    console.say("bulk modulus " + format_rounded(constants->bulk_modulus_mpa, 4) + " MPa; universal anisotropy " +
+                format_rounded(constants->universal_anisotropy, 3) + " (0: isotropic)");
+    event.emplace_back("modulus_mpa", list_of(constants->modulus_mpa));
+    event.emplace_back("shear_modulus_mpa", list_of(constants->shear_modulus_mpa));
+    event.emplace_back("poissons_ratio", list_of(constants->poissons_ratio));
+    event.emplace_back("bulk_modulus_mpa", constants->bulk_modulus_mpa);
+    event.emplace_back("mean_shear_modulus_mpa", constants->mean_shear_modulus_mpa);
+    event.emplace_back("universal_anisotropy", constants->universal_anisotropy);
+  }
+  console.event("homogenised", std::move(event));
+}
+
+void check_output(const HomogeniseArguments& a) {
+  if (a.output.empty()) return;
+  if (!to_lower(a.output).ends_with(".svg"))
+    throw WrongArgument("-o " + a.output + " does not say a format; let it end in .svg");
+  refuse_to_overwrite(a.output, a.force);
+}
+
+int run_homogenise(const HomogeniseArguments& a, Session& session) {
+  check_output(a);
+  const auto allowed = static_cast<double>(parse_memory(a.memory));
+  Diagnostics diagnostics;
+  const auto model = make_model(a, session, diagnostics);
+  session.console.diagnose(diagnostics);
+  if (!model) return wrong_input;
+  const fea::Bricks& bricks = model->bricks;
+  const double bytes = fea::solve_bytes(bricks);
+  session.console.say(std::to_string(bricks.period[0]) + " x " + std::to_string(bricks.period[1]) + " x " +
+                      std::to_string(bricks.period[2]) + " bricks of " + format_rounded(bricks.size_mm.x, 4) + " x " +
+                      format_rounded(bricks.size_mm.y, 4) + " x " + format_rounded(bricks.size_mm.z, 4) +
+                      " mm; solving takes about " + format_bytes(bytes));
+  if (bytes > allowed)
+    throw Error("solving takes about " + format_bytes(bytes) + " of memory, more than the " + format_bytes(allowed) +
+                " allowed; choose larger bricks with --cell, or more --memory");
+  const Stopwatch watch;
+  fea::SolveOptions options;
+  options.tolerance = a.tolerance;
+  options.threads = a.threads;
+  ProgressLine progress(session.console, Counted::steps);
+  const fea::Homogenised found = fea::homogenise(*model, options, &progress, &session.stop);
+  progress.finish();
+  tell(session.console, found, watch.seconds());
+  DataList files;
+  if (!a.output.empty()) {
+    exporting::write_file(a.output, fea::stiffness_chart(found.stiffness_mpa, a.design.design));
+    session.console.say(a.output + " written");
+    files.emplace_back(a.output);
+  }
+  session.console.event("done", {{"files", files}});
+  return done;
+}
+
+}  // namespace
+
+Command add_homogenise(CLI::App& program, OutputOptions& output) {
+  CLI::App* app = program.add_subcommand("homogenise", "Say how stiff a cell of a design is as a material");
+  auto arguments = std::make_shared<HomogeniseArguments>();
+  add_arguments(*app, *arguments);
+  add_output_options(*app, output);
+  app->footer(homogenise_footer);
+  return {app, [arguments](Session& session) { return run_homogenise(*arguments, session); }};
+}
+
+}  // namespace ombre::cli

@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Cells of designs as materials: what `ombre homogenise` says of them, against mathematics.
+
+    python3 tests/run_homogenise.py build/dev/apps/ombre/ombre
+"""
+import argparse
+import functools
+import json
+import pathlib
+import tempfile
+
+import program
+
+STUDY = program.SOURCE / "examples" / "studies" / "polyjet.json"
+
+
+def expect(truth, message):
+    if not truth:
+        raise AssertionError(message)
+
+
+def near(got, wanted, tolerance, what):
+    expect(abs(got - wanted) <= tolerance * abs(wanted), f"{what} is {got}, not {wanted}")
+
+
+def run(ombre, folder, design, *arguments, status=0):
+    (folder / "design.vcad").write_text(design, encoding="utf-8")
+    result = program.run([ombre, "homogenise", "design.vcad", *arguments], cwd=folder)
+    expect(result.returncode == status, f"status {result.returncode}, not {status}: {result.stderr[-1500:]}")
+    return result
+
+
+def homogenised(ombre, folder, design, *arguments):
+    lines = run(ombre, folder, design, "--study", STUDY, "--json", *arguments).stdout.splitlines()
+    return next(e for e in map(json.loads, lines) if e["event"] == "homogenised")
+
+
+def plain_blocks_are_their_material(ombre, folder):
+    found = homogenised(ombre, folder, 'rectprism([6, 5, 4], material="red");', "--cell", "1")
+    for value in found["modulus_mpa"]:
+        near(value, 2850, 1e-6, "Young's modulus")
+    for value in found["poissons_ratio"]:
+        near(value, 0.39, 1e-6, "Poisson's ratio")
+    expect(abs(found["universal_anisotropy"]) < 1e-6, "it is not isotropic")
+
+
+def layers_share_strain_in_the_plane(ombre, folder):
+    """Half stiff, half soft across z: along x nearly half the stiff modulus; along z the soft one holds all."""
+    design = 'translate([0, 0, 1]) rectprism([4, 4, 2], material="red"); translate([0, 0, -1]) rectprism([4, 4, 2], material="blue");'
+    found = homogenised(ombre, folder, design, "--cell", "0.5", "--tolerance", "1e-9")
+
+    def compression(e, nu):
+        return e * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
+    across = 2 / (1 / compression(2850, 0.39) + 1 / compression(0.383, 0.49))
+    near(found["stiffness_mpa"][2][2], across, 1e-4, "the stiffness across the layers")
+    near(found["modulus_mpa"][0], 1425, 0.01, "Young's modulus along the layers")
+
+
+def boxes_cut_and_repeat(ombre, folder):
+    """A rod that fills a quarter of its box, along z."""
+    found = homogenised(ombre, folder, 'rectprism([2, 2, 8], material="red");', "--cell", "0.5", "--box=-2,-2,-2,2,2,2")
+    near(found["solid_share"], 0.25, 1e-9, "the solid share")
+    near(found["stiffness_mpa"][2][2], 2850 / 4, 1e-5, "the stiffness along the rod")
+    expect("modulus_mpa" not in found, "it says that it holds loads across")
+
+
+def draws_are_softer_than_means(ombre, folder):
+    """A dithered mixture of half and half lies between the bounds that any arrangement has."""
+    design = 'fgrade(["0.5", "0.5"], ["red", "blue"]) rectprism([4, 4, 4]);'
+    drawn = homogenised(ombre, folder, design, "--cell", "0.5", "--seed", "3")
+    mixed = homogenised(ombre, folder, design, "--cell", "1", "--assign", "mix")
+    near(mixed["modulus_mpa"][0], (2850 + 0.383) / 2, 1e-4, "the mean modulus")
+    for axis in range(3):
+        value = drawn["stiffness_mpa"][axis][axis]
+        expect(drawn["reuss_mpa"][axis][axis] < value < drawn["voigt_mpa"][axis][axis], "it is beyond the bounds")
+    expect(homogenised(ombre, folder, design, "--cell", "0.5", "--seed", "3", "--threads", "1")["stiffness_mpa"] ==
+           drawn["stiffness_mpa"], "threads change it")
+
+
+def charts_are_written(ombre, folder):
+    run(ombre, folder, 'rectprism([2, 2, 2], material="red");', "--study", STUDY, "--cell", "1", "-o", "chart.svg")
+    text = (folder / "chart.svg").read_text(encoding="utf-8")
+    expect(text.startswith("<svg") and text.count('class="modulus"') == 3, "three diagrams")
+    before = text
+    told = run(ombre, folder, "cube(2);", "--study", STUDY, "--cell", "1", "-o", "chart.svg", status=2).stderr
+    expect("--force" in told and (folder / "chart.svg").read_text(encoding="utf-8") == before, "overwriting")
+
+
+def wrong_use_is_told(ombre, folder):
+    def told(design, *arguments, status=1):
+        return run(ombre, folder, design, *arguments, status=status).stderr
+    study = ("--study", STUDY)
+    expect('no elastic properties of "green"' in told("sphere(2, green);", "--cell", "1", *study), "properties")
+    expect("from 1 to 4096" in told("cube(2, red);", "--cell", "0.0001", *study), "too many bricks")
+    expect("no brick's centre" in told("cube(2, red);", "--cell", "1", "--box=8,8,8,9,9,9", *study), "nothing there")
+    expect(".svg" in told("cube(2, red);", "--cell", "1", "-o", "chart.png", *study), "ending")
+    expect("more than the" in told("cube(9, red);", "--cell", "0.1", "--memory", "1M", *study, status=2), "memory")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("ombre", type=pathlib.Path)
+    ombre = parser.parse_args().ombre.resolve()
+
+    def check(function):
+        with tempfile.TemporaryDirectory() as scratch:
+            function(ombre, pathlib.Path(scratch))
+
+    checks = [plain_blocks_are_their_material, layers_share_strain_in_the_plane, boxes_cut_and_repeat,
+              draws_are_softer_than_means, charts_are_written, wrong_use_is_told]
+    return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
