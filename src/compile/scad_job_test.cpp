@@ -6,11 +6,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "sources/solid_parts.h"
 #include "formats/file.h"
 #include "formats/mesh.h"
 #include "solids/kernel.h"
 #include "solids/test_trees.h"
+#include "sources/solid_parts.h"
 
 namespace ombre::compile {
 namespace {

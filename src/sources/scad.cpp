@@ -1,7 +1,7 @@
 // OpenSCAD scripts of designs.
 #include <algorithm>
 
-#include "base/error.h"
+#include "base/text.h"
 #include "lang/openscad/definitions.h"
 #include "lang/openscad/run.h"
 #include "solids/content.h"

@@ -12,9 +12,9 @@ from ._converters import (AttributeConverterBase, AttributeModifier, ExpressionC
                           Vec3ToScalarsConverter, Vec4Mode, VolumeFractionsExpressionConverter, resolvers)
 from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
 from ._errors import MissingFeature
+from ._filters import Blend, BoxKernel, Convolution, Convolve, CustomKernel, Voxels
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
-from ._missing import (Blend, Convolution, HexahedralMesh, Map, PointMap, SimulationField, TetrahedralMesh, Voxels,
-                       attribute_of)
+from ._missing import HexahedralMesh, Map, PointMap, SimulationField, TetrahedralMesh, attribute_of
 from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference, FGrade, Identity, Intersection, Mirror,
                           Offset, Rotate, Scale, Shell, Sum, Tile, Translate, Union)
 from ._outlines import PolygonExtrude, Text
@@ -33,7 +33,7 @@ __all__ = ["Attribute", "AttributeConverterBase", "AttributeModifier", "Attribut
            "Vec3ToScalarsConverter", "Vec4Attribute", "Vec4Mode", "VolumeFractionsAttribute",
            "VolumeFractionsExpressionConverter", "resolvers", "BBoxIntersection", "Identity",
            "Mirror", "Torus", "FontAspect", "HorizontalAlignment", "LatticeType", "VerticalAlignment", "MissingFeature", "MaterialDefs",
-           "default_materials", "j750_materials", "resources_path", "CAD", "Blend", "ConformalMap", "Convolution",
+           "default_materials", "j750_materials", "resources_path", "CAD", "Blend", "BoxKernel", "Convolve", "CustomKernel", "ConformalMap", "Convolution",
            "HexahedralMesh", "Map", "Offset", "PointMap", "PolygonExtrude", "Shell", "SimulationField",
            "SupportAnalyzer", "SupportAnalyzerParallel", "TetrahedralMesh", "Text", "Tile", "Voxels", "BBoxUnion",
            "Difference", "FGrade", "Intersection", "Rotate", "Scale", "Sum", "Translate", "Union", "Cylinder",

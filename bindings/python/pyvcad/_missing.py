@@ -21,7 +21,7 @@ MISSING: dict[str, dict[str, str]] = {
         "BeamLattice": "GraphLattice(edges, radius) joins struts", "ThreeMFBeamLattice": "GraphLattice(edges, radius)",
         "Beam": "", "Ball": "", "BallMode": "", "CapMode": "", "ClipMode": "", "read_3mf_beam_lattice": "",
         "SurfaceReliefVolume": _surfaces, "ImageHeightField": _images, "FunctionalHeightField": _surfaces,
-        "Mix": "Union(True, [...]) mixes compositions", "Convolve": "", "BoxKernel": "", "CustomKernel": "",
+        "Mix": "Union(True, [...]) mixes compositions",
         "ColorMap": "", "FloatVolume": _grids, "Vec2sVolume": _grids, "Vec3sVolume": _grids,
         "Vec4sVolume": _grids, "FloatGrid": _grids, "BoolGrid": _grids, "vdb_loader": _grids, "DICOMLoader": "",
         "PNGLoader": _images, "PNGColorMode": _images, "CellMap": _surfaces, "CellMapCollection": _surfaces,
@@ -101,10 +101,6 @@ class _Missing(Node):
         raise missing(type(self).__name__)
 
 
-class Voxels(_Missing):
-    """Solid of a grid of voxels."""
-
-
 class SimulationField(_Missing):
     """Composition from the results of a simulation."""
 
@@ -115,22 +111,6 @@ class PointMap(_Missing):
 
 class Map(_Missing):
     """Coordinates along a surface."""
-
-
-class Blend(_Missing):
-    """Its child's composition, smoothed."""
-
-
-class Convolution(_Missing):
-    """Its child's composition, convolved with a kernel."""
-
-    @staticmethod
-    def BlendKernel(x: int, y: int, z: int) -> Any:
-        raise missing("Convolution.BlendKernel")
-
-    @staticmethod
-    def PassKernel(x: int, y: int, z: int) -> Any:
-        raise missing("Convolution.PassKernel")
 
 
 class TetrahedralMesh:
