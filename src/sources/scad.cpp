@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "lang/openscad/definitions.h"
 #include "lang/openscad/run.h"
 #include "solids/content.h"
