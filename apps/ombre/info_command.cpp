@@ -11,6 +11,7 @@
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
+#include "ombre/result_files.h"
 #include "sources/volume_parts.h"
 
 namespace ombre::cli {
@@ -206,6 +207,7 @@ int show_script(const std::string& path, Session& session) {
 
 int show_file(const std::string& path, const std::string& series, Session& session) {
   if (path.ends_with(".scad")) return show_script(path, session);
+  if (is_results(path)) return show_results(path, session);
   return is_design(path) ? show_design(path, session) : show_volume(path, series, session);
 }
 
@@ -215,18 +217,20 @@ Command add_info(CLI::App& program, OutputOptions& output) {
   CLI::App* app = program.add_subcommand(
       "info",
       "Say what a volume (a scan, a grid) holds: size, voxels, orientation, values and how often they occur; or which "
-      "attributes a design gives, with type, unit and range; or which parameters an OpenSCAD script has");
+      "attributes a design gives, with type, unit and range; or which fields the results of a simulation have; or "
+      "which "
+      "parameters an OpenSCAD script has");
   auto file = std::make_shared<std::string>(), series = std::make_shared<std::string>();
   app->add_option(
          "file", *file,
          "A volume: a folder of DICOM files or PNG images, .dcm, .nii, .nrrd, .mha, .vdb, .npy, or raw numbers "
-         "with a .json beside them; or a design, or a script: .scad")
+         "with a .json beside them; or a design, or a script: .scad; or results: .vtu, .frd, .inp")
       ->required()
       ->type_name("FILE");
   app->add_option("--series", *series, "Of several DICOM series, its number or UID; of several grids, its name")
       ->type_name("NAME");
   add_output_options(*app, output);
-  app->footer("Examples:\n  ombre info models/two_lobes.nrrd\n  ombre info part.vcad\n");
+  app->footer("Examples:\n  ombre info models/two_lobes.nrrd\n  ombre info part.vcad\n  ombre info seat.vtu\n");
   return {app, [file, series](Session& session) { return show_file(*file, *series, session); }};
 }
 

@@ -16,6 +16,7 @@
 #include "ombre/job_arguments.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
+#include "ombre/result_files.h"
 
 namespace ombre::cli {
 namespace {
@@ -24,7 +25,7 @@ struct RenderArguments {
   DesignArguments design;
   std::string output, size = "800x600", view = "iso", from, slice, box, background = "white", font, by, range, palette;
   std::vector<std::string> cuts, opacity;
-  double perspective = 0, zoom = 1;
+  double perspective = 0, zoom = 1, deform = 0;
   int samples = 2, frames = 1, threads = 0;
   bool axes = false, scale_bar = false, legend = false, annotate = false, force = false;
 };
@@ -37,6 +38,8 @@ constexpr const char* render_footer =
     "  ombre render part.vcad --opacity clear=0.1           what the clear material hides\n"
     "  ombre render part.vcad --slice z=3.2 --annotate      the materials in a plane, with scale bar and legend\n"
     "  ombre render part.vcad --by density --cut y=0 --legend    an attribute, cut open\n"
+    "  ombre render part.vtu --by von_mises --deform 5 --legend  results of ombre fea, displacements five times as "
+    "large\n"
     "  ombre render part.vcad --frames 36 -o turn.png       turn_00.png to turn_35.png, all around the part\n";
 
 constexpr int64_t most_pixels = 16384;
@@ -79,6 +82,9 @@ void add_arguments(CLI::App& app, RenderArguments& a) {
       ->needs(by)
       ->check(one_of(compile::palette_names()))
       ->type_name("NAME");
+  app.add_option("--deform", a.deform,
+                 "Of results (.vtu, .frd): how many times the displacement moves the part (default 0)")
+      ->type_name("X");
   app.add_option("--background", a.background, "white (default), black, gray, transparent or #rrggbb")
       ->type_name("COLOUR");
   app.add_option("--aa", a.samples, "Rays along the edge of a pixel, which smooth edges (default 2)")
@@ -208,6 +214,20 @@ std::vector<std::string> output_files(const RenderArguments& a) {
   return files;
 }
 
+// A design, or the mesh of results as one.
+compile::LoadedPtr load_pictured(const RenderArguments& a, Session& session, Diagnostics& diagnostics) {
+  if (is_results(a.design.design)) {
+    compile::LoadOptions options{a.design.materials, a.design.definitions};
+    options.stop = &session.stop;
+    options.threads = a.threads;
+    options.cache = &session.cache;
+    const std::filesystem::path path = std::filesystem::path(a.design.design).replace_extension(".vcad");
+    return compile::load_text(results_as_script(a.design.design, a.by, a.deform), path.string(), options, diagnostics);
+  }
+  if (a.deform != 0) throw WrongArgument("--deform is for results; write for example ombre render part.vtu --deform 5");
+  return load_design(a.design, session, diagnostics, a.threads);
+}
+
 int render_design(const RenderArguments& a, Session& session) {
   const compile::PictureRequest request = picture_request(a);
   const bool to_stdout = a.output == "-";
@@ -219,7 +239,7 @@ int render_design(const RenderArguments& a, Session& session) {
     for (const std::string& file : files) refuse_to_overwrite(file, a.force);
 
   Diagnostics diagnostics;
-  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
+  const compile::LoadedPtr loaded = load_pictured(a, session, diagnostics);
   ProgressLine progress(session.console, Counted::steps);
   const auto take = [&](int frame, const compile::Picture& picture) {
     const std::string bytes =

@@ -80,6 +80,7 @@ struct MeshRequest {
   using Result = std::vector<MeshPart>;
   FilePath file;
   MeshUse use;
+  double deform = 0;  // how many times the displacement moves the points of results
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
@@ -217,10 +218,31 @@ struct ImageStackRequest {
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
+// One field of the results of a simulation.
+struct ResultNumbers {
+  program::SourceField source;  // in the file's space, mm; has the channel "inside" besides
+  std::string name, unit;       // of the field, as the file has it
+  std::vector<int> channels;    // of its components
+};
+
+// A file with a mesh, or points, and fields. Where there is no value the source's channels are NaN.
+struct ResultsRequest {
+  using Result = ResultNumbers;
+  FilePath file;
+  FilePath values = {};             // the fields of a mesh in a deck; without a path: none
+  std::string field;                // a name or its beginning; empty: there is one
+  Choice outside = "none";          // of the mesh; or "nearest", "value"
+  std::optional<double> within_mm;  // how far the nearest place may be
+  double otherwise = 0;             // the value outside
+  Choice between = "weights";       // values between points without a mesh; or "nearest"
+  double deform = 0;                // how many times the displacement moves the mesh
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
 // The kinds of sources there are.
 using SourceRequest =
     std::variant<MeshRequest*, SolidsRequest*, ScadRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*,
-                 PixelsRequest*, TableRequest*, TextRequest*, VolumeRequest*, ImageStackRequest*>;
+                 PixelsRequest*, TableRequest*, TextRequest*, VolumeRequest*, ImageStackRequest*, ResultsRequest*>;
 
 // Which parts of a solid need support, on which grid.
 struct SupportUse {

@@ -4,6 +4,8 @@
 #include "base/error.h"
 #include "formats/mesh.h"
 #include "formats/mesh_writers.h"
+#include "formats/results_readers.h"
+#include "formats/text_scanner.h"
 #include "formats/zip_archive.h"
 
 namespace ombre::formats {
@@ -25,6 +27,10 @@ std::optional<Mesh> read_3mf(const std::string& name, std::string_view, Diagnost
 
 std::optional<Mesh> read_amf(const std::string& name, std::string_view, Diagnostics& diagnostics) {
   return report(name, "AMF", diagnostics);
+}
+
+Results read_vtu(const std::string& name, std::string_view, Diagnostics& diagnostics) {
+  fail(diagnostics, name, std::string("VTU files cannot be read: ") + missing, remedy);
 }
 
 bool can_write_3mf() { return false; }

@@ -14,6 +14,7 @@ const design::Registry& registry() {
     add_imported(r);
     add_relief(r);
     add_volumes(r);
+    add_results(r);
     add_voxels(r);
     add_lattices(r);
     add_tiles(r);

@@ -14,6 +14,7 @@ void add_implicit_solids(design::Registry& registry);
 void add_imported(design::Registry& registry);
 void add_relief(design::Registry& registry);
 void add_volumes(design::Registry& registry);
+void add_results(design::Registry& registry);
 void add_voxels(design::Registry& registry);
 void add_lattices(design::Registry& registry);
 void add_tiles(design::Registry& registry);

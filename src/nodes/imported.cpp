@@ -92,6 +92,7 @@ struct Mesh {
   std::string object;
   Choice materials = "one";
   std::vector<MaterialForName> material_map;
+  double deform = 0;
   std::shared_ptr<const std::vector<MeshPart>> loaded;  // when the node is made
   Parts parts;
 
@@ -99,8 +100,7 @@ struct Mesh {
     return {"mesh",
             "imported",
             "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF (with its beams) or AMF in "
-            "their own "
-            "unit.",
+            "their own unit; or by the outer sides of a mesh of results, VTU, FRD or INP.",
             {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
              {"material", &Mesh::material, "Its material; beside the file's materials, that of what has none there"},
              {"inside", &Mesh::inside_rule,
@@ -113,7 +113,8 @@ struct Mesh {
               "are nearest to the file's); where they overlap, the file's first wins",
               one_of({"one", "names", "colours"})},
              {"material_map", &Mesh::material_map,
-              "Materials for names of the file, before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"}},
+              "Materials for names of the file, before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
+             {"deform", &Mesh::deform, "Of results: how many times their displacement moves the solid"}},
             no_inputs,
             "mesh(\"models/gear.stl\", \"red\");"};
   }
@@ -127,7 +128,7 @@ struct Mesh {
     if (materials == "one" && !material_map.empty())
       return fail("material_map of mesh: the materials of the file are not asked for",
                   "write materials=\"names\" or materials=\"colours\" too");
-    MeshRequest request{path, {object, inside_rule, materials, material, material_map}};
+    MeshRequest request{path, {object, inside_rule, materials, material, material_map}, deform};
     loaded = reader.loader->source(request, reader);
     if (!loaded) return false;
     path.path = request.file.path;

@@ -254,6 +254,10 @@ class BallLoader : public design::SourceLoader {
     pixels->colours = {{255, 0, 0, 255}};
     return pixels;
   }
+  static std::shared_ptr<const design::ResultNumbers> make(const design::ResultsRequest&) {
+    return std::make_shared<design::ResultNumbers>(
+        design::ResultNumbers{std::make_shared<BallSource>(), "distance", "mm", {1}});
+  }
   static program::SourceField make(const design::TextRequest& request) {
     const double h = request.height_mm;
     return std::make_shared<EdgeSource>(Polygons{{{{0, 0}, {h, 0}, {h / 3, h / 3}, {0, h}}}, {}}, false);

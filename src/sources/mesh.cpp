@@ -9,6 +9,7 @@
 #include "sources/loading.h"
 #include "sources/mesh_closing.h"
 #include "sources/mesh_materials.h"
+#include "sources/result_border.h"
 
 namespace ombre::design {
 namespace {
@@ -108,8 +109,12 @@ MadeParts parts_of(const std::string& path, formats::Mesh mesh, const Hash& all,
 }
 
 MadeParts read_parts(const MeshRequest& request, std::string_view bytes, const Reader& reader) {
-  auto mesh = formats::read_mesh(request.file.path, bytes, reader.diagnostics);
-  if (mesh) return parts_of(request.file.path, std::move(*mesh), request.file.content, request.use, reader);
+  const std::string& path = request.file.path;
+  auto mesh = sources::has_elements(path) ? sources::result_border(path, bytes, request.deform, reader.diagnostics)
+                                          : formats::read_mesh(path, bytes, reader.diagnostics);
+  const Hash& file = request.file.content;
+  const Hash content = request.deform == 0 ? file : sources::Key("deformed").add(file).add(request.deform).hash();
+  if (mesh) return parts_of(path, std::move(*mesh), content, request.use, reader);
   reader.diagnostics.note(reader.where, "the file is used here");
   return {};
 }
@@ -154,9 +159,15 @@ std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading&
                                        "write cad in place of mesh");
     return nullptr;
   }
+  if (deform != 0 && !sources::has_elements(file.path)) {
+    loading.reader().diagnostics.error(loading.reader().where,
+                                       "\"" + file.path + "\" has no results that could deform it",
+                                       "leave deform out, or take a .vtu or .frd file");
+    return nullptr;
+  }
   if (!loading.look_at(file)) return nullptr;
   sources::Key key("mesh");
-  key.add(file.content).add(sources::ending_of(file.path)).add(use.inside.text());
+  key.add(file.content).add(deform).add(sources::ending_of(file.path)).add(use.inside.text());
   sources::add_use(key, use, loading.reader());
   return loading.cached<Result>(key.hash(), file.path,
                                 [&](const Reader& reader) { return read_parts(*this, *loading.bytes(file), reader); });

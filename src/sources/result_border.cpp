@@ -1,0 +1,50 @@
+#include "sources/result_border.h"
+
+#include <filesystem>
+
+#include "base/text.h"
+#include "import/result_mesh.h"
+
+namespace ombre::sources {
+
+bool has_elements(const std::string& path) {
+  const std::string ending = to_lower(std::filesystem::path(path).extension().string());
+  return ending == ".vtu" || ending == ".frd" || ending == ".inp";
+}
+
+std::optional<formats::Mesh> result_border(const std::string& name, std::string_view bytes, double deform,
+                                           Diagnostics& diagnostics) {
+  auto results = formats::read_results(name, bytes, {}, diagnostics);
+  if (!results) return std::nullopt;
+  if (results->kinds.empty()) {
+    diagnostics.error({make_source(name, ""), 0, 0}, "the file has no elements that enclose space");
+    return std::nullopt;
+  }
+  if (deform != 0 && !formats::deform(*results, deform)) {
+    diagnostics.error({make_source(name, ""), 0, 0}, "the file has no displacement of all nodes that could deform it");
+    return std::nullopt;
+  }
+  const importing::ResultMesh elements(std::move(*results));
+  formats::Mesh mesh;
+  std::vector<uint32_t> places(elements.results().points.size(), UINT32_MAX);
+  for (const importing::BorderTriangle& triangle : elements.border()) {
+    std::array<uint32_t, 3> corners{};
+    for (size_t n = 0; n < 3; ++n) {
+      uint32_t& place = places[triangle.points[n]];
+      if (place == UINT32_MAX) {
+        place = static_cast<uint32_t>(mesh.vertices.size());
+        mesh.vertices.push_back(elements.results().points[triangle.points[n]]);
+      }
+      corners[n] = place;
+    }
+    mesh.triangles.push_back(corners);
+  }
+  if (mesh.triangles.empty()) {
+    diagnostics.error({make_source(name, ""), 0, 0}, "the elements have no outer sides: each is there twice");
+    return std::nullopt;
+  }
+  mesh.groups.push_back({"", 0, static_cast<uint32_t>(mesh.triangles.size())});
+  return mesh;
+}
+
+}  // namespace ombre::sources

@@ -1,0 +1,218 @@
+#!/usr/bin/env python3
+"""Results of simulations as values of designs, run as a user would.
+
+    python3 tests/run_results.py build/dev/apps/ombre/ombre
+"""
+import argparse
+import functools
+import json
+import pathlib
+import tempfile
+
+import program
+
+RED = {"modulus_mpa": 2850, "poissons_ratio": 0.39}
+PULL = {"materials": {"red": RED},
+        "supports": [{"on": "xmin", "fix": "x"}, {"on": "ymin", "fix": "y"}, {"on": "zmin", "fix": "z"}],
+        "loads": [{"on": "zmax", "pressure_mpa": -100}]}
+STRAIN = 100 / 2850
+
+
+def expect(truth, message):
+    if not truth:
+        raise AssertionError(message)
+
+
+def near(got, wanted, tolerance, what):
+    expect(abs(got - wanted) <= tolerance, f"{what} is {got}, not {wanted}")
+
+
+class Folder:
+    def __init__(self, ombre, scratch):
+        self.ombre, self.path = ombre, pathlib.Path(scratch)
+
+    def write(self, name, text):
+        (self.path / name).write_text(text, encoding="utf-8")
+
+    def run(self, *arguments, status=0):
+        result = program.run([self.ombre, *arguments], cwd=self.path)
+        expect(result.returncode == status, f"status {result.returncode}, not {status}: {result.stderr[-1500:]}")
+        return result
+
+    def solve(self):
+        """A block of 10 mm, pulled along z by 100 MPa."""
+        self.write("cube.vcad", "rectprism((10, 10, 10), red);")
+        self.write("pull.json", json.dumps(PULL))
+        self.run("fea", "cube.vcad", "--study", "pull.json", "--cell", "2.5", "--solve", "-o", "cube.vtu")
+
+    def voxels(self, design, pitch):
+        """How many there are of each material."""
+        lines = self.run("slice", design, "--voxel", pitch, "-o", "job", "--force", "--json").stdout.splitlines()
+        event = next(event for event in map(json.loads, lines) if event["event"] == "done")
+        return {material["name"]: material["voxels"] for material in event["materials"]}
+
+    def attributes(self, design, *points):
+        """The attributes of a design at points."""
+        self.write("probed.vcad", design)
+        places = [word for p in points for word in ("--at", ",".join(map(str, p)))]
+        lines = self.run("probe", "probed.vcad", *places, "--json").stdout.splitlines()
+        return [event["attributes"] for event in map(json.loads, lines) if "attributes" in event]
+
+
+def own_results_are_read_back(folder):
+    """Hooke's law makes the displacement linear in space."""
+    folder.solve()
+    points = [(0, 0, 0), (1, -2, 3), (-4.9, 4.9, 4.9), (0.1, 0.2, -4.7)]
+    found = folder.attributes('''
+        move = results("cube.vtu", "displacement");
+        attribute("mx", move.vector.x) attribute("mz", move.vector.z) attribute("len", move.magnitude)
+        attribute("zz", results("cube.vtu", "stress", component="zz").value)
+        attribute("mises", results("cube.vtu", "von_mises").value)
+        attribute("in", move.inside) cube(10);''', *points)
+    expect(len(found) == len(points), str(found))
+    for (x, y, z), values in zip(points, found):
+        mx, my, mz = -0.39 * STRAIN * (x + 5), -0.39 * STRAIN * (y + 5), STRAIN * (z + 5)
+        near(values["mx"], mx, 1e-6, "the displacement along x")
+        near(values["mz"], mz, 1e-6, "the displacement along z")
+        near(values["len"], (mx * mx + my * my + mz * mz) ** 0.5, 1e-6, "the displacement")
+        near(values["zz"], 100, 1e-3, "the stress")
+        near(values["mises"], 100, 1e-3, "von Mises' stress")
+        expect(values["in"] == 1, "not inside")
+
+
+def outside_is_as_told(folder):
+    folder.solve()
+    design = 'attribute("a", results("cube.vtu", "displacement", component="z"{}).value) translate(0, 0, 5) {{ cube(10); }}'
+    top = STRAIN * 10
+    for rule, wanted in ((', outside="nearest"', top), (', outside="value", otherwise=7', 7),
+                         (', outside="nearest", within=4', top)):
+        found = folder.attributes(design.format(rule), (0, 0, 8))[0]["a"]
+        near(found, wanted, 1e-6, rule)
+    folder.write("mixed.vcad", 'cube(12, mix(red, blue, results("cube.vtu", "von_mises").value / 200));')
+    told = folder.run("slice", "mixed.vcad", "--voxel", "0.5", "-o", "mixed").stderr
+    expect("is not a finite number" in told, told)
+    folder.write("mixed.vcad", 'cube(12, mix(red, blue, results("cube.vtu", "von_mises", outside="nearest").value / 200));')
+    told = folder.run("slice", "mixed.vcad", "--voxel", "0.5", "-o", "mixed", "--force").stderr
+    expect("finite" not in told, told)
+
+
+def the_mesh_is_a_solid(folder):
+    folder.solve()
+    folder.write("solid.vcad", 't = results("cube.vtu", "displacement").vector.z / %r;\n'
+                 'fgrade([1 - t, t], [red, blue]) { mesh("cube.vtu"); }' % (10 * STRAIN))
+    counts = folder.voxels("solid.vcad", "0.5")
+    expect(sum(counts.values()) == 8000, str(counts))
+    # Half of the voxels, by draws with odds that rise from 0 to 1.
+    near(counts["blue"], 4000, 150, "the voxels of blue")
+
+
+def bytes_do_not_depend_on_threads(folder):
+    folder.solve()
+    folder.write("graded.vcad", 'r = results("cube.vtu", "displacement", outside="nearest");\n'
+                 'sphere(7, mix(red, blue, r.magnitude));')
+    for threads in ("1", "3"):
+        folder.run("slice", "graded.vcad", "--voxel", "0.25", "-o", f"t{threads}", "--threads", threads)
+    folder.run("slice", "graded.vcad", "--voxel", "0.25", "-o", "tr", "--evaluator", "reference")
+    layers = sorted(p.name for p in (folder.path / "t1").glob("*.png"))
+    expect(len(layers) == 56, str(len(layers)))
+    for other in ("t3", "tr"):
+        for name in layers:
+            expect((folder.path / "t1" / name).read_bytes() == (folder.path / other / name).read_bytes(), f"{other} {name}")
+
+
+def calculix_is_read(folder):
+    """CalculiX' own solution of a pulled brick, where it is installed."""
+    folder.solve()
+    folder.run("fea", "cube.vcad", "--study", "pull.json", "--cell", "5", "-o", "part.inp")
+    try:
+        solved = program.run(["ccx", "-i", "part"], cwd=folder.path)
+    except FileNotFoundError:
+        return
+    expect(solved.returncode == 0, solved.stdout[-500:])
+    found = folder.attributes('attribute("a", results("part.frd", "displacement").vector.z) '
+                              'attribute("s", results("part.frd", "von_mises").value) cube(10);', (1, 2, 3))[0]
+    near(found["a"], STRAIN * 8, 1e-5, "the displacement")
+    near(found["s"], 100, 1e-2, "the stress")
+
+
+def tables_are_read(folder):
+    folder.write("tet.inp", "*NODE\n1,0,0,0\n2,10,0,0\n3,0,10,0\n4,0,0,10\n*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n")
+    folder.write("tet.csv", "node,dx,dy,dz\n1,0,0,0\n2,1,0,0\n3,0,2,0\n4,0,0,3\n")
+    found = folder.attributes('r = results("tet.inp", values="tet.csv"); attribute("v", r.vector) '
+                              'attribute("l", r.value) cube(10);', (1, 2, 3))[0]
+    vector = found["v"] if "v" in found else [found["v.x"], found["v.y"], found["v.z"]]
+    for got, wanted in zip(vector, (0.1, 0.4, 0.9)):
+        near(got, wanted, 1e-12, "a displacement")
+    near(found["l"], (0.01 + 0.16 + 0.81) ** 0.5, 1e-12, "the length")
+    folder.write("points.csv", "x,y,z,t\n0,0,0,10\n4,0,0,20\n")
+    found = folder.attributes('attribute("t", results("points.csv").value) '
+                              'attribute("n", results("points.csv", between="nearest").value) cube(10);', (1, 0, 0))[0]
+    near(found["t"], (10 + 20 / 9) / (1 + 1 / 9), 1e-12, "the mean")
+    near(found["n"], 10, 0, "the nearest")
+
+
+def results_are_described(folder):
+    folder.solve()
+    text = folder.run("info", "cube.vtu").stdout
+    for line in ("nodes     125, from (-5, -5, -5) to (5, 5, 5) mm", "elements  64 C3D8", "von Mises stress, MPa, of elements: 100"):
+        expect(line in text, text)
+    event = json.loads(folder.run("info", "cube.vtu", "--json").stdout.splitlines()[0])
+    moves = next(field for field in event["fields"] if field["name"] == "displacement")
+    near(moves["ranges"][2][1], 10 * STRAIN, 1e-6, "the greatest displacement")
+    expect(moves["of"] == "nodes" and moves["unit"] == "mm" and event["elements"] == {"C3D8": 64}, str(event))
+
+
+def results_are_drawn(folder):
+    """Ten times the displacement makes the block 10 + 100*strain mm high, and narrower."""
+    folder.solve()
+    folder.run("render", "cube.vtu", "--by", "von_mises", "--legend", "--size", "200x150", "-o", "stress.png")
+    folder.run("render", "cube.vtu", "--by", "displacement", "--deform", "10", "--size", "200x150", "-o", "moved.png")
+    pictures = [(folder.path / name).read_bytes() for name in ("stress.png", "moved.png")]
+    expect(pictures[0][:4] == pictures[1][:4] == b"\x89PNG" and pictures[0] != pictures[1], "no pictures")
+    folder.write("moved.vcad", 'mesh("cube.vtu", red, deform=10);')
+    count = sum(folder.voxels("moved.vcad", "0.25").values())
+    wanted = (10 + 100 * STRAIN) * (10 - 39 * STRAIN) ** 2
+    near(count / 64, wanted, 0.03 * wanted, "the volume")
+    for arguments in (("render", "cube.vcad", "--deform", "2"), ("render", "cube.vtu", "--by", "heat")):
+        expect("error" in folder.run(*arguments, "-o", "never.png", status=1).stderr, str(arguments))
+    expect(not (folder.path / "never.png").exists(), "a picture is left")
+
+
+def wrong_use_is_told(folder):
+    folder.solve()
+
+    def error(design, status=1):
+        folder.write("wrong.vcad", design + "\ncube(10, mix(red, blue, r.value));")
+        return folder.run("slice", "wrong.vcad", "--voxel", "1", "-o", "never", status=status).stderr
+    for call, what in ((("none.vtu",), "none.vtu"), (("cube.vtu",), 'has the fields "displacement", "fraction of red"'),
+                       (("cube.vtu", "heat"), '"heat"'), (("cube.vtu", "s"), '"s"'),
+                       (("cube.vtu", "stress"), 'write component="xx"'),
+                       (("cube.vtu", "von_mises", "x"), "leave component out"),
+                       (("cube.vtu", "displacement", "w"), "it has x, y, z"),
+                       (("cube.vcad", "a"), "cube.vcad")):
+        told = error("r = results(%s);" % ", ".join(json.dumps(word) for word in call))
+        expect(what in told and "wrong.vcad:1:5" in told, told)
+    expect("outside=\"nearest\"" in error('r = results("cube.vtu", "von_mises", within=2);'), "within")
+    data = (folder.path / "cube.vtu").read_bytes()
+    for size in (100, 600, len(data) // 2, len(data) - 3000):
+        (folder.path / "cut.vtu").write_bytes(data[:size])
+        expect("cut.vtu" in error('r = results("cut.vtu", "von_mises");'), "a file that is cut off")
+    expect(not (folder.path / "never").exists(), "a folder is left")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("ombre", type=pathlib.Path)
+    ombre = parser.parse_args().ombre.resolve()
+
+    def check(function):
+        with tempfile.TemporaryDirectory() as scratch:
+            function(Folder(ombre, scratch))
+
+    checks = [own_results_are_read_back, outside_is_as_told, the_mesh_is_a_solid, bytes_do_not_depend_on_threads,
+              calculix_is_read, tables_are_read, results_are_described, results_are_drawn, wrong_use_is_told]
+    return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
