@@ -23,6 +23,7 @@ declare -A options=(
   [keychain]="--from -20,50"
   [knob]="--cut x=0 --from -50,20"
   [soft_actuator]="--from -50,15"
+  [seat]="--from -35,30"
   [unit_cells]="--from -15,50"
   [orthosis]="--by modulus --legend --palette plasma --from 30,30"
   [shoe_sole]="--by color_rgb --from -20,50"
@@ -71,6 +72,17 @@ DESIGN
   echo "$1"
 }
 
+# A seat solved soft, and graded by what moved.
+draw_seat() {
+  local study=examples/studies/rider.json
+  "$ombre" fea examples/seat.vcad --study "$study" --cell 4 --solve --tolerance 1e-5 -o "$scratch/soft.vtu" --force --quiet
+  "$ombre" render "$scratch/soft.vtu" --by displacement --deform 5 --legend --from -35,30 --size 640x400 \
+    -o docs/seat_moved.png --force --quiet
+  echo docs/seat_moved.png
+  render seat docs/seat_graded.png 640x400 -D "moved=$scratch/soft.vtu" --from -35,30
+  render seat docs/seat_slice.png 640x260 -D "moved=$scratch/soft.vtu" --slice y=0
+}
+
 mkdir -p examples/pictures
 for file in examples/*.vcad examples/openscad/*.scad; do
   name=$(basename "${file%.*}")
@@ -95,4 +107,5 @@ if [[ $# -eq 0 || " $* " == *" docs "* ]]; then
   draw_bands docs/mesh_bands.png
   draw_layers graded_wing docs/wing_layers.png 6 --layers 18:48
   draw_layers knob docs/knob_layers.png 8 --voxel 0.2
+  draw_seat
 fi
