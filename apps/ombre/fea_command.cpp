@@ -14,6 +14,7 @@
 #include "compile/find_printer.h"
 #include "compile/tetra_job.h"
 #include "export/output_file.h"
+#include "fea/calculix.h"
 #include "fea/inp_writer.h"
 #include "fea/mesh_elastic.h"
 #include "fea/node_matrix.h"
@@ -34,7 +35,7 @@ struct FeaArguments {
   DesignArguments design;
   std::vector<std::string> outputs;
   std::string study, elements = "brick", cell, size_by, subdomains, assign = "draw", modulus, conductivity,
-                     element = "C3D8", seed = "0", memory = "8G";
+                     element = "C3D8", solver = "built-in", seed = "0", memory = "8G";
   double size = 0, min_cell = 0, max_cell = 0, tolerance = 1e-8;
   int threads = 0, sections = 64;
   bool solve = false, force = false;
@@ -100,6 +101,10 @@ void add_arguments(CLI::App& app, FeaArguments& a) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   app.add_flag("--solve", a.solve, "Solve it: displacements, stresses, reactions");
+  app.add_option("--solver", a.solver,
+                 "built-in (default), or calculix: the program ccx, where it is installed; with --solve")
+      ->check(one_of({"built-in", "calculix"}))
+      ->type_name("NAME");
   app.add_option("--assign", a.assign,
                  "What an element of a mixture is made of: draw (default: one material, by the odds of its fractions)\n"
                  "or mix (mean properties)")
@@ -129,6 +134,7 @@ void add_arguments(CLI::App& app, FeaArguments& a) {
 std::string ending_of(const std::string& path) { return to_lower(std::filesystem::path(path).extension().string()); }
 
 void check_outputs(const FeaArguments& a) {
+  if (a.solver != "built-in" && !a.solve) throw WrongArgument("--solver calculix does nothing without --solve");
   if (a.outputs.empty() && !a.solve)
     throw WrongArgument("there is nothing to do: write -o part.inp or -o part.vtu, or --solve");
   for (const std::string& path : a.outputs) {
@@ -224,12 +230,15 @@ void tell_model(const Console& console, const Case& here) {
   if (here.tetrahedra()) tell_quality(console, *here.tetrahedra());
 }
 
-std::string solved_text(size_t iterations, double seconds) {
-  return "solved " + (iterations == 0 ? "directly" : "in " + counted(iterations, "iteration")) + " and " +
-         format_rounded(seconds, 3) + " s";
+std::string solved_text(const FeaArguments& a, size_t iterations, double seconds) {
+  const std::string way = a.solver == "calculix" ? "by CalculiX"
+                          : iterations == 0      ? "directly"
+                                                 : "in " + counted(iterations, "iteration");
+  return "solved " + way + " and " + format_rounded(seconds, 3) + " s";
 }
 
-void tell_solution(const Console& console, const fea::MeshView& mesh, const fea::Solution& solution, double seconds) {
+void tell_solution(const FeaArguments& a, const Console& console, const fea::MeshView& mesh,
+                   const fea::Solution& solution, double seconds) {
   size_t far = 0, strong = 0;
   for (size_t n = 0; n < solution.displacement_mm.size(); ++n)
     if (length(solution.displacement_mm[n]) > length(solution.displacement_mm[far])) far = n;
@@ -239,7 +248,7 @@ void tell_solution(const Console& console, const fea::MeshView& mesh, const fea:
   Vec3 reaction;
   for (const fea::Prescribed& here : solution.reactions_n) reaction[here.axis] += here.value;
   const Vec3 u = solution.displacement_mm[far];
-  console.say(solved_text(solution.iterations, seconds));
+  console.say(solved_text(a, solution.iterations, seconds));
   console.say("moves by at most " + format_rounded(length(u)) + " mm, " + text_of(u) + " at " +
               text_of(mesh.node(far)));
   console.say("von Mises stress at most " + format_rounded(mises[strong]) + " MPa, at " +
@@ -257,7 +266,8 @@ void tell_solution(const Console& console, const fea::MeshView& mesh, const fea:
                              {"strain_energy_mj", solution.energy_mj}});
 }
 
-void tell_conduction(const Console& console, const Case& here, const fea::Conduction& found, double seconds) {
+void tell_conduction(const FeaArguments& a, const Console& console, const Case& here, const fea::Conduction& found,
+                     double seconds) {
   const bool is_heat = here.conditions.physics == fea::Physics::heat;
   const fea::ModelView model = here.view();
   const auto [least, most] = std::ranges::minmax_element(found.value);
@@ -269,7 +279,7 @@ void tell_conduction(const Console& console, const Case& here, const fea::Conduc
   for (const fea::Prescribed& flow : found.flows) add(flow.value);
   for (const fea::Prescribed& flow : here.conditions.forces) add(flow.value);
   const std::string unit = is_heat ? " C" : " V", flow_unit = is_heat ? " W" : " A";
-  console.say(solved_text(found.iterations, seconds));
+  console.say(solved_text(a, found.iterations, seconds));
   console.say(std::string(is_heat ? "temperatures" : "potentials") + " from " + format_rounded(*least) + " to " +
               format_rounded(*most) + unit + ", the latter at " +
               text_of(model.mesh.node(static_cast<size_t>(most - found.value.begin()))));
@@ -400,6 +410,16 @@ std::optional<Case> make_case(const FeaArguments& a, Session& session, Diagnosti
   return here;
 }
 
+compile::FeaResults solve_elsewhere(const FeaArguments& a, const Case& here, Session& session) {
+  const fea::CalculixOptions options{type_of(a.element), a.threads};
+  compile::FeaResults results;
+  if (here.is_mechanics())
+    results.solution = fea::solve_by_calculix(here.view(), here.conditions, options, &session.stop);
+  else
+    results.conduction = fea::conduct_by_calculix(here.view(), here.conditions, options, &session.stop);
+  return results;
+}
+
 compile::FeaResults solve_case(const FeaArguments& a, const Case& here, Session& session) {
   const Stopwatch watch;
   fea::SolveOptions options;
@@ -408,15 +428,17 @@ compile::FeaResults solve_case(const FeaArguments& a, const Case& here, Session&
   ProgressLine progress(session.console, Counted::steps);
   const fea::ModelView model = here.view();
   compile::FeaResults results;
-  if (!here.is_mechanics())
+  if (a.solver == "calculix")
+    results = solve_elsewhere(a, here, session);
+  else if (!here.is_mechanics())
     results.conduction = fea::conduct(model, here.conditions, options, &progress, &session.stop);
   else if (const auto* bricks = std::get_if<fea::Model>(&here.made))
     results.solution = fea::solve(*bricks, here.conditions, options, &progress, &session.stop);
   else
     results.solution = fea::solve_mesh(model, here.conditions, options, &progress, &session.stop);
   progress.finish();
-  if (results.solution) tell_solution(session.console, model.mesh, *results.solution, watch.seconds());
-  if (results.conduction) tell_conduction(session.console, here, *results.conduction, watch.seconds());
+  if (results.solution) tell_solution(a, session.console, model.mesh, *results.solution, watch.seconds());
+  if (results.conduction) tell_conduction(a, session.console, here, *results.conduction, watch.seconds());
   return results;
 }
 
@@ -446,7 +468,7 @@ int run_fea(const FeaArguments& a, Session& session) {
   session.console.diagnose(diagnostics);
   if (!made || diagnostics.has_errors()) return wrong_input;
   tell_model(session.console, *made);
-  if (const double bytes = made->solve_bytes(); a.solve && bytes > allowed)
+  if (const double bytes = made->solve_bytes(); a.solve && a.solver == "built-in" && bytes > allowed)
     throw Error("solving takes about " + format_bytes(bytes) + " of memory, more than the " + format_bytes(allowed) +
                 " allowed; choose larger elements with " + (made->tetrahedra() ? "--size" : "--cell") +
                 ", or more --memory");

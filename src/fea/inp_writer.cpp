@@ -48,7 +48,13 @@ class Lines {
     if (text_.size() > most) flush();
     return *this;
   }
-  Lines& operator<<(double value) { return *this << format_number(value); }
+  // CalculiX reads 20 characters of a number.
+  Lines& operator<<(double value) {
+    constexpr size_t longest = 20;
+    constexpr int digits_that_fit = 12;
+    const std::string exact = format_number(value);
+    return *this << (exact.size() <= longest ? exact : format_rounded(value, digits_that_fit));
+  }
   Lines& operator<<(size_t value) { return *this << std::to_string(value); }
   void flush() {
     sink_(text_);
@@ -112,7 +118,12 @@ void write_sections(const ModelView& model, Physics physics, const std::vector<s
   }
 }
 
-void write_static_step(const Conditions& conditions, Lines& lines) {
+// Results as text in job.dat, which is read back.
+void write_prints(const char* of_nodes, const char* of_elements, Lines& lines) {
+  lines << "*NODE PRINT, NSET=NALL\n" << of_nodes << "\n*EL PRINT, ELSET=EALL\n" << of_elements << "\n";
+}
+
+void write_static_step(const Conditions& conditions, bool prints, Lines& lines) {
   lines << "*STEP\n*STATIC\n";
   if (!conditions.displacements.empty()) lines << "*BOUNDARY\n";
   for (const Prescribed& held : conditions.displacements) {
@@ -122,11 +133,15 @@ void write_static_step(const Conditions& conditions, Lines& lines) {
   if (!conditions.forces.empty()) lines << "*CLOAD\n";
   for (const Prescribed& force : conditions.forces)
     lines << size_t{force.node} + 1 << ", " << size_t{force.axis} + 1 << ", " << force.value << "\n";
-  lines << "*NODE FILE\nU, RF\n*EL FILE\nS, E\n*END STEP\n";
+  if (prints)
+    write_prints("U, RF", "S, E", lines);
+  else
+    lines << "*NODE FILE\nU, RF\n*EL FILE\nS, E\n";
+  lines << "*END STEP\n";
 }
 
 // Temperatures are degree of freedom 11.
-void write_heat_step(const Conditions& conditions, Lines& lines) {
+void write_heat_step(const Conditions& conditions, bool prints, Lines& lines) {
   constexpr double milli = 1000;
   lines << "*STEP\n*HEAT TRANSFER, STEADY STATE\n";
   if (!conditions.displacements.empty()) lines << "*BOUNDARY\n";
@@ -139,7 +154,11 @@ void write_heat_step(const Conditions& conditions, Lines& lines) {
   for (const Film& film : conditions.films)
     lines << size_t{film.side.element} + 1 << ", F" << size_t{film.side.side} + 1 << ", " << film.ambient_c << ", "
           << film.coefficient_w_m2k / milli << "\n";
-  lines << "*NODE FILE\nNT, RFL\n*EL FILE\nHFL\n*END STEP\n";
+  if (prints)
+    write_prints("NT, RFL", "HFL", lines);
+  else
+    lines << "*NODE FILE\nNT, RFL\n*EL FILE\nHFL\n";
+  lines << "*END STEP\n";
 }
 
 std::string_view element_name(const MeshView& mesh, BrickType type, Physics physics) {
@@ -150,7 +169,7 @@ std::string_view element_name(const MeshView& mesh, BrickType type, Physics phys
 }  // namespace
 
 void write_inp(const ModelView& model, const Conditions& conditions, BrickType type, const std::string& title,
-               const Sink& sink) {
+               const Sink& sink, bool prints) {
   const bool is_mechanics = conditions.physics == Physics::mechanics;
   const std::vector<std::string> names = deck_names(model.sections);
   Lines lines(sink);
@@ -158,11 +177,12 @@ void write_inp(const ModelView& model, const Conditions& conditions, BrickType t
   write_mesh(model, element_name(model.mesh, type, conditions.physics), names, lines);
   const std::vector<std::string> set_names = deck_names(conditions.sets);
   for (size_t n = 0; n < set_names.size(); ++n) write_set(conditions.sets[n], set_names[n], lines);
+  if (prints) lines << "*ELSET, ELSET=EALL, GENERATE\n1, " << model.mesh.count() << ", 1\n";
   write_sections(model, conditions.physics, names, lines);
   if (is_mechanics)
-    write_static_step(conditions, lines);
+    write_static_step(conditions, prints, lines);
   else
-    write_heat_step(conditions, lines);
+    write_heat_step(conditions, prints, lines);
   lines.flush();
 }
 
