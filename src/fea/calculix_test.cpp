@@ -7,9 +7,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "base/error.h"
+#include "fea/mesh_elastic.h"
 #include "fea/test_meshes.h"
 
 namespace ombre::fea {
@@ -109,6 +111,56 @@ TEST_F(FakeProgram, IsEndedWhenAsked) {
   EXPECT_THROW(solve_small(&stop), Cancelled);
   asks.join();
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+}
+
+// A block of two materials, held at one end and pushed aside at the other.
+struct Pushed {
+  MeshModel model;
+  Conditions conditions;
+};
+Pushed pushed_block(ElementKind kind) {
+  MeshModel model = mesh_model_of(block_of(kind, {4, 2, 2}, {1, 1, 1}, 0.15), {2850, 0.39, 0});
+  model.sections.push_back({"soft", {100, 0.45, 0}});
+  for (size_t n = 0; n < model.section_of.size(); ++n)
+    if (MeshView(model.mesh).centroid(n).x > 2) model.section_of[n] = 1;
+  Conditions conditions = held_at(
+      model.mesh, [](Vec3 p) { return p.x == 0; }, [](Vec3) { return Vec3{}; });
+  for (uint32_t n = 0; n < model.mesh.points.size(); ++n)
+    if (model.mesh.points[n].x == 4) conditions.forces.push_back({n, 2, 0.5});
+  return {std::move(model), std::move(conditions)};
+}
+
+bool has_program() {
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (access((folder + "/ccx").c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+// The energies are those of CalculiX 2.20; where it is installed, all is compared.
+TEST(Calculix, GivesWhatTheBuiltInSolverGives) {
+  constexpr std::array<std::pair<ElementKind, double>, 2> cases{{{ElementKind::c3d4, 0.233955525}, {ElementKind::c3d10, 2.945740925}}};
+  for (const auto& [kind, energy] : cases) {
+    const auto [model, conditions] = pushed_block(kind);
+    const Solution own = solve_mesh(model, conditions, {1e-10, 20000, 0});
+    EXPECT_NEAR(own.energy_mj, energy, 1e-6 * energy);
+    if (!has_program()) continue;
+    const Solution other = solve_by_calculix(model, conditions, {});
+    EXPECT_NEAR(other.energy_mj, energy, 1e-6 * energy);
+    double greatest = 0, strongest = 0;
+    for (const Vec3& u : own.displacement_mm) greatest = std::max(greatest, length(u));
+    for (const auto& stress : own.stress_mpa) strongest = std::max(strongest, von_mises(stress));
+    for (size_t n = 0; n < own.displacement_mm.size(); ++n)
+      EXPECT_LT(length(own.displacement_mm[n] - other.displacement_mm[n]), 1e-5 * greatest);
+    for (size_t n = 0; n < own.stress_mpa.size(); ++n)
+      for (size_t k = 0; k < 6; ++k) {
+        EXPECT_NEAR(own.stress_mpa[n][k], other.stress_mpa[n][k], 1e-5 * strongest);
+        EXPECT_NEAR(own.strain[n][k], other.strain[n][k], 1e-5 * strongest / 100);
+      }
+    for (size_t n = 0; n < own.reactions_n.size(); ++n)
+      EXPECT_NEAR(own.reactions_n[n].value, other.reactions_n[n].value, 1e-3);
+  }
 }
 
 }  // namespace
