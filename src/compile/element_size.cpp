@@ -29,13 +29,6 @@ Field heterogeneity(Question& question) {
 
 }  // namespace
 
-double value_at(const surface::LocalPrograms& programs, eval::RowEvaluator& rows, Vec3 p) {
-  const program::Program& program = programs.around({p, p});
-  rows.set_points({&p.x, 1}, {&p.y, 1}, {&p.z, 1});
-  rows.run(program, 0, program.code.size(), nullptr);
-  return rows.values(program.outputs[0])[0];
-}
-
 std::optional<ElementSize> ElementSize::build(const design::Design& design, const Box& box, const SizeRequest& request,
                                               Diagnostics& diagnostics) {
   ElementSize size;
@@ -63,13 +56,13 @@ std::optional<ElementSize> ElementSize::build(const design::Design& design, cons
   auto program = question.program({{"size", value}}, diagnostics);
   if (!program) return std::nullopt;
   size.stages_ = question.stages();
-  size.programs_ = surface::LocalPrograms(std::move(*program), box);
+  size.values_ = PointValues(std::move(*program), box, request.most_mm);
   return size;
 }
 
 double ElementSize::at(Vec3 p) {
   if (is_one()) return request_.least_mm;
-  const double size = value_at(programs_, rows_, p);
+  const double size = values_.at(p);
   return std::isnan(size) ? request_.most_mm : std::clamp(size, request_.least_mm, request_.most_mm);
 }
 

@@ -6,8 +6,7 @@
 #include <string>
 
 #include "compile/load.h"
-#include "eval/rows.h"
-#include "surface/local_programs.h"
+#include "compile/point_values.h"
 
 namespace ombre::compile {
 
@@ -35,11 +34,7 @@ class ElementSize {
  private:
   SizeRequest request_;
   JobStagesPtr stages_;
-  surface::LocalPrograms programs_;
-  eval::RowEvaluator rows_{1};
+  PointValues values_;
 };
-
-// The value of a program's first output at a point.
-double value_at(const surface::LocalPrograms& programs, eval::RowEvaluator& rows, Vec3 p);
 
 }  // namespace ombre::compile

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/text.h"
-#include "compile/element_size.h"
+#include "compile/point_values.h"
 #include "compile/question.h"
 #include "compile/sampler.h"
 #include "expr/expression.h"
@@ -57,11 +57,10 @@ std::optional<Nodes> by_formula(const design::Design& design, const fea::MeshVie
   };
   auto program = question.program({{"where", formula->lower(question.point(), variable)}}, diagnostics);
   if (!program) return std::nullopt;
-  const surface::LocalPrograms programs(std::move(*program), mesh.bounds());
-  eval::RowEvaluator rows(1);
+  PointValues values(std::move(*program), mesh.bounds(), mesh.typical_size_mm());
   Nodes nodes(mesh.node_count());
   for (size_t n = 0; n < nodes.size(); ++n) {
-    const double value = value_at(programs, rows, mesh.node(n));
+    const double value = values.at(mesh.node(n));
     nodes[n] = value != 0 && value == value;
   }
   return nodes;

@@ -60,11 +60,12 @@ class EdgeFinder {
     }
     std::vector<bool> has_edge(body.vertices.size());
     for (const auto& [edge, both] : normals) {
-      if (both.size() != 2 || dot(both[0], both[1]) > sharp_cosine) continue;
+      if (!is_sharp_edge(both)) continue;
       edges_.push_back(std::minmax(numbers[edge.first], numbers[edge.second]));
       has_edge[root_in(parents, edge.first)] = true;
     }
     add_smooth_points(body, parents, has_edge);
+    add_face_points(body, normals);
   }
 
   SharpEdges lines() {
@@ -87,30 +88,89 @@ class EdgeFinder {
   }
 
  private:
+  using Vertices = std::vector<uint32_t>;
+
+  // A point and those around it, apart from each other.
+  void add_patch(const surface::Body& body, const Vertices& vertices, uint32_t middle, std::vector<Vec3>& found) const {
+    const auto add = [&](Vec3 p) {
+      if (std::ranges::all_of(found, [&](Vec3 q) { return length(p - q) >= spacing * size_mm_; })) found.push_back(p);
+    };
+    const Vec3 p = body.vertices[middle];
+    add(p);
+    for (const uint32_t n : vertices)
+      if (length(body.vertices[n] - p) < reach * size_mm_) add(body.vertices[n]);
+  }
+
   // Of each surface without sharp edges its lowest point and those around it, and the outermost ones along each axis: a
   // mesher sees a surface where its points lie close together, and goes on from there.
   void add_smooth_points(const surface::Body& body, std::vector<uint32_t>& parents, const std::vector<bool>& has_edge) {
-    std::map<uint32_t, std::vector<uint32_t>> surfaces;
+    std::map<uint32_t, Vertices> surfaces;
     for (uint32_t n = 0; n < body.vertices.size(); ++n)
       if (const uint32_t root = root_in(parents, n); !has_edge[root]) surfaces[root].push_back(n);
+    const auto place = [&](uint32_t n) { return body.vertices[n]; };
     for (const auto& [root, vertices] : surfaces) {
       std::vector<Vec3> found;
-      const auto add = [&](Vec3 p) {
-        if (std::ranges::all_of(found, [&](Vec3 q) { return length(p - q) >= spacing * size_mm_; })) found.push_back(p);
-      };
-      const auto place = [&](uint32_t n) { return body.vertices[n]; };
-      const Vec3 lowest = place(*std::ranges::min_element(vertices, {}, [&](uint32_t n) { return place(n).z; }));
-      add(lowest);
-      for (const uint32_t n : vertices)
-        if (length(place(n) - lowest) < reach * size_mm_) add(place(n));
+      add_patch(body, vertices, *std::ranges::min_element(vertices, {}, [&](uint32_t n) { return place(n).z; }), found);
       for (int axis = 0; axis < 3; ++axis) {
         const auto [low, high] = std::ranges::minmax_element(vertices, {}, [&](uint32_t n) { return place(n)[axis]; });
-        add(place(*low));
-        add(place(*high));
+        add_patch(body, {}, *low, found);
+        add_patch(body, {}, *high, found);
       }
-      for (const Vec3 p : found)
-        if (std::ranges::find(found_.smooth_points, p) == found_.smooth_points.end()) found_.smooth_points.push_back(p);
+      keep_new(found, found_.smooth_points);
     }
+  }
+
+  // Of each face between sharp edges the point that is farthest from them, and those around it.
+  void add_face_points(const surface::Body& body, const std::map<Edge, std::vector<Vec3>>& normals) {
+    std::vector<bool> is_sharp(body.vertices.size());
+    std::vector<uint32_t> parents(body.vertices.size());
+    std::iota(parents.begin(), parents.end(), 0U);
+    for (const auto& [edge, both] : normals)
+      if (is_sharp_edge(both)) is_sharp[edge.first] = is_sharp[edge.second] = true;
+    Vertices edge_points;
+    for (uint32_t n = 0; n < is_sharp.size(); ++n)
+      if (is_sharp[n]) edge_points.push_back(n);
+    if (edge_points.empty()) return;
+    for (const auto& [edge, both] : normals) {
+      if (is_sharp[edge.first] || is_sharp[edge.second]) continue;
+      const uint32_t p = root_in(parents, edge.first), q = root_in(parents, edge.second);
+      parents[std::max(p, q)] = std::min(p, q);
+    }
+    std::map<uint32_t, Vertices> faces;
+    for (uint32_t n = 0; n < is_sharp.size(); ++n)
+      if (!is_sharp[n]) faces[root_in(parents, n)].push_back(n);
+    for (const auto& [root, vertices] : faces) {
+      const uint32_t middle = farthest(body, vertices, edge_points);
+      std::vector<Vec3> found;
+      add_patch(body, vertices, middle, found);
+      if (distance(body, middle, edge_points) > reach * size_mm_) keep_new(found, found_.face_points);
+    }
+  }
+
+  static double distance(const surface::Body& body, uint32_t from, const Vertices& to) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const uint32_t n : to) least = std::min(least, length(body.vertices[n] - body.vertices[from]));
+    return least;
+  }
+
+  // Among some of the vertices; all would take long.
+  static uint32_t farthest(const surface::Body& body, const Vertices& vertices, const Vertices& from) {
+    constexpr size_t most = 200;
+    const size_t step = 1 + vertices.size() / most;
+    uint32_t best = vertices.front();
+    double most_mm = -1;
+    for (size_t n = 0; n < vertices.size(); n += step)
+      if (const double here = distance(body, vertices[n], from); here > most_mm) most_mm = here, best = vertices[n];
+    return best;
+  }
+
+  static void keep_new(const std::vector<Vec3>& points, std::vector<Vec3>& all) {
+    for (const Vec3 p : points)
+      if (std::ranges::find(all, p) == all.end()) all.push_back(p);
+  }
+
+  static bool is_sharp_edge(const std::vector<Vec3>& normals) {
+    return normals.size() == 2 && dot(normals[0], normals[1]) <= sharp_cosine;
   }
 
   void forget(uint32_t a, uint32_t b) {

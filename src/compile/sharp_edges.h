@@ -10,6 +10,7 @@ namespace ombre::compile {
 struct SharpEdges {
   std::vector<std::vector<Vec3>> lines;  // mm; closed ones begin and end in the same point
   std::vector<Vec3> smooth_points;       // some of each closed surface that has no sharp edge
+  std::vector<Vec3> face_points;         // some of each face between sharp edges, far from them
 };
 
 // Edges of the bodies whose triangles' normals differ by more than some forty degrees; lines go from one corner to the

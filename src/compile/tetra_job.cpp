@@ -21,8 +21,10 @@ namespace {
 constexpr double cell_share = 0.5, tolerance_share = 0.01, most_cells_along = 500;
 // Measured: of the size's third power a tetrahedron has so much, and asks for the region so many times.
 constexpr double volume_of_cube = 0.115, questions_of_element = 60;
+constexpr double most_questions = 2000;  // of an expected element: then the mesher does not come to an end
 constexpr double bytes_of_element = 700;
-constexpr double draws = 16777216;  // 2^24
+constexpr double least_share = 0.9;  // of the surface's volume that tetrahedra fill
+constexpr double draws = 16777216;   // 2^24
 
 // The box around the design, with room for the mesher.
 Box with_room(const Box& box) {
@@ -53,8 +55,7 @@ class TetraMaker {
     if (!size || !find_regions(*box) || !check_count(*size, *box) || !find_surface()) return std::nullopt;
     TetraModel made;
     for (const RegionBody& body : surface_) made.surface_mm3 += body.volume_mm3;
-    const solids::Tetrahedra tetrahedra = mesh(*size, *box);
-    take(tetrahedra, made);
+    take(mesh(*size, *box, made.surface_mm3), made);
     if (made.model.mesh.nodes.empty()) return fail("no tetrahedron lies inside the design", "choose a smaller --size");
     if (!add_fields(made.model)) return std::nullopt;
     auto sections = make_sections(*loaded_, study_, request_.sections, materials(made.model), diagnostics_);
@@ -86,13 +87,13 @@ class TetraMaker {
     auto program = build_regions(design_, box, regions, diagnostics_);
     if (!program) return false;
     stages_of(design_)->prepare(loan());
-    labels_ = surface::LocalPrograms(std::move(program->partition.label), with_room(box));
+    labels_ = PointValues(std::move(program->partition.label), with_room(box), request_.size.least_mm);
     regions_ = std::move(program->regions);
     return true;
   }
 
   uint32_t region_at(Vec3 p) {
-    const auto label = static_cast<uint32_t>(value_at(labels_, rows_, p));
+    const auto label = static_cast<uint32_t>(labels_.at(p));
     return label > 0 && is_void(regions_[label - 1]) ? 0 : label;
   }
 
@@ -139,7 +140,8 @@ class TetraMaker {
     return false;
   }
 
-  solids::Tetrahedra mesh(ElementSize& size, const Box& box) {
+  // Again with points on all faces, where much of the volume was not found.
+  solids::Tetrahedra mesh(ElementSize& size, const Box& box, double volume_mm3) {
     std::vector<surface::Body> bodies;
     for (const RegionBody& body : surface_) bodies.push_back(body.body);
     SharpEdges edges = find_sharp_edges(bodies, 2 * tolerance_mm_, size.least_mm());
@@ -153,12 +155,28 @@ class TetraMaker {
     wanted.least_size_mm = size.least_mm();
     wanted.sharp_edges = std::move(edges.lines);
     wanted.fixed_points = std::move(edges.smooth_points);
+    solids::Tetrahedra made = solids::make_tetrahedra(wanted);
+    if (volume_of(made) > least_share * volume_mm3) return made;
+    wanted.fixed_points.insert(wanted.fixed_points.end(), edges.face_points.begin(), edges.face_points.end());
+    questions_ = 0;
     return solids::make_tetrahedra(wanted);
+  }
+
+  static double volume_of(const solids::Tetrahedra& made) {
+    double six_volumes = 0;
+    for (const auto& n : made.nodes) {
+      const Vec3 a = made.points[n[0]];
+      six_volumes += dot(cross(made.points[n[1]] - a, made.points[n[2]] - a), made.points[n[3]] - a);
+    }
+    return six_volumes / 6;
   }
 
   void count_question() {
     constexpr uint64_t look_each = 1024;
     if (++questions_ % look_each != 0) return;
+    if (static_cast<double>(questions_) > most_questions * (plan_.elements + 1000))
+      throw Error("the tetrahedra become far too many and too small, about " + format_rounded(plan_.elements, 2) +
+                  " were expected: choose another --size, since sharp edges may lie too close together for this one");
     if (stop_ && stop_->requested()) throw Cancelled();
     if (!progress_) return;
     const auto total = static_cast<uint64_t>(plan_.elements * questions_of_element) + look_each;
@@ -250,8 +268,7 @@ class TetraMaker {
   const StopFlag* stop_;
   double tolerance_mm_ = 0, cell_mm_ = 0;
   design::Design design_;
-  surface::LocalPrograms labels_;
-  eval::RowEvaluator rows_{1};
+  PointValues labels_;
   std::vector<Region> regions_;
   std::vector<RegionBody> surface_;
   TetraPlan plan_;

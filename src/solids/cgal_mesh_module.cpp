@@ -23,7 +23,7 @@ using Point = Geometry::Point_3;
 using Domain = CGAL::Mesh_domain_with_polyline_features_3<CGAL::Labeled_mesh_domain_3<Geometry>>;
 using Triangulation = CGAL::Mesh_triangulation_3<Domain, CGAL::Default, CGAL::Sequential_tag>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
-using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
+using Usual = CGAL::Mesh_criteria_3<Triangulation>;
 
 // Of the size: radii of the balls around facets and cells, so that the mean edge has about the size, and how far
 // facets may lie from the surface.
@@ -33,6 +33,10 @@ constexpr double least_angle = 25, most_radius_to_edge = 2.2;
 constexpr double surface_error = 1e-4;
 
 Vec3 vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+// Facets and cells with a shorter edge, in sizes, are left as they are: where surfaces meet in a sharp angle that is no
+// protected edge, refinement would not end.
+constexpr double least_edge = 0.03;
 
 // A size that depends on the point, as criteria ask for it.
 struct Sizing {
@@ -44,6 +48,70 @@ struct Sizing {
   FT operator()(const P& p, int /*dimension*/, const Index& /*index*/) const {
     return share * (*size_mm)({p.x(), p.y(), p.z()});
   }
+};
+
+// Is an edge between these corners of a cell too short to refine what has it?
+template <size_t count>
+bool is_small(const Triangulation& triangulation, Triangulation::Cell_handle cell,
+              const std::array<int, count>& corners, const std::function<double(Vec3)>& size_mm) {
+  std::array<Vec3, count> points;
+  const auto bare = triangulation.geom_traits().construct_point_3_object();
+  for (size_t n = 0; n < count; ++n) points[n] = vec(bare(triangulation.point(cell, corners[n])));
+  const double least = least_edge * size_mm(points[0]);
+  for (size_t a = 0; a < count; ++a)
+    for (size_t b = a + 1; b < count; ++b)
+      if (length(points[a] - points[b]) < least) return true;
+  return false;
+}
+
+// The usual criteria, but for what has become small.
+struct LimitedFacets {
+  using Base = Usual::Facet_criteria;
+  using Facet_quality = Base::Facet_quality;
+  using Is_facet_bad = Base::Is_facet_bad;
+
+  Base base;
+  const std::function<double(Vec3)>* size_mm;
+
+  Is_facet_bad operator()(const Triangulation& triangulation, const Triangulation::Facet& facet) const {
+    std::array<int, 3> corners{};
+    for (int n = 0; n < 3; ++n) corners[static_cast<size_t>(n)] = (facet.second + n + 1) % 4;
+    return is_small(triangulation, facet.first, corners, *size_mm) ? Is_facet_bad() : base(triangulation, facet);
+  }
+};
+struct LimitedCells {
+  using Base = Usual::Cell_criteria;
+  using Cell_quality = Base::Cell_quality;
+  using Is_cell_bad = Base::Is_cell_bad;
+
+  Base base;
+  const std::function<double(Vec3)>* size_mm;
+
+  Is_cell_bad operator()(const Triangulation& triangulation, const Triangulation::Cell_handle& cell) const {
+    const bool is_fine = is_small(triangulation, cell, std::array{0, 1, 2, 3}, *size_mm);
+    return is_fine ? Is_cell_bad() : base(triangulation, cell);
+  }
+};
+
+class Criteria {
+ public:
+  using Edge_criteria = Usual::Edge_criteria;
+  using Facet_criteria = LimitedFacets;
+  using Cell_criteria = LimitedCells;
+
+  Criteria(const Usual& usual, const std::function<double(Vec3)>& size_mm)
+      : edges_(usual.edge_criteria_object()),
+        facets_{usual.facet_criteria_object(), &size_mm},
+        cells_{usual.cell_criteria_object(), &size_mm} {}
+
+  const Edge_criteria& edge_criteria_object() const { return edges_; }
+  const Facet_criteria& facet_criteria_object() const { return facets_; }
+  const Cell_criteria& cell_criteria_object() const { return cells_; }
+
+ private:
+  Edge_criteria edges_;
+  Facet_criteria facets_;
+  Cell_criteria cells_;
 };
 
 // Ascending, but for the last two where the order would turn the tetrahedron inside out.
@@ -109,9 +177,10 @@ Tetrahedra make(const TetrahedraRequest& request) {
   for (const Vec3& p : request.fixed_points) domain.add_corner(Point(p.x, p.y, p.z));
   const Sizing edge{&request.size_mm, 1}, facet{&request.size_mm, facet_share}, cell{&request.size_mm, cell_share},
       distance{&request.size_mm, distance_share};
-  const Criteria criteria(params::edge_size = edge, params::facet_angle = least_angle, params::facet_size = facet,
-                          params::facet_distance = distance, params::cell_radius_edge_ratio = most_radius_to_edge,
-                          params::cell_size = cell);
+  const Usual usual(params::edge_size = edge, params::facet_angle = least_angle, params::facet_size = facet,
+                    params::facet_distance = distance, params::cell_radius_edge_ratio = most_radius_to_edge,
+                    params::cell_size = cell);
+  const Criteria criteria(usual, request.size_mm);
   const Complex complex =
       CGAL::make_mesh_3<Complex>(domain, criteria, params::features(domain), params::no_lloyd(), params::no_odt(),
                                  params::perturb(params::sliver_bound = 12), params::exude(params::sliver_bound = 12));
