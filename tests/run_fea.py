@@ -2,6 +2,7 @@
 """Finite-element models, run as a user would.
 
     python3 tests/run_fea.py build/dev/apps/ombre/ombre
+    python3 tests/run_fea.py build/dev/apps/ombre/ombre --write-calculix    # tests/fixtures/calculix.json anew
 """
 import argparse
 import functools
@@ -139,6 +140,147 @@ def decks_are_complete(folder):
     expect(any(abs(float(line[37:49]) - 1000 / 2850) < 1e-5 for line in top if len(line) >= 49), "CalculiX differs")
 
 
+HOLED = "difference() { rectprism((10, 10, 10), red); cylinder(3, 20, red); }"
+HEAT = {"physics": "heat", "materials": {"red": {"conductivity_w_mk": 0.5}},
+        "supports": [{"on": "zmin", "temperature_c": 20}],
+        "loads": [{"on": "zmax", "heat_w": 0.1}, {"on": "ymin", "flux_w_mm2": 0.001},
+                  {"on": "xmax", "film_w_m2k": 50, "ambient_c": 30}]}
+BEND = {**PULL, "supports": [{"on": "xmin", "fix": "xyz"}],
+        "loads": [{"on": {"facing": [0, 0, 1]}, "pressure_mpa": 2}, {"on": "xmax", "force_n": [0, 30, 0]}]}
+# Where CalculiX has the same elements, numbers agree: all that are told of a solution, but for places.
+CALCULIX = {
+    "bricks pulled": ("cube.vcad", "pull.json", ["--cell", "2.5"], 1e-5),
+    "tet4 bent": ("holed.vcad", "bend.json", ["--elements", "tet4", "--size", "3"], 1e-5),
+    "tet10 bent": ("holed.vcad", "bend.json", ["--elements", "tet10", "--size", "4"], 1e-5),
+    "tet10 of two materials": ("mix.vcad", "bend.json", ["--elements", "tet10", "--size", "4"], 1e-5),
+    # The films of the program of our own act at nodes.
+    "tet10 heated": ("holed.vcad", "heat.json", ["--elements", "tet10", "--size", "4"], 0.01),
+    "bricks heated": ("holed.vcad", "heat.json", ["--cell", "2"], 0.01),
+}
+CALCULIX_FILE = program.SOURCE / "tests" / "fixtures" / "calculix.json"
+
+
+def write_studies(folder):
+    folder.write("holed.vcad", HOLED)
+    folder.write("heat.json", json.dumps(HEAT))
+    folder.write("bend.json", json.dumps(BEND))
+
+
+def solve_case(folder, name, solver):
+    design, study, arguments, _ = CALCULIX[name]
+    solution = folder.events(design, "--study", study, *arguments, "--solve", "--solver", solver)["solution"]
+    told = {key: value for key, value in solution.items() if isinstance(value, (float, int, list))}
+    return {key: value for key, value in told.items()
+            if key not in ("iterations", "residual", "seconds") and not key.endswith("_at_mm")}
+
+
+def agree(got, wanted, tolerance, what):
+    for key, value in wanted.items():
+        values = value if isinstance(value, list) else [value]
+        numbers = got[key] if isinstance(value, list) else [got[key]]
+        scale = max(map(abs, values))
+        for a, b in zip(numbers, values):
+            near(a, b, tolerance * scale, f"{what}: {key}")
+
+
+def has_tetrahedra(folder):
+    return "built without CGAL" not in program.run(
+        [folder.ombre, "fea", "cube.vcad", "--study", "pull.json", "--elements", "tet4", "--size", "5", "--solve"],
+        cwd=folder.path).stderr
+
+
+def solutions_agree_with_calculix(folder):
+    """The numbers of CalculiX 2.20 on bricks; where it is installed, those that it gives now on all."""
+    write_studies(folder)
+    stored = json.loads(CALCULIX_FILE.read_text(encoding="utf-8"))
+    with_tetrahedra = has_tetrahedra(folder)
+    for name, (_, _, arguments, tolerance) in CALCULIX.items():
+        wanted = stored.get(name)
+        if shutil.which("ccx") and (wanted or with_tetrahedra):
+            wanted = solve_case(folder, name, "calculix")
+            agree(wanted, stored.get(name, {}), 1e-5, name + " by CalculiX")
+        expect(wanted or "--elements" in arguments, f"{CALCULIX_FILE.name} has no {name}")
+        if wanted:
+            agree(solve_case(folder, name, "built-in"), wanted, tolerance, name)
+
+
+def write_calculix(ombre):
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Folder(ombre, scratch)
+        write_studies(folder)
+        # Meshers of other versions make other tetrahedra.
+        solutions = {name: solve_case(folder, name, "calculix") for name, case in CALCULIX.items()
+                     if "--elements" not in case[2]}
+    CALCULIX_FILE.write_text(json.dumps(solutions, indent=2) + "\n", encoding="utf-8")
+
+
+def tetrahedra_reach_the_surface(folder):
+    """A cylinder's volume, its quality, and the same bytes with any number of threads; a deck that has its sets."""
+    if not has_tetrahedra(folder):
+        return
+    folder.write("rod.vcad", "cylinder(3, 12, red);")
+    study = {**PULL, "supports": [{"on": "zmin", "fix": "xyz", "name": "foot"}]}
+    folder.write("rod.json", json.dumps(study))
+    command = ("rod.vcad", "--study", "rod.json", "--elements", "tet10", "--size", "1.2")
+    events = folder.events(*command, "-o", "rod.inp", "-o", "rod.vtu")
+    near(events["model"]["volume_mm3"], math.pi * 9 * 12, 0.03 * math.pi * 9 * 12, "the volume")
+    expect(events["quality"]["inverted"] == 0 and events["quality"]["least_dihedral_degrees"] > 5, str(events))
+    folder.run(*command, "-o", "again.vtu", "--threads", "1")
+    expect((folder.path / "rod.vtu").read_bytes() == (folder.path / "again.vtu").read_bytes(), "bytes differ")
+    deck = folder.read("rod.inp")
+    expect("*ELEMENT, TYPE=C3D10, ELSET=RED\n" in deck and "*NSET, NSET=FOOT\n" in deck, "the deck")
+    expect(max(len(field) for line in deck.splitlines() for field in line.split(",")) <= 40, "a long field")
+
+
+def adaptive_meshes_cost_less(folder):
+    """Fig. 7 of the 2025 paper: a graded bar; small elements where the mixture is even."""
+    if not has_tetrahedra(folder):
+        return
+    folder.write("bar.vcad", 'fgrade(["0.5 + x/40", "0.5 - x/40"], [red, blue]) { rectprism((40, 6, 6), red); }')
+    def nodes(*size):
+        return folder.events("bar.vcad", "--study", "pull.json", "--elements", "tet4", *size, "-o", "bar.inp",
+                             "--force")["model"]["nodes"]
+    coarse, fine = nodes("--size", "3"), nodes("--size", "0.8")
+    adaptive = nodes("--size-by", "min_cell + h*(max_cell - min_cell)", "--min-cell", "0.8", "--max-cell", "3")
+    expect(coarse < 0.5 * adaptive and adaptive < 0.5 * fine, f"{coarse}, {adaptive} and {fine} nodes")
+
+
+def walls_conduct(folder):
+    """Through 10 mm of 0.5 W/(m K) and 100 mm2 with 10 degrees between: 50 mW; graded by an attribute, by its integral."""
+    study = {**HEAT, "supports": [{"on": "zmin", "temperature_c": 20}, {"on": "zmax", "temperature_c": 30}], "loads": []}
+    folder.write("wall.json", json.dumps(study))
+    solution = folder.events("cube.vcad", "--study", "wall.json", "--cell", "2.5", "--solve", "-o", "w.vtu")["solution"]
+    near(solution["enters_w"], 0.05, 1e-9, "the heat")
+    near(max(folder.array("w.vtu", "temperature [C]")), 30, 1e-5, "the temperature")
+    for n, value in enumerate(folder.array("w.vtu", "heat flux [W/mm2]")):
+        near(value, -5e-4 if n % 3 == 2 else 0, 1e-9, "a flux")
+    folder.write("graded.vcad", 'attribute("k", "exp(z/10)", unit="1") ' + CUBE)
+    solution = folder.events("graded.vcad", "--study", "wall.json", "--cell", "10,10,0.25", "--solve", "--conductivity",
+                             "k", "--sections", "1000")["solution"]
+    near(solution["enters_w"], 100 * 10e-3 / (10 * (math.exp(0.5) - math.exp(-0.5))), 1e-5, "the graded wall's heat")
+
+
+def selections_ask_the_design(folder):
+    folder.write("two.vcad", 'part("foot") translate(0, 0, -4) rectprism((10, 10, 2), red); '
+                             'part("body") translate(0, 0, 1) rectprism((10, 10, 8), blue);')
+    study = {**PULL, "supports": [{"on": {"part": "foot"}, "fix": "xyz"}],
+             "loads": [{"on": {"where": "z > 4.9 && x > 0"}, "force_n": [0, 0, 7]}]}
+    folder.write("two.json", json.dumps(study))
+    solution = folder.events("two.vcad", "--study", "two.json", "--cell", "1", "--solve", "-o", "two.vtu")["solution"]
+    near(solution["reaction_n"][2], -7, 1e-5, "the reaction")
+    moves = folder.array("two.vtu", "displacement [mm]")
+    held = 11 * 11 * 3
+    expect(all(value == 0 for value in moves[:3 * held]) and moves[3 * held + 2] != 0, "what is held")
+    study["supports"][0]["on"] = {"part": "fot"}
+    folder.write("two.json", json.dumps(study))
+    error = folder.run("two.vcad", "--study", "two.json", "--cell", "1", "--solve", status=1).stderr
+    expect('did you mean "foot"?' in error, error)
+    study["supports"][0]["on"] = {"where": "q > 1"}
+    folder.write("two.json", json.dumps(study))
+    error = folder.run("two.vcad", "--study", "two.json", "--cell", "1", "--solve", status=1).stderr
+    expect('"q"' in error and "two.json:1:" in error, error)
+
+
 def a_hook_holds_its_coat(folder):
     """The supports hold the 20 N of the example's study and the weight of the bricks, whose densities differ by 3 %."""
     examples = program.SOURCE / "examples"
@@ -166,6 +308,20 @@ def wrong_use_is_told(folder):
     expect("none.json" in error(*cube, "--study", "none.json", "--solve", status=2), "a missing file")
     expect("more than the" in error("cube.vcad", "--study", "pull.json", "--solve", "--memory", "1M", "--cell", "0.5",
                                    status=2), "memory")
+    solve = ("cube.vcad", "--study", "pull.json", "--solve")
+    expect("--cell 1" in error(*solve), "no size")
+    expect("--size 1.5" in error(*solve, "--elements", "tet4"), "no size of tetrahedra")
+    expect("--elements tet10" in error(*solve, "--cell", "1", "--size", "1"), "size of bricks")
+    expect("--min-cell" in error(*solve, "--elements", "tet4", "--size-by", "1"), "no least size")
+    expect("nothing without --solve" in error(*cube, "--study", "pull.json", "--solver", "calculix", "-o", "x.inp"), "solver")
+    if has_tetrahedra(folder):
+        message = error(*solve, "--elements", "tet4", "--size", "0.01", status=2)
+        expect("tetrahedra take about" in message and "larger --size" in message, message)
+        message = error(*solve, "--elements", "tet4", "--size-by", "min_cel", "--min-cell", "1", "--max-cell", "2")
+        expect("min_cell" in message, message)
+        folder.write("soft.json", json.dumps({**PULL, "materials": {"red": {**RED, "poissons_ratio": 0.5}}}))
+        message = folder.run("cube.vcad", "--study", "soft.json", "--elements", "tet4", "--size", "5", "--solve").stderr
+        expect("is taken for 0.49" in message and "tet4 is far too stiff" in message, message)
     folder.run(*cube, "--study", "pull.json", "-o", "there.inp")
     before = folder.read("there.inp")
     expect("--force" in error(*cube, "--study", "pull.json", "-o", "there.inp", status=2), "overwriting")
@@ -186,14 +342,19 @@ def ctrl_c_ends_it(folder):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("ombre", type=pathlib.Path)
-    ombre = parser.parse_args().ombre.resolve()
+    parser.add_argument("--write-calculix", action="store_true", help="write CalculiX's numbers anew, and end")
+    arguments = parser.parse_args()
+    ombre = arguments.ombre.resolve()
+    if arguments.write_calculix:
+        return write_calculix(ombre)
 
     def check(function):
         with tempfile.TemporaryDirectory() as scratch:
             function(Folder(ombre, scratch))
 
     checks = [bars_stretch_by_hookes_law, results_are_in_the_grid, mixtures_are_drawn_or_mixed,
-              moduli_come_from_attributes, decks_are_complete, a_hook_holds_its_coat, wrong_use_is_told, ctrl_c_ends_it]
+              moduli_come_from_attributes, decks_are_complete, tetrahedra_reach_the_surface,
+              adaptive_meshes_cost_less, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix, a_hook_holds_its_coat, wrong_use_is_told, ctrl_c_ends_it]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
 
 

@@ -3,15 +3,21 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <variant>
 
 #include "base/error.h"
 #include "base/json.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "compile/fea_job.h"
+#include "compile/fea_selection.h"
 #include "compile/find_printer.h"
+#include "compile/tetra_job.h"
 #include "export/output_file.h"
+#include "fea/calculix.h"
 #include "fea/inp_writer.h"
+#include "fea/mesh_elastic.h"
+#include "fea/node_matrix.h"
 #include "fea/vtu_writer.h"
 #include "formats/file.h"
 #include "ombre/arguments.h"
@@ -28,14 +34,15 @@ namespace {
 struct FeaArguments {
   DesignArguments design;
   std::vector<std::string> outputs;
-  std::string study, cell, assign = "draw", modulus, element = "C3D8", seed = "0", memory = "8G";
-  double tolerance = 1e-8;
+  std::string study, elements = "brick", cell, size_by, subdomains, assign = "draw", modulus, conductivity,
+                     element = "C3D8", solver = "built-in", seed = "0", memory = "8G";
+  double size = 0, min_cell = 0, max_cell = 0, tolerance = 1e-8;
   int threads = 0, sections = 64;
   bool solve = false, force = false;
 };
 
 constexpr const char* fea_footer =
-    "Lengths are millimetres, forces newtons, stresses MPa.\n\n"
+    "Lengths are millimetres, forces newtons, stresses MPa; heat is in watts, temperatures are degrees Celsius.\n\n"
     "FILE ends in\n"
     "  .inp   a deck for Abaqus and CalculiX, complete with supports and loads\n"
     "  .vtu   a grid for ParaView and others with VTK: fractions, attributes, moduli; with --solve the results too\n\n"
@@ -43,35 +50,76 @@ constexpr const char* fea_footer =
     "  {\"materials\": {\"red\": {\"modulus_mpa\": 2850, \"poissons_ratio\": 0.39, \"density_kg_m3\": 1180}},\n"
     "   \"supports\": [{\"on\": \"zmin\", \"fix\": \"xyz\"}],\n"
     "   \"loads\": [{\"on\": \"zmax\", \"force_n\": [0, 0, -10]}]}\n"
-    "\"on\" is a side of the part (xmin to zmax) or {\"box\": [x0, y0, z0, x1, y1, z1]}. A support says \"fix\" or\n"
-    "\"displacement_mm\": [null, null, -1]; a load \"force_n\" or \"pressure_mpa\"; \"gravity_mm_s2\" is a vector.\n\n"
+    "\"on\" is a side of the part (xmin to zmax), or braces with some of \"box\": [x0, y0, z0, x1, y1, z1], \"plane\": "
+    "[x, y, z,\n"
+    "nx, ny, nz], \"facing\": [0, 0, 1], \"material\": \"red\", \"part\": \"arm\" and \"where\": \"z > 9 && x < 2\". A "
+    "support says\n"
+    "\"fix\" or \"displacement_mm\": [null, null, -1]; a load \"force_n\" or \"pressure_mpa\"; \"gravity_mm_s2\" is a "
+    "vector.\n"
+    "With \"physics\": \"heat\" or \"electric\" materials have \"conductivity_w_mk\" or \"conductivity_s_m\", "
+    "supports\n"
+    "\"temperature_c\" or \"potential_v\", and loads \"heat_w\", \"flux_w_mm2\" or \"film_w_m2k\" with \"ambient_c\"; "
+    "or\n"
+    "\"current_a\" or \"current_a_mm2\".\n\n"
     "Examples:\n"
     "  ombre fea part.vcad --study pull.json --cell 1 -o part.inp\n"
     "  ombre fea part.vcad --study pull.json --cell 0.5 --solve -o part.vtu\n"
-    "  ombre fea part.vcad --study pull.json --cell 1 --assign mix --solve\n";
+    "  ombre fea part.vcad --study pull.json --elements tet10 --size 1.5 --solve -o part.vtu\n"
+    "  ombre fea part.vcad --study pull.json --elements tet4 --size-by \"min_cell + h*(max_cell - min_cell)\" \\\n"
+    "            --min-cell 0.5 --max-cell 3 -o part.inp\n";
 
 void add_arguments(CLI::App& app, FeaArguments& a) {
   add_design_arguments(app, a.design);
   app.add_option("--study", a.study, "The study: properties, supports and loads; a .json file")
       ->required()
       ->type_name("FILE");
-  app.add_option("--cell", a.cell, "Size of the bricks: one length, or x,y,z; mm")->required()->type_name("X,Y,Z");
+  app.add_option("--elements", a.elements,
+                 "brick (default: voxels whose centre is inside), or up to the surface tet4 or tet10: tetrahedra with\n"
+                 "linear or quadratic displacements")
+      ->check(one_of({"brick", "tet4", "tet10"}))
+      ->type_name("KIND");
+  app.add_option("--cell", a.cell, "Size of bricks: one length, or x,y,z; mm")->type_name("X,Y,Z");
+  app.add_option("--size", a.size, "About the length of edges of tetrahedra; mm")
+      ->check(between(1e-6, 1e6))
+      ->type_name("MM");
+  app.add_option(
+         "--size-by", a.size_by,
+         "The same by a formula over x, y, z, attributes, min_cell, max_cell and h, which is 1 where there is one\n"
+         "material and 0 in an even mixture of all")
+      ->type_name("FORMULA");
+  app.add_option("--min-cell", a.min_cell, "The least that --size-by may give; mm")
+      ->check(between(1e-6, 1e6))
+      ->type_name("MM");
+  app.add_option("--max-cell", a.max_cell, "The most that --size-by may give; mm")
+      ->check(between(1e-6, 1e6))
+      ->type_name("MM");
+  app.add_option("--subdomains", a.subdomains,
+                 "materials: borders between materials become faces of tetrahedra, each of one material")
+      ->check(one_of({"materials"}))
+      ->type_name("RULE");
   app.add_option("-o,--output", a.outputs, "A file to write, .inp or .vtu; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   app.add_flag("--solve", a.solve, "Solve it: displacements, stresses, reactions");
+  app.add_option("--solver", a.solver,
+                 "built-in (default), or calculix: the program ccx, where it is installed; with --solve")
+      ->check(one_of({"built-in", "calculix"}))
+      ->type_name("NAME");
   app.add_option("--assign", a.assign,
-                 "What a brick of a mixture is made of: draw (default: one material, by the odds of its fractions) or\n"
-                 "mix (mean properties)")
+                 "What an element of a mixture is made of: draw (default: one material, by the odds of its fractions)\n"
+                 "or mix (mean properties)")
       ->check(one_of({"draw", "mix"}))
       ->type_name("RULE");
   app.add_option("--modulus", a.modulus, "An attribute of the design that is Young's modulus in MPa")
       ->type_name("NAME");
+  app.add_option("--conductivity", a.conductivity,
+                 "In conduction: an attribute that is the conductivity in W/(m K) or S/m")
+      ->type_name("NAME");
   app.add_option("--sections", a.sections,
-                 "With mix or --modulus: into how many sections bricks are gathered (default 64)")
+                 "With mix, --modulus or --conductivity: into how many sections elements are gathered (default 64)")
       ->check(whole_between(1, 60000))
       ->type_name("N");
-  app.add_option("--element", a.element, "Elements of a deck: C3D8 (default), C3D8I or C3D8R")
+  app.add_option("--element", a.element, "Bricks of a deck: C3D8 (default), C3D8I or C3D8R")
       ->check(one_of({"C3D8", "C3D8I", "C3D8R"}))
       ->type_name("TYPE");
   app.add_option("--tolerance", a.tolerance, "How near the forces must come to the loads, as a share (default 1e-8)")
@@ -79,13 +127,14 @@ void add_arguments(CLI::App& app, FeaArguments& a) {
       ->type_name("X");
   app.add_option("--seed", a.seed, "Seed of draw (default 0)")->type_name("N");
   add_threads(app, a.threads);
-  app.add_option("--memory", a.memory, "Most memory for solving (default 8G)")->type_name("SIZE");
+  app.add_option("--memory", a.memory, "Most memory for meshing or solving (default 8G)")->type_name("SIZE");
   app.add_flag("--force", a.force, "Replace files that are there");
 }
 
 std::string ending_of(const std::string& path) { return to_lower(std::filesystem::path(path).extension().string()); }
 
 void check_outputs(const FeaArguments& a) {
+  if (a.solver != "built-in" && !a.solve) throw WrongArgument("--solver calculix does nothing without --solve");
   if (a.outputs.empty() && !a.solve)
     throw WrongArgument("there is nothing to do: write -o part.inp or -o part.vtu, or --solve");
   for (const std::string& path : a.outputs) {
@@ -117,25 +166,79 @@ std::string counted(size_t count, const std::string& what) {
 
 Data triple(Vec3 v) { return DataList{v.x, v.y, v.z}; }
 
-void tell_model(const Console& console, const fea::Model& model, double bytes) {
-  const fea::Bricks& bricks = model.bricks;
-  console.say(counted(bricks.count(), "brick") + " of " + format_rounded(bricks.size_mm.x) + " x " +
-              format_rounded(bricks.size_mm.y) + " x " + format_rounded(bricks.size_mm.z) + " mm, " +
-              format_count(bricks.node_count()) + " nodes, " + counted(model.sections.size(), "section") + ", " +
-              format_rounded(static_cast<double>(bricks.count()) * bricks.volume_mm3(), 6) +
-              " mm3; solving takes about " + format_bytes(bytes));
-  DataList sections;
-  for (const fea::Section& section : model.sections)
-    sections.push_back(DataMembers{{"name", section.name},
-                                   {"modulus_mpa", section.elastic.modulus_mpa},
-                                   {"poissons_ratio", section.elastic.poissons_ratio}});
-  console.event("model", {{"bricks", static_cast<double>(bricks.count())},
-                          {"nodes", static_cast<double>(bricks.node_count())},
-                          {"sections", sections},
-                          {"memory_bytes", bytes}});
+// What is solved: bricks or tetrahedra, and what holds and pulls them.
+struct Case {
+  std::variant<fea::Model, compile::TetraModel> made;
+  fea::Conditions conditions;
+
+  fea::ModelView view() const {
+    if (const auto* bricks = std::get_if<fea::Model>(&made)) return *bricks;
+    return std::get<compile::TetraModel>(made).model;
+  }
+  const compile::TetraModel* tetrahedra() const { return std::get_if<compile::TetraModel>(&made); }
+  bool is_mechanics() const { return conditions.physics == fea::Physics::mechanics; }
+  // Bricks have a solver of their own.
+  double solve_bytes() const {
+    const fea::ModelView model = view();
+    if (is_mechanics() && model.mesh.bricks()) return fea::solve_bytes(*model.mesh.bricks());
+    return fea::system_bytes(model.mesh, is_mechanics() ? 3 : 1);
+  }
+};
+
+std::string element_text(const fea::MeshView& mesh) {
+  if (const fea::Bricks* bricks = mesh.bricks())
+    return counted(mesh.count(), "brick") + " of " + format_rounded(bricks->size_mm.x) + " x " +
+           format_rounded(bricks->size_mm.y) + " x " + format_rounded(bricks->size_mm.z) + " mm";
+  return format_count(mesh.count()) + " tetrahedra " + mesh.shape().name;
 }
 
-void tell_solution(const Console& console, const fea::Model& model, const fea::Solution& solution, double seconds) {
+void tell_quality(const Console& console, const compile::TetraModel& made) {
+  const fea::MeshQuality& quality = made.quality;
+  console.say("edges of " + format_rounded(quality.mean_edge_mm, 3) + " mm on average; dihedral angles from " +
+              format_rounded(quality.least_dihedral, 3) + " to " + format_rounded(quality.most_dihedral, 4) +
+              " degrees, aspect at most " + format_rounded(quality.worst_aspect, 3) + ", " +
+              format_count(quality.inverted) + " inverted; the surface has " + format_rounded(made.surface_mm3, 6) +
+              " mm3");
+  console.event("quality", {{"mean_edge_mm", quality.mean_edge_mm},
+                            {"least_dihedral_degrees", quality.least_dihedral},
+                            {"most_dihedral_degrees", quality.most_dihedral},
+                            {"worst_aspect", quality.worst_aspect},
+                            {"inverted", static_cast<double>(quality.inverted)},
+                            {"surface_mm3", made.surface_mm3}});
+}
+
+void tell_model(const Console& console, const Case& here) {
+  const fea::ModelView model = here.view();
+  const double bytes = here.solve_bytes(), volume = model.mesh.total_volume_mm3();
+  console.say(element_text(model.mesh) + ", " + format_count(model.mesh.node_count()) + " nodes, " +
+              counted(model.sections.size(), "section") + ", " + format_rounded(volume, 6) +
+              " mm3; solving takes about " + format_bytes(bytes));
+  DataList sections;
+  for (const fea::Section& section : model.sections) {
+    if (here.is_mechanics())
+      sections.push_back(DataMembers{{"name", section.name},
+                                     {"modulus_mpa", section.elastic.modulus_mpa},
+                                     {"poissons_ratio", section.elastic.poissons_ratio}});
+    else
+      sections.push_back(DataMembers{{"name", section.name}, {"conductivity", section.conductivity}});
+  }
+  console.event("model", {{here.tetrahedra() ? "tetrahedra" : "bricks", static_cast<double>(model.mesh.count())},
+                          {"nodes", static_cast<double>(model.mesh.node_count())},
+                          {"sections", sections},
+                          {"volume_mm3", volume},
+                          {"memory_bytes", bytes}});
+  if (here.tetrahedra()) tell_quality(console, *here.tetrahedra());
+}
+
+std::string solved_text(const FeaArguments& a, size_t iterations, double seconds) {
+  const std::string way = a.solver == "calculix" ? "by CalculiX"
+                          : iterations == 0      ? "directly"
+                                                 : "in " + counted(iterations, "iteration");
+  return "solved " + way + " and " + format_rounded(seconds, 3) + " s";
+}
+
+void tell_solution(const FeaArguments& a, const Console& console, const fea::MeshView& mesh,
+                   const fea::Solution& solution, double seconds) {
   size_t far = 0, strong = 0;
   for (size_t n = 0; n < solution.displacement_mm.size(); ++n)
     if (length(solution.displacement_mm[n]) > length(solution.displacement_mm[far])) far = n;
@@ -145,44 +248,81 @@ void tell_solution(const Console& console, const fea::Model& model, const fea::S
   Vec3 reaction;
   for (const fea::Prescribed& here : solution.reactions_n) reaction[here.axis] += here.value;
   const Vec3 u = solution.displacement_mm[far];
-  console.say("solved in " + counted(solution.iterations, "iteration") + " and " + format_rounded(seconds, 3) + " s");
+  console.say(solved_text(a, solution.iterations, seconds));
   console.say("moves by at most " + format_rounded(length(u)) + " mm, " + text_of(u) + " at " +
-              text_of(model.bricks.node(far)));
+              text_of(mesh.node(far)));
   console.say("von Mises stress at most " + format_rounded(mises[strong]) + " MPa, at " +
-              text_of(model.bricks.centroid(strong)));
+              text_of(mesh.centroid(strong)));
   console.say("the supports hold with " + text_of(reaction, 5) + " N; strain energy " +
               format_rounded(solution.energy_mj, 5) + " mJ");
   console.event("solution", {{"iterations", static_cast<double>(solution.iterations)},
                              {"residual", solution.residual},
                              {"seconds", seconds},
                              {"greatest_displacement_mm", triple(u)},
-                             {"greatest_displacement_at_mm", triple(model.bricks.node(far))},
+                             {"greatest_displacement_at_mm", triple(mesh.node(far))},
                              {"greatest_von_mises_mpa", mises[strong]},
-                             {"greatest_von_mises_at_mm", triple(model.bricks.centroid(strong))},
+                             {"greatest_von_mises_at_mm", triple(mesh.centroid(strong))},
                              {"reaction_n", triple(reaction)},
                              {"strain_energy_mj", solution.energy_mj}});
 }
 
-void write_output(const FeaArguments& a, const std::string& path, const fea::Model& model,
-                  const fea::Conditions& conditions, const fea::Solution* solution) {
+void tell_conduction(const FeaArguments& a, const Console& console, const Case& here, const fea::Conduction& found,
+                     double seconds) {
+  const bool is_heat = here.conditions.physics == fea::Physics::heat;
+  const fea::ModelView model = here.view();
+  const auto [least, most] = std::ranges::minmax_element(found.value);
+  std::vector<double> flux;
+  for (const Vec3& v : found.flux) flux.push_back(length(v));
+  const auto strong = static_cast<size_t>(std::ranges::max_element(flux) - flux.begin());
+  double enters = 0, leaves = found.lost_w;
+  const auto add = [&](double flow) { flow > 0 ? enters += flow : leaves -= flow; };
+  for (const fea::Prescribed& flow : found.flows) add(flow.value);
+  for (const fea::Prescribed& flow : here.conditions.forces) add(flow.value);
+  const std::string unit = is_heat ? " C" : " V", flow_unit = is_heat ? " W" : " A";
+  console.say(solved_text(a, found.iterations, seconds));
+  console.say(std::string(is_heat ? "temperatures" : "potentials") + " from " + format_rounded(*least) + " to " +
+              format_rounded(*most) + unit + ", the latter at " +
+              text_of(model.mesh.node(static_cast<size_t>(most - found.value.begin()))));
+  console.say(std::string(is_heat ? "heat flux" : "current density") + " at most " + format_rounded(flux[strong]) +
+              flow_unit + "/mm2, at " + text_of(model.mesh.centroid(strong)));
+  console.say(format_rounded(enters, 5) + flow_unit + " enter, " + format_rounded(leaves, 5) + flow_unit + " leave");
+  console.event("solution", {{"iterations", static_cast<double>(found.iterations)},
+                             {"residual", found.residual},
+                             {"seconds", seconds},
+                             {is_heat ? "least_temperature_c" : "least_potential_v", *least},
+                             {is_heat ? "greatest_temperature_c" : "greatest_potential_v", *most},
+                             {is_heat ? "greatest_flux_w_mm2" : "greatest_density_a_mm2", flux[strong]},
+                             {is_heat ? "enters_w" : "enters_a", enters},
+                             {is_heat ? "leaves_w" : "leaves_a", leaves}});
+}
+
+void write_output(const FeaArguments& a, const std::string& path, const Case& here,
+                  const compile::FeaResults& results) {
   exporting::NewFile file(path);
   const fea::Sink sink = [&](std::string_view bytes) { file.append(bytes); };
+  const fea::ModelView model = here.view();
+  const fea::Physics physics = here.conditions.physics;
   if (ending_of(path) == ".inp")
-    fea::write_inp(model, conditions, type_of(a.element), std::filesystem::path(a.design.design).filename().string(),
-                   sink);
+    fea::write_inp(model, here.conditions, type_of(a.element),
+                   std::filesystem::path(a.design.design).filename().string(), sink);
   else
-    fea::write_vtu(model.bricks, compile::fea_brick_fields(model, solution), compile::fea_node_fields(solution), sink);
+    fea::write_vtu(model.mesh, compile::fea_element_fields(model, physics, results),
+                   compile::fea_node_fields(physics, results), sink);
   file.close();
   file.commit();
 }
 
-std::optional<compile::Plan> plan_bricks(const FeaArguments& a, const compile::LoadedPtr& loaded, Session& session,
-                                         Diagnostics& diagnostics) {
+std::optional<compile::PlanOptions> plan_options_of(const FeaArguments& a, Diagnostics& diagnostics) {
   JobArguments job;
   static_cast<DesignArguments&>(job) = a.design;
   job.voxel = a.cell;
   job.seed = a.seed;
-  auto options = plan_options(job, diagnostics);
+  return plan_options(job, diagnostics);
+}
+
+std::optional<compile::Plan> plan_bricks(const FeaArguments& a, const compile::LoadedPtr& loaded, Session& session,
+                                         Diagnostics& diagnostics) {
+  auto options = plan_options_of(a, diagnostics);
   if (!options) return std::nullopt;
   options->threads = a.threads;
   options->stop = &session.stop;
@@ -193,63 +333,150 @@ compile::FeaRequest request_of(const FeaArguments& a) {
   compile::FeaRequest request;
   if (a.assign == "mix") request.assign = compile::FeaRequest::Assign::mix;
   if (!a.modulus.empty()) request.modulus = a.modulus;
+  if (!a.conductivity.empty()) request.conductivity = a.conductivity;
   request.most_sections = static_cast<size_t>(a.sections);
   request.threads = a.threads;
   return request;
 }
 
-struct Case {
-  fea::Model model;
-  fea::Conditions conditions;
-};
+compile::SizeRequest size_of(const FeaArguments& a) {
+  if (a.size_by.empty()) return {a.size, a.size, ""};
+  return {a.min_cell, a.max_cell, a.size_by};
+}
+
+std::optional<decltype(Case::made)> make_model(const FeaArguments& a, const compile::LoadedPtr& loaded,
+                                               const fea::Study& study, Session& session, Diagnostics& diagnostics) {
+  ProgressLine progress(session.console, a.elements == "brick" ? Counted::voxels : Counted::steps);
+  if (a.elements == "brick") {
+    const auto plan = plan_bricks(a, loaded, session, diagnostics);
+    if (!plan) return std::nullopt;
+    auto model = compile::fea_model(loaded, *plan, study, request_of(a), diagnostics, &progress, &session.stop);
+    if (!model) return std::nullopt;
+    return std::move(*model);
+  }
+  const auto options = plan_options_of(a, diagnostics);
+  if (!options) return std::nullopt;
+  compile::TetraRequest request;
+  request.size = size_of(a);
+  request.quadratic = a.elements == "tet10";
+  request.by_material = !a.subdomains.empty();
+  request.sections = request_of(a);
+  request.seed = options->seed;
+  request.memory_bytes = parse_memory(a.memory);
+  request.announce = [&](const compile::TetraPlan& plan) {
+    session.console.say("about " + format_rounded(plan.elements, 2) + " tetrahedra; meshing takes about " +
+                        format_bytes(plan.memory_bytes));
+  };
+  auto made = compile::tetra_model(loaded, study, request, diagnostics, &progress, &session.stop);
+  if (!made) return std::nullopt;
+  return std::move(*made);
+}
+
+// Elements that are too stiff for their material, and meshes that miss some of the part.
+void warn_of_mesh(const Case& here, const fea::Study& study, Diagnostics& diagnostics) {
+  const fea::ModelView model = here.view();
+  const bool locks = std::ranges::any_of(model.sections, [](const fea::Section& section) {
+    return section.elastic.poissons_ratio > fea::most_poissons_ratio_of_c3d4;
+  });
+  if (here.is_mechanics() && model.mesh.kind() == fea::ElementKind::c3d4 && locks)
+    diagnostics.warning(study.where,
+                        "tet4 is far too stiff where poissons_ratio is above " +
+                            format_number(fea::most_poissons_ratio_of_c3d4) + ", since its change of volume locks",
+                        "use --elements tet10 or brick");
+  if (!here.tetrahedra()) return;
+  constexpr double most_off = 0.05;
+  const double volume = model.mesh.total_volume_mm3(), wanted = here.tetrahedra()->surface_mm3;
+  if (std::abs(volume - wanted) > most_off * wanted)
+    diagnostics.warning(study.where,
+                        "the tetrahedra fill " + format_rounded(volume, 4) + " mm3, the design's surface " +
+                            "encloses " + format_rounded(wanted, 4) + " mm3",
+                        "choose a smaller --size");
+}
 
 std::optional<Case> make_case(const FeaArguments& a, Session& session, Diagnostics& diagnostics) {
   const auto study = read_study(a.study, diagnostics);
   if (!study) return std::nullopt;
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
   if (!loaded) return std::nullopt;
-  const auto plan = plan_bricks(a, loaded, session, diagnostics);
-  if (!plan) return std::nullopt;
-  ProgressLine progress(session.console);
-  auto model = compile::fea_model(loaded, *plan, *study, request_of(a), diagnostics, &progress, &session.stop);
-  progress.finish();
+  auto model = make_model(a, loaded, *study, session, diagnostics);
   if (!model) return std::nullopt;
-  auto conditions = fea::conditions_of(*study, *model, diagnostics);
+  Case here{std::move(*model), {}};
+  warn_of_mesh(here, *study, diagnostics);
+  const fea::ModelView view = here.view();
+  const auto choose = compile::node_chooser(*loaded, view.mesh, a.threads, &session.stop);
+  auto conditions = fea::conditions_of(*study, view, diagnostics, choose);
   if (!conditions) return std::nullopt;
-  return Case{std::move(*model), std::move(*conditions)};
+  here.conditions = std::move(*conditions);
+  return here;
 }
 
-fea::Solution solve_case(const FeaArguments& a, const Case& here, Session& session) {
+compile::FeaResults solve_elsewhere(const FeaArguments& a, const Case& here, Session& session) {
+  const fea::CalculixOptions options{type_of(a.element), a.threads};
+  compile::FeaResults results;
+  if (here.is_mechanics())
+    results.solution = fea::solve_by_calculix(here.view(), here.conditions, options, &session.stop);
+  else
+    results.conduction = fea::conduct_by_calculix(here.view(), here.conditions, options, &session.stop);
+  return results;
+}
+
+compile::FeaResults solve_case(const FeaArguments& a, const Case& here, Session& session) {
   const Stopwatch watch;
   fea::SolveOptions options;
   options.tolerance = a.tolerance;
   options.threads = a.threads;
   ProgressLine progress(session.console, Counted::steps);
-  const fea::Solution solution = fea::solve(here.model, here.conditions, options, &progress, &session.stop);
+  const fea::ModelView model = here.view();
+  compile::FeaResults results;
+  if (a.solver == "calculix")
+    results = solve_elsewhere(a, here, session);
+  else if (!here.is_mechanics())
+    results.conduction = fea::conduct(model, here.conditions, options, &progress, &session.stop);
+  else if (const auto* bricks = std::get_if<fea::Model>(&here.made))
+    results.solution = fea::solve(*bricks, here.conditions, options, &progress, &session.stop);
+  else
+    results.solution = fea::solve_mesh(model, here.conditions, options, &progress, &session.stop);
   progress.finish();
-  tell_solution(session.console, here.model, solution, watch.seconds());
-  return solution;
+  if (results.solution) tell_solution(a, session.console, model.mesh, *results.solution, watch.seconds());
+  if (results.conduction) tell_conduction(a, session.console, here, *results.conduction, watch.seconds());
+  return results;
+}
+
+void check_elements(const FeaArguments& a) {
+  if (a.elements == "brick") {
+    if (a.size > 0 || !a.size_by.empty() || !a.subdomains.empty())
+      throw WrongArgument("--size, --size-by and --subdomains are of tetrahedra: add --elements tet10");
+    if (a.cell.empty()) throw WrongArgument("bricks need a size: write --cell 1, or --elements tet10 --size 1.5");
+    parse_voxel(a.cell);
+    return;
+  }
+  if (!a.cell.empty()) throw WrongArgument("--cell is of bricks; write --size 1.5");
+  if (a.element != "C3D8") throw WrongArgument("--element is of bricks; tetrahedra are C3D4 or C3D10");
+  if ((a.size > 0) == !a.size_by.empty())
+    throw WrongArgument("tetrahedra need a size: write --size 1.5, or --size-by with --min-cell and --max-cell");
+  if (!a.size_by.empty() && !(a.min_cell > 0 && a.min_cell <= a.max_cell))
+    throw WrongArgument("--size-by needs --min-cell, and a --max-cell that is no less");
 }
 
 int run_fea(const FeaArguments& a, Session& session) {
   check_outputs(a);
-  parse_voxel(a.cell);
+  check_elements(a);
   const auto allowed = static_cast<double>(parse_memory(a.memory));
   const Stopwatch watch;
   Diagnostics diagnostics;
   const auto made = make_case(a, session, diagnostics);
   session.console.diagnose(diagnostics);
   if (!made || diagnostics.has_errors()) return wrong_input;
-  const double bytes = fea::solve_bytes(made->model.bricks);
-  tell_model(session.console, made->model, bytes);
-  if (a.solve && bytes > allowed)
+  tell_model(session.console, *made);
+  if (const double bytes = made->solve_bytes(); a.solve && a.solver == "built-in" && bytes > allowed)
     throw Error("solving takes about " + format_bytes(bytes) + " of memory, more than the " + format_bytes(allowed) +
-                " allowed; choose larger bricks with --cell, or more --memory");
-  std::optional<fea::Solution> solution;
-  if (a.solve) solution = solve_case(a, *made, session);
+                " allowed; choose larger elements with " + (made->tetrahedra() ? "--size" : "--cell") +
+                ", or more --memory");
+  compile::FeaResults results;
+  if (a.solve) results = solve_case(a, *made, session);
   DataList files;
   for (const std::string& path : a.outputs) {
-    write_output(a, path, made->model, made->conditions, solution ? &*solution : nullptr);
+    write_output(a, path, *made, results);
     session.console.say(path + " written");
     files.emplace_back(path);
   }

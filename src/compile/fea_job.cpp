@@ -14,9 +14,6 @@ namespace {
 using voxel::FieldTile;
 using voxel::TileBox;
 
-// Poisson's ratios above this one are taken for it: an incompressible material has no bulk modulus.
-constexpr double most_poissons_ratio = 0.49;
-constexpr size_t most_section_count = 60'000;  // numbers of sections have 16 bits
 constexpr int64_t most_along_axis = int64_t{1} << 30;
 
 // The numbers of one grid in a slab, x fastest, then y, then z.
@@ -35,62 +32,17 @@ std::vector<float> numbers_of(const GridSlab& slab, size_t grid) {
   return numbers;
 }
 
-// Properties of materials, of which some are missing, perhaps.
-class Properties {
- public:
-  Properties(const design::MaterialTable& table, const fea::Study& study, Diagnostics& diagnostics)
-      : table_(table), study_(study), diagnostics_(diagnostics) {
-    for (const auto& [name, elastic] : study.materials)
-      if (!table.find(name))
-        diagnostics.error(study.where, "the study gives properties to \"" + name + "\", which is no material",
-                          did_you_mean(name, table.names()));
-  }
-
-  // A diagnostic when there are none.
-  fea::Elastic of(MaterialId id) {
-    const auto known = known_.find(id);
-    if (known != known_.end()) return known->second;
-    const design::Material& material = *table_.find(id);
-    const auto given = study_.materials.find(to_lower(material.name));
-    std::optional<fea::Elastic> elastic;
-    if (given != study_.materials.end())
-      elastic = given->second;
-    else
-      elastic = fea::read_elastic(material.properties, study_.where, diagnostics_);
-    if (!elastic)
-      diagnostics_.error(study_.where, "there are no elastic properties of \"" + material.name + "\"",
-                         "write them into the study, \"materials\": {\"" + material.name +
-                             R"(": {"modulus_mpa": 2850, "poissons_ratio": 0.39}}, or into the materials file)");
-    return known_[id] = compressible(elastic.value_or(fea::Elastic{1, 0, 0}), material.name);
-  }
-
- private:
-  fea::Elastic compressible(fea::Elastic elastic, const std::string& name) {
-    if (elastic.poissons_ratio <= most_poissons_ratio) return elastic;
-    diagnostics_.warning(study_.where, "poissons_ratio " + format_number(elastic.poissons_ratio) + " of \"" + name +
-                                           "\" is taken for " + format_number(most_poissons_ratio) +
-                                           ", since an incompressible material has no bulk modulus");
-    elastic.poissons_ratio = most_poissons_ratio;
-    return elastic;
-  }
-
-  const design::MaterialTable& table_;
-  const fea::Study& study_;
-  Diagnostics& diagnostics_;
-  std::map<MaterialId, fea::Elastic> known_;
-};
-
 class ModelMaker {
  public:
   ModelMaker(const LoadedPtr& loaded, const Plan& plan, const fea::Study& study, const FeaRequest& request,
              Diagnostics& diagnostics, Progress* progress, const StopFlag* stop)
       : loaded_(loaded),
         plan_(plan),
+        study_(study),
         request_(request),
         diagnostics_(diagnostics),
         progress_(progress),
-        stop_(stop),
-        properties_(loaded->design.materials, study, diagnostics) {}
+        stop_(stop) {}
 
   std::optional<fea::Model> make() {
     for (const int64_t count : plan_.request.lattice.count)
@@ -101,11 +53,11 @@ class ModelMaker {
     const voxel::Lattice& lattice = plan_.request.lattice;
     model.bricks = fea::make_bricks(lattice.origin, lattice.voxel_mm(), std::move(cells_));
     if (!find_fields(model)) return std::nullopt;
-    if (request_.modulus || request_.assign == FeaRequest::Assign::mix)
-      mix(model);
-    else
-      draw(model);
-    if (diagnostics_.has_errors()) return std::nullopt;
+    auto sections = make_sections(*loaded_, study_, request_, {model.bricks.count(), drawn_, fractions_, &model.fields},
+                                  diagnostics_);
+    if (!sections) return std::nullopt;
+    model.sections = std::move(sections->sections);
+    model.section_of = std::move(sections->section_of);
     return model;
   }
 
@@ -147,7 +99,8 @@ class ModelMaker {
     for (const Grid& grid : job->grids) {
       const std::string unit = grid.attribute.unit == "1" ? "" : grid.attribute.unit;
       const bool is_fraction = grid.kind == GridKind::fraction;
-      model.fields.push_back({is_fraction ? "fraction of " + grid.name : grid.name, is_fraction ? "" : unit, 1, {}});
+      model.fields.push_back(
+          {is_fraction ? std::string(fraction_prefix) + grid.name : grid.name, is_fraction ? "" : unit, 1, {}});
       if (is_fraction) fractions_.push_back(grid.material->id);
     }
     size_t next = 0;
@@ -166,86 +119,13 @@ class ModelMaker {
     return true;
   }
 
-  void draw(fea::Model& model) {
-    std::map<MaterialId, uint16_t> numbers;
-    for (const MaterialId id : drawn_) numbers.emplace(id, static_cast<uint16_t>(0));
-    for (auto& [id, number] : numbers) {
-      number = static_cast<uint16_t>(model.sections.size());
-      model.sections.push_back({loaded_->design.materials.find(id)->name, properties_.of(id)});
-    }
-    for (const MaterialId id : drawn_) model.section_of.push_back(numbers[id]);
-  }
-
-  // Means of the materials by their fractions; the modulus perhaps by an attribute.
-  std::vector<fea::Elastic> mean_properties(const fea::Model& model) {
-    const fea::ValueField* given = nullptr;
-    if (request_.modulus) {
-      for (size_t f = fractions_.size(); f < model.fields.size(); ++f)
-        if (model.fields[f].name == *request_.modulus) given = &model.fields[f];
-      if (!given) report_unknown_attribute(loaded_->design, *request_.modulus, diagnostics_);
-    }
-    std::vector<fea::Elastic> means(model.bricks.count());
-    for (size_t f = 0; f < fractions_.size(); ++f) {
-      const fea::Elastic here = properties_.of(fractions_[f]);
-      for (size_t n = 0; n < means.size(); ++n) {
-        const double share = model.fields[f].values[n];
-        means[n].modulus_mpa += share * here.modulus_mpa;
-        means[n].poissons_ratio += share * here.poissons_ratio;
-        means[n].density_t_mm3 += share * here.density_t_mm3;
-      }
-    }
-    size_t wrong = 0;
-    for (size_t n = 0; given && n < means.size(); ++n) {
-      means[n].modulus_mpa = given->values[n];
-      if (!(given->values[n] > 0) || !std::isfinite(given->values[n])) ++wrong;
-    }
-    if (wrong > 0)
-      fail("the attribute \"" + *request_.modulus + "\" is no modulus above 0 in " + format_count(wrong) +
-               " of the bricks",
-           "let it be in MPa, for example attribute(\"" + *request_.modulus + "\", \"1 + z\", unit=\"MPa\")");
-    return means;
-  }
-
-  // Bricks of about the same modulus become a section, whose properties are their means.
-  void mix(fea::Model& model) {
-    const std::vector<fea::Elastic> means = mean_properties(model);
-    if (diagnostics_.has_errors()) return;
-    const auto [least, most] = std::ranges::minmax_element(means, {}, &fea::Elastic::modulus_mpa);
-    const double low = std::log(least->modulus_mpa), span = std::log(most->modulus_mpa) - low;
-    const size_t bins = std::clamp<size_t>(request_.most_sections, 1, most_section_count);
-    const auto bin_of = [&](const fea::Elastic& elastic) {
-      if (!(span > 0)) return size_t{0};
-      const double at = (std::log(elastic.modulus_mpa) - low) / span * static_cast<double>(bins);
-      return std::min(static_cast<size_t>(std::max(at, 0.0)), bins - 1);
-    };
-    std::vector<fea::Elastic> sums(bins);
-    std::vector<size_t> counts(bins), numbers(bins);
-    for (const fea::Elastic& elastic : means) {
-      const size_t bin = bin_of(elastic);
-      ++counts[bin];
-      sums[bin].modulus_mpa += elastic.modulus_mpa;
-      sums[bin].poissons_ratio += elastic.poissons_ratio;
-      sums[bin].density_t_mm3 += elastic.density_t_mm3;
-    }
-    for (size_t bin = 0; bin < bins; ++bin) {
-      if (counts[bin] == 0) continue;
-      const auto count = static_cast<double>(counts[bin]);
-      numbers[bin] = model.sections.size();
-      model.sections.push_back(
-          {"mix_" + std::to_string(numbers[bin] + 1),
-           {sums[bin].modulus_mpa / count, sums[bin].poissons_ratio / count, sums[bin].density_t_mm3 / count}});
-    }
-    for (const fea::Elastic& elastic : means)
-      model.section_of.push_back(static_cast<uint16_t>(numbers[bin_of(elastic)]));
-  }
-
   const LoadedPtr& loaded_;
   const Plan& plan_;
+  const fea::Study& study_;
   const FeaRequest& request_;
   Diagnostics& diagnostics_;
   Progress* progress_;
   const StopFlag* stop_;
-  Properties properties_;
   std::vector<fea::Cell> cells_;
   std::vector<MaterialId> drawn_;      // of each cell
   std::vector<MaterialId> fractions_;  // whose fields come first
@@ -259,6 +139,13 @@ fea::ValueField tensors(const std::string& name, const std::string& unit,
   return field;
 }
 
+fea::ValueField vectors(const std::string& name, const std::string& unit, const std::vector<Vec3>& values) {
+  fea::ValueField field{name, unit, 3, {}};
+  for (const Vec3& v : values)
+    for (int axis = 0; axis < 3; ++axis) field.values.push_back(static_cast<float>(v[axis]));
+  return field;
+}
+
 }  // namespace
 
 std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const Plan& plan, const fea::Study& study,
@@ -267,30 +154,44 @@ std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const Plan& plan, c
   return ModelMaker(loaded, plan, study, request, diagnostics, progress, stop).make();
 }
 
-std::vector<fea::ValueField> fea_brick_fields(const fea::Model& model, const fea::Solution* solution) {
+std::vector<fea::ValueField> fea_element_fields(const fea::ModelView& model, fea::Physics physics,
+                                                const FeaResults& results) {
+  const bool is_mechanics = physics == fea::Physics::mechanics;
   std::vector<fea::ValueField> fields = model.fields;
-  fea::ValueField section{"section", "", 1, {}}, modulus{"modulus", "MPa", 1, {}};
-  for (size_t n = 0; n < model.bricks.count(); ++n) {
+  fea::ValueField section{"section", "", 1, {}};
+  fea::ValueField property{is_mechanics ? "modulus" : "conductivity",
+                           is_mechanics                    ? "MPa"
+                           : physics == fea::Physics::heat ? "W/(m K)"
+                                                           : "S/m",
+                           1,
+                           {}};
+  for (size_t n = 0; n < model.mesh.count(); ++n) {
     section.values.push_back(model.section_of[n]);
-    modulus.values.push_back(static_cast<float>(model.elastic(n).modulus_mpa));
+    property.values.push_back(
+        static_cast<float>(is_mechanics ? model.elastic(n).modulus_mpa : model.section(n).conductivity));
   }
   fields.push_back(std::move(section));
-  fields.push_back(std::move(modulus));
-  if (!solution) return fields;
-  fea::ValueField mises{"von Mises stress", "MPa", 1, {}};
-  for (const auto& stress : solution->stress_mpa) mises.values.push_back(static_cast<float>(fea::von_mises(stress)));
-  fields.push_back(std::move(mises));
-  fields.push_back(tensors("stress", "MPa", solution->stress_mpa));
-  fields.push_back(tensors("strain", "", solution->strain));
+  fields.push_back(std::move(property));
+  if (const auto& solution = results.solution) {
+    fea::ValueField mises{"von Mises stress", "MPa", 1, {}};
+    for (const auto& stress : solution->stress_mpa) mises.values.push_back(static_cast<float>(fea::von_mises(stress)));
+    fields.push_back(std::move(mises));
+    fields.push_back(tensors("stress", "MPa", solution->stress_mpa));
+    fields.push_back(tensors("strain", "", solution->strain));
+  }
+  if (const auto& conduction = results.conduction)
+    fields.push_back(physics == fea::Physics::heat ? vectors("heat flux", "W/mm2", conduction->flux)
+                                                   : vectors("current density", "A/mm2", conduction->flux));
   return fields;
 }
 
-std::vector<fea::ValueField> fea_node_fields(const fea::Solution* solution) {
-  if (!solution) return {};
-  fea::ValueField displacement{"displacement", "mm", 3, {}};
-  for (const Vec3& u : solution->displacement_mm)
-    for (int axis = 0; axis < 3; ++axis) displacement.values.push_back(static_cast<float>(u[axis]));
-  return {displacement};
+std::vector<fea::ValueField> fea_node_fields(fea::Physics physics, const FeaResults& results) {
+  if (const auto& solution = results.solution) return {vectors("displacement", "mm", solution->displacement_mm)};
+  if (!results.conduction) return {};
+  const bool is_heat = physics == fea::Physics::heat;
+  fea::ValueField field{is_heat ? "temperature" : "potential", is_heat ? "C" : "V", 1, {}};
+  for (const double value : results.conduction->value) field.values.push_back(static_cast<float>(value));
+  return {field};
 }
 
 }  // namespace ombre::compile

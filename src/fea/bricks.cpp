@@ -1,7 +1,6 @@
 #include "fea/bricks.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace ombre::fea {
 namespace {
@@ -19,12 +18,6 @@ Cell corner_of(const Cell& cell, const Cell& offset, const Cell& period) {
     if (corner[axis] == period[axis]) corner[axis] = 0;
   }
   return corner;
-}
-
-// Number n's representative in a forest of numbers.
-uint32_t root_of(std::vector<uint32_t>& parents, uint32_t n) {
-  while (parents[n] != n) n = parents[n] = parents[parents[n]];
-  return n;
 }
 
 }  // namespace
@@ -69,38 +62,6 @@ std::vector<OuterFace> outer_faces(const Bricks& bricks) {
         if (find(bricks.cells, beside) == bricks.count()) faces.push_back({static_cast<uint32_t>(n), axis, is_upper});
       }
   return faces;
-}
-
-std::array<uint32_t, 4> face_nodes(const Bricks& bricks, const OuterFace& face) {
-  std::array<uint32_t, 4> nodes{};
-  size_t count = 0;
-  for (size_t c = 0; c < 8; ++c)
-    if (brick_corners[c][face.axis] == static_cast<int32_t>(face.is_upper))
-      nodes[count++] = bricks.nodes[face.brick][c];
-  return nodes;
-}
-
-double face_area_mm2(const Bricks& bricks, const OuterFace& face) {
-  return bricks.volume_mm3() / bricks.size_mm[face.axis];
-}
-
-std::vector<uint32_t> pieces_of(const Bricks& bricks) {
-  std::vector<uint32_t> parents(bricks.node_count());
-  std::iota(parents.begin(), parents.end(), 0U);
-  for (const auto& nodes : bricks.nodes)
-    for (size_t c = 1; c < 8; ++c) {
-      const uint32_t a = root_of(parents, nodes[0]), b = root_of(parents, nodes[c]);
-      parents[std::max(a, b)] = std::min(a, b);
-    }
-  constexpr auto unknown = ~uint32_t{0};
-  std::vector<uint32_t> numbers(bricks.node_count(), unknown), pieces;
-  uint32_t next = 0;
-  for (const auto& nodes : bricks.nodes) {
-    uint32_t& number = numbers[root_of(parents, nodes[0])];
-    if (number == unknown) number = next++;
-    pieces.push_back(number);
-  }
-  return pieces;
 }
 
 }  // namespace ombre::fea

@@ -57,10 +57,5 @@ struct OuterFace {
 };
 // The faces come in the order of bricks, then axes, the lower one first.
 std::vector<OuterFace> outer_faces(const Bricks& bricks);
-std::array<uint32_t, 4> face_nodes(const Bricks& bricks, const OuterFace& face);
-double face_area_mm2(const Bricks& bricks, const OuterFace& face);
-
-// The number of the piece of each brick, from 0: bricks that share a node belong together.
-std::vector<uint32_t> pieces_of(const Bricks& bricks);
 
 }  // namespace ombre::fea

@@ -33,17 +33,5 @@ TEST(Bricks, CornersTurnAsAbaqusAndVtkHaveThem) {
   }
 }
 
-TEST(Bricks, OuterFacesCoverTheSurface) {
-  const Bricks bricks = block({3, 4, 5}, {1, 2, 3});
-  double area = 0;
-  for (const OuterFace& face : outer_faces(bricks)) area += face_area_mm2(bricks, face);
-  EXPECT_DOUBLE_EQ(area, 2 * (3 * 8 + 8 * 15 + 3 * 15));
-}
-
-TEST(Bricks, PiecesHangTogetherAtNodes) {
-  EXPECT_EQ(pieces_of(make_bricks({}, {1, 1, 1}, {{0, 0, 0}, {5, 0, 0}, {1, 1, 1}, {6, 0, 1}})),
-            (std::vector<uint32_t>{0, 1, 0, 1}));
-}
-
 }  // namespace
 }  // namespace ombre::fea

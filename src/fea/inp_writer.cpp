@@ -16,13 +16,14 @@ std::string_view type_name(BrickType type) {
 }
 
 // Capitals, digits and _, a letter first, each name once.
-std::vector<std::string> deck_names(const std::vector<Section>& sections) {
+template <class Named>
+std::vector<std::string> deck_names(const std::vector<Named>& things) {
   constexpr size_t longest = 60;
   std::vector<std::string> names;
   std::set<std::string> taken;
-  for (const Section& section : sections) {
+  for (const Named& thing : things) {
     std::string name;
-    for (const char c : section.name.substr(0, longest)) {
+    for (const char c : thing.name.substr(0, longest)) {
       const auto byte = static_cast<unsigned char>(c);
       name += std::isalnum(byte) != 0 && byte < 128 ? static_cast<char>(std::toupper(byte)) : '_';
     }
@@ -47,7 +48,13 @@ class Lines {
     if (text_.size() > most) flush();
     return *this;
   }
-  Lines& operator<<(double value) { return *this << format_number(value); }
+  // CalculiX reads 20 characters of a number.
+  Lines& operator<<(double value) {
+    constexpr size_t longest = 20;
+    constexpr int digits_that_fit = 12;
+    const std::string exact = format_number(value);
+    return *this << (exact.size() <= longest ? exact : format_rounded(value, digits_that_fit));
+  }
   Lines& operator<<(size_t value) { return *this << std::to_string(value); }
   void flush() {
     sink_(text_);
@@ -60,40 +67,63 @@ class Lines {
   std::string text_;
 };
 
-void write_mesh(const Model& model, BrickType type, const std::vector<std::string>& names, Lines& lines) {
-  const Bricks& bricks = model.bricks;
+// Sixteen numbers to a line, from 1.
+void write_set(const NodeSet& set, const std::string& name, Lines& lines) {
+  constexpr size_t of_line = 16;
+  lines << "*NSET, NSET=" << name << "\n";
+  for (size_t n = 0; n < set.nodes.size(); ++n) {
+    const bool is_last = n + 1 == set.nodes.size() || n % of_line + 1 == of_line;
+    lines << size_t{set.nodes[n]} + 1 << (is_last ? "\n" : ", ");
+  }
+}
+
+void write_mesh(const ModelView& model, std::string_view type, const std::vector<std::string>& names, Lines& lines) {
+  const MeshView& mesh = model.mesh;
   lines << "*NODE, NSET=NALL\n";
-  for (size_t n = 0; n < bricks.node_count(); ++n) {
-    const Vec3 p = bricks.node(n);
+  for (size_t n = 0; n < mesh.node_count(); ++n) {
+    const Vec3 p = mesh.node(n);
     lines << n + 1 << ", " << p.x << ", " << p.y << ", " << p.z << "\n";
   }
   for (size_t section = 0; section < names.size(); ++section) {
     bool is_first = true;
-    for (size_t n = 0; n < bricks.count(); ++n) {
+    for (size_t n = 0; n < mesh.count(); ++n) {
       if (model.section_of[n] != section) continue;
-      if (is_first) lines << "*ELEMENT, TYPE=" << type_name(type) << ", ELSET=" << names[section] << "\n";
+      if (is_first) lines << "*ELEMENT, TYPE=" << type << ", ELSET=" << names[section] << "\n";
       is_first = false;
       lines << n + 1;
-      for (const uint32_t node : bricks.nodes[n]) lines << ", " << size_t{node} + 1;
+      for (const uint32_t node : mesh.nodes(n)) lines << ", " << size_t{node} + 1;
       lines << "\n";
     }
   }
 }
 
-void write_sections(const Model& model, const std::vector<std::string>& names, Lines& lines) {
+void write_material(const Section& section, Physics physics, Lines& lines) {
+  const Elastic& elastic = section.elastic;
+  if (physics != Physics::mechanics) {
+    lines << "*CONDUCTIVITY\n" << section.conductivity << "\n";  // 1 W/(m K) is 1 mW/(mm K)
+    return;
+  }
+  lines << "*ELASTIC\n" << elastic.modulus_mpa << ", " << elastic.poissons_ratio << "\n";
+  if (elastic.density_t_mm3 > 0) lines << "*DENSITY\n" << elastic.density_t_mm3 << "\n";
+}
+
+void write_sections(const ModelView& model, Physics physics, const std::vector<std::string>& names, Lines& lines) {
   std::vector<bool> used(names.size());
   for (const uint16_t section : model.section_of) used[section] = true;
   for (size_t n = 0; n < names.size(); ++n) {
     if (!used[n]) continue;
-    const Elastic& elastic = model.sections[n].elastic;
-    lines << "*MATERIAL, NAME=" << names[n] << "\n*ELASTIC\n"
-          << elastic.modulus_mpa << ", " << elastic.poissons_ratio << "\n";
-    if (elastic.density_t_mm3 > 0) lines << "*DENSITY\n" << elastic.density_t_mm3 << "\n";
+    lines << "*MATERIAL, NAME=" << names[n] << "\n";
+    write_material(model.sections[n], physics, lines);
     lines << "*SOLID SECTION, ELSET=" << names[n] << ", MATERIAL=" << names[n] << "\n";
   }
 }
 
-void write_step(const Conditions& conditions, Lines& lines) {
+// Results as text in job.dat, which is read back.
+void write_prints(const char* of_nodes, const char* of_elements, Lines& lines) {
+  lines << "*NODE PRINT, NSET=NALL\n" << of_nodes << "\n*EL PRINT, ELSET=EALL\n" << of_elements << "\n";
+}
+
+void write_static_step(const Conditions& conditions, bool prints, Lines& lines) {
   lines << "*STEP\n*STATIC\n";
   if (!conditions.displacements.empty()) lines << "*BOUNDARY\n";
   for (const Prescribed& held : conditions.displacements) {
@@ -103,19 +133,56 @@ void write_step(const Conditions& conditions, Lines& lines) {
   if (!conditions.forces.empty()) lines << "*CLOAD\n";
   for (const Prescribed& force : conditions.forces)
     lines << size_t{force.node} + 1 << ", " << size_t{force.axis} + 1 << ", " << force.value << "\n";
-  lines << "*NODE FILE\nU, RF\n*EL FILE\nS, E\n*END STEP\n";
+  if (prints)
+    write_prints("U, RF", "S, E", lines);
+  else
+    lines << "*NODE FILE\nU, RF\n*EL FILE\nS, E\n";
+  lines << "*END STEP\n";
+}
+
+// Temperatures are degree of freedom 11.
+void write_heat_step(const Conditions& conditions, bool prints, Lines& lines) {
+  constexpr double milli = 1000;
+  lines << "*STEP\n*HEAT TRANSFER, STEADY STATE\n";
+  if (!conditions.displacements.empty()) lines << "*BOUNDARY\n";
+  for (const Prescribed& held : conditions.displacements)
+    lines << size_t{held.node} + 1 << ", 11, 11, " << held.value << "\n";
+  if (!conditions.forces.empty()) lines << "*CFLUX\n";
+  for (const Prescribed& flow : conditions.forces)
+    lines << size_t{flow.node} + 1 << ", 11, " << milli * flow.value << "\n";
+  if (!conditions.films.empty()) lines << "*FILM\n";
+  for (const Film& film : conditions.films)
+    lines << size_t{film.side.element} + 1 << ", F" << size_t{film.side.side} + 1 << ", " << film.ambient_c << ", "
+          << film.coefficient_w_m2k / milli << "\n";
+  if (prints)
+    write_prints("NT, RFL", "HFL", lines);
+  else
+    lines << "*NODE FILE\nNT, RFL\n*EL FILE\nHFL\n";
+  lines << "*END STEP\n";
+}
+
+std::string_view element_name(const MeshView& mesh, BrickType type, Physics physics) {
+  const bool is_plain = mesh.kind() != ElementKind::c3d8 || physics != Physics::mechanics;
+  return is_plain ? mesh.shape().name : type_name(type);
 }
 
 }  // namespace
 
-void write_inp(const Model& model, const Conditions& conditions, BrickType type, const std::string& title,
-               const Sink& sink) {
+void write_inp(const ModelView& model, const Conditions& conditions, BrickType type, const std::string& title,
+               const Sink& sink, bool prints) {
+  const bool is_mechanics = conditions.physics == Physics::mechanics;
   const std::vector<std::string> names = deck_names(model.sections);
   Lines lines(sink);
-  lines << "*HEADING\n" << title << "; mm, N, MPa, tonne\n";
-  write_mesh(model, type, names, lines);
-  write_sections(model, names, lines);
-  write_step(conditions, lines);
+  lines << "*HEADING\n" << title << (is_mechanics ? "; mm, N, MPa, tonne\n" : "; mm, mW, degrees Celsius\n");
+  write_mesh(model, element_name(model.mesh, type, conditions.physics), names, lines);
+  const std::vector<std::string> set_names = deck_names(conditions.sets);
+  for (size_t n = 0; n < set_names.size(); ++n) write_set(conditions.sets[n], set_names[n], lines);
+  if (prints) lines << "*ELSET, ELSET=EALL, GENERATE\n1, " << model.mesh.count() << ", 1\n";
+  write_sections(model, conditions.physics, names, lines);
+  if (is_mechanics)
+    write_static_step(conditions, prints, lines);
+  else
+    write_heat_step(conditions, prints, lines);
   lines.flush();
 }
 

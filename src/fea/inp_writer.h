@@ -15,9 +15,12 @@ enum class BrickType : uint8_t {
 };
 
 // A flat deck in mm, N, MPa and tonnes that runs as it is, static and linear: nodes and elements from 1, an element set
-// and a material for each section that bricks have, single-node supports and loads; results U, RF, S and E. Names are
-// in capitals, with _ for what decks do not take.
-void write_inp(const Model& model, const Conditions& conditions, BrickType type, const std::string& title,
-               const Sink& sink);
+// and a material for each section that elements have, the conditions' node sets, single-node supports and loads;
+// results U, RF, S and E. Conduction becomes a steady heat transfer, in mW and degrees Celsius, with results NT, RFL
+// and HFL; currents stand for heat, so that potentials are temperatures and mA are mW. Names are in capitals, with _
+// for what decks do not take. `type` is that of hexahedra in mechanics. With `prints` the results go as text to
+// job.dat, for calculix.h.
+void write_inp(const ModelView& model, const Conditions& conditions, BrickType type, const std::string& title,
+               const Sink& sink, bool prints = false);
 
 }  // namespace ombre::fea

@@ -1,12 +1,13 @@
-// The model of a finite-element job: bricks, their materials, and what holds and pulls them.
+// The model of a finite-element job: elements, their materials, and what holds and pulls them.
 //
-// Units: mm, N, MPa; densities in tonne/mm3, so that mm/s2 times tonne is N.
+// Units: mm, N, MPa; densities in tonne/mm3, so that mm/s2 times tonne is N. Heat: W, degrees Celsius; currents: A, V.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "fea/bricks.h"
+#include "fea/mesh.h"
 
 namespace ombre::fea {
 
@@ -17,13 +18,14 @@ struct Elastic {
   bool operator==(const Elastic&) const = default;
 };
 
-// Bricks of the same properties.
+// Elements of the same properties.
 struct Section {
   std::string name;
   Elastic elastic;
+  double conductivity = 0;  // of heat, W/(m K), or of electricity, S/m; 0: unknown
 };
 
-// A value for each brick or node, or `components` values one after the other.
+// A value for each element or node, or `components` values one after the other.
 struct ValueField {
   std::string name, unit;
   size_t components = 1;
@@ -39,16 +41,64 @@ struct Model {
   const Elastic& elastic(size_t brick) const { return sections[section_of[brick]].elastic; }
 };
 
+// The same of any elements.
+struct MeshModel {
+  Mesh mesh;
+  std::vector<Section> sections;
+  std::vector<uint16_t> section_of;  // of each element
+  std::vector<ValueField> fields;    // of elements
+
+  const Elastic& elastic(size_t element) const { return sections[section_of[element]].elastic; }
+};
+
+// A model as writers, studies and solvers see it: of bricks or of another mesh, which must live as long.
+struct ModelView {
+  ModelView(const Model& model)  // NOLINT: a view of what is handed over
+      : mesh(model.bricks), sections(model.sections), section_of(model.section_of), fields(model.fields) {}
+  ModelView(const MeshModel& model)  // NOLINT
+      : mesh(model.mesh), sections(model.sections), section_of(model.section_of), fields(model.fields) {}
+
+  MeshView mesh;
+  const std::vector<Section>& sections;
+  const std::vector<uint16_t>& section_of;
+  const std::vector<ValueField>& fields;
+
+  const Section& section(size_t element) const { return sections[section_of[element]]; }
+  const Elastic& elastic(size_t element) const { return section(element).elastic; }
+};
+
 // A value that is prescribed at a node along an axis.
 struct Prescribed {
   uint32_t node = 0;
-  uint8_t axis = 0;
-  double value = 0;  // displacement, mm; or force, N
+  uint8_t axis = 0;  // 0 where there is one unknown for each node
+  double value = 0;  // displacement, mm; or force, N; temperature, degrees Celsius, or heat that enters, W; V or A
+};
+
+// What is solved for.
+enum class Physics : uint8_t {
+  mechanics,  // displacements, mm
+  heat,       // temperatures, degrees Celsius
+  electric,   // potentials, V
+};
+
+// Heat that leaves through an outer side: coefficient times (temperature - ambient).
+struct Film {
+  OuterSide side;
+  double coefficient_w_m2k = 0, ambient_c = 0;
+};
+
+// Nodes that a support or a load is on, by the name that a deck gives them.
+struct NodeSet {
+  std::string name;
+  std::vector<uint32_t> nodes;  // ascending
 };
 
 // Both lists are in ascending order of nodes, then axes, and name no place twice.
 struct Conditions {
   std::vector<Prescribed> displacements, forces;
+  std::vector<NodeSet> sets = {};
+  Physics physics = Physics::mechanics;
+  std::vector<Film> films = {};  // of heat
 };
 
 }  // namespace ombre::fea

@@ -1,8 +1,8 @@
+// Reads studies.
 #include "fea/study.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "base/text.h"
 
@@ -11,10 +11,25 @@ namespace {
 
 constexpr std::array<const char*, 6> side_names{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
 constexpr double tonne_mm3_of_kg_m3 = 1e-12;
-// A node counts as inside of a box if it lies no farther out than this share of a brick.
-constexpr double slack_of_brick = 1e-6;
+constexpr double usual_facing_degrees = 30;
 
-const char* const selection_help = "write \"zmin\" or another side, or {\"box\": [x0, y0, z0, x1, y1, z1]} in mm";
+const char* const selection_help =
+    "write \"zmin\" or another side, or {\"box\": [x0, y0, z0, x1, y1, z1]} in mm, {\"plane\": [x, y, z, nx, ny, nz]}, "
+    "{\"facing\": [0, 0, 1]}, {\"material\": \"red\"}, {\"part\": \"arm\"} or {\"where\": \"z > 9 && x < 2\"}";
+
+// What physics calls its numbers.
+struct Words {
+  const char *conductivity, *unknown, *flow, *flux;
+};
+Words words_of(Physics physics) {
+  if (physics == Physics::electric) return {"conductivity_s_m", "potential_v", "current_a", "current_a_mm2"};
+  return {"conductivity_w_mk", "temperature_c", "heat_w", "flux_w_mm2"};
+}
+
+const Data* member_of(const DataMembers& members, std::string_view name) {
+  const auto found = std::ranges::find(members, name, &std::pair<std::string, Data>::first);
+  return found == members.end() ? nullptr : &found->second;
+}
 
 class StudyReader {
  public:
@@ -23,11 +38,13 @@ class StudyReader {
   Study read(const Data& data) {
     Study study;
     study.where = data.where;
-    if (!members(data, "a study", {"materials", "supports", "loads", "gravity_mm_s2"})) return study;
+    if (!members(data, "a study", {"physics", "materials", "supports", "loads", "gravity_mm_s2"})) return study;
+    if (const Data* physics = data.find("physics")) read_physics(*physics);
+    study.physics = physics_;
     if (const Data* materials = data.find("materials")) read_materials(*materials, study);
     for (const Data& support : list(data, "supports")) study.supports.push_back(read_support(support));
     for (const Data& load : list(data, "loads")) study.loads.push_back(read_load(load));
-    if (const Data* gravity = data.find("gravity_mm_s2")) study.gravity_mm_s2 = read_vector(*gravity, "gravity_mm_s2");
+    if (const Data* gravity = data.find("gravity_mm_s2")) study.gravity_mm_s2 = read_gravity(*gravity);
     return study;
   }
 
@@ -66,19 +83,66 @@ class StudyReader {
     return 0;
   }
 
-  Vec3 read_vector(const Data& data, const std::string& name) {
+  std::string read_text(const Data& data, const std::string& what) {
+    if (const std::string* text = data.string(); text && !text->empty()) return *text;
+    fail(data, what);
+    return "";
+  }
+
+  template <size_t count>
+  std::array<double, count> read_numbers(const Data& data, const std::string& name, const std::string& hint) {
+    std::array<double, count> numbers{};
     const DataList* items = data.list();
-    if (!items || items->size() != 3) {
-      fail(data, "three numbers for " + name, "write [x, y, z]");
-      return {};
-    }
-    return {read_number((*items)[0], name), read_number((*items)[1], name), read_number((*items)[2], name)};
+    if (!items || items->size() != count)
+      fail(data, std::to_string(count) + " numbers for " + name, hint);
+    else
+      for (size_t n = 0; n < count; ++n) numbers[n] = read_number((*items)[n], name);
+    return numbers;
+  }
+
+  Vec3 read_vector(const Data& data, const std::string& name) {
+    const auto v = read_numbers<3>(data, name, "write [x, y, z]");
+    return {v[0], v[1], v[2]};
+  }
+
+  // Of length one.
+  Vec3 read_direction(const Data& data, Vec3 v) {
+    if (length(v) > 0) return (1 / length(v)) * v;
+    diagnostics_.error(data.where, "the direction is of no length", "write for example [0, 0, 1]");
+    return {0, 0, 1};
+  }
+
+  Vec3 read_gravity(const Data& data) {
+    if (physics_ != Physics::mechanics)
+      diagnostics_.error(data.where, "gravity does nothing in conduction", "leave it out");
+    return read_vector(data, "gravity_mm_s2");
+  }
+
+  void read_physics(const Data& data) {
+    constexpr std::array<std::pair<const char*, Physics>, 3> names{
+        {{"mechanics", Physics::mechanics}, {"heat", Physics::heat}, {"electric", Physics::electric}}};
+    const std::string name = read_text(data, "\"mechanics\", \"heat\" or \"electric\"");
+    for (const auto& [known, physics] : names)
+      if (name == known) {
+        physics_ = physics;
+        return;
+      }
+    if (!name.empty())
+      diagnostics_.error(data.where, "there is no physics \"" + name + "\"",
+                         "write \"mechanics\", \"heat\" or \"electric\"");
   }
 
   void read_materials(const Data& data, Study& study) {
     if (!data.members()) return fail(data, "materials by their names, in braces");
     for (const auto& [name, value] : *data.members()) {
-      if (!members(value, "a material", {"modulus_mpa", "poissons_ratio", "density_kg_m3"})) continue;
+      if (!members(value, "a material",
+                   {"modulus_mpa", "poissons_ratio", "density_kg_m3", "conductivity_w_mk", "conductivity_s_m"}))
+        continue;
+      if (physics_ != Physics::mechanics) {
+        if (const auto conductivity = read_conductivity(*value.members(), physics_, diagnostics_))
+          study.conductivities[to_lower(name)] = *conductivity;
+        continue;
+      }
       if (const auto elastic = read_elastic(*value.members(), value.where, diagnostics_))
         study.materials[to_lower(name)] = *elastic;
       else
@@ -96,32 +160,85 @@ class StudyReader {
       return selection;
     }
     selection.where = data->where;
-    if (const std::string* name = data->string()) {
-      const auto side = std::ranges::find(side_names, to_lower(*name));
-      if (side == side_names.end())
-        diagnostics_.error(data->where, "there is no side \"" + *name + "\"",
-                           "the sides are xmin, xmax, ymin, ymax, zmin and zmax");
-      const auto number = static_cast<int>(side - side_names.begin());
-      selection.side = {number / 2, number % 2 == 1};
+    if (data->string()) {
+      selection.side = read_side(*data);
       return selection;
     }
-    const Data* box = data->find("box");
-    if (!box || !box->list() || box->list()->size() != 6) {
+    if (!data->members() || data->members()->empty()) {
       fail(*data, "a side or a box", selection_help);
       return selection;
     }
-    std::array<double, 6> ends{};
-    for (size_t n = 0; n < 6; ++n) ends[n] = read_number((*box->list())[n], "box");
-    selection.box = {{ends[0], ends[1], ends[2]}, {ends[3], ends[4], ends[5]}};
-    if (selection.box.is_empty())
-      diagnostics_.error(box->where, "the box is empty", "write its corner of least x, y, z first");
+    if (!members(*data, "a selection",
+                 {"side", "box", "plane", "facing", "within_degrees", "material", "part", "where"}))
+      return selection;
+    for (const auto& [name, value] : *data->members()) read_choice(name, value, selection);
+    if (const Data* within = data->find("within_degrees")) read_within(*within, selection);
     return selection;
+  }
+
+  std::pair<int, bool> read_side(const Data& data) {
+    const std::string name = read_text(data, "a side");
+    const auto side = std::ranges::find(side_names, to_lower(name));
+    if (side == side_names.end())
+      diagnostics_.error(data.where, "there is no side \"" + name + "\"",
+                         "the sides are xmin, xmax, ymin, ymax, zmin and zmax");
+    const auto number = static_cast<int>(side - side_names.begin());
+    return {number / 2, number % 2 == 1};
+  }
+
+  void read_choice(const std::string& name, const Data& data, Selection& selection) {
+    if (name == "side") selection.side = read_side(data);
+    if (name == "box") selection.box = read_box(data);
+    if (name == "plane") {
+      const auto v = read_numbers<6>(data, "plane", "write [x, y, z, nx, ny, nz]: a point, and what is perpendicular");
+      selection.plane = {{v[0], v[1], v[2]}, read_direction(data, {v[3], v[4], v[5]})};
+    }
+    if (name == "facing") selection.facing = {read_direction(data, read_vector(data, name)), usual_facing_degrees};
+    if (name == "material") selection.material = {read_text(data, "a material's name"), data.where};
+    if (name == "part") selection.part = {read_text(data, "a part's name"), data.where};
+    if (name == "where") selection.formula = {read_text(data, "a formula such as \"z > 9 && x < 2\""), data.where};
+  }
+
+  Box read_box(const Data& data) {
+    const auto ends = read_numbers<6>(data, "box", "write [x0, y0, z0, x1, y1, z1]");
+    const Box box{{ends[0], ends[1], ends[2]}, {ends[3], ends[4], ends[5]}};
+    if (box.is_empty()) diagnostics_.error(data.where, "the box is empty", "write its corner of least x, y, z first");
+    return box;
+  }
+
+  void read_within(const Data& data, Selection& selection) {
+    const double degrees = read_number(data, "within_degrees");
+    if (!selection.facing)
+      diagnostics_.error(data.where, "\"within_degrees\" needs \"facing\"", "write \"facing\": [0, 0, 1]");
+    else if (!(degrees > 0 && degrees <= 180))
+      diagnostics_.error(data.where, "within_degrees is out of its range", "write a number above 0, up to 180");
+    else
+      selection.facing->most_degrees = degrees;
+  }
+
+  std::string read_name(const Data& data, const std::string& usual) {
+    const Data* name = data.find("name");
+    return name ? read_text(*name, "a name") : usual;
   }
 
   Support read_support(const Data& data) {
     Support support;
-    if (!members(data, "a support", {"on", "fix", "displacement_mm"})) return support;
+    const Words words = words_of(physics_);
+    const bool is_mechanics = physics_ == Physics::mechanics;
+    const std::vector<std::string> known = is_mechanics
+                                               ? std::vector<std::string>{"on", "fix", "displacement_mm", "name"}
+                                               : std::vector<std::string>{"on", words.unknown, "name"};
+    if (!members(data, "a support", known)) return support;
     support.on = read_selection(data);
+    support.name = read_name(data, "support_" + std::to_string(++supports_));
+    if (!is_mechanics) {
+      if (const Data* value = data.find(words.unknown))
+        support.value = read_number(*value, words.unknown);
+      else
+        diagnostics_.error(data.where, std::string("\"") + words.unknown + "\" is missing",
+                           std::string("write \"") + words.unknown + "\": 20");
+      return support;
+    }
     const Data *fix = data.find("fix"), *displacement = data.find("displacement_mm");
     if (!fix == !displacement) {
       diagnostics_.error(data.where,
@@ -153,9 +270,11 @@ class StudyReader {
   }
 
   Load read_load(const Data& data) {
+    if (physics_ != Physics::mechanics) return read_flow(data);
     Load load;
-    if (!members(data, "a load", {"on", "force_n", "pressure_mpa"})) return load;
+    if (!members(data, "a load", {"on", "force_n", "pressure_mpa", "name"})) return load;
     load.on = read_selection(data);
+    load.name = read_name(data, "load_" + std::to_string(++loads_));
     const Data *force = data.find("force_n"), *pressure = data.find("pressure_mpa");
     if (!force == !pressure) {
       diagnostics_.error(data.where, "a load is either a force or a pressure",
@@ -170,180 +289,41 @@ class StudyReader {
     return load;
   }
 
+  Load read_flow(const Data& data) {
+    Load load;
+    const Words words = words_of(physics_);
+    const bool is_heat = physics_ == Physics::heat;
+    std::vector<std::string> known{"on", words.flow, words.flux, "name"};
+    if (is_heat) known.insert(known.end(), {"film_w_m2k", "ambient_c"});
+    if (!members(data, "a load", known)) return load;
+    load.on = read_selection(data);
+    load.name = read_name(data, "load_" + std::to_string(++loads_));
+    const Data *flow = data.find(words.flow), *flux = data.find(words.flux), *film = data.find("film_w_m2k");
+    if ((flow ? 1 : 0) + (flux ? 1 : 0) + (film ? 1 : 0) != 1) {
+      diagnostics_.error(data.where, "a load has one of " + join(known, ", ") + " beside \"on\" and its name",
+                         std::string("write \"") + words.flow + "\": 1");
+      return load;
+    }
+    if (flow) load.kind = Load::Kind::flow, load.flow = read_number(*flow, words.flow);
+    if (flux) load.kind = Load::Kind::flux, load.flow = read_number(*flux, words.flux);
+    if (film) read_film(data, *film, load);
+    return load;
+  }
+
+  void read_film(const Data& data, const Data& film, Load& load) {
+    load.kind = Load::Kind::convection;
+    load.film_w_m2k = read_number(film, "film_w_m2k");
+    if (!(load.film_w_m2k > 0)) diagnostics_.error(film.where, "film_w_m2k must be above 0", "write for example 10");
+    if (const Data* ambient = data.find("ambient_c"))
+      load.ambient_c = read_number(*ambient, "ambient_c");
+    else
+      diagnostics_.error(data.where, "\"ambient_c\" is missing, the temperature around", "write \"ambient_c\": 20");
+  }
+
   Diagnostics& diagnostics_;
+  Physics physics_ = Physics::mechanics;
+  size_t supports_ = 0, loads_ = 0;
 };
-
-// Finds the nodes of a selection; a diagnostic when there are none.
-class Selector {
- public:
-  Selector(const Bricks& bricks, Diagnostics& diagnostics) : bricks_(bricks), diagnostics_(diagnostics) {
-    least_ = most_ = bricks.corners.front();
-    for (const Cell& corner : bricks.corners)
-      for (size_t axis = 0; axis < 3; ++axis) {
-        least_[axis] = std::min(least_[axis], corner[axis]);
-        most_[axis] = std::max(most_[axis], corner[axis]);
-      }
-  }
-
-  std::vector<bool> nodes(const Selection& selection) {
-    std::vector<bool> chosen(bricks_.node_count());
-    for (size_t n = 0; n < chosen.size(); ++n) chosen[n] = holds(selection, n);
-    if (std::ranges::find(chosen, true) == chosen.end())
-      diagnostics_.error(selection.where, "no node of the mesh lies in this box",
-                         "the mesh lies from " + text(least_) + " to " + text(most_) + " mm");
-    return chosen;
-  }
-
- private:
-  bool holds(const Selection& selection, size_t n) const {
-    const Cell& corner = bricks_.corners[n];
-    if (selection.side) {
-      const auto axis = static_cast<size_t>(selection.side->first);
-      return corner[axis] == (selection.side->second ? most_ : least_)[axis];
-    }
-    const double slack = slack_of_brick * std::min({bricks_.size_mm.x, bricks_.size_mm.y, bricks_.size_mm.z});
-    return selection.box.expanded(slack).contains(bricks_.node(n));
-  }
-
-  std::string text(const Cell& corner) const {
-    std::vector<std::string> parts;
-    for (int axis = 0; axis < 3; ++axis)
-      parts.push_back(format_rounded(bricks_.origin[axis] + corner[static_cast<size_t>(axis)] * bricks_.size_mm[axis]));
-    return "(" + join(parts, ", ") + ")";
-  }
-
-  const Bricks& bricks_;
-  Diagnostics& diagnostics_;
-  Cell least_{}, most_{};
-};
-
-// Forces at all nodes.
-class Forces {
- public:
-  explicit Forces(const Bricks& bricks) : bricks_(bricks), at_(bricks.node_count()) {}
-
-  // Over the outer faces whose corners are all chosen, by their areas; without any, evenly over the nodes.
-  void add_force(const std::vector<bool>& chosen, Vec3 force) {
-    const std::vector<OuterFace> faces = faces_of(chosen);
-    double area = 0;
-    for (const OuterFace& face : faces) area += face_area_mm2(bricks_, face);
-    for (const OuterFace& face : faces) share(face_nodes(bricks_, face), (face_area_mm2(bricks_, face) / area) * force);
-    if (!faces.empty()) return;
-    const auto count = static_cast<double>(std::ranges::count(chosen, true));
-    for (size_t n = 0; n < chosen.size(); ++n)
-      if (chosen[n]) at_[n] = at_[n] + (1 / count) * force;
-  }
-
-  // False when no face is chosen.
-  bool add_pressure(const std::vector<bool>& chosen, double pressure) {
-    const std::vector<OuterFace> faces = faces_of(chosen);
-    for (const OuterFace& face : faces) {
-      Vec3 force;
-      force[face.axis] = (face.is_upper ? -1 : 1) * pressure * face_area_mm2(bricks_, face);
-      share(face_nodes(bricks_, face), force);
-    }
-    return !faces.empty();
-  }
-
-  void add_weight(const Model& model, Vec3 gravity) {
-    for (size_t n = 0; n < bricks_.count(); ++n)
-      share(bricks_.nodes[n], (model.elastic(n).density_t_mm3 * bricks_.volume_mm3()) * gravity);
-  }
-
-  std::vector<Prescribed> list() const {
-    std::vector<Prescribed> forces;
-    for (uint32_t n = 0; n < at_.size(); ++n)
-      for (uint8_t axis = 0; axis < 3; ++axis)
-        if (at_[n][axis] != 0) forces.push_back({n, axis, at_[n][axis]});
-    return forces;
-  }
-
- private:
-  std::vector<OuterFace> faces_of(const std::vector<bool>& chosen) {
-    if (faces_.empty()) faces_ = outer_faces(bricks_);
-    std::vector<OuterFace> faces;
-    for (const OuterFace& face : faces_)
-      if (std::ranges::all_of(face_nodes(bricks_, face), [&](uint32_t n) { return chosen[n]; })) faces.push_back(face);
-    return faces;
-  }
-
-  template <size_t count>
-  void share(const std::array<uint32_t, count>& nodes, Vec3 force) {
-    for (const uint32_t n : nodes) at_[n] = at_[n] + (1.0 / count) * force;
-  }
-
-  const Bricks& bricks_;
-  std::vector<Vec3> at_;
-  std::vector<OuterFace> faces_;  // all, once they are needed
-};
-
-// The moves of a rigid body at a node's degree of freedom: three along the axes, three turns about the point.
-std::array<double, 6> rigid_moves(Vec3 from_center, uint8_t axis) {
-  const Vec3 r = from_center;
-  std::array<double, 6> moves{};
-  moves[axis] = 1;
-  const std::array<Vec3, 3> turns{{{0, -r.z, r.y}, {r.z, 0, -r.x}, {-r.y, r.x, 0}}};
-  for (size_t n = 0; n < 3; ++n) moves[3 + n] = turns[n][axis];
-  return moves;
-}
-
-// Do the held degrees of freedom of a piece leave no move of a rigid body? By elimination with pivots.
-bool is_held(std::array<std::array<double, 6>, 6> products) {
-  constexpr double least_pivot = 1e-9;
-  std::array<double, 6> scale{};
-  for (size_t n = 0; n < 6; ++n) scale[n] = products[n][n];
-  const double largest = *std::ranges::max_element(scale);
-  std::array<bool, 6> used{};
-  for (size_t round = 0; round < 6; ++round) {
-    size_t pivot = 6;
-    for (size_t n = 0; n < 6; ++n)
-      if (!used[n] && (pivot == 6 || products[n][n] > products[pivot][pivot])) pivot = n;
-    if (!(products[pivot][pivot] > least_pivot * largest)) return false;
-    used[pivot] = true;
-    for (size_t a = 0; a < 6; ++a) {
-      if (used[a]) continue;
-      const double factor = products[a][pivot] / products[pivot][pivot];
-      for (size_t b = 0; b < 6; ++b) products[a][b] -= factor * products[pivot][b];
-    }
-  }
-  return true;
-}
-
-// Each piece of the mesh must be held by its own supports.
-void check_pieces(const Study& study, const Model& model, const std::vector<Prescribed>& held,
-                  Diagnostics& diagnostics) {
-  const std::vector<uint32_t> pieces = pieces_of(model.bricks);
-  const uint32_t count = *std::ranges::max_element(pieces) + 1;
-  std::vector<uint32_t> piece_of_node(model.bricks.node_count());
-  std::vector<size_t> first(count, model.bricks.count());
-  for (size_t n = 0; n < pieces.size(); ++n) {
-    first[pieces[n]] = std::min(first[pieces[n]], n);
-    for (const uint32_t node : model.bricks.nodes[n]) piece_of_node[node] = pieces[n];
-  }
-  std::vector<std::array<std::array<double, 6>, 6>> products(count);
-  for (const Prescribed& here : held) {
-    const uint32_t piece = piece_of_node[here.node];
-    // Lengths in bricks, so that moves and turns are of one size.
-    const Vec3 away =
-        (1 / model.bricks.size_mm.x) * (model.bricks.node(here.node) - model.bricks.centroid(first[piece]));
-    const auto moves = rigid_moves(away, here.axis);
-    for (size_t a = 0; a < 6; ++a)
-      for (size_t b = 0; b < 6; ++b) products[piece][a][b] += moves[a] * moves[b];
-  }
-  size_t loose = 0, example = 0;
-  for (uint32_t piece = 0; piece < count; ++piece)
-    if (!is_held(products[piece]) && ++loose == 1) example = first[piece];
-  if (loose == 0) return;
-  const Vec3 at = model.bricks.centroid(example);
-  const std::string place =
-      "(" + format_rounded(at.x) + ", " + format_rounded(at.y) + ", " + format_rounded(at.z) + ")";
-  diagnostics.error(study.where,
-                    count == 1 ? "the supports leave the part free to move or turn as a whole"
-                               : format_count(loose) + " of the mesh's " + format_count(count) +
-                                     " pieces may move or turn as a whole, for example the one at " + place,
-                    count == 1 ? "hold more of it, for example {\"on\": \"zmin\", \"fix\": \"xyz\"}"
-                               : "support each, or choose smaller bricks, so that they hang together");
-}
 
 }  // namespace
 
@@ -355,11 +335,8 @@ std::optional<Study> read_study(const Data& data, Diagnostics& diagnostics) {
 }
 
 std::optional<Elastic> read_elastic(const DataMembers& members, const SourceRange& where, Diagnostics& diagnostics) {
-  const auto find = [&](std::string_view name) -> const Data* {
-    const auto found = std::ranges::find(members, name, &std::pair<std::string, Data>::first);
-    return found == members.end() ? nullptr : &found->second;
-  };
-  const Data *modulus = find("modulus_mpa"), *ratio = find("poissons_ratio"), *density = find("density_kg_m3");
+  const Data *modulus = member_of(members, "modulus_mpa"), *ratio = member_of(members, "poissons_ratio"),
+             *density = member_of(members, "density_kg_m3");
   if (!modulus && !ratio && !density) return std::nullopt;
   const auto check = [&](const Data* data, const char* name, double least, double most, const std::string& hint) {
     const double* number = data ? data->number() : nullptr;
@@ -378,33 +355,14 @@ std::optional<Elastic> read_elastic(const DataMembers& members, const SourceRang
   return elastic;
 }
 
-std::optional<Conditions> conditions_of(const Study& study, const Model& model, Diagnostics& diagnostics) {
-  const size_t errors = diagnostics.error_count();
-  Selector selector(model.bricks, diagnostics);
-  Conditions conditions;
-  std::map<std::pair<uint32_t, uint8_t>, double> held;  // what is said last counts
-  for (const Support& support : study.supports) {
-    const std::vector<bool> chosen = selector.nodes(support.on);
-    for (uint32_t n = 0; n < chosen.size(); ++n)
-      for (uint8_t axis = 0; chosen[n] && axis < 3; ++axis)
-        if (const auto value = support.displacement_mm[axis]) held[{n, axis}] = *value;
-  }
-  for (const auto& [place, value] : held) conditions.displacements.push_back({place.first, place.second, value});
-  Forces forces(model.bricks);
-  for (const Load& load : study.loads) {
-    const std::vector<bool> chosen = selector.nodes(load.on);
-    if (load.kind == Load::Kind::force)
-      forces.add_force(chosen, load.force_n);
-    else if (!forces.add_pressure(chosen, load.pressure_mpa) && diagnostics.error_count() == errors)
-      diagnostics.error(load.on.where, "no outer face of the mesh lies there, and a pressure needs one",
-                        "make the box as thick as a brick, or name a side");
-  }
-  if (study.gravity_mm_s2 != Vec3{}) forces.add_weight(model, study.gravity_mm_s2);
-  conditions.forces = forces.list();
-  if (diagnostics.error_count() > errors) return std::nullopt;
-  check_pieces(study, model, conditions.displacements, diagnostics);
-  if (diagnostics.error_count() > errors) return std::nullopt;
-  return conditions;
+std::optional<double> read_conductivity(const DataMembers& members, Physics physics, Diagnostics& diagnostics) {
+  const char* const name = words_of(physics).conductivity;
+  const Data* data = member_of(members, name);
+  if (!data) return std::nullopt;
+  const double* number = data->number();
+  if (number && *number >= 1e-12 && *number <= 1e12) return *number;
+  diagnostics.error(data->where, std::string(name) + " is out of its range", "write a number above 0, for example 0.2");
+  return 1.0;
 }
 
 }  // namespace ombre::fea

@@ -119,5 +119,65 @@ TEST(Study, LoosePartsAndEmptySelectionsAreErrors) {
   EXPECT_NE(error(std::string("{") + held_below + "}", two).find("1 of the mesh's 2 pieces"), std::string::npos);
 }
 
+// The nodes that a selection of a cube of 2 x 2 x 2 mm chooses, and what is said of a wrong one.
+size_t chosen_by(const std::string& selection, const ModelView& model, std::string* complaint = nullptr) {
+  Diagnostics diagnostics;
+  const auto study =
+      study_of(R"({"supports": [{"on": )" + selection + R"(, "fix": "xyz", "name": "here"}]})", diagnostics);
+  const auto conditions = study ? conditions_of(*study, model, diagnostics) : std::nullopt;
+  if (complaint) *complaint = to_text(diagnostics);
+  if (!conditions) return 0;
+  EXPECT_EQ(conditions->sets[0].name, "here");
+  return conditions->sets[0].nodes.size();
+}
+
+TEST(Study, SelectionsCombine) {
+  Model model = cube();
+  model.sections.push_back({"soft", {1, 0.3, 0}});
+  for (size_t n = 0; n < 4; ++n) model.section_of[n] = 1;  // the lower half
+  EXPECT_EQ(chosen_by(R"({"plane": [1, 1, 1, 0, 0, 2]})", model), 9U);
+  EXPECT_EQ(chosen_by(R"({"plane": [1, 0, 0, 1, 1, 0]})", model), 6U);  // x + y = 1
+  EXPECT_EQ(chosen_by(R"({"facing": [0, 0, -1]})", model), 9U);
+  EXPECT_EQ(chosen_by(R"({"facing": [1, 1, 0], "within_degrees": 50})", model), 15U);
+  EXPECT_EQ(chosen_by(R"({"material": "Soft"})", model), 18U);
+  EXPECT_EQ(chosen_by(R"({"material": "soft", "side": "xmax"})", model), 6U);
+  std::string complaint;
+  EXPECT_EQ(chosen_by(R"({"material": "sotf"})", model, &complaint), 0U);
+  EXPECT_NE(complaint.find("no material \"sotf\""), std::string::npos);
+  chosen_by(R"({"where": "z > 1"})", model, &complaint);
+  EXPECT_NE(complaint.find("need the design"), std::string::npos);
+  chosen_by(R"({"plane": [0, 0, 0, 0, 0, 0]})", model, &complaint);
+  EXPECT_NE(complaint.find("no length"), std::string::npos);
+  chosen_by(R"({"within_degrees": 20, "side": "xmin"})", model, &complaint);
+  EXPECT_NE(complaint.find("needs \"facing\""), std::string::npos);
+  chosen_by(R"({"plane": [9, 0, 0, 1, 0, 0]})", model, &complaint);
+  EXPECT_NE(complaint.find("no node of the mesh lies there"), std::string::npos);
+}
+
+// A pressure on a chosen surface acts along its sides, not on those that only share its nodes.
+TEST(Study, PressureActsOnWhatFacesIt) {
+  Diagnostics diagnostics;
+  const auto pressed = conditions_in(
+      std::string("{") + held_below + R"(, "loads": [{"on": {"facing": [0, 0, 1]}, "pressure_mpa": 0.5}]})", cube(),
+      diagnostics);
+  ASSERT_TRUE(pressed) << to_text(diagnostics);
+  EXPECT_EQ(sum(pressed->forces), (Vec3{0, 0, -2}));
+}
+
+TEST(Study, ConductionHasWordsOfItsOwn) {
+  EXPECT_NE(complaint(R"({"physics": "heat", "supports": [{"on": "zmin", "fix": "xyz"}]})").find("no \"fix\""),
+            std::string::npos);
+  EXPECT_NE(complaint(R"({"physics": "cold"})").find("no physics \"cold\""), std::string::npos);
+  EXPECT_NE(complaint(R"({"physics": "heat", "supports": [{"on": "zmin"}]})").find("\"temperature_c\" is missing"),
+            std::string::npos);
+  EXPECT_NE(complaint(R"({"physics": "heat", "loads": [{"on": "zmin", "film_w_m2k": 5}]})").find("ambient_c"),
+            std::string::npos);
+  EXPECT_NE(complaint(R"({"physics": "electric", "materials": {"a": {"conductivity_s_m": -1}}})").find("out of its"),
+            std::string::npos);
+  Diagnostics diagnostics;
+  EXPECT_FALSE(conditions_in(R"({"physics": "heat", "loads": [{"on": "zmin", "heat_w": 5}]})", cube(), diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("nothing decides the temperature"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ombre::fea

@@ -10,8 +10,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file says so");
 
-constexpr uint8_t vtk_hexahedron = 12;
-
 std::string escaped(const std::string& text) {
   std::string safe;
   for (const char c : text) {
@@ -85,23 +83,26 @@ std::string fields_of(const std::vector<ValueField>& fields, Appended& appended)
 
 }  // namespace
 
-void write_vtu(const Bricks& bricks, const std::vector<ValueField>& of_bricks, const std::vector<ValueField>& of_nodes,
-               const Sink& sink) {
+void write_vtu(const MeshView& mesh, const std::vector<ValueField>& of_elements,
+               const std::vector<ValueField>& of_nodes, const Sink& sink) {
   Appended appended;
+  const size_t each = mesh.shape().nodes;
+  const uint8_t type = mesh.shape().vtk_type;
   std::string xml =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-      std::to_string(bricks.node_count()) + "\" NumberOfCells=\"" + std::to_string(bricks.count()) + "\">\n";
-  xml += "<Points>\n" + appended.add<double>("Float64", "points", 3, 3 * bricks.node_count(), [&](size_t n) {
-    return bricks.node(n / 3)[static_cast<int>(n % 3)];
+      std::to_string(mesh.node_count()) + "\" NumberOfCells=\"" + std::to_string(mesh.count()) + "\">\n";
+  xml += "<Points>\n" + appended.add<double>("Float64", "points", 3, 3 * mesh.node_count(), [&](size_t n) {
+    return mesh.node(n / 3)[static_cast<int>(n % 3)];
   }) + "</Points>\n<Cells>\n";
-  xml += appended.add<int64_t>("Int64", "connectivity", 1, 8 * bricks.count(),
-                               [&](size_t n) { return static_cast<int64_t>(bricks.nodes[n / 8][n % 8]); });
-  xml += appended.add<int64_t>("Int64", "offsets", 1, bricks.count(),
-                               [](size_t n) { return static_cast<int64_t>(8 * (n + 1)); });
-  xml += appended.add<uint8_t>("UInt8", "types", 1, bricks.count(), [](size_t) { return vtk_hexahedron; });
+  xml += appended.add<int64_t>("Int64", "connectivity", 1, each * mesh.count(), [&mesh, each](size_t n) {
+    return static_cast<int64_t>(mesh.nodes(n / each)[n % each]);
+  });
+  xml += appended.add<int64_t>("Int64", "offsets", 1, mesh.count(),
+                               [each](size_t n) { return static_cast<int64_t>(each * (n + 1)); });
+  xml += appended.add<uint8_t>("UInt8", "types", 1, mesh.count(), [type](size_t) { return type; });
   xml += "</Cells>\n<PointData>\n" + fields_of(of_nodes, appended) + "</PointData>\n<CellData>\n" +
-         fields_of(of_bricks, appended) +
+         fields_of(of_elements, appended) +
          "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
   sink(xml);
   appended.write(sink);

@@ -69,6 +69,37 @@ S, E
 )");
 }
 
+// Of conduction with a film and a named set; a number that is longer than what CalculiX reads.
+TEST(InpWriter, ConductionIsInMilliwatts) {
+  MeshModel model{
+      {ElementKind::c3d4, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3}}, {{"wall", {}, 0.25}}, {0}, {}};
+  Conditions conditions{{{0, 0, 20}}, {{3, 0, 1.0 / 3e6}}, {{"hot side", {0, 2}}}, Physics::heat, {{{0, 2}, 25, 18}}};
+  std::string deck;
+  write_inp(model, conditions, BrickType::c3d8r, "t", [&](std::string_view text) { deck += text; });
+  EXPECT_EQ(deck.substr(deck.find("*ELEMENT")), R"(*ELEMENT, TYPE=C3D4, ELSET=WALL
+1, 1, 2, 3, 4
+*NSET, NSET=HOT_SIDE
+1, 3
+*MATERIAL, NAME=WALL
+*CONDUCTIVITY
+0.25
+*SOLID SECTION, ELSET=WALL, MATERIAL=WALL
+*STEP
+*HEAT TRANSFER, STEADY STATE
+*BOUNDARY
+1, 11, 11, 20
+*CFLUX
+4, 11, 0.000333333333333
+*FILM
+1, F3, 18, 0.025
+*NODE FILE
+NT, RFL
+*EL FILE
+HFL
+*END STEP
+)");
+}
+
 // The numbers of an array, found by its offset.
 template <class T>
 std::vector<T> array(const std::string& file, const std::string& name) {

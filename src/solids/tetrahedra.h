@@ -1,0 +1,44 @@
+// Tetrahedra that fill a solid, by a library that lies in a module of its own.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "base/box.h"
+
+namespace ombre::solids {
+
+using Polyline = std::vector<Vec3>;
+
+struct TetrahedraRequest {
+  Box box;  // holds the solid, with some room around it
+  // The number of the region at a point, from 1; 0 is outside. What it throws goes through.
+  std::function<uint32_t(Vec3)> region;
+  std::function<double(Vec3)> size_mm;  // the wanted length of edges at a point
+  double least_size_mm = 0;             // that size_mm gives anywhere
+  // Sharp edges of the surface, which become edges of tetrahedra. The first and last points are corners.
+  std::vector<Polyline> sharp_edges;
+  // Points of the surface that become nodes, for closed surfaces without sharp edges, which are not found otherwise.
+  std::vector<Vec3> fixed_points;
+};
+
+// Nodes come in ascending order of z, then y, then x; tetrahedra in that of their nodes. All are positive: seen from
+// the fourth node, the first three turn counter-clockwise.
+struct Tetrahedra {
+  std::vector<Vec3> points;  // mm
+  std::vector<std::array<uint32_t, 4>> nodes;
+  std::vector<uint32_t> regions;  // of each tetrahedron
+};
+
+// Delaunay refinement of the volume (CGAL's Mesh_3, after Rineau and Yvinec, 2007; sharp edges after Cheng, Dey and
+// Levine, 2007), then slivers are removed by moves of nodes and by weights. On one thread, so that the same request
+// gives the same bits. Throws Error where there is no such library in this build, or it fails.
+Tetrahedra make_tetrahedra(const TetrahedraRequest& request);
+bool has_tetrahedra();
+
+}  // namespace ombre::solids
+
+// What the module exports.
+extern "C" void ombre_make_tetrahedra(const ombre::solids::TetrahedraRequest& request, ombre::solids::Tetrahedra& made);
