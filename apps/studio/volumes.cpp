@@ -49,38 +49,47 @@ SampledDesign sample(OpenDesign& design, double voxels, const StopFlag& stop) {
   return {std::move(*plan), std::move(*job)};
 }
 
-// One byte a material and voxel, four materials a texture: what WebGL takes as RGBA.
+// One byte a material and texel, four materials a texture: what WebGL takes as RGBA. A texel is the mean of 2 x 2 x 2
+// voxels, so that surfaces, and the light on them, are smooth.
 class Textures {
  public:
-  Textures(const compile::GridJob& job)
-      : count_(job.request.lattice.count),
-        materials_(std::min(job.grids.size(), most_materials)),
-        bytes_((materials_ + channels - 1) / channels * voxels() * channels, '\0') {}
+  explicit Textures(const compile::GridJob& job) : materials_(std::min(job.grids.size(), most_materials)) {
+    for (size_t axis = 0; axis < 3; ++axis) count_[axis] = (job.request.lattice.count[axis] + 1) / 2;
+    sums_.resize((materials_ + channels - 1) / channels * texels() * channels, 0);
+  }
 
   void add(const voxel::FieldTile& tile) {
     for (size_t m = 0; m < materials_; ++m) add_material(tile, m);
   }
   size_t materials() const { return materials_; }
-  std::string take() { return std::move(bytes_); }
+  const std::array<int64_t, 3>& count() const { return count_; }
+  std::string bytes() const {
+    std::string bytes(sums_.size(), '\0');
+    for (size_t n = 0; n < bytes.size(); ++n)
+      bytes[n] = static_cast<char>(static_cast<unsigned char>((sums_[n] + 4U) / voxels_of_texel));
+    return bytes;
+  }
 
  private:
-  size_t voxels() const { return static_cast<size_t>(count_[0] * count_[1] * count_[2]); }
+  static constexpr unsigned voxels_of_texel = 8;
+  size_t texels() const { return static_cast<size_t>(count_[0] * count_[1] * count_[2]); }
 
   void add_material(const voxel::FieldTile& tile, size_t material) {
     const float* from = tile.output(material);
     const voxel::TileBox& box = tile.box;
-    const size_t texture = material / channels * voxels() * channels + material % channels;
+    const size_t texture = material / channels * texels() * channels + material % channels;
     for (int64_t k = box.lo[2]; k < box.hi[2]; ++k)
       for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
-        size_t at = texture + static_cast<size_t>((k * count_[1] + j) * count_[0] + box.lo[0]) * channels;
-        for (int64_t i = 0; i < box.size(0); ++i, at += channels, from += tile.is_uniform ? 0 : 1)
-          bytes_[at] = static_cast<char>(static_cast<unsigned char>(std::lround(std::clamp(*from, 0.F, 1.F) * 255)));
+        const size_t row = texture + static_cast<size_t>((k / 2 * count_[1] + j / 2) * count_[0]) * channels;
+        for (int64_t i = box.lo[0]; i < box.hi[0]; ++i, from += tile.is_uniform ? 0 : 1)
+          sums_[row + static_cast<size_t>(i / 2) * channels] +=
+              static_cast<uint16_t>(std::lround((*from > 0 ? std::min(*from, 1.F) : 0.F) * 255));
       }
   }
 
-  std::array<int64_t, 3> count_;
+  std::array<int64_t, 3> count_{};
   size_t materials_;
-  std::string bytes_;
+  std::vector<uint16_t> sums_;  // of 8 voxels
 };
 
 double sum_of(const voxel::FieldTile& tile, size_t output) {
@@ -102,7 +111,7 @@ std::optional<double> mass_of(const design::Material& material, double volume_mm
 
 Answer volume_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
   const double side = static_cast<double>(request.whole("side", 8, 256));
-  const SampledDesign sampled = sample(design, side * side * side, stop);
+  const SampledDesign sampled = sample(design, 8 * side * side * side, stop);
   if (sampled.job.grids.empty()) throw RequestError("design", "the design has no material to show");
   Textures textures(sampled.job);
   const auto take = [&](const compile::GridSlab& slab) {
@@ -111,7 +120,7 @@ Answer volume_answer(OpenDesign& design, const Request& request, const StopFlag&
   compile::each_slab(sampled.job, 0, take, nullptr, &stop);
   const voxel::Lattice& lattice = sampled.job.request.lattice;
   DataList count, materials;
-  for (const int64_t n : lattice.count) count.emplace_back(number(n));
+  for (const int64_t n : textures.count()) count.emplace_back(number(n));
   for (size_t m = 0; m < textures.materials(); ++m) {
     const compile::SliceMaterial& material = *sampled.job.grids[m].material;
     DataList colour;
@@ -119,11 +128,11 @@ Answer volume_answer(OpenDesign& design, const Request& request, const StopFlag&
     materials.emplace_back(DataMembers{{"name", material.name}, {"colour", std::move(colour)}});
   }
   return {{{"count", std::move(count)},
-           {"pitch_mm", lattice.pitch[0].mm()},
+           {"pitch_mm", 2 * lattice.pitch[0].mm()},
            {"origin_mm", list_of(lattice.origin)},
            {"materials", std::move(materials)},
            {"left_out", number(sampled.job.grids.size() - textures.materials())}},
-          textures.take()};
+          textures.bytes()};
 }
 
 Answer measure_answer(OpenDesign& design, const Request&, const StopFlag& stop) {

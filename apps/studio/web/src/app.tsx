@@ -4,7 +4,7 @@ import { useEffect, useState } from "preact/hooks";
 import { EditorPane } from "./editor";
 import { GraphView } from "./graph";
 import { Panels, Tabs } from "./panels";
-import { connection, isDirty, newFile, openFile, save, setTheme } from "./session";
+import { connection, isDirty, newFile, openFile, save } from "./session";
 import { SliceView } from "./slices";
 import { State, set, state, useStore } from "./store";
 import { SurfaceView } from "./surface";
@@ -80,7 +80,7 @@ function Theme() {
   return (
     <label>
       <span class="quiet">Theme</span>
-      <select value={theme} onChange={(e) => setTheme(e.currentTarget.value as State["theme"])}>
+      <select value={theme} onChange={(e) => set({ theme: e.currentTarget.value as State["theme"] })}>
         <option value="system">system</option>
         <option value="light">light</option>
         <option value="dark">dark</option>
@@ -121,8 +121,9 @@ function App() {
         <h1>Ombre Studio</h1>
         <FileChoice />
         <Status />
-        <span class="folder" title={hello?.program}>{hello?.folder}</span>
+        <span class="folder">{hello?.folder}</span>
         <Theme />
+        <a class="quiet" href="licences.txt" target="_blank" title="Licences of what the page is made of">{hello?.program}</a>
       </header>
       <main>
         <EditorPane />

@@ -39,6 +39,7 @@ function makeEditor(parent: HTMLElement): EditorView {
     highlightSelectionMatches(),
     syntaxHighlighting(classHighlighter),
     lintGutter(),
+    EditorView.lineWrapping,
     vcad,
     hover,
     autocompletion({ override: [complete] }),

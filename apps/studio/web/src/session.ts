@@ -1,6 +1,5 @@
 // What the page does: opens, saves, evaluates, slices. Components call it; answers go into the store.
 import { Connection, Refused, Reply } from "./connection";
-import { views } from "./camera";
 import { Job, Plan, Value, set, state } from "./store";
 
 // What the session needs of the editor.
@@ -36,7 +35,8 @@ const jobsKey = () => `ombre:jobs:${state.hello?.folder}`;
 async function greet() {
   const hello = (await connection.ask("hello").answer) as any;
   const isFirst = !state.hello;
-  set({ status: "open", hello, files: hello.files });
+  const printer = hello.printers.some((p: { name: string }) => p.name === state.printer) ? state.printer : "generic";
+  set({ status: "open", hello, files: hello.files, printer });
   adoptJobs((await connection.ask("jobs").answer).jobs);
   if (!isFirst) return comeBack();
   const last = localStorage.getItem(`ombre:file:${hello.folder}`);
@@ -318,12 +318,6 @@ export async function changeJob(job: Job, to: "pause" | "resume" | "cancel") {
   await connection.ask("change_export", { job: job.id, to }).answer.catch(() => undefined);
 }
 
-export function setTheme(theme: "system" | "light" | "dark") {
-  localStorage.setItem("ombre:theme", theme);
-  set({ theme });
-}
-
-export const firstView = views.iso;
 export const reveal = (from: number, to: number) => editor?.reveal(from, to);
 export const insert = (text: string) => {
   const end = editor!.text().length;

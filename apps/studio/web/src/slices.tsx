@@ -245,7 +245,7 @@ export function PrinterChoice() {
           {hello?.printers.map((p) => <option value={p.name} title={p.title}>{p.name}</option>)}
         </select>
       </label>
-      <label>
+      <label class="dither">
         Mixtures
         <select value={dither} onChange={(e) => choosePrinter(printer, e.currentTarget.value)}>
           {hello?.dithers.map((name) => <option value={name}>{name}</option>)}

@@ -156,6 +156,10 @@ export interface State {
   theme: "system" | "light" | "dark";
 }
 
+// What a person chose of the page, which stays when it is loaded again.
+const kept = ["printer", "dither", "view", "panel", "theme"] as const;
+const known: Partial<State> = JSON.parse(localStorage.getItem("ombre:choices") ?? "{}");
+
 const listeners = new Set<() => void>();
 export let state: State = {
   status: "connecting",
@@ -180,11 +184,13 @@ export let state: State = {
   jobs: [],
   view: "surface",
   panel: "variables",
-  theme: (localStorage.getItem("ombre:theme") as State["theme"]) ?? "system",
+  theme: "system",
+  ...known,
 };
 
 export function set(change: Partial<State>) {
   state = { ...state, ...change };
+  if (kept.some((name) => name in change)) localStorage.setItem("ombre:choices", JSON.stringify(Object.fromEntries(kept.map((name) => [name, state[name]]))));
   for (const listener of [...listeners]) listener();
 }
 
