@@ -288,6 +288,8 @@ class Listener {
     acceptor_.async_accept([this, shared](error_code error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
       if (error) return accept_later(shared);  // too many open files, say
+      error_code ignored;
+      socket.set_option(tcp::no_delay(true), ignored);  // answers are small, and waited for
       shared->make_room();
       const auto visit = std::make_shared<Visit>(std::move(socket), shared);
       shared->connections.emplace_back(visit);
