@@ -1,6 +1,4 @@
 // ombre studio: the page in the browser.
-#include <spawn.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -10,6 +8,7 @@
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #ifdef OMBRE_WITH_STUDIO
+#include "studio/child_process.h"
 #include "studio/page.h"
 #include "studio/server.h"
 #endif
@@ -49,12 +48,13 @@ std::string chosen_token() {
 
 bool has_display() { return !environment("DISPLAY").empty() || !environment("WAYLAND_DISPLAY").empty(); }
 
-void open_browser(const std::string& url) {
-  std::string program = "xdg-open", address = url;
-  char* arguments[] = {program.data(), address.data(), nullptr};
-  pid_t child = 0;
-  // Where it fails, the address is printed anyway.
-  [[maybe_unused]] const int failed_to = ::posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ);
+// The words that start this command line again: by itself, or by Python where that runs it.
+std::vector<std::string> own_command() {
+  std::error_code ignored;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  if (program.empty()) return {};
+  if (program.filename() == "ombre") return {program.string()};
+  return {program.string(), "-m", "ombre"};
 }
 
 void tell_address(const studio::Address& address, const StudioArguments& a, const Console& console) {
@@ -63,7 +63,8 @@ void tell_address(const studio::Address& address, const StudioArguments& a, cons
               "\n\nand ends with Ctrl-C. From another machine:\n\n    ssh -L " + port + ":127.0.0.1:" + port +
               " USER@THIS_MACHINE\n");
   console.event("studio", {{"url", address.url()}, {"port", static_cast<double>(address.port)}});
-  if (!a.no_browser && console.voice() == Voice::people && has_display()) open_browser(address.url());
+  if (!a.no_browser && console.voice() == Voice::people && has_display())
+    studio::start_program({"xdg-open", address.url()});  // where it fails, the address is printed anyway
 }
 
 int run_studio(const StudioArguments& a, Session& session) {
@@ -72,6 +73,7 @@ int run_studio(const StudioArguments& a, Session& session) {
   const fs::path place = fs::weakly_canonical(a.place, error);
   studio::StudioOptions options;
   options.program = "ombre " OMBRE_VERSION;
+  options.command = own_command();
   fs::path folder = place;
   if (!fs::is_directory(place)) {
     if (!fs::exists(place)) throw WrongArgument(a.place + " is neither a folder nor a file");

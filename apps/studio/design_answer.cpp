@@ -48,7 +48,7 @@ class NodeLister {
                         {"inputs", numbers(node.inputs())},
                         {"values", numbers(node.values())}};
     const SourceRange& where = node.where();
-    if (!where.source || where.source->text().data() != source_->text().data()) return members;
+    if (!where.source || where.source->name() != source_->name()) return members;
     members.emplace_back("from", offsets_.at(where.begin));
     members.emplace_back("to", offsets_.at(where.end));
     members.emplace_back("line", number(where.source->place(where.begin).line));
@@ -112,14 +112,14 @@ DataList describe_variables(const SourcePtr& source) {
   return list;
 }
 
-DataMembers describe_design(const OpenDesign& open) {
+DataMembers describe_design(const OpenDesign& open, const SourcePtr& page_text) {
   const design::Design& design = open.loaded->design;
   DataList parts, attributes;
   for (const design::Part& part : design.parts) parts.emplace_back(part.name);
   for (const design::AttributeDeclaration& declared : compile::declared_attributes(design))
     attributes.emplace_back(DataMembers{
         {"name", declared.name}, {"type", std::string(design::name(declared.type))}, {"unit", declared.unit}});
-  NodeLister lister(open.loaded->source);
+  NodeLister lister(page_text);
   DataList nodes = lister.list(design.parts);
   return {{"design", open.handle},
           {"bounds_mm", DataList{list_of(open.bounds.lo), list_of(open.bounds.hi)}},

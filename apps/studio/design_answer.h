@@ -9,8 +9,9 @@ namespace ombre::studio {
 // Top-level variables of a script with what its comments say of them, and where their values stand in the text.
 DataList describe_variables(const SourcePtr& source);
 
-// "design" (a handle), "bounds_mm", "materials", "parts", "attributes", "nodes".
-DataMembers describe_design(const OpenDesign& design);
+// "design" (a handle), "bounds_mm", "materials", "parts", "part_nodes", "attributes", "nodes", with their places in the
+// text that the page has.
+DataMembers describe_design(const OpenDesign& design, const SourcePtr& page_text);
 
 DataList list_of(Vec3 v);
 

@@ -107,7 +107,7 @@ class ServerTest : public testing::Test {
 
   TestFolder folder;
   sources::SourceCache cache;
-  Studio studio{folder.path, {"ombre test", "", 60}, cache};
+  Studio studio{folder.path, {"ombre test", {}, "", 60}, cache};
   StopFlag stop;
   uint16_t port = 0;
 

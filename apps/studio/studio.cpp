@@ -12,6 +12,8 @@
 #include "compile/node_registry.h"
 #include "lang/builtins.h"
 #include "studio/design_answer.h"
+#include "studio/python_design.h"
+#include "studio/scad_design.h"
 #include "studio/views.h"
 
 namespace ombre::studio {
@@ -46,14 +48,8 @@ DataList describe_functions() {
   return list;
 }
 
-// What the page can open, but not evaluate.
-std::string unsupported(const std::string& file) {
-  const std::string ending = to_lower(std::filesystem::path(file).extension().string());
-  if (ending == ".py")
-    return "the studio edits Python designs and does not show them yet; ombre render " + file + " makes a picture";
-  if (ending == ".scad")
-    return "the studio edits OpenSCAD scripts and does not show them yet; ombre scad " + file + " -o part.3mf runs it";
-  return "";
+bool has_ending(const std::string& file, std::string_view ending) {
+  return to_lower(std::filesystem::path(file).extension().string()) == ending;
 }
 
 }  // namespace
@@ -200,11 +196,22 @@ Answer Studio::save(const Request& request, const StopFlag&) {
   return {{{"saved", true}, {"version", version}}, {}};
 }
 
+// A Python script is run when a person asks for it, not while it is typed: it may do anything.
+compile::LoadedPtr Studio::read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
+                                Diagnostics& diagnostics) {
+  const std::string& file = request.text("file");
+  if (has_ending(file, ".scad")) return load_scad(text, options, diagnostics);
+  if (!has_ending(file, ".py"))
+    return compile::load_text(std::string(text->text()), text->name(), options, diagnostics);
+  if (options_.command.empty()) throw RequestError("unsupported", "this studio cannot run designs in Python");
+  if (!request.flag("run")) throw RequestError("unsupported", "Python scripts are shown when they are run: press Run");
+  return load_python(text->name(), options_.command, options, diagnostics);
+}
+
 Answer Studio::load(const Request& request, const StopFlag& stop) {
   const std::string& file = request.text("file");
   const std::string path = workspace_.path(file).string();
   const std::string& text = request.text("text");
-  if (const std::string why = unsupported(file); !why.empty()) throw RequestError("unsupported", why);
   DataList echo;
   compile::LoadOptions options;
   options.definitions = request.texts("definitions");
@@ -214,15 +221,16 @@ Answer Studio::load(const Request& request, const StopFlag& stop) {
   options.stop = &stop;
   options.cache = &cache_;
   Diagnostics diagnostics;
-  const compile::LoadedPtr loaded = compile::load_text(text, path, options, diagnostics);
-  const SourcePtr source = loaded ? loaded->source : make_source(path, text);
+  const SourcePtr source = make_source(path, text);
+  const compile::LoadedPtr loaded = read(request, source, options, diagnostics);
   const auto bounds = loaded ? compile::design_box(loaded->design, diagnostics) : std::nullopt;
   const bool is_right = loaded && bounds && !diagnostics.has_errors();
   Answer answer;
   answer.members = {{"ok", is_right}, {"echo", std::move(echo)}};
-  if (file.ends_with(".vcad")) answer.members.emplace_back("variables", describe_variables(source));
+  if (has_ending(file, ".vcad") || has_ending(file, ".scad"))
+    answer.members.emplace_back("variables", describe_variables(source));
   if (is_right) {
-    const DataMembers design = describe_design(*designs_.add(loaded, *bounds, options_.program));
+    const DataMembers design = describe_design(*designs_.add(loaded, *bounds, options_.program), source);
     answer.members.insert(answer.members.end(), design.begin(), design.end());
   }
   answer.members.emplace_back("diagnostics", describe(diagnostics, source));

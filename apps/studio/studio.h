@@ -24,9 +24,10 @@ class Client {
 using ClientPtr = std::shared_ptr<Client>;
 
 struct StudioOptions {
-  std::string program;       // "ombre 0.1.0"
-  std::string first_file;    // that a page opens; empty: none
-  double most_seconds = 60;  // that an answer may take
+  std::string program;               // "ombre 0.1.0"
+  std::vector<std::string> command;  // the words that start Ombre's command line; empty: no designs in Python
+  std::string first_file;            // that a page opens; empty: none
+  double most_seconds = 60;          // that an answer may take
 };
 
 // Thread-safe.
@@ -54,6 +55,8 @@ class Studio {
   Answer list(const Request& request, const StopFlag& stop);
   Answer open(const Request& request, const StopFlag& stop);
   Answer save(const Request& request, const StopFlag& stop);
+  compile::LoadedPtr read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
+                          Diagnostics& diagnostics);
   Answer load(const Request& request, const StopFlag& stop);
   Answer start_export(const Request& request, const StopFlag& stop);
   Answer change_export(const Request& request, const StopFlag& stop);

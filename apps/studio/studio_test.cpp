@@ -96,7 +96,7 @@ class StudioTest : public testing::Test {
 
   TestFolder folder;
   sources::SourceCache cache;
-  Studio studio{folder.path, {"ombre test", "", 60}, cache};
+  Studio studio{folder.path, {"ombre test", {}, "", 60}, cache};
   std::shared_ptr<Listener> client = std::make_shared<Listener>();
   int last_ = 0;
 };
@@ -116,7 +116,7 @@ TEST_F(StudioTest, AnswersWhatItDoesNotKnow) {
   EXPECT_EQ(text(answer(-1).first, "error"), "request");
   EXPECT_EQ(text(ask("render", R"("design": "d99", "width": 10, "height": 10)").first, "error"), "gone");
   EXPECT_EQ(text(ask("open", R"("file": "../a.vcad")").first, "error"), "name");
-  EXPECT_EQ(text(ask("load", R"("file": "a.scad", "text": "")").first, "error"), "unsupported");
+  EXPECT_EQ(text(ask("load", R"("file": "a.py", "text": "")").first, "error"), "unsupported");
 }
 
 TEST_F(StudioTest, TellsMistakesWithTheirPlaces) {
@@ -144,6 +144,27 @@ TEST_F(StudioTest, LoadsWithVariables) {
   const DataList& nodes = *loaded.find("nodes")->list();
   EXPECT_EQ(text(nodes.front(), "type"), "fgrade");
   EXPECT_EQ(number_in(nodes.front(), "line"), 2);
+}
+
+TEST_F(StudioTest, ShowsOpenScadScripts) {
+  const auto load_script = [&](const std::string& script) {
+    return ask("load", R"("file": "a.scad", "definitions": ["size=4"], "text": )" + print_json_line(script)).first;
+  };
+  const Data loaded =
+      load_script("size = 2; // [1:9]\necho(size);\ncolor(\"red\") cube(size);\ntranslate([size, 0, 0]) cube(1);\n");
+  ASSERT_EQ(*loaded.find("ok"), Data(true)) << print_json(loaded);
+  EXPECT_EQ(*loaded.find("echo"), Data(DataList{"ECHO: 4"}));
+  ASSERT_EQ(loaded.find("variables")->list()->size(), 1U);
+  const Data measured = ask("measure", R"("design": ")" + text(loaded, "design") + '"').first;
+  EXPECT_NEAR(number_in(measured, "volume_mm3"), 65, 1);  // within half a voxel of its faces
+  const Data& red = measured.find("materials")->list()->front();
+  EXPECT_EQ(text(red, "name"), "red");
+  EXPECT_NEAR(number_in(red, "volume_mm3"), 64, 1);
+
+  const Data wrong = load_script("cube(4);\n  sphere(nothing());\n");
+  ASSERT_FALSE(wrong.find("diagnostics")->list()->empty());
+  EXPECT_EQ(number_in(wrong.find("diagnostics")->list()->front(), "line"), 2);
+  EXPECT_EQ(*load_script("cube(").find("ok"), Data(false));
 }
 
 TEST_F(StudioTest, MeasuresABall) {

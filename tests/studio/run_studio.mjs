@@ -24,6 +24,8 @@ radius = 12;  // [5:20]
 fgrade(["0.5 + x / 40", "0.5 - x / 40"], [red, blue]) sphere(radius);
 `;
 writeFileSync(file, script);
+writeFileSync(join(folder, "box.scad"), "width = 4; // [1:9]\ncolor(\"red\") cube([width, 3, 2]);\n");
+writeFileSync(join(folder, "drop.py"), "import ombre\nroot = ombre.sphere(3, 'blue')\n");
 
 let server;
 async function startServer(port = 0, key = token) {
@@ -307,6 +309,24 @@ const checks = {
     await untilOnDisk("// while it was away");
     await status("[data-old=false][data-busy=false]");
     await page.selectOption(".surface .viewbar select >> nth=0", "top");
+    await isReady("surface");
+  },
+
+  async "shows OpenSCAD scripts, and Python scripts when they are run"() {
+    await page.click("#tab-variables");
+    await page.selectOption("select.file", "box.scad");
+    await page.waitForSelector("#variable-width");
+    await isReady("surface");
+    assert.equal((await alphaInMiddle("surface"))[3], 255);
+    await page.selectOption("select.file", "drop.py");
+    await page.waitForSelector(".cm-line:has-text('import ombre')");
+    const before = await page.getAttribute(".surface canvas", "data-design");
+    await page.click("button:has-text('Run')");
+    await until((old) => document.querySelector(".surface canvas").dataset.design !== old, before);
+    await isReady("surface");
+    const [red, , blue] = await alphaInMiddle("surface");
+    assert.ok(blue > red);
+    await page.selectOption("select.file", "ball.vcad");
     await isReady("surface");
   },
 

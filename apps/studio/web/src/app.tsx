@@ -4,7 +4,7 @@ import { useEffect, useState } from "preact/hooks";
 import { EditorPane } from "./editor";
 import { GraphView } from "./graph";
 import { Panels, Tabs } from "./panels";
-import { connection, isDirty, newFile, openFile, save } from "./session";
+import { connection, isDirty, newFile, openFile, runPython, save } from "./session";
 import { SliceView } from "./slices";
 import { State, set, state, useStore } from "./store";
 import { SurfaceView } from "./surface";
@@ -71,6 +71,7 @@ function FileChoice() {
       ) : (
         <button onClick={() => ask(true)}>New</button>
       )}
+      {file.endsWith(".py") && <button class="main" onClick={runPython}>Run</button>}
     </span>
   );
 }

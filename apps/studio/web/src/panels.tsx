@@ -176,10 +176,12 @@ function Export() {
       <ul class="jobs" aria-label="Jobs">{jobs.map((job) => <JobRow job={job} />)}</ul>
       {plan && (
         <>
-          <details>
-            <summary>The same on the command line</summary>
-            <pre tabIndex={0}>{commandLine(folder)}</pre>
-          </details>
+          {!file.endsWith(".scad") && (
+            <details>
+              <summary>The same on the command line</summary>
+              <pre tabIndex={0}>{commandLine(folder)}</pre>
+            </details>
+          )}
           <details>
             <summary>job.json</summary>
             <pre tabIndex={0}>{plan.job}</pre>

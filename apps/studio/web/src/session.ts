@@ -180,7 +180,7 @@ let isLoading = false,
 
 export function evaluate(after = 0) {
   clearTimeout(evaluateTimer);
-  evaluateTimer = window.setTimeout(load, after);
+  evaluateTimer = window.setTimeout(() => load(), after);
 }
 
 export function setVariable(name: string, value: Value) {
@@ -204,8 +204,17 @@ function literal(value: Value): string {
   return JSON.stringify(value).replaceAll(",", ", ");
 }
 
-async function load() {
+const isPython = () => state.file.endsWith(".py");
+
+// Python scripts may do anything, so they are run when a person asks for it, as they are on the disk.
+export async function runPython() {
+  await save();
+  if (!state.conflict) load(true);
+}
+
+async function load(isRun = false) {
   if (!editor || !state.file || !connection.isOpen) return;
+  if (isPython() && !isRun) return set({ isOld: state.design !== undefined, problem: "" });
   isLoading = true;
   isWanted = false;
   set({ isBusy: true });
@@ -214,7 +223,7 @@ async function load() {
     .filter(([name]) => known.size === 0 || known.has(name))
     .map(([name, value]) => `${name}=${JSON.stringify(value)}`);
   try {
-    const reply = await connection.ask("load", { file: state.file, text: editor.text(), definitions }, "load").answer;
+    const reply = await connection.ask("load", { file: state.file, text: editor.text(), definitions, ...(isRun ? { run: true } : {}) }, "load").answer;
     const change: any = { isBusy: false, problem: "", diagnostics: reply.diagnostics, echo: reply.echo, variables: reply.variables ?? [], isOld: !reply.ok };
     if (reply.ok) change.design = reply;
     if (reply.ok && isNaN(state.z)) change.z = (reply.bounds_mm[0][2] + reply.bounds_mm[1][2]) / 2;
