@@ -1,7 +1,10 @@
 // ombre studio: the page in the browser.
+#include <unistd.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "base/error.h"
 #include "ombre/checks.h"
@@ -57,14 +60,39 @@ std::vector<std::string> own_command() {
   return {program.string(), "-m", "ombre"};
 }
 
-void tell_address(const studio::Address& address, const StudioArguments& a, const Console& console) {
+// A file that leads the browser to the page. The address has the token, which other users of this machine would see in
+// the arguments of a program; the file is for this user alone.
+class Signpost {
+ public:
+  explicit Signpost(const std::string& url) {
+    const std::string runtime = environment("XDG_RUNTIME_DIR");
+    path_ = (runtime.empty() ? std::filesystem::temp_directory_path().string() : runtime) + "/ombre-studio-XXXXXX.html";
+    constexpr int ending = 5;
+    const int file = ::mkstemps(path_.data(), ending);
+    if (file < 0) throw Error("cannot write " + path_ + ", by which the browser finds the studio; write --no-browser");
+    const std::string text = "<!doctype html><meta http-equiv=\"refresh\" content=\"0; url=" + url + "\">\n";
+    [[maybe_unused]] const ssize_t written = ::write(file, text.data(), text.size());
+    ::close(file);
+  }
+  ~Signpost() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  Signpost(const Signpost&) = delete;
+  Signpost& operator=(const Signpost&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+void tell_address(const studio::Address& address, const Console& console) {
   const std::string port = std::to_string(address.port);
   console.say("The studio is at\n\n    " + address.url() +
               "\n\nand ends with Ctrl-C. From another machine:\n\n    ssh -L " + port + ":127.0.0.1:" + port +
               " USER@THIS_MACHINE\n");
   console.event("studio", {{"url", address.url()}, {"port", static_cast<double>(address.port)}});
-  if (!a.no_browser && console.voice() == Voice::people && has_display())
-    studio::start_program({"xdg-open", address.url()});  // where it fails, the address is printed anyway
 }
 
 int run_studio(const StudioArguments& a, Session& session) {
@@ -85,8 +113,13 @@ int run_studio(const StudioArguments& a, Session& session) {
   server.port = static_cast<uint16_t>(a.port);
   server.token = chosen_token();
   server.assets = studio::page_assets();
-  studio::serve(studio, server, session.stop,
-                [&](const studio::Address& address) { tell_address(address, a, session.console); });
+  std::optional<Signpost> signpost;
+  studio::serve(studio, server, session.stop, [&](const studio::Address& address) {
+    tell_address(address, session.console);
+    if (a.no_browser || session.console.voice() != Voice::people || !has_display()) return;
+    signpost.emplace(address.url());
+    studio::start_program({"xdg-open", signpost->path()});  // where it fails, the address is printed anyway
+  });
   return done;
 }
 

@@ -72,8 +72,9 @@ bool Guard::knows_token(const RequestHead& head) const {
   return false;
 }
 
+// Lax: a link, or the file that led the browser here, opens the page; requests that pages of others make have none.
 std::string Guard::cookie() const {
-  return cookie_name() + "=" + token_ + "; HttpOnly; SameSite=Strict; Path=/; Max-Age=31536000";
+  return cookie_name() + "=" + token_ + "; HttpOnly; SameSite=Lax; Path=/; Max-Age=31536000";
 }
 
 std::optional<Refusal> Guard::refuse(const RequestHead& head) const {

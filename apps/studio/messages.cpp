@@ -83,10 +83,10 @@ std::vector<std::string> Request::texts(std::string_view name) const {
 std::vector<double> Request::numbers(std::string_view name, size_t count) const {
   std::vector<double> list;
   const Data* found = body.find(name);
-  const std::string what = "a list of " + std::to_string(count) + " numbers";
-  if (!found || !found->list() || found->list()->size() != count) expected(name, what);
+  const std::string wanted = "a list of " + std::to_string(count) + " numbers";
+  if (!found || !found->list() || found->list()->size() != count) expected(name, wanted);
   for (const Data& item : *found->list()) {
-    if (!item.number() || !std::isfinite(*item.number())) expected(name, what);
+    if (!item.number() || !std::isfinite(*item.number())) expected(name, wanted);
     list.push_back(*item.number());
   }
   return list;

@@ -119,7 +119,7 @@ TEST_F(ServerTest, ServesThePageToThoseWithTheToken) {
   start();
   const std::string first = get("/?token=" + page_token);
   EXPECT_TRUE(has(first, " 303 ")) << first;
-  EXPECT_TRUE(has(first, "HttpOnly; SameSite=Strict"));
+  EXPECT_TRUE(has(first, "HttpOnly; SameSite=Lax"));
   const std::string second = get("/", cookie());
   EXPECT_TRUE(has(second, " 200 ") && has(second, "<p>hello</p>")) << second;
   EXPECT_TRUE(has(second, "Content-Security-Policy: default-src 'none'"));

@@ -298,6 +298,10 @@ const checks = {
   },
 
   async "a server that is killed and started again loses nothing"() {
+    await page.click("#tab-export");
+    await page.fill(".panel input[type=text]", "again_slices");
+    await page.click("button.main");
+    await page.waitForSelector("[data-folder=again_slices][data-state=working]");
     await stopServer("SIGKILL");
     await status("[data-status=lost]");
     await type("// while it was away\n");
@@ -310,6 +314,10 @@ const checks = {
     await status("[data-old=false][data-busy=false]");
     await page.selectOption(".surface .viewbar select >> nth=0", "top");
     await isReady("surface");
+    await page.click("[data-folder=again_slices][data-state=interrupted] >> text=Resume");
+    await page.waitForSelector("[data-folder=again_slices][data-state=done]");
+    const bytes = (name) => readFileSync(join(folder, name, "slice_00400.png"));
+    assert.deepEqual(bytes("again_slices"), bytes("ball_slices")); // comments alone were added since
   },
 
   async "shows OpenSCAD scripts, and Python scripts when they are run"() {

@@ -70,7 +70,7 @@ export async function openFile(file: string) {
     savedText = fromDisk(disk.text);
     sentText = undefined;
     set({ file, values: {}, conflict: undefined, design: undefined, camera: undefined, diagnostics: [], variables: [], plan: undefined,
-          probe: undefined, measure: undefined, saved: "saved", problem: "", z: NaN, isOld: false });
+          probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", problem: "", z: NaN, isOld: false });
     localStorage.setItem(`ombre:file:${state.hello?.folder}`, file);
     let text = savedText;
     const draft = JSON.parse(localStorage.getItem(draftKey(file)) ?? "null");
@@ -281,7 +281,8 @@ export async function measure() {
 
 export async function probe(at: number[]) {
   try {
-    set({ probe: (await about("probe", { at, ...cutting() }, "probe")) as any });
+    const probe = (await about("probe", { at, ...cutting() }, "probe")) as any;
+    set({ probe, probeBefore: state.probe?.at });
   } catch {
     // The next probe says more.
   }

@@ -45,12 +45,14 @@ class Painter {
     const plan = this.tiles.plan(level);
     const layer = layerAt(state.plan, state.z);
     canvas.dataset.state = "drawing";
-    const tiles = plan ? this.tiles.want(plan, level, layer, this.places(plan)) : [];
-    const isComplete = plan !== undefined && tiles.every((tile) => tile.picture);
+    const tiles = plan ? this.tiles.want(level, layer, this.places(plan)) : [];
+    const isComplete = plan !== undefined && tiles.every((tile) => tile.picture || tile.problem);
     if (!isComplete && this.before) this.draw(this.before.plan, this.before.tiles);
     if (plan) this.draw(plan, tiles);
     if (!isComplete) return;
     this.before = { plan: plan!, tiles };
+    const problem = tiles.find((tile) => tile.problem)?.problem;
+    if (problem && state.planProblem !== problem) set({ planProblem: problem });
     Object.assign(canvas.dataset, { state: "ready", layer, level, design: state.design?.design });
   }
 
@@ -102,13 +104,14 @@ class Painter {
 const percent = (share: number) => `${+(100 * share).toPrecision(3)} %`;
 
 function ProbeCard() {
-  const { probe } = useStore();
+  const { probe, probeBefore } = useStore();
   if (!probe) return null;
   const rows: [string, string][] = [["at", probe.at.map((v) => +v.toFixed(4)).join(", ") + " mm"]];
   if (probe.voxel.material) rows.push(["voxel", `${probe.voxel.material} (${probe.voxel.index!.join(", ")})`]);
   for (const [name, share] of Object.entries(probe.composition)) rows.push([name, percent(share)]);
   if (probe.distance_mm !== null) rows.push(["distance", length(Math.abs(probe.distance_mm)) + (probe.inside ? " inside" : " outside")]);
   for (const [name, value] of Object.entries(probe.attributes)) rows.push([name, String(+value.toPrecision(6))]);
+  if (probeBefore) rows.push(["from the last", length(Math.hypot(...probe.at.map((v, n) => v - probeBefore[n])))]);
   if (probe.parts.length > 0) rows.push(["in", probe.parts.join(", ")]);
   return (
     <dl class="probe" aria-label="Point" aria-live="polite" data-voxel={probe.voxel.index?.join(",")} data-material={probe.voxel.material}>

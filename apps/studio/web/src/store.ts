@@ -149,6 +149,7 @@ export interface State {
   planProblem: string;
   z: number; // mm
   probe?: Probe;
+  probeBefore?: number[]; // where the one before was, mm
   measure?: { design: string; volume_mm3: number; pitch_mm: number; materials: { name: string; volume_mm3: number; mass_g?: number }[] };
   jobs: Job[];
   view: ViewName | "all";

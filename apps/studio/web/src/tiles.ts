@@ -9,6 +9,7 @@ const mostKept = 600,
 
 export interface Tile {
   picture?: ImageBitmap;
+  problem?: string; // it is not asked for again
   x: number; // of its first pixel, at its level
   y: number;
 }
@@ -47,7 +48,7 @@ export class Tiles {
   }
 
   // The tiles of these numbers; those that are missing are asked for, and what else was asked for is not.
-  want(plan: Plan, level: number, layer: number, places: [number, number][]): Tile[] {
+  want(level: number, layer: number, places: [number, number][]): Tile[] {
     const tiles: Tile[] = [];
     this.wanted = [];
     const keys = new Set<string>();
@@ -58,17 +59,15 @@ export class Tiles {
       if (!tile) tile = { x: column * tileSize, y: row * tileSize };
       this.kept.delete(key);
       this.kept.set(key, tile);
-      if (!tile.picture && !this.atWork.has(key))
+      if (!tile.picture && !tile.problem && !this.atWork.has(key))
         this.wanted.push({ key, tile, members: { level, layer, x: tile.x, y: tile.y, width: tileSize, height: tileSize } });
       tiles.push(tile);
     }
     for (const [key, cancel] of this.atWork) if (!keys.has(key)) cancel();
     while (this.kept.size > mostKept) {
-      const [oldest, tile] = this.kept.entries().next().value!;
-      tile.picture?.close();
+      const oldest = this.kept.keys().next().value!;
       this.kept.delete(oldest);
     }
-    void plan;
     this.ask();
     return tiles;
   }
@@ -82,7 +81,7 @@ export class Tiles {
         .then((reply) => createImageBitmap(new Blob([reply.bytes as BlobPart], { type: "image/png" })))
         .then((picture) => (tile.picture = picture))
         .catch((error: Refused) => {
-          if (error.code !== "cancelled") console.warn(error.message);
+          if (!error.isCancelled) tile.problem = error.message;
         })
         .finally(() => {
           this.atWork.delete(key);
