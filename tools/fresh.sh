@@ -46,7 +46,7 @@ cp /etc/resolv.conf /etc/hosts "$root/etc/"
 
 # Networks that need a proxy, or a certificate of their own, need them there too.
 environment=(HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 TERM=dumb)
-for name in http_proxy https_proxy no_proxy SSL_CERT_FILE PIP_CERT PIP_INDEX_URL; do
+for name in http_proxy https_proxy no_proxy SSL_CERT_FILE NODE_EXTRA_CA_CERTS PIP_CERT PIP_INDEX_URL npm_config_registry; do
   [ -n "${!name:-}" ] || continue
   environment+=("$name=${!name}")
   [ ! -f "${!name}" ] || install -D -m 644 "${!name}" "$root${!name}"

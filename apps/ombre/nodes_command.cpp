@@ -5,6 +5,7 @@
 
 #include "base/json.h"
 #include "base/text.h"
+#include "compile/node_data.h"
 #include "compile/node_registry.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
@@ -66,34 +67,6 @@ std::string describe(const NodeType& type) {
   return text;
 }
 
-DataMembers event_of(const NodeType& type) {
-  DataList parameters;
-  const auto texts = [](const std::vector<std::string>& list) { return DataList(list.begin(), list.end()); };
-  for (const ParameterInfo& parameter : type.parameters)
-    parameters.emplace_back(DataMembers{{"name", parameter.name},
-                                        {"doc", parameter.doc},
-                                        {"kind", std::string(parameter.kind)},
-                                        {"unit", std::string(parameter.domain.unit)},
-                                        {"required", parameter.domain.required},
-                                        {"default", parameter.default_value},
-                                        {"choices", texts(parameter.domain.choices)},
-                                        {"variables", texts(parameter.domain.variables)}});
-  DataList outputs;
-  for (const OutputInfo& output : type.outputs)
-    outputs.emplace_back(
-        DataMembers{{"name", output.name}, {"doc", output.doc}, {"type", std::string(name(output.type))}});
-  const bool has_many = type.inputs.most == design::many_solids.most;
-  return {{"name", type.name},
-          {"category", type.category},
-          {"sentence", type.sentence},
-          {"parameters", parameters},
-          {"inputs", DataMembers{{"least", static_cast<double>(type.inputs.least)},
-                                 {"most", has_many ? Data() : Data(static_cast<double>(type.inputs.most))}}},
-          {"gives", type.is_solid() ? "solid" : "values"},
-          {"outputs", outputs},
-          {"example", type.example}};
-}
-
 void list_nodes(Session& session) {
   const auto& types = compile::node_registry().types();
   size_t width = 0;
@@ -101,7 +74,7 @@ void list_nodes(Session& session) {
   std::string category;
   for (const auto& type : types) {
     if (session.console.voice() == Voice::programs) {
-      session.console.event("node", event_of(*type));
+      session.console.event("node", compile::describe_node(*type));
       continue;
     }
     if (type->category != category) session.console.print((category.empty() ? "" : "\n") + type->category + '\n');
@@ -118,7 +91,7 @@ int show_node(const std::string& wanted, Session& session) {
     throw WrongArgument("there is no node \"" + wanted + "\"; " + (hint.empty() ? "ombre nodes lists them" : hint));
   }
   if (session.console.voice() == Voice::programs)
-    session.console.event("node", event_of(*type));
+    session.console.event("node", compile::describe_node(*type));
   else
     session.console.print(describe(*type));
   return done;

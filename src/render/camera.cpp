@@ -72,20 +72,21 @@ std::vector<std::string> view_names() {
 
 Camera camera_around(const Box& box, const ViewOptions& options, double aspect) {
   Camera camera;
-  camera.target = box.center();
+  camera.target = options.target.value_or(box.center());
   // The eye stands at -y and turns around z, then rises.
   const Affine turn =
       Affine::rotation({0, 0, 1}, options.azimuth_deg) * Affine::rotation({1, 0, 0}, -options.elevation_deg);
   camera.forward = turn.linear({0, 1, 0});
   camera.right = turn.linear({1, 0, 0});
   camera.down = turn.linear({0, 0, -1});
-  const double radius = length(box.size()) / 2;
+  // Of the ball around the target that holds the box.
+  const double radius = length(box.size()) / 2 + length(box.center() - camera.target);
   if (options.field_of_view_deg > 0) {
     const double half = options.field_of_view_deg * 3.14159265358979323846 / 360;
     // Far enough that the ball around the box is in view.
     camera.distance_mm = std::max(radius / std::sin(half), 1.01 * radius);
   }
-  camera.height_mm = border * height_for(camera, box, aspect) / options.zoom;
+  camera.height_mm = options.height_mm.value_or(border * height_for(camera, box, aspect)) / options.zoom;
   return camera;
 }
 

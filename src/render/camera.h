@@ -31,13 +31,17 @@ struct ViewOptions {
   double azimuth_deg = -35, elevation_deg = 25;  // of the eye: 0 is in front (at -y), 90 at +x; above the horizon
   double field_of_view_deg = 0;                  // vertical; 0: orthographic
   double zoom = 1;                               // enlarges the picture's middle; the eye stays where it is
+  // A view that stays where it is while the design changes: its middle, and the height of the picture there. Else the
+  // box decides both.
+  std::optional<Vec3> target = std::nullopt;
+  std::optional<double> height_mm = std::nullopt;
 };
 
 // front, back, left, right, top, bottom, iso.
 std::optional<ViewOptions> named_view(std::string_view name);
 std::vector<std::string> view_names();
 
-// So that the whole box is in a picture of these proportions (width over height).
+// So that the whole box is in a picture of these proportions (width over height), unless the view says otherwise.
 Camera camera_around(const Box& box, const ViewOptions& options, double aspect);
 
 }  // namespace ombre::render

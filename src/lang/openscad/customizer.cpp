@@ -186,6 +186,7 @@ std::vector<Parameter> parameters_of(const SourcePtr& source) {
     if (assign.span.begin > outline.first_brace || assign.name.is_special()) continue;
     auto value = plain_value(*assign.value);
     if (!value) continue;
+    value->where = assign.value->span.range();
     Parameter parameter;
     parameter.name = assign.name.text();
     parameter.kind = kind_of(*value);

@@ -18,7 +18,7 @@ struct Parameter {
   std::string name, description;
   std::string section;  // empty: none was named; "Hidden" is for parameters that users should not see
   Kind kind = Kind::number;
-  Data value;                                         // the script's own
+  Data value;                                         // the script's own, and where it stands
   std::optional<double> least, step, most;            // of numbers, of each number of a vector
   std::optional<size_t> longest;                      // characters of a text
   std::vector<std::pair<Data, std::string>> choices;  // values and what to call them

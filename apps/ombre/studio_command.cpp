@@ -1,0 +1,150 @@
+// ombre studio: the page in the browser.
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "base/error.h"
+#include "ombre/checks.h"
+#include "ombre/command_line.h"
+#include "ombre/commands.h"
+#ifdef OMBRE_WITH_STUDIO
+#include "studio/child_process.h"
+#include "studio/page.h"
+#include "studio/server.h"
+#endif
+
+namespace ombre::cli {
+namespace {
+
+struct StudioArguments {
+  std::string place = ".";
+  int port = 0;
+  bool no_browser = false;
+};
+
+constexpr const char* studio_footer =
+    "The page is served to this machine alone, at an address with a token. From another machine, the line that is\n"
+    "printed makes a tunnel. Ctrl-C ends it; jobs go on from where they stopped.\n\n"
+    "Examples:\n"
+    "  ombre studio                   the designs in this folder\n"
+    "  ombre studio part.vcad         one of them\n"
+    "  ombre studio --port 8899 --no-browser\n";
+
+#ifdef OMBRE_WITH_STUDIO
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
+  return value ? value : "";
+}
+
+// Of a server that is started again and again at a port, say by a test, so that its page finds it again.
+std::string chosen_token() {
+  std::string token = environment("OMBRE_STUDIO_TOKEN");
+  constexpr size_t shortest = 32;
+  if (!token.empty() && (token.size() < shortest || token.find_first_not_of("0123456789abcdefABCDEF") != token.npos))
+    throw WrongArgument("OMBRE_STUDIO_TOKEN is not at least 32 hexadecimal digits; leave it out for a random one");
+  return token;
+}
+
+bool has_display() { return !environment("DISPLAY").empty() || !environment("WAYLAND_DISPLAY").empty(); }
+
+// The words that start this command line again: by itself, or by Python where that runs it.
+std::vector<std::string> own_command() {
+  std::error_code ignored;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  if (program.empty()) return {};
+  if (program.filename() == "ombre") return {program.string()};
+  return {program.string(), "-m", "ombre"};
+}
+
+// A file that leads the browser to the page. The address has the token, which other users of this machine would see in
+// the arguments of a program; the file is for this user alone.
+class Signpost {
+ public:
+  explicit Signpost(const std::string& url) {
+    const std::string runtime = environment("XDG_RUNTIME_DIR");
+    path_ = (runtime.empty() ? std::filesystem::temp_directory_path().string() : runtime) + "/ombre-studio-XXXXXX.html";
+    constexpr int ending = 5;
+    const int file = ::mkstemps(path_.data(), ending);
+    if (file < 0) throw Error("cannot write " + path_ + ", by which the browser finds the studio; write --no-browser");
+    const std::string text = "<!doctype html><meta http-equiv=\"refresh\" content=\"0; url=" + url + "\">\n";
+    [[maybe_unused]] const ssize_t written = ::write(file, text.data(), text.size());
+    ::close(file);
+  }
+  ~Signpost() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  Signpost(const Signpost&) = delete;
+  Signpost& operator=(const Signpost&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+void tell_address(const studio::Address& address, const Console& console) {
+  const std::string port = std::to_string(address.port);
+  console.say("The studio is at\n\n    " + address.url() +
+              "\n\nand ends with Ctrl-C. From another machine:\n\n    ssh -L " + port + ":127.0.0.1:" + port +
+              " USER@THIS_MACHINE\n");
+  console.event("studio", {{"url", address.url()}, {"port", static_cast<double>(address.port)}});
+}
+
+int run_studio(const StudioArguments& a, Session& session) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path place = fs::weakly_canonical(a.place, error);
+  studio::StudioOptions options;
+  options.program = "ombre " OMBRE_VERSION;
+  options.command = own_command();
+  fs::path folder = place;
+  if (!fs::is_directory(place)) {
+    if (!fs::exists(place)) throw WrongArgument(a.place + " is neither a folder nor a file");
+    folder = place.parent_path();
+    options.first_file = place.filename().string();
+  }
+  studio::Studio studio(folder, options, session.cache);
+  studio::ServerOptions server;
+  server.port = static_cast<uint16_t>(a.port);
+  server.token = chosen_token();
+  server.assets = studio::page_assets();
+  std::optional<Signpost> signpost;
+  studio::serve(studio, server, session.stop, [&](const studio::Address& address) {
+    tell_address(address, session.console);
+    if (a.no_browser || session.console.voice() != Voice::people || !has_display()) return;
+    signpost.emplace(address.url());
+    studio::start_program({"xdg-open", signpost->path()});  // where it fails, the address is printed anyway
+  });
+  return done;
+}
+
+#else
+
+int run_studio(const StudioArguments&, Session&) {
+  throw Error("this ombre was built without the studio; install nodejs and npm (apt), and build it again");
+}
+
+#endif
+
+}  // namespace
+
+Command add_studio(CLI::App& program, OutputOptions& output) {
+  CLI::App* app = program.add_subcommand("studio", "Write, see, measure and slice designs in the browser");
+  auto arguments = std::make_shared<StudioArguments>();
+  app->add_option("place", arguments->place, "A folder of designs, or one design in it (default: this folder)")
+      ->type_name("PLACE");
+  app->add_option("--port", arguments->port, "Of 127.0.0.1 (default: one that is free)")
+      ->check(whole_between(0, 65535))
+      ->type_name("N");
+  app->add_flag("--no-browser", arguments->no_browser, "Print the address, and open no browser");
+  add_output_options(*app, output);
+  app->footer(studio_footer);
+  return {app, [arguments](Session& session) { return run_studio(*arguments, session); }};
+}
+
+}  // namespace ombre::cli

@@ -1,0 +1,133 @@
+#include "studio/design_answer.h"
+
+#include <unordered_map>
+
+#include "base/text.h"
+#include "compile/question.h"
+#include "compile/scene.h"
+#include "lang/openscad/customizer.h"
+
+namespace ombre::studio {
+namespace {
+
+// Deeper or wider designs are shown in part.
+constexpr size_t most_nodes = 3000;
+
+class NodeLister {
+ public:
+  explicit NodeLister(const SourcePtr& source) : source_(source), offsets_(source->text()) {}
+
+  // The parts' nodes first, and then those below them.
+  DataList list(const std::vector<design::Part>& parts) {
+    for (const design::Part& part : parts) part_nodes_.emplace_back(number(number_of(part.solid.get())));
+    for (size_t n = 0; n < waiting_.size(); ++n) nodes_.emplace_back(describe_one(*waiting_[n], n));
+    return std::move(nodes_);
+  }
+  // By their numbers; after list().
+  DataList part_nodes() { return std::move(part_nodes_); }
+
+ private:
+  size_t number_of(const design::Node* node) {
+    const auto [known, is_new] = numbers_.try_emplace(node, waiting_.size());
+    if (is_new) waiting_.push_back(node);
+    return known->second;
+  }
+
+  DataList numbers(std::span<const design::NodePtr> nodes) {
+    DataList list;
+    for (const design::NodePtr& node : nodes)
+      if (waiting_.size() < most_nodes || numbers_.contains(node.get()))
+        list.emplace_back(number(number_of(node.get())));
+    return list;
+  }
+
+  DataMembers describe_one(const design::Node& node, size_t id) {
+    DataMembers members{{"id", number(id)},
+                        {"type", node.type().name},
+                        {"category", node.type().category},
+                        {"inputs", numbers(node.inputs())},
+                        {"values", numbers(node.values())}};
+    const SourceRange& where = node.where();
+    if (!where.source || where.source->name() != source_->name()) return members;
+    members.emplace_back("from", offsets_.at(where.begin));
+    members.emplace_back("to", offsets_.at(where.end));
+    members.emplace_back("line", number(where.source->place(where.begin).line));
+    return members;
+  }
+
+  const SourcePtr& source_;
+  PageOffsets offsets_;
+  std::vector<const design::Node*> waiting_;
+  std::unordered_map<const design::Node*, size_t> numbers_;
+  DataList nodes_, part_nodes_;
+};
+
+DataMembers describe_material(const design::Material& material) {
+  DataList colour;
+  for (const uint8_t channel : material.colour) colour.emplace_back(number(channel));
+  DataMembers members{{"name", material.name}, {"id", number(material.id)}, {"colour", std::move(colour)}};
+  for (const auto& [name, value] : material.properties)
+    if (name == "density") members.emplace_back(name, value);
+  return members;
+}
+
+DataList describe_materials(const OpenDesign& open) {
+  const design::Design& design = open.loaded->design;
+  Diagnostics ignored;
+  const auto used = compile::materials_within(design, open.bounds, 0, ignored);
+  DataList list;
+  for (const design::Material& material : design.materials.all())
+    if (material.id > 0 && (!used || std::ranges::find(*used, material.id) != used->end()))
+      list.emplace_back(describe_material(material));
+  return list;
+}
+
+// "// mm, of the plate" behind the value, which .vcad scripts have; comments that say a range are none.
+std::string remark_behind(const SourceText& source, const SourceRange& value) {
+  const Place place = source.place(value.end);
+  const std::string_view line = source.line(place.line);
+  const size_t begin = line.find("//", line.find(';'));
+  if (begin == std::string_view::npos) return "";
+  const std::string_view comment = trim(line.substr(begin + 2));
+  return comment.starts_with('[') ? "" : std::string(comment);
+}
+
+}  // namespace
+
+DataList list_of(Vec3 v) { return {v.x, v.y, v.z}; }
+
+DataList describe_variables(const SourcePtr& source) {
+  const PageOffsets offsets(source->text());
+  DataList list;
+  for (lang::openscad::Parameter& parameter : lang::openscad::parameters_of(source)) {
+    if (parameter.section == "Hidden") continue;
+    if (const std::string remark = remark_behind(*source, parameter.value.where); !remark.empty())
+      parameter.description = remark;
+    Data data = lang::openscad::to_data(parameter);
+    auto& members = std::get<DataMembers>(data.value);
+    members.emplace_back("from", offsets.at(parameter.value.where.begin));
+    members.emplace_back("to", offsets.at(parameter.value.where.end));
+    list.push_back(std::move(data));
+  }
+  return list;
+}
+
+DataMembers describe_design(const OpenDesign& open, const SourcePtr& page_text) {
+  const design::Design& design = open.loaded->design;
+  DataList parts, attributes;
+  for (const design::Part& part : design.parts) parts.emplace_back(part.name);
+  for (const design::AttributeDeclaration& declared : compile::declared_attributes(design))
+    attributes.emplace_back(DataMembers{
+        {"name", declared.name}, {"type", std::string(design::name(declared.type))}, {"unit", declared.unit}});
+  NodeLister lister(page_text);
+  DataList nodes = lister.list(design.parts);
+  return {{"design", open.handle},
+          {"bounds_mm", DataList{list_of(open.bounds.lo), list_of(open.bounds.hi)}},
+          {"materials", describe_materials(open)},
+          {"parts", std::move(parts)},
+          {"attributes", std::move(attributes)},
+          {"part_nodes", lister.part_nodes()},
+          {"nodes", std::move(nodes)}};
+}
+
+}  // namespace ombre::studio

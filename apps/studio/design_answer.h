@@ -1,0 +1,18 @@
+// What the page is told about a design that was loaded.
+#pragma once
+
+#include "base/data.h"
+#include "studio/designs.h"
+
+namespace ombre::studio {
+
+// Top-level variables of a script with what its comments say of them, and where their values stand in the text.
+DataList describe_variables(const SourcePtr& source);
+
+// "design" (a handle), "bounds_mm", "materials", "parts", "part_nodes", "attributes", "nodes", with their places in the
+// text that the page has.
+DataMembers describe_design(const OpenDesign& design, const SourcePtr& page_text);
+
+DataList list_of(Vec3 v);
+
+}  // namespace ombre::studio

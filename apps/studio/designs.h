@@ -1,0 +1,79 @@
+// The designs that are open, and what was planned of them.
+#pragma once
+
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "base/box.h"
+#include "compile/load.h"
+#include "studio/messages.h"
+
+namespace ombre::studio {
+
+// Which voxels a design is cut into.
+struct Cutting {
+  std::string printer;  // a profile's name
+  std::string dither;
+  int level = 0;  // voxels are 2^level times as long along x and y: 0 are the job's own
+
+  bool operator<(const Cutting& other) const {
+    return std::tie(printer, dither, level) < std::tie(other.printer, other.dither, other.level);
+  }
+};
+
+struct CutDesign {
+  compile::Plan plan;
+  voxel::Printer printer;
+  Diagnostics remarks;
+};
+using CutDesignPtr = std::shared_ptr<const CutDesign>;
+
+// A design that was loaded. Thread-safe.
+class OpenDesign {
+ public:
+  OpenDesign(std::string name, compile::LoadedPtr design, const Box& box, std::string program)
+      : handle(std::move(name)), loaded(std::move(design)), bounds(box), program_(std::move(program)) {}
+
+  const std::string handle;
+  const compile::LoadedPtr loaded;
+  const Box bounds;
+
+  // Planned when it is first asked for, and kept. Throws RequestError, which says what is wrong, when the design cannot
+  // be cut so.
+  CutDesignPtr cut(const Cutting& cutting);
+
+ private:
+  struct Slot {
+    std::mutex mutex;
+    CutDesignPtr made;
+  };
+  CutDesignPtr make(const Cutting& cutting) const;
+
+  std::string program_;  // that writes jobs: "ombre 0.1.0"
+  std::mutex mutex_;
+  std::map<Cutting, std::shared_ptr<Slot>> slots_;
+};
+using OpenDesignPtr = std::shared_ptr<OpenDesign>;
+
+// Those that were loaded last, by handles. Thread-safe.
+class Designs {
+ public:
+  static constexpr size_t most = 12;
+
+  OpenDesignPtr add(const compile::LoadedPtr& loaded, const Box& bounds, const std::string& program);
+  // Throws RequestError "gone" for one that is no longer kept: it is to be loaded again.
+  OpenDesignPtr find(const std::string& handle);
+
+ private:
+  std::mutex mutex_;
+  std::list<OpenDesignPtr> kept_;  // the most recently used first
+  uint64_t count_ = 0;
+};
+
+// What is wrong, on one line a mistake.
+RequestError design_error(const Diagnostics& diagnostics);
+
+}  // namespace ombre::studio

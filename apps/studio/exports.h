@@ -1,0 +1,70 @@
+// Slice jobs that the page started: one at a time, each of which may pause.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "base/progress.h"
+#include "studio/designs.h"
+
+namespace ombre::studio {
+
+struct ExportRequest {
+  OpenDesignPtr design;
+  Cutting cutting;
+  std::string file;    // of the design, as the page knows it
+  std::string name;    // of the folder, likewise
+  std::string folder;  // its path
+  bool replace = false;
+};
+
+// Thread-safe. A job writes the files that `ombre slice` would; what is finished stays when it pauses, ends or the
+// program is killed, and the same request goes on from there.
+class Exports {
+ public:
+  // Called with a job's state when it changes, and now and then while it works, from any thread.
+  using Tell = std::function<void(const DataMembers& job)>;
+
+  explicit Exports(Tell tell);
+  // Pauses what is at work, and waits for it.
+  ~Exports();
+  Exports(const Exports&) = delete;
+  Exports& operator=(const Exports&) = delete;
+
+  // The new job. Throws RequestError when the folder's job is at work or waits already.
+  DataMembers start(const ExportRequest& request);
+  // Each throws RequestError when there is no such job, or it is in no state for that.
+  void pause(int64_t id);
+  void resume(int64_t id);
+  void cancel(int64_t id);
+  DataList list() const;
+
+ private:
+  enum class State { waiting, working, paused, done, failed, cancelled };
+  struct Job;
+  class Watch;
+  using JobPtr = std::shared_ptr<Job>;
+
+  void run();
+  void work(Job& job);
+  void end(Job& job, State state, const std::string& message);
+  JobPtr find(int64_t id);
+  JobPtr next();
+  void stop(int64_t id, State state);
+  static DataMembers describe(const Job& job);
+
+  Tell tell_;
+  mutable std::mutex mutex_;
+  std::condition_variable news_;
+  std::list<JobPtr> jobs_;
+  int64_t count_ = 0;
+  bool is_over_ = false;
+  std::thread thread_;
+};
+
+}  // namespace ombre::studio

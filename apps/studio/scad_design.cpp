@@ -1,0 +1,107 @@
+#include "studio/scad_design.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "compile/scad_job.h"
+#include "lang/openscad/run.h"
+
+namespace ombre::studio {
+namespace {
+
+namespace fs = std::filesystem;
+namespace openscad = lang::openscad;
+
+// A folder that goes away with this.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "ombre-studio-XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw Error("cannot make a folder in " + fs::temp_directory_path().string());
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+// A line of the script, without the blanks before it; the script as a whole for messages from elsewhere.
+SourceRange range_of(const SourcePtr& script, const openscad::Message& message) {
+  const bool is_own = message.file.empty() || fs::path(message.file).filename() == fs::path(script->name()).filename();
+  if (message.line < 1 || !is_own) return {script, 0, 0};
+  const std::string_view line = script->line(message.line);
+  const auto begin = static_cast<uint32_t>(line.data() - script->text().data());
+  const size_t blanks = std::min(line.find_first_not_of(" \t"), line.size());
+  return {script, static_cast<uint32_t>(begin + blanks), static_cast<uint32_t>(begin + line.size())};
+}
+
+void report(const openscad::Message& message, const SourcePtr& script, const compile::LoadOptions& options,
+            Diagnostics& diagnostics) {
+  using Kind = openscad::Message::Kind;
+  switch (message.kind) {
+    case Kind::echo:
+      if (options.echo) options.echo(openscad::to_line(message));
+      return;
+    case Kind::error:
+      diagnostics.error(range_of(script, message), message.text);
+      return;
+    case Kind::warning:
+    case Kind::deprecated:
+      diagnostics.warning(range_of(script, message), message.text);
+      return;
+    case Kind::trace:
+    case Kind::note:
+      diagnostics.note(range_of(script, message), message.text);
+  }
+}
+
+// "names" where all solids have one of a material, else "colours".
+std::string naming(const solids::Pieces& pieces, const compile::LoadOptions& options, Diagnostics& diagnostics) {
+  const auto materials = compile::load_materials(options.materials, diagnostics);
+  const bool are_named = materials && std::ranges::all_of(pieces, [&](const auto& piece) {
+                           return materials->find(piece.attributes.material) != nullptr;
+                         });
+  return are_named ? "names" : "colours";
+}
+
+}  // namespace
+
+compile::LoadedPtr load_scad(const SourcePtr& script, const compile::LoadOptions& options, Diagnostics& diagnostics) {
+  openscad::Options run;
+  run.definitions = options.definitions;
+  run.libraries = openscad::library_folders();
+  run.stop = options.stop;
+  openscad::Messages messages;
+  const solids::TreePtr tree = openscad::run(script, run, messages);
+  diagnostics.add_all(messages.syntax);
+  for (const openscad::Message& message : messages.list()) report(message, script, options, diagnostics);
+  if (!tree || diagnostics.has_errors()) return nullptr;
+
+  const TemporaryFolder folder;
+  const std::string mesh = folder.file("solids.3mf");
+  compile::ScadRequest request;
+  request.tree = tree;
+  request.outputs = {{mesh}};
+  request.stop = options.stop;
+  const compile::ScadResult made = compile::run_scad(request, diagnostics);
+  if (diagnostics.has_errors()) return nullptr;
+  compile::LoadOptions plain = options;
+  plain.definitions.clear();
+  const std::string text =
+      "mesh(" + print_json_line(mesh) + ", gray, materials=\"" + naming(made.pieces, options, diagnostics) + "\");\n";
+  return compile::load_text(text, folder.file("solids.vcad"), plain, diagnostics);
+}
+
+}  // namespace ombre::studio

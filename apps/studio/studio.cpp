@@ -1,0 +1,264 @@
+#include "studio/studio.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/tasks.h"
+#include "base/text.h"
+#include "compile/build.h"
+#include "compile/colour_map.h"
+#include "compile/find_printer.h"
+#include "compile/node_data.h"
+#include "compile/node_registry.h"
+#include "lang/builtins.h"
+#include "studio/design_answer.h"
+#include "studio/python_design.h"
+#include "studio/scad_design.h"
+#include "studio/views.h"
+
+namespace ombre::studio {
+namespace {
+
+constexpr size_t most_echo_lines = 200;
+
+DataList texts(const std::vector<std::string>& list) { return {list.begin(), list.end()}; }
+
+DataList describe_printers() {
+  DataList list;
+  for (const std::string& name : compile::printer_names()) {
+    Diagnostics ignored;
+    if (const auto printer = compile::find_printer(name, ignored))
+      list.emplace_back(DataMembers{{"name", name}, {"title", printer->title}});
+  }
+  return list;
+}
+
+DataList describe_nodes() {
+  DataList list;
+  for (const auto& type : compile::node_registry().types()) list.emplace_back(compile::describe_node(*type));
+  return list;
+}
+
+DataList describe_functions() {
+  DataList list;
+  for (const auto& builtins :
+       {lang::math_builtins(), lang::list_builtins(), lang::text_builtins(), lang::point_builtins()})
+    for (const lang::Builtin& builtin : builtins)
+      list.emplace_back(DataMembers{{"name", builtin.name}, {"signature", builtin.signature()}});
+  return list;
+}
+
+bool has_ending(const std::string& file, std::string_view ending) {
+  return to_lower(std::filesystem::path(file).extension().string()) == ending;
+}
+
+}  // namespace
+
+struct Studio::Kind {
+  std::string_view name;
+  Answer (Studio::*answer)(const Request&, const StopFlag&);
+};
+
+const std::vector<Studio::Kind>& Studio::kinds() {
+  static const std::vector<Kind> list{{"hello", &Studio::hello},
+                                      {"list", &Studio::list},
+                                      {"open", &Studio::open},
+                                      {"save", &Studio::save},
+                                      {"load", &Studio::load},
+                                      {"render", &Studio::show<picture_answer>},
+                                      {"plan", &Studio::show<plan_answer>},
+                                      {"tile", &Studio::show<tile_answer>},
+                                      {"probe", &Studio::show<probe_answer>},
+                                      {"volume", &Studio::show<volume_answer>},
+                                      {"measure", &Studio::show<measure_answer>},
+                                      {"export", &Studio::start_export},
+                                      {"change_export", &Studio::change_export},
+                                      {"jobs", &Studio::jobs}};
+  return list;
+}
+
+Studio::Studio(const std::filesystem::path& folder, StudioOptions options, sources::SourceCache& cache)
+    : options_(std::move(options)),
+      cache_(cache),
+      workspace_(folder),
+      exports_([this](const DataMembers& job) {
+        tell_all("job", {{"job", job}});
+      }),
+      // A few at once, so that short questions are answered while a long one is at work; each uses all cores.
+      queue_(std::max(4, core_count())) {}
+
+Studio::~Studio() = default;
+
+void Studio::add(const ClientPtr& client) {
+  const std::lock_guard lock(mutex_);
+  clients_.insert(client);
+}
+
+void Studio::remove(const ClientPtr& client) {
+  queue_.cancel_all(client.get());
+  const std::lock_guard lock(mutex_);
+  clients_.erase(client);
+}
+
+void Studio::tell_all(const std::string& event, const DataMembers& members) {
+  std::vector<ClientPtr> clients;
+  {
+    const std::lock_guard lock(mutex_);
+    clients.assign(clients_.begin(), clients_.end());
+  }
+  for (const ClientPtr& client : clients) client->send(frame_of_event(event, members));
+}
+
+void Studio::take(const ClientPtr& client, const std::string& text) {
+  Request request;
+  try {
+    request = parse_request(text);
+  } catch (const RequestError& error) {
+    client->send(frame_of_error(-1, error.code(), error.what()));
+    return;
+  }
+  if (request.what == "cancel") {
+    if (!request.lane.empty()) return queue_.cancel_lane(client.get(), request.lane);
+    return queue_.cancel(client.get(), request.id);
+  }
+  const auto kind = std::ranges::find(kinds(), request.what, &Kind::name);
+  if (kind == kinds().end()) {
+    client->send(frame_of_error(request.id, "request", "there is no request called \"" + request.what + "\""));
+    return;
+  }
+  const double id = request.id;
+  const std::string lane = request.lane;
+  const auto work = [this, client, request = std::move(request), &kind = *kind](const StopFlag& stop) {
+    answer(client, request, kind, stop);
+  };
+  if (!queue_.add(client.get(), id, lane, work))
+    client->send(frame_of_error(id, "busy", "too many requests are waiting"));
+}
+
+void Studio::answer(const ClientPtr& client, const Request& request, const Kind& kind, const StopFlag& cancelled) {
+  const auto fail = [&](const std::string& code, const std::string& message) {
+    client->send(frame_of_error(request.id, code, message));
+  };
+  const StopFlag stop(&cancelled, options_.most_seconds);
+  try {
+    if (stop.requested()) throw Cancelled();
+    client->send(frame_of(request.id, (this->*kind.answer)(request, stop)));
+  } catch (const RequestError& error) {
+    fail(error.code(), error.what());
+  } catch (const Cancelled&) {
+    if (cancelled.requested()) return fail("cancelled", "the request was cancelled");
+    fail("time", "this took more than " + format_rounded(options_.most_seconds) + " s and was stopped");
+  } catch (const std::bad_alloc&) {
+    fail("memory", "not enough memory");
+  } catch (const std::exception& error) {
+    fail("failed", error.what());
+  }
+}
+
+void Studio::look_around() {
+  for (const Workspace::Change& change : workspace_.changes())
+    tell_all("changed", {{"file", change.name}, {"version", change.version}});
+}
+
+Answer Studio::hello(const Request&, const StopFlag&) {
+  return {{{"program", options_.program},
+           {"folder", workspace_.root().string()},
+           {"file", options_.first_file},
+           {"files", texts(workspace_.list())},
+           {"printers", describe_printers()},
+           {"dithers", texts(voxel::dither_names())},
+           {"palettes", texts(compile::palette_names())},
+           {"nodes", describe_nodes()},
+           {"functions", describe_functions()}},
+          {}};
+}
+
+Answer Studio::list(const Request&, const StopFlag&) { return {{{"files", texts(workspace_.list())}}, {}}; }
+
+Answer Studio::open(const Request& request, const StopFlag&) {
+  FileText file = workspace_.read(request.text("file"));
+  return {{{"text", std::move(file.text)}, {"version", std::move(file.version)}}, {}};
+}
+
+Answer Studio::save(const Request& request, const StopFlag&) {
+  const std::string& name = request.text("file");
+  auto saved = workspace_.save(name, request.text("text"), request.text("version"));
+  if (auto* conflict = std::get_if<SaveConflict>(&saved)) {
+    DataMembers members{{"saved", false}, {"gone", !conflict->disk}};
+    if (conflict->disk) {
+      members.emplace_back("text", conflict->disk->text);
+      members.emplace_back("version", conflict->disk->version);
+    }
+    return {std::move(members), {}};
+  }
+  const std::string version = std::get<std::string>(saved);
+  tell_all("changed", {{"file", name}, {"version", version}});
+  return {{{"saved", true}, {"version", version}}, {}};
+}
+
+// A Python script is run when a person asks for it, not while it is typed: it may do anything.
+compile::LoadedPtr Studio::read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
+                                Diagnostics& diagnostics) {
+  const std::string& file = request.text("file");
+  if (has_ending(file, ".scad")) return load_scad(text, options, diagnostics);
+  if (!has_ending(file, ".py"))
+    return compile::load_text(std::string(text->text()), text->name(), options, diagnostics);
+  if (options_.command.empty()) throw RequestError("unsupported", "this studio cannot run designs in Python");
+  if (!request.flag("run")) throw RequestError("unsupported", "Python scripts are shown when they are run: press Run");
+  return load_python(text->name(), options_.command, options, diagnostics);
+}
+
+Answer Studio::load(const Request& request, const StopFlag& stop) {
+  const std::string& file = request.text("file");
+  const std::string path = workspace_.path(file).string();
+  const std::string& text = request.text("text");
+  DataList echo;
+  compile::LoadOptions options;
+  options.definitions = request.texts("definitions");
+  options.echo = [&](const std::string& line) {
+    if (echo.size() < most_echo_lines) echo.emplace_back(line);
+  };
+  options.stop = &stop;
+  options.cache = &cache_;
+  Diagnostics diagnostics;
+  const SourcePtr source = make_source(path, text);
+  const compile::LoadedPtr loaded = read(request, source, options, diagnostics);
+  const auto bounds = loaded ? compile::design_box(loaded->design, diagnostics) : std::nullopt;
+  const bool is_right = loaded && bounds && !diagnostics.has_errors();
+  Answer answer;
+  answer.members = {{"ok", is_right}, {"echo", std::move(echo)}};
+  if (has_ending(file, ".vcad") || has_ending(file, ".scad"))
+    answer.members.emplace_back("variables", describe_variables(source));
+  if (is_right) {
+    const DataMembers design = describe_design(*designs_.add(loaded, *bounds, options_.program), source);
+    answer.members.insert(answer.members.end(), design.begin(), design.end());
+  }
+  answer.members.emplace_back("diagnostics", describe(diagnostics, source));
+  return answer;
+}
+
+Answer Studio::start_export(const Request& request, const StopFlag&) {
+  const std::string& name = request.text("folder");
+  ExportRequest job{
+      design_of(request),     cutting_of(request), request.text("file", ""), name, workspace_.path(name).string(),
+      request.flag("replace")};
+  return {{{"job", exports_.start(job)}}, {}};
+}
+
+Answer Studio::change_export(const Request& request, const StopFlag&) {
+  const int64_t id = request.whole("job", 0, int64_t{1} << 53);
+  const std::string& to = request.text("to");
+  if (to == "pause")
+    exports_.pause(id);
+  else if (to == "resume")
+    exports_.resume(id);
+  else if (to == "cancel")
+    exports_.cancel(id);
+  else
+    throw RequestError("request", "\"to\" is pause, resume or cancel");
+  return {};
+}
+
+Answer Studio::jobs(const Request&, const StopFlag&) { return {{{"jobs", exports_.list()}}, {}}; }
+
+}  // namespace ombre::studio

@@ -1,0 +1,79 @@
+// The studio apart from its connections: takes requests, sends answers and events.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "sources/source_cache.h"
+#include "studio/exports.h"
+#include "studio/messages.h"
+#include "studio/work_queue.h"
+#include "studio/workspace.h"
+
+namespace ombre::studio {
+
+// One connection to a page.
+class Client {
+ public:
+  virtual ~Client() = default;
+  // Thread-safe; does nothing once the connection is gone.
+  virtual void send(Frame frame) = 0;
+};
+using ClientPtr = std::shared_ptr<Client>;
+
+struct StudioOptions {
+  std::string program;               // "ombre 0.1.0"
+  std::vector<std::string> command;  // the words that start Ombre's command line; empty: no designs in Python
+  std::string first_file;            // that a page opens; empty: none
+  double most_seconds = 60;          // that an answer may take
+};
+
+// Thread-safe.
+class Studio {
+ public:
+  Studio(const std::filesystem::path& folder, StudioOptions options, sources::SourceCache& cache);
+  ~Studio();
+
+  void add(const ClientPtr& client);
+  void remove(const ClientPtr& client);
+  // A request of the client; its answer comes when it is done.
+  void take(const ClientPtr& client, const std::string& text);
+  // To be called a few times a second: tells clients which files others have changed.
+  void look_around();
+
+ private:
+  struct Kind;
+  static const std::vector<Kind>& kinds();
+
+  void answer(const ClientPtr& client, const Request& request, const Kind& kind, const StopFlag& cancelled);
+  void tell_all(const std::string& event, const DataMembers& members);
+  OpenDesignPtr design_of(const Request& request) { return designs_.find(request.text("design")); }
+
+  Answer hello(const Request& request, const StopFlag& stop);
+  Answer list(const Request& request, const StopFlag& stop);
+  Answer open(const Request& request, const StopFlag& stop);
+  Answer save(const Request& request, const StopFlag& stop);
+  compile::LoadedPtr read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
+                          Diagnostics& diagnostics);
+  Answer load(const Request& request, const StopFlag& stop);
+  Answer start_export(const Request& request, const StopFlag& stop);
+  Answer change_export(const Request& request, const StopFlag& stop);
+  Answer jobs(const Request& request, const StopFlag& stop);
+  template <Answer (*view)(OpenDesign&, const Request&, const StopFlag&)>
+  Answer show(const Request& request, const StopFlag& stop) {
+    return view(*design_of(request), request, stop);
+  }
+
+  StudioOptions options_;
+  sources::SourceCache& cache_;
+  Workspace workspace_;
+  Designs designs_;
+  std::mutex mutex_;
+  std::set<ClientPtr> clients_;
+  Exports exports_;
+  WorkQueue queue_;  // last, so that it ends first
+};
+
+}  // namespace ombre::studio

@@ -1,0 +1,301 @@
+#include "studio/studio.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <condition_variable>
+
+#include "base/json.h"
+#include "base/stopwatch.h"
+#include "formats/png.h"
+#include "studio/test_folder.h"
+
+namespace ombre::studio {
+namespace {
+
+constexpr const char* ball =
+    "radius = 3;  // [1:5]\n"
+    "fgrade([\"0.5 + x / 6\", \"0.5 - x / 6\"], [red, blue]) sphere(radius);\n";
+
+// Remembers what it was sent.
+class Listener : public Client {
+ public:
+  void send(Frame frame) override {
+    const std::lock_guard lock(mutex_);
+    Data data;
+    std::string bytes;
+    Diagnostics none;
+    if (frame.is_binary) {
+      size_t length = 0;
+      for (size_t n = 0; n < 4; ++n) length |= static_cast<size_t>(static_cast<unsigned char>(frame.data[n])) << 8 * n;
+      bytes = frame.data.substr(4 + length);
+      data = *parse_json(make_source("frame", frame.data.substr(4, length)), none);
+    } else {
+      data = *parse_json(make_source("frame", frame.data), none);
+    }
+    frames_.emplace_back(std::move(data), std::move(bytes));
+    news_.notify_all();
+  }
+
+  // The first frame, and only it, for which the question holds; a null value after half a minute.
+  template <class Question>
+  std::pair<Data, std::string> wait(const Question& is_it) {
+    std::unique_lock lock(mutex_);
+    const auto found = [&] { return std::ranges::find_if(frames_, [&](const auto& f) { return is_it(f.first); }); };
+    news_.wait_for(lock, std::chrono::seconds(30), [&] { return found() != frames_.end(); });
+    const auto frame = found();
+    if (frame == frames_.end()) return {};
+    auto taken = *frame;
+    frames_.erase(frame);
+    return taken;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable news_;
+  std::vector<std::pair<Data, std::string>> frames_;
+};
+
+class StudioTest : public testing::Test {
+ protected:
+  StudioTest() { studio.add(client); }
+
+  std::pair<Data, std::string> ask(const std::string& what, const std::string& members = "") {
+    const int id = ++last_;
+    studio.take(client, R"({"id": )" + std::to_string(id) + R"(, "do": ")" + what + '"' +
+                            (members.empty() ? "" : ", " + members) + "}");
+    return answer(id);
+  }
+  std::pair<Data, std::string> answer(int id) {
+    return client->wait([&](const Data& data) {
+      const Data* found = data.find("id");
+      return found && *found->number() == id;
+    });
+  }
+  static std::string text(const Data& data, const char* name) {
+    const Data* found = data.find(name);
+    return found && found->string() ? *found->string() : "";
+  }
+  static double number_in(const Data& data, const char* name) {
+    const Data* found = data.find(name);
+    return found && found->number() ? *found->number() : std::nan("");
+  }
+  std::string load(const std::string& script, const std::string& more = "") {
+    const Data loaded = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(script) + more).first;
+    EXPECT_TRUE(loaded.find("design")) << print_json(loaded);
+    return text(loaded, "design");
+  }
+  // The job when it is in that state.
+  Data job_in(const std::string& state) {
+    const auto event = client->wait([&](const Data& data) {
+      const Data* job = data.find("job");
+      return data.find("event") && job && text(*job, "state") == state;
+    });
+    return event.first.is_null() ? Data() : *event.first.find("job");
+  }
+
+  TestFolder folder;
+  sources::SourceCache cache;
+  Studio studio{folder.path, {"ombre test", {}, "", 60}, cache};
+  std::shared_ptr<Listener> client = std::make_shared<Listener>();
+  int last_ = 0;
+};
+
+TEST_F(StudioTest, SaysWhatThereIs) {
+  folder.write("b.vcad", ball);
+  const Data hello = ask("hello").first;
+  EXPECT_EQ(*hello.find("files"), Data(DataList{"b.vcad"}));
+  EXPECT_GT(hello.find("nodes")->list()->size(), 50U);
+  EXPECT_GT(hello.find("functions")->list()->size(), 20U);
+  EXPECT_GT(hello.find("printers")->list()->size(), 2U);
+}
+
+TEST_F(StudioTest, AnswersWhatItDoesNotKnow) {
+  EXPECT_EQ(text(ask("dance").first, "error"), "request");
+  studio.take(client, "no JSON");
+  EXPECT_EQ(text(answer(-1).first, "error"), "request");
+  EXPECT_EQ(text(ask("render", R"("design": "d99", "width": 10, "height": 10)").first, "error"), "gone");
+  EXPECT_EQ(text(ask("open", R"("file": "../a.vcad")").first, "error"), "name");
+  EXPECT_EQ(text(ask("load", R"("file": "a.py", "text": "")").first, "error"), "unsupported");
+}
+
+TEST_F(StudioTest, TellsMistakesWithTheirPlaces) {
+  const Data loaded = ask("load", R"("file": "a.vcad", "text": "// µ\nsphere(rad=3, gray);")").first;
+  EXPECT_EQ(*loaded.find("ok"), Data(false));
+  ASSERT_FALSE(loaded.find("diagnostics")->list()->empty());
+  const Data& first = loaded.find("diagnostics")->list()->front();
+  EXPECT_EQ(text(first, "severity"), "error");
+  EXPECT_EQ(number_in(first, "line"), 2);
+  EXPECT_EQ(number_in(first, "from"), 12);  // "rad", after 4 units, a line's end, and "sphere("
+}
+
+TEST_F(StudioTest, LoadsWithVariables) {
+  const Data loaded = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(std::string(ball)) +
+                                      R"(, "definitions": ["radius=4"])")
+                          .first;
+  const DataList& bounds = *loaded.find("bounds_mm")->list();
+  EXPECT_NEAR(*bounds[1].list()->at(2).number(), 4, 1e-9);
+  ASSERT_EQ(loaded.find("variables")->list()->size(), 1U);
+  const Data& variable = loaded.find("variables")->list()->front();
+  EXPECT_EQ(number_in(variable, "most"), 5);
+  EXPECT_EQ(number_in(variable, "value"), 3);  // of the text
+  EXPECT_EQ(number_in(variable, "from"), 9);
+  EXPECT_EQ(number_in(variable, "to"), 10);
+  const DataList& nodes = *loaded.find("nodes")->list();
+  EXPECT_EQ(text(nodes.front(), "type"), "fgrade");
+  EXPECT_EQ(number_in(nodes.front(), "line"), 2);
+}
+
+TEST_F(StudioTest, ShowsOpenScadScripts) {
+  const auto load_script = [&](const std::string& script) {
+    return ask("load", R"("file": "a.scad", "definitions": ["size=4"], "text": )" + print_json_line(script)).first;
+  };
+  const Data loaded =
+      load_script("size = 2; // [1:9]\necho(size);\ncolor(\"red\") cube(size);\ntranslate([size, 0, 0]) cube(1);\n");
+  ASSERT_EQ(*loaded.find("ok"), Data(true)) << print_json(loaded);
+  EXPECT_EQ(*loaded.find("echo"), Data(DataList{"ECHO: 4"}));
+  ASSERT_EQ(loaded.find("variables")->list()->size(), 1U);
+  const Data measured = ask("measure", R"("design": ")" + text(loaded, "design") + '"').first;
+  EXPECT_NEAR(number_in(measured, "volume_mm3"), 65, 1);  // within half a voxel of its faces
+  const Data& red = measured.find("materials")->list()->front();
+  EXPECT_EQ(text(red, "name"), "red");
+  EXPECT_NEAR(number_in(red, "volume_mm3"), 64, 1);
+
+  const Data wrong = load_script("cube(4);\n  sphere(nothing());\n");
+  ASSERT_FALSE(wrong.find("diagnostics")->list()->empty());
+  EXPECT_EQ(number_in(wrong.find("diagnostics")->list()->front(), "line"), 2);
+  EXPECT_EQ(*load_script("cube(").find("ok"), Data(false));
+}
+
+TEST_F(StudioTest, MeasuresABall) {
+  const Data measured = ask("measure", R"("design": ")" + load(ball) + '"').first;
+  const double volume = 4.0 / 3 * 3.14159265358979 * 27;
+  EXPECT_NEAR(number_in(measured, "volume_mm3"), volume, 1e-3 * volume);
+  ASSERT_EQ(measured.find("materials")->list()->size(), 2U);
+  for (const Data& material : *measured.find("materials")->list())  // by symmetry
+    EXPECT_NEAR(number_in(material, "volume_mm3"), volume / 2, 1e-3 * volume);
+}
+
+TEST_F(StudioTest, PicturesStayWhereTheirCameraIs) {
+  const std::string design = load("sphere(1, red);");
+  const auto picture = [&](const std::string& target) {
+    return ask("render", R"("design": ")" + design + R"(", "width": 40, "height": 40, "azimuth": 0, "elevation": 0, )" +
+                             R"("height_mm": 8, "target": )" + target);
+  };
+  // Ten pixels a ball, in the middle; and 10 pixels to the left of it.
+  const auto middle = formats::decode_png(picture("[0, 0, 0]").second, "middle");
+  EXPECT_EQ(middle.colour(20, 20)[3], 255);
+  EXPECT_EQ(middle.colour(20, 13)[3], 0);
+  EXPECT_EQ(middle.colour(13, 20)[3], 0);
+  const auto left = formats::decode_png(picture("[2, 0, 0]").second, "left");
+  EXPECT_EQ(left.colour(10, 20)[3], 255);
+  EXPECT_EQ(left.colour(20, 20)[3], 0);
+  EXPECT_EQ(text(ask("render", R"("design": ")" + design + R"(", "width": 40, "height": 40, "cuts": ["q=1"])").first,
+                 "error"),
+            "request");
+}
+
+// What tiles and probes show is what the job writes.
+TEST_F(StudioTest, TilesAndProbesAreTheJobsPixels) {
+  const std::string design = load(ball), job = R"("design": ")" + design + R"(", "printer": "j750")";
+  const Data plan = ask("plan", job).first;
+  const auto count = [&](size_t axis) { return static_cast<int64_t>(*plan.find("count")->list()->at(axis).number()); };
+  const auto mm = [&](const char* what, size_t axis) { return *plan.find(what)->list()->at(axis).number(); };
+  ASSERT_EQ(count(0), 142);  // 6 mm at 600 dpi
+  ASSERT_EQ(count(1), 71);
+  const int64_t layer = count(2) / 2;
+  ASSERT_FALSE(ask("export", job + R"(, "folder": "a_slices")").first.find("error"));
+  ASSERT_FALSE(job_in("done").is_null());
+  const std::string number = std::to_string(layer);
+  const auto written = formats::decode_png(
+      folder.read("a_slices/slice_" + std::string(5 - number.size(), '0') + number + ".png"), "layer");
+  const auto tile = formats::decode_png(
+      ask("tile", job + R"(, "layer": )" + number + R"(, "x": 32, "y": 8, "width": 64, "height": 48)").second, "tile");
+  ASSERT_EQ(tile.width, 64U);
+  ASSERT_EQ(tile.height, 48U);
+  for (uint32_t row = 0; row < 48; ++row)
+    for (uint32_t column = 0; column < 64; ++column) {
+      const auto y = static_cast<uint32_t>(count(1)) - (8 + 48) + row;  // from the top
+      ASSERT_EQ(tile.colour(column, row), written.colour(32 + column, y)) << column << ' ' << row;
+    }
+
+  const std::map<std::string, formats::Rgba> colours{
+      {"red", {255, 0, 0, 255}}, {"blue", {0, 80, 255, 255}}, {"void", {0, 0, 0, 0}}};
+  for (int64_t n = 0; n < 20; ++n) {
+    const int64_t i = (37 * n) % count(0), j = (29 * n) % count(1);
+    const auto at = [&](size_t axis, int64_t index) {
+      return std::to_string(mm("origin_mm", axis) + mm("pitch_mm", axis) * (static_cast<double>(index) + 0.5));
+    };
+    const Data probed = ask("probe", job + R"(, "at": [)" + at(0, i) + "," + at(1, j) + "," + at(2, layer) + "]").first;
+    const Data& voxel = *probed.find("voxel");
+    EXPECT_EQ(*voxel.find("index"), Data(DataList{ombre::number(i), ombre::number(j), ombre::number(layer)}));
+    EXPECT_EQ(colours.at(text(voxel, "material")),
+              written.colour(static_cast<uint32_t>(i), static_cast<uint32_t>(count(1) - 1 - j)));
+  }
+}
+
+TEST_F(StudioTest, VolumesHoldFractions) {
+  const auto [header, bytes] = ask("volume", R"("side": 16, "design": ")" + load("rectprism((4, 4, 4), red);") + '"');
+  ASSERT_TRUE(header.find("count")) << print_json(header);
+  const DataList& count = *header.find("count")->list();
+  const size_t voxels = static_cast<size_t>(*count[0].number() * *count[1].number() * *count[2].number());
+  ASSERT_EQ(bytes.size(), 4 * voxels) << print_json(header);
+  for (size_t n = 0; n < voxels; ++n) {
+    ASSERT_EQ(bytes[4 * n], '\xff');
+    ASSERT_EQ(bytes[4 * n + 1], '\0');
+  }
+}
+
+TEST_F(StudioTest, NewerRequestsOfALaneCancelOlder) {
+  const std::string script = "function f(n) = n < 2 ? 1 : f(n - 1) + f(n - 2);\nsphere(f(60));";
+  const std::string request = R"(, "do": "load", "lane": "load", "file": "a.vcad", "text": )";
+  const Stopwatch watch;
+  studio.take(client, R"({"id": 101)" + request + print_json_line(script) + "}");
+  studio.take(client, R"({"id": 102)" + request + R"("sphere(1);"})");
+  EXPECT_EQ(text(answer(101).first, "error"), "cancelled");
+  EXPECT_EQ(*answer(102).first.find("ok"), Data(true));
+  studio.take(client, R"({"id": 103)" + request + print_json_line(script) + "}");
+  studio.take(client, R"({"id": 103, "do": "cancel"})");
+  EXPECT_EQ(text(answer(103).first, "error"), "cancelled");
+  EXPECT_LT(watch.seconds(), 20);
+}
+
+TEST_F(StudioTest, JobsPauseAndGoOn) {
+  const std::string job = R"("printer": "j750", "folder": "a_slices", "design": ")" +
+                          load(
+                              "gyroid_block(20);\nmodule gyroid_block(s) intersection() { rectprism((s, s, s)); "
+                              "function(\"sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x)\", red); }") +
+                          '"';
+  const Data started = ask("export", job).first;
+  ASSERT_FALSE(started.find("error")) << text(started, "message");
+  const std::string id = std::to_string(static_cast<int>(number_in(*started.find("job"), "id")));
+  ASSERT_FALSE(job_in("working").is_null());
+  EXPECT_EQ(text(ask("export", job).first, "error"), "busy");
+  ask("change_export", R"("to": "pause", "job": )" + id);
+  ASSERT_FALSE(job_in("paused").is_null());
+  ASSERT_TRUE(std::filesystem::exists(folder.path / "a_slices/job.json"));
+  ask("change_export", R"("to": "resume", "job": )" + id);
+  const Data done = job_in("done");
+  ASSERT_FALSE(done.is_null());
+  EXPECT_EQ(number_in(done, "layers"), std::ceil(20 / 0.027 - 1e-6));
+  EXPECT_EQ(text(ask("change_export", R"("to": "pause", "job": )" + id).first, "error"), "state");
+  EXPECT_EQ(text(ask("change_export", R"("to": "pause", "job": 77)").first, "error"), "gone");
+  EXPECT_EQ(text(ask("export", R"("printer": "j750", "folder": "../x", "design": ")" + load("sphere(1);") + '"').first,
+                 "error"),
+            "name");
+}
+
+TEST_F(StudioTest, TellsOfChangesOnTheDisk) {
+  folder.write("a.vcad", "one");
+  const std::string version = text(ask("open", R"("file": "a.vcad")").first, "version");
+  folder.write("a.vcad", "three");
+  studio.look_around();
+  const Data event = client->wait([](const Data& data) { return data.find("event") != nullptr; }).first;
+  EXPECT_EQ(text(event, "file"), "a.vcad");
+  const Data saved = ask("save", R"("file": "a.vcad", "text": "mine", "version": ")" + version + '"').first;
+  EXPECT_EQ(*saved.find("saved"), Data(false));
+  EXPECT_EQ(text(saved, "text"), "three");
+}
+
+}  // namespace
+}  // namespace ombre::studio

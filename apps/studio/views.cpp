@@ -1,0 +1,188 @@
+#include "studio/views.h"
+
+#include "base/error.h"
+#include "base/json.h"
+#include "compile/colour_map.h"
+#include "compile/job_description.h"
+#include "compile/layer.h"
+#include "compile/picture.h"
+#include "compile/probe.h"
+#include "formats/png.h"
+#include "studio/design_answer.h"
+
+namespace ombre::studio {
+namespace {
+
+constexpr int64_t most_pixels = 4096;  // of a picture, each way
+constexpr int64_t most_tile = 1024;    // of a tile, each way
+constexpr int coarsest_level = 12;
+
+void read_camera(const Request& request, render::ViewOptions& view) {
+  view.azimuth_deg = request.number("azimuth", view.azimuth_deg);
+  view.elevation_deg = std::clamp(request.number("elevation", view.elevation_deg), -90.0, 90.0);
+  view.field_of_view_deg = std::clamp(request.number("perspective", 0), 0.0, 120.0);
+  if (request.body.find("target")) {
+    const std::vector<double> target = request.numbers("target", 3);
+    view.target = Vec3{target[0], target[1], target[2]};
+  }
+  if (!request.body.find("height_mm")) return;
+  view.height_mm = request.number("height_mm");
+  if (!(*view.height_mm > 0)) throw RequestError("request", "\"height_mm\" of a picture is greater than 0");
+}
+
+void read_opacity(const Request& request, compile::PictureRequest& picture) {
+  const Data* opacity = request.body.find("opacity");
+  if (!opacity || opacity->is_null()) return;
+  if (!opacity->members()) throw RequestError("request", "\"opacity\" is an object, {\"clear\": 0.2}");
+  for (const auto& [name, value] : *opacity->members()) {
+    if (!value.number() || !(*value.number() >= 0 && *value.number() <= 1))
+      throw RequestError("request", "the opacity of " + name + " is a number from 0 to 1");
+    picture.opacity.emplace_back(name, *value.number());
+  }
+}
+
+compile::PictureRequest picture_request(const Request& request) {
+  compile::PictureRequest picture;
+  picture.width = request.whole("width", 1, most_pixels);
+  picture.height = request.whole("height", 1, most_pixels);
+  picture.samples = request.body.find("samples") ? request.whole("samples", 1, 4) : 1;
+  picture.background.is_transparent = true;
+  read_camera(request, picture.view);
+  read_opacity(request, picture);
+  for (const std::string& text : request.texts("cuts")) {
+    const auto cut = compile::parse_cut(text);
+    if (!cut) throw RequestError("request", "\"" + text + "\" is no plane; write for example x=0 or z>3.5");
+    picture.cuts.push_back(*cut);
+  }
+  picture.by = request.text("by", "");
+  picture.palette = request.text("palette", "");
+  if (!picture.palette.empty() && !compile::palette_called(picture.palette))
+    throw RequestError("request", "there is no palette called \"" + picture.palette + "\"");
+  if (request.body.find("range")) {
+    const std::vector<double> range = request.numbers("range", 2);
+    picture.range = Interval{range[0], range[1]};
+  }
+  return picture;
+}
+
+DataList colour_list(const formats::Rgba& colour) {
+  DataList list;
+  for (const uint8_t channel : colour) list.emplace_back(number(channel));
+  return list;
+}
+
+// Tiles show materials in their colours with x to the right and y up, whatever the printer's files do.
+compile::SliceRequest shown(const compile::SliceRequest& request) {
+  compile::SliceRequest tile = request;
+  tile.format = voxel::ImageFormat::rgba;
+  tile.flip_x = tile.flip_y = false;
+  tile.background = {0, 0, 0, 0};
+  tile.files = {};
+  return tile;
+}
+
+DataMembers members_of(const std::vector<std::pair<std::string, double>>& values) {
+  DataMembers members;
+  for (const auto& [name, value] : values) members.emplace_back(name, value);
+  return members;
+}
+
+// The voxel that holds the point, and what slicing puts there.
+DataMembers voxel_at(OpenDesign& design, const Request& request, Vec3 point, const StopFlag& stop) {
+  const CutDesignPtr cut = design.cut(cutting_of(request));
+  const compile::SliceRequest& job = cut->plan.request;
+  std::array<int64_t, 3> voxel{};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double at = point[static_cast<int>(axis)];
+    const double in_voxels = (at - job.lattice.origin[static_cast<int>(axis)]) / job.lattice.pitch[axis].mm();
+    if (!(in_voxels >= 0 && in_voxels < static_cast<double>(job.lattice.count[axis]))) return {};
+    voxel[axis] = static_cast<int64_t>(in_voxels);
+  }
+  const voxel::TileBox box{voxel, {voxel[0] + 1, voxel[1] + 1, voxel[2] + 1}};
+  const auto made = cut->plan.regions(box, &stop);
+  std::string name = "void";
+  for (const compile::SliceMaterial& material : job.materials)
+    if (made.front().material_counts[material.id] > 0) name = material.name;
+  return {{"index", DataList{number(voxel[0]), number(voxel[1]), number(voxel[2])}}, {"material", name}};
+}
+
+}  // namespace
+
+Cutting cutting_of(const Request& request) {
+  Cutting cutting{request.text("printer", "generic"), request.text("dither", "stochastic"), 0};
+  if (cutting.printer.find('/') != std::string::npos || cutting.printer.ends_with(".json"))
+    throw RequestError("name", "\"printer\" is the name of a profile that comes with Ombre");
+  if (request.body.find("level")) cutting.level = static_cast<int>(request.whole("level", 0, coarsest_level));
+  return cutting;
+}
+
+Answer picture_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
+  const compile::PictureRequest picture = picture_request(request);
+  Answer answer;
+  Diagnostics diagnostics;
+  const auto take = [&](int, const compile::Picture& made) {
+    if (stop.requested()) throw Cancelled();
+    answer.bytes =
+        formats::encode_png(static_cast<uint32_t>(picture.width), static_cast<uint32_t>(picture.height), made.rgba);
+    answer.members = {{"pixel_mm", made.pixel_mm}};
+  };
+  if (!compile::take_pictures(*design.loaded, picture, stop, take, diagnostics) || diagnostics.has_errors())
+    throw design_error(diagnostics);
+  return answer;
+}
+
+Answer plan_answer(OpenDesign& design, const Request& request, const StopFlag&) {
+  const CutDesignPtr cut = design.cut(cutting_of(request));
+  const compile::SliceRequest& job = cut->plan.request;
+  DataList count, pitch, materials;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    count.emplace_back(number(job.lattice.count[axis]));
+    pitch.emplace_back(job.lattice.pitch[axis].mm());
+  }
+  for (const compile::SliceMaterial& material : job.materials)
+    materials.emplace_back(DataMembers{{"name", material.name}, {"colour", colour_list(material.rgba)}});
+  return {{{"title", cut->printer.title},
+           {"count", std::move(count)},
+           {"pitch_mm", std::move(pitch)},
+           {"origin_mm", list_of(job.lattice.origin)},
+           {"materials", std::move(materials)},
+           {"remarks", describe(cut->remarks, design.loaded->source)},
+           {"job", print_json(compile::describe_job(job))}},
+          {}};
+}
+
+Answer tile_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
+  const CutDesignPtr cut = design.cut(cutting_of(request));
+  const auto& count = cut->plan.request.lattice.count;
+  const int64_t layer = request.whole("layer", 0, count[2] - 1);
+  const int64_t x = request.whole("x", 0, count[0] - 1), y = request.whole("y", 0, count[1] - 1);
+  const int64_t width = std::min(request.whole("width", 1, most_tile), count[0] - x);
+  const int64_t height = std::min(request.whole("height", 1, most_tile), count[1] - y);
+  const compile::LayerWindow window{{x, y}, {x + width, y + height}};
+  const compile::RegionProducer regions = [&](const voxel::TileBox& box, const StopFlag*) {
+    return cut->plan.regions(box, &stop);
+  };
+  compile::LayerImages images = compile::make_layer(shown(cut->plan.request), regions, layer, window);
+  return {{{"width", number(width)}, {"height", number(height)}}, std::move(images.bytes.front())};
+}
+
+Answer probe_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
+  const std::vector<double> at = request.numbers("at", 3);
+  const Vec3 point{at[0], at[1], at[2]};
+  Diagnostics diagnostics;
+  const auto results = compile::probe(*design.loaded, {point}, diagnostics);
+  if (!results) throw design_error(diagnostics);
+  const compile::ProbeResult& result = results->front();
+  DataList parts;
+  for (const std::string& part : result.parts) parts.emplace_back(part);
+  return {{{"at", list_of(point)},
+           {"inside", result.inside},
+           {"distance_mm", result.distance},
+           {"composition", members_of(result.composition)},
+           {"attributes", members_of(result.attributes)},
+           {"parts", std::move(parts)},
+           {"voxel", voxel_at(design, request, point, stop)}},
+          {}};
+}
+
+}  // namespace ombre::studio

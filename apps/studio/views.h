@@ -1,0 +1,28 @@
+// What the page shows of a design: pictures, tiles of layers, points, volumes.
+#pragma once
+
+#include "base/progress.h"
+#include "studio/designs.h"
+#include "studio/messages.h"
+
+namespace ombre::studio {
+
+// Each answers one kind of request (docs/studio-api.md). They throw RequestError, Error and Cancelled.
+
+// "render": a picture from a camera, with cuts, as PNG.
+Answer picture_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
+// "plan": the lattice of a printer's job, its materials, the text of job.json.
+Answer plan_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
+// "tile": some pixels of a layer, as PNG.
+Answer tile_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
+// "probe": what the design is at a point, and the voxel there.
+Answer probe_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
+// "volume": fractions of materials on a coarse grid, for graphics processors.
+Answer volume_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
+// "measure": volume and mass of each material.
+Answer measure_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
+
+// Of a request: "printer", "dither", "level".
+Cutting cutting_of(const Request& request);
+
+}  // namespace ombre::studio

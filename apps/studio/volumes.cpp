@@ -1,0 +1,161 @@
+// Grids of a design's materials: for the page's volume view, and to measure.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "compile/find_printer.h"
+#include "compile/grid_job.h"
+#include "studio/design_answer.h"
+#include "studio/views.h"
+
+namespace ombre::studio {
+namespace {
+
+constexpr size_t channels = 4;        // of a texture
+constexpr size_t most_materials = 8;  // that are shown: two textures
+constexpr double measured_voxels = 1e6;
+
+// Cubes of such a size that about so many fill the box.
+Pitch pitch_for(const Box& box, double voxels) {
+  const Vec3 size = box.size();
+  const double least = std::max({size.x, size.y, size.z}) / 1000;
+  const double sides = std::max(size.x, least) * std::max(size.y, least) * std::max(size.z, least);
+  // Three digits are enough, and keep the lattice's arithmetic exact.
+  const double side = std::cbrt(sides / voxels), unit = std::pow(10, std::floor(std::log10(side)) - 2);
+  return Pitch::from_mm(std::ceil(side / unit) * unit).value_or(Pitch{});
+}
+
+struct SampledDesign {
+  compile::Plan plan;
+  compile::GridJob job;
+};
+
+SampledDesign sample(OpenDesign& design, double voxels, const StopFlag& stop) {
+  Diagnostics diagnostics;
+  const auto printer = compile::find_printer("generic", diagnostics);
+  if (!printer) throw design_error(diagnostics);
+  compile::PlanOptions options;
+  options.printer = *printer;
+  options.pitch.fill(pitch_for(design.bounds, voxels));
+  options.stop = &stop;
+  auto plan = compile::plan_slice(design.loaded, options, diagnostics);
+  if (!plan) throw design_error(diagnostics);
+  compile::GridWishes wishes;
+  wishes.fractions = true;
+  const auto& count = plan->request.lattice.count;
+  auto job =
+      compile::plan_grids(design.loaded, *plan, wishes, {{0, 0, 0}, {count[0], count[1], count[2]}}, diagnostics);
+  if (!job) throw design_error(diagnostics);
+  return {std::move(*plan), std::move(*job)};
+}
+
+// One byte a material and texel, four materials a texture: what WebGL takes as RGBA. A texel is the mean of 2 x 2 x 2
+// voxels, so that surfaces, and the light on them, are smooth.
+class Textures {
+ public:
+  explicit Textures(const compile::GridJob& job) : materials_(std::min(job.grids.size(), most_materials)) {
+    for (size_t axis = 0; axis < 3; ++axis) count_[axis] = (job.request.lattice.count[axis] + 1) / 2;
+    sums_.resize((materials_ + channels - 1) / channels * texels() * channels, 0);
+  }
+
+  void add(const voxel::FieldTile& tile) {
+    for (size_t m = 0; m < materials_; ++m) add_material(tile, m);
+  }
+  size_t materials() const { return materials_; }
+  const std::array<int64_t, 3>& count() const { return count_; }
+  std::string bytes() const {
+    std::string bytes(sums_.size(), '\0');
+    for (size_t n = 0; n < bytes.size(); ++n)
+      bytes[n] = static_cast<char>(static_cast<unsigned char>((sums_[n] + 4U) / voxels_of_texel));
+    return bytes;
+  }
+
+ private:
+  static constexpr unsigned voxels_of_texel = 8;
+  size_t texels() const { return static_cast<size_t>(count_[0] * count_[1] * count_[2]); }
+
+  void add_material(const voxel::FieldTile& tile, size_t material) {
+    const float* from = tile.output(material);
+    const voxel::TileBox& box = tile.box;
+    const size_t texture = material / channels * texels() * channels + material % channels;
+    for (int64_t k = box.lo[2]; k < box.hi[2]; ++k)
+      for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
+        const size_t row = texture + static_cast<size_t>((k / 2 * count_[1] + j / 2) * count_[0]) * channels;
+        for (int64_t i = box.lo[0]; i < box.hi[0]; ++i, from += tile.is_uniform ? 0 : 1)
+          sums_[row + static_cast<size_t>(i / 2) * channels] +=
+              static_cast<uint16_t>(std::lround((*from > 0 ? std::min(*from, 1.F) : 0.F) * 255));
+      }
+  }
+
+  std::array<int64_t, 3> count_{};
+  size_t materials_;
+  std::vector<uint16_t> sums_;  // of 8 voxels
+};
+
+double sum_of(const voxel::FieldTile& tile, size_t output) {
+  const float* values = tile.output(output);
+  if (tile.is_uniform) return static_cast<double>(*values) * static_cast<double>(tile.box.voxels());
+  double sum = 0;
+  for (int64_t n = 0; n < tile.box.voxels(); ++n) sum += static_cast<double>(values[n]);
+  return sum;
+}
+
+// In g, where the material says its density in g/cm3.
+std::optional<double> mass_of(const design::Material& material, double volume_mm3) {
+  for (const auto& [name, value] : material.properties)
+    if (name == "density" && value.number()) return *value.number() * volume_mm3 / 1000;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Answer volume_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
+  const double side = static_cast<double>(request.whole("side", 8, 256));
+  const SampledDesign sampled = sample(design, 8 * side * side * side, stop);
+  if (sampled.job.grids.empty()) throw RequestError("design", "the design has no material to show");
+  Textures textures(sampled.job);
+  const auto take = [&](const compile::GridSlab& slab) {
+    for (const voxel::FieldTile& tile : slab.tiles) textures.add(tile);
+  };
+  compile::each_slab(sampled.job, 0, take, nullptr, &stop);
+  const voxel::Lattice& lattice = sampled.job.request.lattice;
+  DataList count, materials;
+  for (const int64_t n : textures.count()) count.emplace_back(number(n));
+  for (size_t m = 0; m < textures.materials(); ++m) {
+    const compile::SliceMaterial& material = *sampled.job.grids[m].material;
+    DataList colour;
+    for (const uint8_t channel : material.rgba) colour.emplace_back(number(channel));
+    materials.emplace_back(DataMembers{{"name", material.name}, {"colour", std::move(colour)}});
+  }
+  return {{{"count", std::move(count)},
+           {"pitch_mm", 2 * lattice.pitch[0].mm()},
+           {"origin_mm", list_of(lattice.origin)},
+           {"materials", std::move(materials)},
+           {"left_out", number(sampled.job.grids.size() - textures.materials())}},
+          textures.bytes()};
+}
+
+Answer measure_answer(OpenDesign& design, const Request&, const StopFlag& stop) {
+  const SampledDesign sampled = sample(design, measured_voxels, stop);
+  const auto& grids = sampled.job.grids;
+  std::vector<double> voxels(grids.size(), 0);
+  const auto take = [&](const compile::GridSlab& slab) {
+    for (const voxel::FieldTile& tile : slab.tiles)
+      for (size_t m = 0; m < grids.size(); ++m) voxels[m] += sum_of(tile, m);
+  };
+  if (!grids.empty()) compile::each_slab(sampled.job, 0, take, nullptr, &stop);
+  const double pitch = sampled.plan.request.lattice.pitch[0].mm();
+  DataList materials;
+  double total = 0;
+  for (size_t m = 0; m < grids.size(); ++m) {
+    const double volume = voxels[m] * pitch * pitch * pitch;
+    total += volume;
+    DataMembers members{{"name", grids[m].material->name}, {"volume_mm3", volume}};
+    if (const auto mass = mass_of(design.loaded->design.materials.all()[grids[m].material->id], volume))
+      members.emplace_back("mass_g", *mass);
+    materials.emplace_back(std::move(members));
+  }
+  return {{{"volume_mm3", total}, {"pitch_mm", pitch}, {"materials", std::move(materials)}}, {}};
+}
+
+}  // namespace ombre::studio

@@ -1,0 +1,139 @@
+// The page as a whole.
+import { render } from "preact";
+import { useEffect, useState } from "preact/hooks";
+import { EditorPane } from "./editor";
+import { GraphView } from "./graph";
+import { Panels, Tabs } from "./panels";
+import { connection, isDirty, newFile, openFile, runPython, save } from "./session";
+import { SliceView } from "./slices";
+import { State, set, state, useStore } from "./store";
+import { SurfaceView } from "./surface";
+import { VolumeView } from "./volume";
+
+const views: { name: State["view"]; title: string }[] = [
+  { name: "surface", title: "Surface" },
+  { name: "slices", title: "Slices" },
+  { name: "volume", title: "Volume" },
+  { name: "graph", title: "Graph" },
+  { name: "all", title: "All four" },
+];
+
+function Status() {
+  const { status, isBusy, isOld, saved, file, design } = useStore();
+  const text =
+    status === "connecting" ? "connecting…"
+    : status === "lost" ? "the server is gone; what you type is kept here, and it connects again when it comes back"
+    : status === "refused" ? "the server was started again; open the address that it printed, what you typed is kept"
+    : !file ? ""
+    : isBusy ? "evaluating…"
+    : isOld ? (design ? "the views show the last design without mistakes" : "not yet a design")
+    : "up to date";
+  const saving = { saved: "saved", unsaved: "not saved yet", saving: "saving…", failed: "not saved" }[saved];
+  return (
+    <p class={`status ${status}`} role="status" data-status={status} data-busy={isBusy} data-old={isOld} data-saved={saved}>
+      {text}
+      {file && status === "open" && <span class="saving">{saving}</span>}
+    </p>
+  );
+}
+
+function FileChoice() {
+  const { files, file } = useStore();
+  const [isAsking, ask] = useState(false);
+  const [problem, setProblem] = useState("");
+  const make = async (event: Event) => {
+    event.preventDefault();
+    const name = new FormData(event.currentTarget as HTMLFormElement).get("name") as string;
+    try {
+      await newFile(name.trim());
+      ask(false);
+      setProblem("");
+    } catch (error) {
+      setProblem((error as Error).message);
+    }
+  };
+  return (
+    <span class="controls">
+      <label>
+        <span class="quiet">Design</span>
+        <select class="file" value={file} onChange={(e) => openFile(e.currentTarget.value)}>
+          {!file && <option value="">choose…</option>}
+          {files.map((name) => <option value={name}>{name}</option>)}
+        </select>
+      </label>
+      {isAsking ? (
+        <form class="controls" onSubmit={make}>
+          <input name="name" type="text" aria-label="Name of the new design" placeholder="part.vcad" required autofocus />
+          <button>Make</button>
+          <button type="button" onClick={() => ask(false)}>Cancel</button>
+          {problem && <span class="error" role="alert">{problem}</span>}
+        </form>
+      ) : (
+        <button onClick={() => ask(true)}>New</button>
+      )}
+      {file.endsWith(".py") && <button class="main" onClick={runPython}>Run</button>}
+    </span>
+  );
+}
+
+function Theme() {
+  const { theme } = useStore();
+  return (
+    <label>
+      <span class="quiet">Theme</span>
+      <select value={theme} onChange={(e) => set({ theme: e.currentTarget.value as State["theme"] })}>
+        <option value="system">system</option>
+        <option value="light">light</option>
+        <option value="dark">dark</option>
+      </select>
+    </label>
+  );
+}
+
+function Views() {
+  const { view, isOld } = useStore();
+  const isShown = (name: State["view"]) => view === "all" || view === name;
+  return (
+    <section class={isOld ? "views old" : "views"} aria-label="Views">
+      <Tabs label="Views" tabs={views} chosen={view} choose={(name) => set({ view: name })} />
+      {isOld && <p class="oldmark">of an earlier text</p>}
+      <div class={view === "all" ? "grid four" : "grid"} role="tabpanel" aria-labelledby={`tab-${view}`}>
+        {isShown("surface") && <SurfaceView />}
+        {isShown("slices") && <SliceView />}
+        {isShown("volume") && <VolumeView />}
+        {isShown("graph") && <GraphView />}
+      </div>
+    </section>
+  );
+}
+
+function App() {
+  const { theme, hello } = useStore();
+  useEffect(() => connection.connect(), []);
+  useEffect(() => {
+    document.documentElement.dataset.theme = theme;
+  }, [theme]);
+  useEffect(() => {
+    document.title = `${state.file || "Ombre"} – Ombre Studio`;
+  });
+  return (
+    <>
+      <header>
+        <h1>Ombre Studio</h1>
+        <FileChoice />
+        <Status />
+        <span class="folder">{hello?.folder}</span>
+        <Theme />
+        <a class="quiet" href="licences.txt" target="_blank" title="Licences of what the page is made of">{hello?.program}</a>
+      </header>
+      <main>
+        <EditorPane />
+        <Views />
+        <Panels />
+      </main>
+    </>
+  );
+}
+
+addEventListener("beforeunload", () => isDirty() && save());
+render(<App />, document.getElementById("app")!);

@@ -1,0 +1,67 @@
+// From where the design is seen. Angles are degrees: azimuth 0 is in front (at -y), 90 at +x.
+import { Camera, Design } from "./store";
+
+const radians = Math.PI / 180;
+
+export function axes(camera: Camera) {
+  const a = camera.azimuth * radians,
+    e = camera.elevation * radians;
+  return {
+    right: [Math.cos(a), Math.sin(a), 0],
+    down: [Math.sin(a) * Math.sin(e), -Math.cos(a) * Math.sin(e), -Math.cos(e)],
+    forward: [-Math.sin(a) * Math.cos(e), Math.cos(a) * Math.cos(e), -Math.sin(e)],
+  };
+}
+
+const dot = (a: number[], b: number[]) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+// So that the whole design is seen.
+export function fitted(design: Design, aspect: number, from: { azimuth: number; elevation: number }): Camera {
+  const [lo, hi] = design.bounds_mm;
+  const camera: Camera = { ...from, target: lo.map((v, n) => (v + hi[n]) / 2), height: 1 };
+  const { right, down } = axes(camera);
+  let height = 0;
+  for (let corner = 0; corner < 8; ++corner) {
+    const p = lo.map((v, n) => ((corner >> n) & 1 ? hi[n] : v) - camera.target[n]);
+    height = Math.max(height, 2 * Math.abs(dot(p, down)), (2 * Math.abs(dot(p, right))) / aspect);
+  }
+  return { ...camera, height: 1.1 * (height || 1) };
+}
+
+export function panned(camera: Camera, dx: number, dy: number): Camera {
+  const { right, down } = axes(camera);
+  return { ...camera, target: camera.target.map((v, n) => v - dx * right[n] - dy * down[n]) };
+}
+
+export function turned(camera: Camera, azimuth: number, elevation: number): Camera {
+  return {
+    ...camera,
+    azimuth: (((camera.azimuth + azimuth + 180) % 360) + 360) % 360 - 180,
+    elevation: Math.max(-90, Math.min(90, camera.elevation + elevation)),
+  };
+}
+
+export function zoomed(camera: Camera, by: number): Camera {
+  return { ...camera, height: camera.height / by };
+}
+
+export const views: Record<string, { azimuth: number; elevation: number }> = {
+  iso: { azimuth: -35, elevation: 25 },
+  front: { azimuth: 0, elevation: 0 },
+  right: { azimuth: 90, elevation: 0 },
+  back: { azimuth: 180, elevation: 0 },
+  left: { azimuth: -90, elevation: 0 },
+  top: { azimuth: 0, elevation: 90 },
+  bottom: { azimuth: 0, elevation: -90 },
+};
+
+// A length for a scale bar that is at most so long: 1, 2 or 5 times a power of ten.
+export function barLength(most: number): number {
+  const power = 10 ** Math.floor(Math.log10(most));
+  return (most / power >= 5 ? 5 : most / power >= 2 ? 2 : 1) * power;
+}
+
+export function length(mm: number): string {
+  if (mm < 0.1) return `${+(mm * 1000).toPrecision(3)} µm`;
+  return `${+mm.toPrecision(4)} mm`;
+}

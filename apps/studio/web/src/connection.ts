@@ -1,0 +1,109 @@
+// The socket to the server: questions with answers, and events. It connects again when the server comes back.
+
+export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
+
+export interface Reply {
+  [key: string]: any;
+  bytes?: Uint8Array;
+}
+
+export class Refused extends Error {
+  constructor(
+    readonly code: string,
+    message: string,
+  ) {
+    super(message);
+  }
+  get isCancelled() {
+    return this.code === "cancelled" || this.code === "lost";
+  }
+}
+
+interface Waiting {
+  resolve: (reply: Reply) => void;
+  reject: (error: Refused) => void;
+}
+
+export interface Listener {
+  opened(): void;
+  lost(): void;
+  refused(): void;
+  event(name: string, members: Reply): void;
+}
+
+export class Connection {
+  private socket?: WebSocket;
+  private waiting = new Map<number, Waiting>();
+  private last = 0;
+
+  constructor(private listener: Listener) {}
+
+  connect() {
+    const socket = new WebSocket(`ws://${location.host}/api`);
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => {
+      this.socket = socket;
+      this.listener.opened();
+    };
+    socket.onmessage = (message) => this.take(message.data);
+    socket.onclose = () => this.closed();
+  }
+
+  get isOpen() {
+    return this.socket?.readyState === WebSocket.OPEN;
+  }
+
+  // The promise of an answer, and a way to say that it is no longer needed.
+  ask(what: string, members: Record<string, unknown> = {}, lane = ""): { answer: Promise<Reply>; cancel: () => void } {
+    const id = ++this.last;
+    const answer = new Promise<Reply>((resolve, reject) => {
+      if (!this.isOpen) return reject(new Refused("lost", "the studio's server is not there"));
+      this.waiting.set(id, { resolve, reject });
+      this.socket!.send(JSON.stringify({ id, do: what, ...(lane ? { lane } : {}), ...members }));
+    });
+    return { answer, cancel: () => this.waiting.has(id) && this.isOpen && this.socket!.send(JSON.stringify({ id, do: "cancel" })) };
+  }
+
+  // What is at work in a lane is no longer needed.
+  cancelLane(lane: string) {
+    if (this.isOpen) this.socket!.send(JSON.stringify({ id: 0, do: "cancel", lane }));
+  }
+
+  private take(data: string | ArrayBuffer) {
+    let reply: Reply;
+    if (typeof data === "string") {
+      reply = JSON.parse(data);
+    } else {
+      const length = new DataView(data).getUint32(0, true);
+      reply = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)));
+      reply.bytes = new Uint8Array(data, 4 + length);
+    }
+    if (reply.event) return this.listener.event(reply.event, reply);
+    const waiting = this.waiting.get(reply.id);
+    this.waiting.delete(reply.id);
+    if (reply.error) waiting?.reject(new Refused(reply.error, reply.message));
+    else waiting?.resolve(reply);
+  }
+
+  private closed() {
+    const wasOpen = this.socket !== undefined;
+    this.socket = undefined;
+    for (const waiting of this.waiting.values()) waiting.reject(new Refused("lost", "the connection was lost"));
+    this.waiting.clear();
+    if (wasOpen) this.listener.lost();
+    this.tryAgain();
+  }
+
+  // A server that was started again has another token, which this page does not know.
+  private async tryAgain() {
+    await new Promise((done) => setTimeout(done, 700));
+    try {
+      const answer = await fetch("/app.css", { method: "HEAD" });
+      if (answer.status === 403) this.listener.refused();
+      if (answer.ok) return this.connect();
+    } catch {
+      // It is not there yet.
+    }
+    this.tryAgain();
+  }
+}

@@ -1,0 +1,135 @@
+// The text of a design, with what is wrong in it.
+import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
+import { defaultKeymap, history, historyKeymap, indentWithTab, undoDepth } from "@codemirror/commands";
+import { bracketMatching, indentOnInput, indentUnit, syntaxHighlighting } from "@codemirror/language";
+import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
+import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
+import { Annotation, EditorState } from "@codemirror/state";
+import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from "@codemirror/view";
+import { classHighlighter } from "@lezer/highlight";
+import { useEffect, useRef } from "preact/hooks";
+import { complete, hover, vcad } from "./language";
+import { edited, reveal, save, setEditor, settle } from "./session";
+import { Diagnostic, state, useStore } from "./store";
+
+const fromElsewhere = Annotation.define<boolean>();
+
+function shown(diagnostic: Diagnostic, length: number) {
+  const from = Math.min(diagnostic.from ?? 0, length);
+  const to = Math.min(Math.max(diagnostic.to ?? from, from), length);
+  return {
+    from,
+    to,
+    severity: diagnostic.severity === "note" ? ("info" as const) : diagnostic.severity,
+    message: diagnostic.hint ? `${diagnostic.message}; ${diagnostic.hint}` : diagnostic.message,
+  };
+}
+
+function makeEditor(parent: HTMLElement): EditorView {
+  const extensions = [
+    lineNumbers(),
+    highlightActiveLine(),
+    highlightActiveLineGutter(),
+    history(),
+    drawSelection(),
+    indentOnInput(),
+    indentUnit.of("  "),
+    bracketMatching(),
+    closeBrackets(),
+    highlightSelectionMatches(),
+    syntaxHighlighting(classHighlighter),
+    lintGutter(),
+    EditorView.lineWrapping,
+    vcad,
+    hover,
+    autocompletion({ override: [complete] }),
+    EditorView.contentAttributes.of({ "aria-label": "Script of the design", tabindex: "0" }),
+    keymap.of([
+      { key: "Mod-s", run: () => (save(), true), preventDefault: true },
+      ...closeBracketsKeymap,
+      ...completionKeymap,
+      ...lintKeymap,
+      ...searchKeymap,
+      ...historyKeymap,
+      ...defaultKeymap,
+      indentWithTab,
+    ]),
+    EditorView.updateListener.of((update) => {
+      if (update.docChanged && !update.transactions.some((t) => t.annotation(fromElsewhere))) edited();
+    }),
+  ];
+  const view: EditorView = new EditorView({ parent, state: EditorState.create({ extensions }) });
+  setEditor({
+    text: () => view.state.doc.toString(),
+    replace(text) {
+      const isNew = view.state.doc.length === 0 && undoDepth(view.state) === 0;
+      const head = Math.min(view.state.selection.main.head, text.length);
+      if (isNew || view.dom.dataset.file !== state.file) {
+        view.setState(EditorState.create({ doc: text, extensions }));
+        view.dom.dataset.file = state.file;
+        return;
+      }
+      view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text }, selection: { anchor: head }, annotations: fromElsewhere.of(true) });
+    },
+    write: (from, to, insert) => view.dispatch({ changes: { from, to, insert } }),
+    reveal(from, to) {
+      view.dispatch({ selection: { anchor: from, head: to }, effects: EditorView.scrollIntoView(from, { y: "center" }) });
+      view.focus();
+    },
+    setDiagnostics: () => {
+      const own = state.diagnostics.filter((d) => d.from !== undefined || !d.line);
+      view.dispatch(setDiagnostics(view.state, own.map((d) => shown(d, view.state.doc.length))));
+    },
+  });
+  return view;
+}
+
+function Conflict() {
+  const { conflict, file } = useStore();
+  if (!conflict) return null;
+  const isGone = conflict.text === undefined;
+  return (
+    <div class="bar warning" role="alert">
+      <span>{isGone ? `${file} was deleted on the disk.` : `${file} was changed on the disk, and here as well.`}</span>
+      <button onClick={() => settle(true)}>{isGone ? "Write it again" : "Keep what is here"}</button>
+      {!isGone && <button onClick={() => settle(false)}>Take what is on the disk</button>}
+    </div>
+  );
+}
+
+function Problems() {
+  const { diagnostics, problem, echo, saveProblem } = useStore();
+  return (
+    <section class="problems" aria-label="Problems" aria-live="polite" data-errors={diagnostics.filter((d) => d.severity === "error").length}>
+      {saveProblem && <p class="error">Not saved: {saveProblem}</p>}
+      {problem && <p class="error">{problem}</p>}
+      <ul>
+        {diagnostics.map((d) => (
+          <li class={d.severity}>
+            <button disabled={d.from === undefined} onClick={() => reveal(d.from!, d.to ?? d.from!)}>
+              <span class="place">{d.line ? `${d.from === undefined ? `${d.file?.split("/").pop()}:` : ""}${d.line}:${d.column}` : d.severity}</span>
+              {d.message}
+              {d.hint && <em>; {d.hint}</em>}
+            </button>
+          </li>
+        ))}
+      </ul>
+      {echo.length > 0 && <pre class="echo">{echo.join("\n")}</pre>}
+    </section>
+  );
+}
+
+export function EditorPane() {
+  const host = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const view = makeEditor(host.current!);
+    return () => view.destroy();
+  }, []);
+  return (
+    <section class="editor" aria-label="Editor">
+      <Conflict />
+      <div class="code" ref={host} />
+      <Problems />
+    </section>
+  );
+}

@@ -1,0 +1,273 @@
+// Beside the views: variables, materials, slicing, the reference of nodes.
+import { useState } from "preact/hooks";
+import { page } from "./language";
+import { changeJob, insert, measure, resetVariables, setVariable, startExport, writeVariables } from "./session";
+import { PrinterChoice } from "./slices";
+import { Job, NodeType, State, Value, Variable, set, state, useStore } from "./store";
+
+function numberRange(v: Variable): { min: number; max: number; step: number | "any" } {
+  const value = v.value as number;
+  const most = v.most ?? (value === 0 ? 10 : 2 * Math.abs(value));
+  const least = v.least ?? (value < 0 ? -most : 0);
+  return { min: least, max: most, step: v.step ?? (Number.isInteger(value) && most - least >= 10 ? 1 : (most - least) / 100) };
+}
+
+function Control({ v, value }: { v: Variable; value: Value }) {
+  const id = `variable-${v.name}`;
+  const change = (next: Value) => setVariable(v.name, next);
+  if (v.kind === "boolean") return <input id={id} type="checkbox" checked={value as boolean} onChange={(e) => change(e.currentTarget.checked)} />;
+  if (v.kind === "choice")
+    return (
+      <select id={id} value={JSON.stringify(value)} onChange={(e) => change(JSON.parse(e.currentTarget.value))}>
+        {v.choices!.map((c) => <option value={JSON.stringify(c.value)}>{c.label}</option>)}
+      </select>
+    );
+  if (v.kind === "text") return <input id={id} type="text" maxLength={v.longest} value={value as string} onChange={(e) => change(e.currentTarget.value)} />;
+  if (v.kind === "vector")
+    return (
+      <span class="vector">
+        {(value as number[]).map((n, at) => (
+          <input id={at === 0 ? id : undefined} type="number" aria-label={`${v.name}, number ${at + 1}`} step={v.step ?? "any"} value={n}
+                 onChange={(e) => change((value as number[]).map((old, k) => (k === at ? +e.currentTarget.value : old)))} />
+        ))}
+      </span>
+    );
+  const range = numberRange(v);
+  return (
+    <span class="number">
+      <input id={id} type="range" {...range} value={value as number} onInput={(e) => change(+e.currentTarget.value)} />
+      <input type="number" aria-label={`${v.name}, exactly`} step="any" value={+(value as number).toPrecision(6)}
+             onInput={(e) => e.currentTarget.value !== "" && change(+e.currentTarget.value)} />
+    </span>
+  );
+}
+
+function Variables() {
+  const { variables, values, file } = useStore();
+  const isChanged = Object.keys(values).length > 0;
+  let section = "";
+  return (
+    <div class="panelbody">
+      {variables.length === 0 && <p>{file ? "The script has no top-level variables with plain values." : "No design is open."}</p>}
+      {variables.map((v) => {
+        const heading = v.section && v.section !== section ? v.section : "";
+        section = v.section ?? section;
+        return (
+          <div class={v.name in values ? "variable changed" : "variable"}>
+            {heading && <h2>{heading}</h2>}
+            <label for={`variable-${v.name}`} title={v.description}>{v.name}</label>
+            <Control v={v} value={values[v.name] ?? v.value} />
+            {v.description && <p class="hint">{v.description}</p>}
+          </div>
+        );
+      })}
+      {variables.length > 0 && (
+        <p class="controls">
+          <button disabled={!isChanged} onClick={writeVariables}>Write into the script</button>
+          <button disabled={!isChanged} onClick={resetVariables}>Reset</button>
+        </p>
+      )}
+    </div>
+  );
+}
+
+const volumeText = (mm3: number) => (mm3 >= 1000 ? `${(mm3 / 1000).toPrecision(4)} cm³` : `${mm3.toPrecision(4)} mm³`);
+
+function Materials() {
+  const { design, opacity, measure: known } = useStore();
+  const measured = known && design && known.design === design.design ? known : undefined;
+  return (
+    <div class="panelbody">
+      {!design && <p>Nothing yet.</p>}
+      {design?.materials.map((m) => {
+        const usual = (m.colour[3] ?? 255) / 255;
+        const own = measured?.materials.find((x) => x.name === m.name);
+        return (
+          <div class="material">
+            <span class="swatch" style={{ background: `rgb(${m.colour.slice(0, 3).join(",")})` }} />
+            <label for={`opacity-${m.name}`}>{m.name}</label>
+            <input id={`opacity-${m.name}`} type="range" min={0} max={1} step={0.01} value={opacity[m.name] ?? usual} aria-label={`Opacity of ${m.name}`}
+                   onInput={(e) => set({ opacity: { ...state.opacity, [m.name]: +e.currentTarget.value } })} />
+            {own && <span class="amount">{volumeText(own.volume_mm3)}{own.mass_g !== undefined && `, ${own.mass_g.toPrecision(4)} g`}</span>}
+          </div>
+        );
+      })}
+      {design && (
+        <p class="controls">
+          <button onClick={measure}>Measure volumes</button>
+          <button disabled={Object.keys(opacity).length === 0} onClick={() => set({ opacity: {} })}>Reset opacities</button>
+        </p>
+      )}
+      {measured && <p class="hint">{volumeText(measured.volume_mm3)} in all, from voxels of {measured.pitch_mm} mm.</p>}
+      {design && (
+        <p class="hint">
+          {design.bounds_mm[1].map((v, n) => `${+(v - design.bounds_mm[0][n]).toPrecision(5)}`).join(" × ")} mm
+        </p>
+      )}
+    </div>
+  );
+}
+
+function timeLeft(seconds: number): string {
+  if (seconds < 0) return "";
+  return seconds < 90 ? `${Math.ceil(seconds)} s left` : `${Math.ceil(seconds / 60)} min left`;
+}
+
+function JobRow({ job }: { job: Job }) {
+  const share = job.total > 0 ? job.done / job.total : 0;
+  const may = (...states: Job["state"][]) => states.includes(job.state);
+  return (
+    <li class="job" data-state={job.state} data-folder={job.folder}>
+      <span>
+        <strong>{job.folder}</strong> {job.printer}: {job.state}
+      </span>
+      <progress value={share} max={1} aria-label={`Layers of ${job.folder}`} />
+      <span>
+        {may("working") && `${Math.floor(100 * share)} %, ${timeLeft(job.seconds_left)}`}
+        {may("done") && `${job.layers} layers`}
+      </span>
+      {job.message && <p class="error">{job.message}</p>}
+      <span class="controls">
+        {may("working", "waiting") && <button onClick={() => changeJob(job, "pause")}>Pause</button>}
+        {may("paused", "cancelled", "failed", "interrupted") && <button onClick={() => changeJob(job, "resume")}>Resume</button>}
+        {may("working", "waiting", "paused", "interrupted") && <button onClick={() => changeJob(job, "cancel")}>Cancel</button>}
+      </span>
+    </li>
+  );
+}
+
+function commandLine(folder: string): string {
+  const words = ["ombre", "slice", state.file];
+  if (state.printer !== "generic") words.push("--printer", state.printer);
+  if (state.dither !== "stochastic") words.push("--dither", state.dither);
+  for (const [name, value] of Object.entries(state.values)) words.push("-D", `'${name}=${JSON.stringify(value)}'`);
+  return [...words, "-o", folder].join(" ");
+}
+
+function Export() {
+  const { plan, planProblem, jobs, file, design, isOld } = useStore();
+  const [given, setFolder] = useState("");
+  const [replace, setReplace] = useState(false);
+  const [problem, setProblem] = useState("");
+  const folder = given || (file ? `${file.replace(/\.[^.]*$/, "")}_slices` : "");
+  const voxels = plan ? plan.count[0] * plan.count[1] * plan.count[2] : 0;
+  return (
+    <div class="panelbody">
+      <p class="controls"><PrinterChoice /></p>
+      {plan && (
+        <p class="hint">
+          {plan.title}: {plan.count[2]} layers of {plan.count[0]} × {plan.count[1]} pixels, {voxels.toLocaleString("en")} voxels
+        </p>
+      )}
+      {planProblem && <p class="error">{planProblem}</p>}
+      {plan?.remarks.map((r) => <p class={r.severity}>{r.message}</p>)}
+      <label>
+        Folder
+        <input type="text" value={folder} onInput={(e) => setFolder(e.currentTarget.value)} />
+      </label>
+      <label>
+        <input type="checkbox" checked={replace} onChange={(e) => setReplace(e.currentTarget.checked)} />
+        Replace another job that is there
+      </label>
+      <p class="controls">
+        <button class="main" disabled={!plan || !design || isOld || planProblem !== ""} onClick={async () => setProblem(await startExport(folder, replace))}>Slice</button>
+      </p>
+      {problem && <p class="error" role="alert">{problem}</p>}
+      <ul class="jobs" aria-label="Jobs">{jobs.map((job) => <JobRow job={job} />)}</ul>
+      {plan && (
+        <>
+          {!file.endsWith(".scad") && (
+            <details>
+              <summary>The same on the command line</summary>
+              <pre tabIndex={0}>{commandLine(folder)}</pre>
+            </details>
+          )}
+          <details>
+            <summary>job.json</summary>
+            <pre tabIndex={0}>{plan.job}</pre>
+          </details>
+        </>
+      )}
+    </div>
+  );
+}
+
+function NodePage({ node }: { node: NodeType }) {
+  return (
+    <div>
+      <div ref={(element) => element?.replaceChildren(page(node))} />
+      {node.example && <button onClick={() => insert(node.example)}>Add the example to the script</button>}
+    </div>
+  );
+}
+
+function Reference() {
+  const { hello } = useStore();
+  const [words, setWords] = useState("");
+  const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);
+  const found = hello?.nodes.filter((n) => wanted.every((w) => `${n.name} ${n.category} ${n.sentence}`.toLowerCase().includes(w))) ?? [];
+  let category = "";
+  return (
+    <div class="panelbody">
+      <label>
+        Search
+        <input type="search" value={words} onInput={(e) => setWords(e.currentTarget.value)} />
+      </label>
+      <p class="hint" role="status">{found.length} nodes</p>
+      {found.map((node) => {
+        const heading = node.category !== category ? node.category : "";
+        category = node.category;
+        return (
+          <>
+            {heading && <h2>{heading}</h2>}
+            <details class="reference" key={node.name}>
+              <summary>
+                <strong>{node.name}</strong> {node.sentence}
+              </summary>
+              <NodePage node={node} />
+            </details>
+          </>
+        );
+      })}
+    </div>
+  );
+}
+
+const panels: { name: State["panel"]; title: string; body: () => any }[] = [
+  { name: "variables", title: "Variables", body: Variables },
+  { name: "materials", title: "Materials", body: Materials },
+  { name: "export", title: "Slice", body: Export },
+  { name: "reference", title: "Nodes", body: Reference },
+];
+
+export function Tabs<T extends string>({ label, tabs, chosen, choose }: { label: string; tabs: { name: T; title: string }[]; chosen: T; choose: (name: T) => void }) {
+  const onKeyDown = (event: KeyboardEvent) => {
+    const step = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
+    if (step === 0) return;
+    const n = (tabs.findIndex((t) => t.name === chosen) + step + tabs.length) % tabs.length;
+    choose(tabs[n].name);
+    ((event.currentTarget as HTMLElement).children[n] as HTMLElement).focus();
+  };
+  return (
+    <div class="tabs" role="tablist" aria-label={label} onKeyDown={onKeyDown}>
+      {tabs.map((t) => (
+        <button role="tab" id={`tab-${t.name}`} aria-selected={t.name === chosen} tabIndex={t.name === chosen ? 0 : -1} onClick={() => choose(t.name)}>
+          {t.title}
+        </button>
+      ))}
+    </div>
+  );
+}
+
+export function Panels() {
+  const { panel } = useStore();
+  const Body = panels.find((p) => p.name === panel)!.body;
+  return (
+    <section class="panels" aria-label="Panels">
+      <Tabs label="Panels" tabs={panels} chosen={panel} choose={(name) => set({ panel: name })} />
+      <div role="tabpanel" aria-labelledby={`tab-${panel}`} class="panel" tabIndex={0}>
+        <Body />
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,335 @@
+// What the page does: opens, saves, evaluates, slices. Components call it; answers go into the store.
+import { Connection, Refused, Reply } from "./connection";
+import { Job, Plan, Value, set, state } from "./store";
+
+// What the session needs of the editor.
+export interface Editor {
+  text(): string;
+  replace(text: string): void;
+  write(from: number, to: number, text: string): void;
+  reveal(from: number, to: number): void;
+  setDiagnostics(): void;
+}
+
+let editor: Editor | undefined;
+let version = ""; // of the text that was opened or saved last
+let savedText = "";
+let sentText: string | undefined; // of a save whose answer may have been lost
+let saving: Promise<void> = Promise.resolve();
+let usesCrlf = false;
+
+export const connection = new Connection({
+  opened: () => greet(),
+  lost: () => set({ status: "lost", isBusy: false }),
+  refused: () => set({ status: "refused" }),
+  event: (name, members) => heard(name, members),
+});
+
+export function setEditor(made: Editor) {
+  editor = made;
+}
+
+const draftKey = (file: string) => `ombre:draft:${state.hello?.folder}:${file}`;
+const jobsKey = () => `ombre:jobs:${state.hello?.folder}`;
+
+async function greet() {
+  const hello = (await connection.ask("hello").answer) as any;
+  const isFirst = !state.hello;
+  const printer = hello.printers.some((p: { name: string }) => p.name === state.printer) ? state.printer : "generic";
+  set({ status: "open", hello, files: hello.files, printer });
+  adoptJobs((await connection.ask("jobs").answer).jobs);
+  if (!isFirst) return comeBack();
+  const last = localStorage.getItem(`ombre:file:${hello.folder}`);
+  const first = hello.file || (last && hello.files.includes(last) ? last : hello.files.find((f: string) => f.endsWith(".vcad")));
+  if (first) await openFile(first);
+}
+
+// The server was away: what was typed meanwhile is kept, unless the disk has something new.
+async function comeBack() {
+  if (!state.file) return;
+  const disk = await connection.ask("open", { file: state.file }).answer.catch(() => undefined);
+  if (disk && disk.version !== version) takeFromDisk(disk);
+  if (!state.conflict && isDirty()) save();
+  evaluate();
+}
+
+function fromDisk(text: string): string {
+  usesCrlf = text.includes("\r\n");
+  return text.replaceAll("\r\n", "\n");
+}
+
+export function isDirty(): boolean {
+  return editor !== undefined && state.file !== "" && editor.text() !== savedText;
+}
+
+export async function openFile(file: string) {
+  if (isDirty()) await save();
+  try {
+    const disk = await connection.ask("open", { file }).answer;
+    version = disk.version;
+    savedText = fromDisk(disk.text);
+    sentText = undefined;
+    set({ file, values: {}, conflict: undefined, design: undefined, camera: undefined, diagnostics: [], variables: [], plan: undefined,
+          probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", problem: "", z: NaN, isOld: false });
+    localStorage.setItem(`ombre:file:${state.hello?.folder}`, file);
+    let text = savedText;
+    const draft = JSON.parse(localStorage.getItem(draftKey(file)) ?? "null");
+    if (draft && draft.text !== savedText) {
+      text = draft.text;
+      if (draft.version !== version) set({ conflict: { text: disk.text, version: disk.version }, saved: "unsaved" });
+    }
+    editor!.replace(text);
+    evaluate();
+    if (text !== savedText && !state.conflict) save();
+  } catch (error) {
+    set({ problem: String((error as Error).message) });
+  }
+}
+
+export async function newFile(name: string): Promise<string> {
+  if (!/\.(vcad|scad|py)$/.test(name)) name += ".vcad";
+  const text = "// A new design: lengths are mm, z is up.\nsize = 10;  // [2:40]\n\nfgrade([\"0.5 + x / size\", \"0.5 - x / size\"], [red, blue])\n  sphere(size / 2);\n";
+  const made = await connection.ask("save", { file: name, text, version: "" }).answer;
+  if (!made.saved) throw new Error(`${name} is there already`);
+  set({ files: (await connection.ask("list").answer).files });
+  await openFile(name);
+  return name;
+}
+
+let saveTimer = 0;
+export function edited() {
+  localStorage.setItem(draftKey(state.file), JSON.stringify({ text: editor!.text(), version }));
+  set({ saved: "unsaved" });
+  clearTimeout(saveTimer);
+  saveTimer = window.setTimeout(save, 800);
+  evaluate(200);
+}
+
+export function save(): Promise<void> {
+  clearTimeout(saveTimer);
+  saving = saving.then(saveNow);
+  return saving;
+}
+
+async function saveNow() {
+  if (!isDirty() && state.saved !== "unsaved") return;
+  if (!connection.isOpen || state.conflict || !editor) return;
+  const file = state.file,
+    text = editor.text();
+  set({ saved: "saving" });
+  sentText = text;
+  try {
+    const reply = await connection.ask("save", { file, text: usesCrlf ? text.replaceAll("\n", "\r\n") : text, version }).answer;
+    if (file !== state.file) return;
+    if (!reply.saved) return set({ saved: "unsaved", conflict: { text: reply.text, version: reply.version } });
+    version = reply.version;
+    savedText = text;
+    if (editor.text() === text) localStorage.removeItem(draftKey(file));
+    set({ saved: editor.text() === text ? "saved" : "unsaved", saveProblem: "" });
+  } catch (error) {
+    set({ saved: "failed", saveProblem: (error as Error).message });
+  }
+}
+
+function takeFromDisk(disk: Reply) {
+  if (fromDisk(disk.text) === sentText) {
+    version = disk.version;
+    savedText = sentText;
+    return;
+  }
+  if (isDirty()) return set({ conflict: { text: disk.text, version: disk.version }, saved: "unsaved" });
+  version = disk.version;
+  savedText = fromDisk(disk.text);
+  if (editor!.text() !== savedText) editor!.replace(savedText);
+}
+
+// Which of two texts counts, when others changed the file as well.
+export function settle(mine: boolean) {
+  const disk = state.conflict;
+  if (!disk) return;
+  version = disk.version ?? "";
+  if (mine || disk.text === undefined) {
+    set({ conflict: undefined, saved: "unsaved" });
+    save();
+    return;
+  }
+  savedText = fromDisk(disk.text);
+  localStorage.removeItem(draftKey(state.file));
+  set({ conflict: undefined, saved: "saved" });
+  editor!.replace(savedText);
+  evaluate();
+}
+
+async function heard(name: string, members: Reply) {
+  if (name === "job") return takeJob(members.job);
+  if (name !== "changed") return;
+  await saving;
+  if (members.file !== state.file) return evaluate(100);
+  if (members.version === version) return;
+  if (members.version === "") return set({ conflict: {}, saved: "unsaved" });
+  const disk = await connection.ask("open", { file: state.file }).answer;
+  if (disk.version === version) return;
+  takeFromDisk(disk);
+  evaluate();
+}
+
+// Evaluation: an edit cancels what is at work; a slider waits for it, so that something is seen while it moves.
+let evaluateTimer = 0;
+let isLoading = false,
+  isWanted = false;
+
+export function evaluate(after = 0) {
+  clearTimeout(evaluateTimer);
+  evaluateTimer = window.setTimeout(() => load(), after);
+}
+
+export function setVariable(name: string, value: Value) {
+  set({ values: { ...state.values, [name]: value } });
+  if (isLoading) isWanted = true;
+  else load();
+}
+
+export function resetVariables() {
+  set({ values: {} });
+  evaluate();
+}
+
+export function writeVariables() {
+  for (const variable of [...state.variables].reverse())
+    if (variable.name in state.values) editor!.write(variable.from, variable.to, literal(state.values[variable.name]));
+  set({ values: {} });
+}
+
+function literal(value: Value): string {
+  return JSON.stringify(value).replaceAll(",", ", ");
+}
+
+const isPython = () => state.file.endsWith(".py");
+
+// Python scripts may do anything, so they are run when a person asks for it, as they are on the disk.
+export async function runPython() {
+  await save();
+  if (!state.conflict) load(true);
+}
+
+async function load(isRun = false) {
+  if (!editor || !state.file || !connection.isOpen) return;
+  if (isPython() && !isRun) return set({ isOld: state.design !== undefined, problem: "" });
+  isLoading = true;
+  isWanted = false;
+  set({ isBusy: true });
+  const known = new Set(state.variables.map((v) => v.name));
+  const definitions = Object.entries(state.values)
+    .filter(([name]) => known.size === 0 || known.has(name))
+    .map(([name, value]) => `${name}=${JSON.stringify(value)}`);
+  try {
+    const reply = await connection.ask("load", { file: state.file, text: editor.text(), definitions, ...(isRun ? { run: true } : {}) }, "load").answer;
+    const change: any = { isBusy: false, problem: "", diagnostics: reply.diagnostics, echo: reply.echo, variables: reply.variables ?? [], isOld: !reply.ok };
+    if (reply.ok) change.design = reply;
+    if (reply.ok && isNaN(state.z)) change.z = (reply.bounds_mm[0][2] + reply.bounds_mm[1][2]) / 2;
+    set(change);
+    editor.setDiagnostics();
+    if (reply.ok) plan();
+  } catch (error) {
+    const refused = error as Refused;
+    if (refused.isCancelled) return;
+    set({ isBusy: false, isOld: state.design !== undefined, problem: refused.message, diagnostics: [], variables: refused.code === "unsupported" ? [] : state.variables });
+    editor.setDiagnostics();
+  } finally {
+    isLoading = false;
+    if (isWanted) load();
+  }
+}
+
+// A question about the design; a server that forgot it is told again.
+export async function about(what: string, members: Record<string, unknown>, lane: string): Promise<Reply> {
+  try {
+    return await connection.ask(what, { design: state.design!.design, ...members }, lane).answer;
+  } catch (error) {
+    if ((error as Refused).code === "gone") evaluate();
+    throw error;
+  }
+}
+
+export const cutting = () => ({ printer: state.printer, dither: state.dither });
+
+export async function plan() {
+  if (!state.design) return;
+  const design = state.design.design;
+  try {
+    const reply = await about("plan", cutting(), "plan");
+    set({ plan: { ...(reply as unknown as Plan), design }, planProblem: "" });
+  } catch (error) {
+    if (!(error as Refused).isCancelled) set({ planProblem: (error as Error).message });
+  }
+}
+
+export function choosePrinter(printer: string, dither: string) {
+  set({ printer, dither });
+  plan();
+}
+
+export async function measure() {
+  if (!state.design) return;
+  const design = state.design.design;
+  try {
+    set({ measure: { design, ...((await about("measure", {}, "measure")) as any) } });
+  } catch {
+    // Another one is under way, or the design is gone.
+  }
+}
+
+export async function probe(at: number[]) {
+  try {
+    const probe = (await about("probe", { at, ...cutting() }, "probe")) as any;
+    set({ probe, probeBefore: state.probe?.at });
+  } catch {
+    // The next probe says more.
+  }
+}
+
+// Jobs. What was under way when a server ended is kept by the page, so that it can go on.
+function adoptJobs(jobs: Job[]) {
+  const before: Job[] = JSON.parse(localStorage.getItem(jobsKey()) ?? "[]");
+  const cut = before
+    .filter((job) => ["working", "waiting", "paused", "interrupted"].includes(job.state) && !jobs.some((j) => j.folder === job.folder))
+    .map((job) => ({ ...job, state: "interrupted" as const }));
+  setJobs([...jobs, ...cut]);
+}
+
+function setJobs(jobs: Job[]) {
+  set({ jobs });
+  localStorage.setItem(jobsKey(), JSON.stringify(jobs));
+}
+
+function takeJob(job: Job) {
+  const others = state.jobs.filter((known) => known.folder !== job.folder);
+  setJobs([...others, job]);
+}
+
+export async function startExport(folder: string, replace: boolean): Promise<string> {
+  try {
+    const reply = await about("export", { folder, file: state.file, replace, ...cutting() }, "");
+    takeJob(reply.job);
+    return "";
+  } catch (error) {
+    return (error as Error).message;
+  }
+}
+
+export async function changeJob(job: Job, to: "pause" | "resume" | "cancel") {
+  if (job.state === "interrupted") {
+    if (to === "cancel") return setJobs(state.jobs.filter((known) => known !== job));
+    if (job.file && job.file !== state.file) return set({ problem: `open ${job.file} to go on with its layers` });
+    set({ printer: job.printer, dither: job.dither });
+    await plan();
+    return startExport(job.folder, false);
+  }
+  await connection.ask("change_export", { job: job.id, to }).answer.catch(() => undefined);
+}
+
+export const reveal = (from: number, to: number) => editor?.reveal(from, to);
+export const insert = (text: string) => {
+  const end = editor!.text().length;
+  editor!.write(end, end, `\n${text}\n`);
+};

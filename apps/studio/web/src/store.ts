@@ -1,0 +1,207 @@
+// What the page knows. Components read it, and are drawn again when it changes.
+import { useEffect, useState } from "preact/hooks";
+
+export interface Diagnostic {
+  severity: "note" | "warning" | "error";
+  message: string;
+  hint?: string;
+  file?: string;
+  line?: number;
+  column?: number;
+  from?: number;
+  to?: number;
+}
+
+export type Value = number | boolean | string | number[];
+
+export interface Variable {
+  name: string;
+  kind: "number" | "boolean" | "text" | "vector" | "choice";
+  value: Value;
+  description?: string;
+  section?: string;
+  least?: number;
+  step?: number;
+  most?: number;
+  longest?: number;
+  choices?: { value: Value; label: string }[];
+  from: number;
+  to: number;
+}
+
+export interface Material {
+  name: string;
+  colour: number[];
+  density?: number;
+}
+
+export interface GraphNode {
+  id: number;
+  type: string;
+  category: string;
+  inputs: number[];
+  values: number[];
+  from?: number;
+  to?: number;
+  line?: number;
+}
+
+export interface Design {
+  design: string;
+  bounds_mm: [number[], number[]];
+  materials: Material[];
+  parts: string[];
+  part_nodes: number[];
+  attributes: { name: string; type: string; unit: string }[];
+  nodes: GraphNode[];
+}
+
+export interface NodeType {
+  name: string;
+  category: string;
+  sentence: string;
+  parameters: { name: string; doc: string; kind: string; unit: string; required: boolean; default: unknown; choices: string[] }[];
+  gives: string;
+  outputs: { name: string; doc: string; type: string }[];
+  example: string;
+}
+
+export interface Hello {
+  program: string;
+  folder: string;
+  file: string;
+  files: string[];
+  printers: { name: string; title: string }[];
+  dithers: string[];
+  palettes: string[];
+  nodes: NodeType[];
+  functions: { name: string; signature: string }[];
+}
+
+export interface Plan {
+  design: string;
+  title: string;
+  count: number[];
+  pitch_mm: number[];
+  origin_mm: number[];
+  materials: { name: string; colour: number[] }[];
+  remarks: Diagnostic[];
+  job: string;
+}
+
+export interface Job {
+  id: number;
+  state: "waiting" | "working" | "paused" | "done" | "failed" | "cancelled" | "interrupted";
+  folder: string;
+  file: string;
+  printer: string;
+  dither: string;
+  layers: number;
+  done: number;
+  total: number;
+  seconds_left: number;
+  message: string;
+}
+
+export interface Probe {
+  at: number[];
+  inside: boolean;
+  distance_mm: number | null;
+  composition: Record<string, number>;
+  attributes: Record<string, number>;
+  parts: string[];
+  voxel: { index?: number[]; material?: string };
+}
+
+export interface Camera {
+  azimuth: number;
+  elevation: number;
+  target: number[];
+  height: number; // mm, of what the view shows
+}
+
+export type ViewName = "surface" | "slices" | "volume" | "graph";
+
+export interface State {
+  status: "connecting" | "open" | "lost" | "refused";
+  hello?: Hello;
+  files: string[];
+  file: string;
+  saved: "saved" | "unsaved" | "saving" | "failed";
+  saveProblem: string;
+  conflict?: { text?: string; version?: string }; // what the disk has; no text: it is gone
+  design?: Design; // the last one that was right
+  isOld: boolean; // the text has mistakes, or is being evaluated: what is shown is of an earlier text
+  isBusy: boolean;
+  problem: string; // of the evaluation as a whole
+  diagnostics: Diagnostic[];
+  echo: string[];
+  variables: Variable[];
+  values: Record<string, Value>; // set by sliders, in place of the text's
+  camera?: Camera;
+  cut?: { axis: "x" | "y" | "z"; side: "<" | ">"; mm: number };
+  by: string;
+  palette: string;
+  opacity: Record<string, number>;
+  printer: string;
+  dither: string;
+  plan?: Plan;
+  planProblem: string;
+  z: number; // mm
+  probe?: Probe;
+  probeBefore?: number[]; // where the one before was, mm
+  measure?: { design: string; volume_mm3: number; pitch_mm: number; materials: { name: string; volume_mm3: number; mass_g?: number }[] };
+  jobs: Job[];
+  view: ViewName | "all";
+  panel: "variables" | "materials" | "export" | "reference";
+  theme: "system" | "light" | "dark";
+}
+
+// What a person chose of the page, which stays when it is loaded again.
+const kept = ["printer", "dither", "view", "panel", "theme"] as const;
+const known: Partial<State> = JSON.parse(localStorage.getItem("ombre:choices") ?? "{}");
+
+const listeners = new Set<() => void>();
+export let state: State = {
+  status: "connecting",
+  files: [],
+  file: "",
+  saved: "saved",
+  saveProblem: "",
+  isOld: false,
+  isBusy: false,
+  problem: "",
+  diagnostics: [],
+  echo: [],
+  variables: [],
+  values: {},
+  by: "",
+  palette: "",
+  opacity: {},
+  printer: "generic",
+  dither: "stochastic",
+  planProblem: "",
+  z: NaN,
+  jobs: [],
+  view: "surface",
+  panel: "variables",
+  theme: "system",
+  ...known,
+};
+
+export function set(change: Partial<State>) {
+  state = { ...state, ...change };
+  if (kept.some((name) => name in change)) localStorage.setItem("ombre:choices", JSON.stringify(Object.fromEntries(kept.map((name) => [name, state[name]]))));
+  for (const listener of [...listeners]) listener();
+}
+
+export function subscribe(listener: () => void): () => void {
+  listeners.add(listener);
+  return () => listeners.delete(listener);
+}
+
+export function useStore(): State {
+  const [, redraw] = useState({});
+  useEffect(() => subscribe(() => redraw({})), []);
+  return state;
+}

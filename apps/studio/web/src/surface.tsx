@@ -1,0 +1,239 @@
+// The design from outside, drawn by the server: small first, then as fine as the screen.
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { barLength, fitted, length, views } from "./camera";
+import { Refused } from "./connection";
+import { moveByKeys, moveByPointer } from "./navigation";
+import { about, connection } from "./session";
+import { set, state, useStore } from "./store";
+
+const steps = [
+  { share: 0.3, samples: 1 },
+  { share: 1, samples: 1 },
+  { share: 1, samples: 2 },
+];
+
+// What decides a picture, but for its size.
+function pictureKey(): string {
+  const { design, camera, cut, by, palette, opacity } = state;
+  return JSON.stringify([design?.design, camera, cut, by, palette, opacity]);
+}
+
+async function drawOne(canvas: HTMLCanvasElement, step: (typeof steps)[0]) {
+  const { camera, cut, by, palette, opacity } = state;
+  if (!camera) return;
+  const ratio = Math.min(devicePixelRatio, 2) * step.share;
+  const width = Math.max(1, Math.round(canvas.clientWidth * ratio)),
+    height = Math.max(1, Math.round(canvas.clientHeight * ratio));
+  const started = performance.now();
+  const reply = await about(
+    "render",
+    {
+      width,
+      height,
+      samples: step.samples,
+      azimuth: camera.azimuth,
+      elevation: camera.elevation,
+      target: camera.target,
+      height_mm: camera.height,
+      cuts: cut ? [`${cut.axis}${cut.side}${cut.mm}`] : [],
+      ...(by ? { by, palette } : {}),
+      opacity,
+    },
+    "surface",
+  );
+  const picture = await createImageBitmap(new Blob([reply.bytes as BlobPart], { type: "image/png" }));
+  canvas.width = Math.round(canvas.clientWidth * Math.min(devicePixelRatio, 2));
+  canvas.height = Math.round(canvas.clientHeight * Math.min(devicePixelRatio, 2));
+  const context = canvas.getContext("2d")!;
+  context.imageSmoothingEnabled = true;
+  context.drawImage(picture, 0, 0, canvas.width, canvas.height);
+  canvas.dataset.milliseconds = String(Math.round(performance.now() - started));
+}
+
+// One picture after the other, each finer, until something changes. A small picture is finished before the next is
+// begun, so that something is seen while the camera moves; a finer one gives way at once.
+class Drawer {
+  private step = 0;
+  private key = "";
+  private isAtWork = false;
+  constructor(private canvas: HTMLCanvasElement) {}
+
+  async go() {
+    if (this.isAtWork && (this.step === 0 || pictureKey() === this.key)) return;
+    if (this.isAtWork) {
+      this.step = 0;
+      this.key = "";
+      return connection.cancelLane("surface");
+    }
+    this.isAtWork = true;
+    while (this.isLeft()) await this.drawStep();
+    this.isAtWork = false;
+  }
+  again() {
+    this.key = "";
+    this.go();
+  }
+
+  private isLeft(): boolean {
+    if (!state.design || !state.camera || this.canvas.clientWidth === 0 || !connection.isOpen) return false;
+    if (pictureKey() !== this.key) this.step = 0;
+    this.key = pictureKey();
+    return this.step < steps.length;
+  }
+
+  private async drawStep() {
+    const key = this.key,
+      design = state.design!.design;
+    this.canvas.dataset.state = "drawing";
+    try {
+      await drawOne(this.canvas, steps[this.step]);
+      this.canvas.dataset.design = design;
+      this.tell("");
+      if (this.key !== key) return;
+      ++this.step;
+      if (this.step === steps.length) this.canvas.dataset.state = "ready";
+    } catch (error) {
+      if ((error as Refused).isCancelled) return;
+      this.step = steps.length;
+      this.canvas.dataset.state = "failed";
+      this.tell((error as Error).message);
+    }
+  }
+
+  private tell(problem: string) {
+    this.canvas.parentElement!.querySelector(".viewproblem")!.textContent = problem;
+  }
+}
+
+export function ScaleBar({ pixelMm }: { pixelMm: number }) {
+  if (!isFinite(pixelMm) || pixelMm <= 0) return null;
+  const mm = barLength(pixelMm * 140);
+  return (
+    <div class="scalebar" style={{ width: `${mm / pixelMm}px` }}>
+      {length(mm)}
+    </div>
+  );
+}
+
+export function Legend() {
+  const { design } = useStore();
+  return (
+    <ul class="legend" aria-label="Materials">
+      {design?.materials.map((m) => (
+        <li>
+          <span class="swatch" style={{ background: `rgb(${m.colour.slice(0, 3).join(",")})` }} />
+          {m.name}
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+function CutControls() {
+  const { cut, design } = useStore();
+  const axis = cut?.axis ?? "x";
+  const n = "xyz".indexOf(axis);
+  const [lo, hi] = design ? [design.bounds_mm[0][n], design.bounds_mm[1][n]] : [0, 1];
+  const choose = (name: string) => {
+    if (!name || !design) return set({ cut: undefined });
+    const at = "xyz".indexOf(name[0]);
+    set({ cut: { axis: name[0] as "x", side: name[1] as "<", mm: (design.bounds_mm[0][at] + design.bounds_mm[1][at]) / 2 } });
+  };
+  return (
+    <span class="controls">
+      <label>
+        Cut
+        <select value={cut ? cut.axis + cut.side : ""} onChange={(e) => choose(e.currentTarget.value)}>
+          <option value="">none</option>
+          {["x<", "x>", "y<", "y>", "z<", "z>"].map((name) => (
+            <option value={name}>
+              {name[0]} {name[1]}
+            </option>
+          ))}
+        </select>
+      </label>
+      {cut && (
+        <input type="range" aria-label="Place of the cut" min={lo} max={hi} step={(hi - lo) / 200} value={cut.mm}
+               onInput={(e) => set({ cut: { ...cut, mm: +e.currentTarget.value } })} />
+      )}
+    </span>
+  );
+}
+
+export function ViewButtons() {
+  const { design } = useStore();
+  const look = (from: { azimuth: number; elevation: number }, fit: boolean) => {
+    if (!design) return;
+    const view = document.querySelector<HTMLElement>(".surface canvas, .volume canvas");
+    const aspect = view && view.clientHeight ? view.clientWidth / view.clientHeight : 1.4;
+    set({ camera: fit || !state.camera ? fitted(design, aspect, from) : { ...state.camera, ...from } });
+  };
+  return (
+    <span class="controls">
+      <label>
+        From
+        <select value="" onChange={(e) => { look(views[e.currentTarget.value], false); e.currentTarget.value = ""; }}>
+          <option value="">…</option>
+          {Object.keys(views).map((name) => <option value={name}>{name}</option>)}
+        </select>
+      </label>
+      <button onClick={() => look(state.camera ?? views.iso, true)}>fit</button>
+    </span>
+  );
+}
+
+export function SurfaceView() {
+  const { design, camera, by, palette, hello } = useStore();
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const drawer = useRef<Drawer>();
+  const [height, setHeight] = useState(1);
+  const pointer = useMemo(() => moveByPointer(canvas), []);
+  useEffect(() => {
+    drawer.current = new Drawer(canvas.current!);
+    const size = new ResizeObserver(() => {
+      setHeight(canvas.current!.clientHeight);
+      drawer.current!.again();
+    });
+    size.observe(canvas.current!);
+    return () => size.disconnect();
+  }, []);
+  // The camera is placed once; from then on only people move it.
+  useEffect(() => {
+    const element = canvas.current!;
+    if (design && !state.camera && element.clientHeight > 0)
+      set({ camera: fitted(design, element.clientWidth / element.clientHeight, views.iso) });
+  }, [design]);
+  const key = pictureKey();
+  useEffect(() => void drawer.current?.go(), [key]);
+  return (
+    <section class="view surface" aria-label="Surface">
+      <div class="viewbar">
+        <ViewButtons />
+        <CutControls />
+        <label>
+          Colour by
+          <select value={by} onChange={(e) => set({ by: e.currentTarget.value })}>
+            <option value="">materials</option>
+            {design?.materials.map((m) => <option value={m.name}>fraction of {m.name}</option>)}
+            {design?.attributes.map((a) => <option value={a.name}>{a.name}</option>)}
+          </select>
+        </label>
+        {by && (
+          <label>
+            Palette
+            <select value={palette} onChange={(e) => set({ palette: e.currentTarget.value })}>
+              {hello?.palettes.map((name, n) => <option value={n === 0 ? "" : name}>{name}</option>)}
+            </select>
+          </label>
+        )}
+      </div>
+      <div class="stage">
+        <canvas ref={canvas} tabIndex={0} role="img" aria-label={`The design from outside${design ? `, materials ${design.materials.map((m) => m.name).join(", ")}` : ""}. Arrows turn it, with Shift they move it, plus and minus zoom.`}
+                {...pointer} onKeyDown={moveByKeys} />
+        <p class="viewproblem" role="status"></p>
+        <Legend />
+        {camera && <ScaleBar pixelMm={camera.height / height} />}
+      </div>
+    </section>
+  );
+}

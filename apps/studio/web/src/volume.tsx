@@ -1,0 +1,204 @@
+// The inside, by rays through a texture of the materials' fractions.
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { axes } from "./camera";
+import { Refused } from "./connection";
+import { moveByKeys, moveByPointer } from "./navigation";
+import { about } from "./session";
+import { state, useStore } from "./store";
+import { ViewButtons } from "./surface";
+
+const most = 8; // materials
+
+const vertexShader = `#version 300 es
+in vec2 place;
+out vec2 at;
+void main() { at = place; gl_Position = vec4(place, 0.0, 1.0); }`;
+
+// Marches from front to back. A material's opacity is that of one millimetre-like unit: a twentieth of the box.
+const fragmentShader = `#version 300 es
+precision highp float;
+precision highp sampler3D;
+in vec2 at;
+out vec4 colour;
+uniform sampler3D fractions0, fractions1;
+uniform vec3 origin, size, target, right, down, forward;
+uniform float height, aspect, unit;
+uniform int steps;
+uniform vec4 materials[${most}];  // colours, and opacities in w
+
+float[${most}] fractions(vec3 p) {
+  vec4 a = texture(fractions0, p), b = texture(fractions1, p);
+  return float[${most}](a.r, a.g, a.b, a.a, b.r, b.g, b.b, b.a);
+}
+float density(vec3 p) {
+  float f[${most}] = fractions(p), sum = 0.0;
+  for (int m = 0; m < ${most}; ++m) sum += f[m] * materials[m].w;
+  return sum;
+}
+
+void main() {
+  vec3 from = target + right * at.x * 0.5 * height * aspect - down * at.y * 0.5 * height;
+  vec3 inverse = 1.0 / (forward + vec3(equal(forward, vec3(0.0))) * 1e-6);
+  vec3 a = (origin - from) * inverse, b = (origin + size - from) * inverse;
+  vec3 near = min(a, b), far = max(a, b);
+  float begin = max(near.x, max(near.y, near.z)), end = min(far.x, min(far.y, far.z));
+  colour = vec4(0.0);
+  if (begin >= end) return;
+  float step = length(size) / float(steps);
+  vec3 cell = 2.0 / vec3(textureSize(fractions0, 0));
+  for (float t = begin + 0.5 * step; t < end; t += step) {
+    vec3 p = (from + forward * t - origin) / size;
+    float f[${most}] = fractions(p), sum = 0.0;
+    vec3 mixed = vec3(0.0);
+    for (int m = 0; m < ${most}; ++m) {
+      float weight = f[m] * materials[m].w;
+      sum += weight;
+      mixed += weight * materials[m].rgb;
+    }
+    if (sum < 0.003) continue;
+    float alpha = 1.0 - pow(1.0 - min(sum, 0.9999), step / unit);
+    vec3 slope = vec3(density(p + vec3(cell.x, 0, 0)) - density(p - vec3(cell.x, 0, 0)),
+                      density(p + vec3(0, cell.y, 0)) - density(p - vec3(0, cell.y, 0)),
+                      density(p + vec3(0, 0, cell.z)) - density(p - vec3(0, 0, cell.z)));
+    float steep = length(slope);
+    float light = steep > 0.05 ? mix(1.0, 0.5 + 0.5 * max(0.0, dot(slope / steep, normalize(forward + 0.4 * right + 0.6 * down))), min(1.0, steep * 2.0)) : 1.0;
+    colour += (1.0 - colour.a) * vec4(mixed / sum * light, 1.0) * alpha;
+    if (colour.a > 0.98) break;
+  }
+}`;
+
+interface Grid {
+  design: string;
+  count: number[];
+  origin_mm: number[];
+  pitch_mm: number;
+  materials: { name: string; colour: number[] }[];
+  left_out: number;
+}
+
+class VolumePainter {
+  private gl: WebGL2RenderingContext;
+  private program: WebGLProgram;
+  private textures: WebGLTexture[];
+  grid?: Grid;
+
+  // Throws where the browser has no WebGL 2.
+  constructor(private canvas: HTMLCanvasElement) {
+    const gl = canvas.getContext("webgl2", { premultipliedAlpha: true, preserveDrawingBuffer: true });
+    if (!gl) throw new Error("this browser has no WebGL 2, which the volume view needs");
+    this.gl = gl;
+    this.program = gl.createProgram()!;
+    for (const [type, text] of [[gl.VERTEX_SHADER, vertexShader], [gl.FRAGMENT_SHADER, fragmentShader]] as const) {
+      const shader = gl.createShader(type)!;
+      gl.shaderSource(shader, text);
+      gl.compileShader(shader);
+      gl.attachShader(this.program, shader);
+    }
+    gl.linkProgram(this.program);
+    if (!gl.getProgramParameter(this.program, gl.LINK_STATUS)) throw new Error(`the volume's shader: ${gl.getProgramInfoLog(this.program)}`);
+    gl.useProgram(this.program);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 3, -1, -1, 3]), gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(gl.getAttribLocation(this.program, "place"));
+    gl.vertexAttribPointer(gl.getAttribLocation(this.program, "place"), 2, gl.FLOAT, false, 0, 0);
+    this.textures = [gl.createTexture()!, gl.createTexture()!];
+    this.textures.forEach((texture, n) => {
+      gl.activeTexture(gl.TEXTURE0 + n);
+      gl.bindTexture(gl.TEXTURE_3D, texture);
+      for (const [name, value] of [[gl.TEXTURE_MIN_FILTER, gl.LINEAR], [gl.TEXTURE_MAG_FILTER, gl.LINEAR], [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE], [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE], [gl.TEXTURE_WRAP_R, gl.CLAMP_TO_EDGE]] as const)
+        gl.texParameteri(gl.TEXTURE_3D, name, value);
+      gl.uniform1i(this.at(`fractions${n}`), n);
+    });
+  }
+
+  private at(name: string) {
+    return this.gl.getUniformLocation(this.program, name);
+  }
+
+  take(grid: Grid, bytes: Uint8Array) {
+    const { gl } = this;
+    const [nx, ny, nz] = grid.count,
+      size = nx * ny * nz * 4;
+    this.textures.forEach((_, n) => {
+      gl.activeTexture(gl.TEXTURE0 + n);
+      const part = bytes.subarray(n * size, (n + 1) * size);
+      if (part.length === size) gl.texImage3D(gl.TEXTURE_3D, 0, gl.RGBA8, nx, ny, nz, 0, gl.RGBA, gl.UNSIGNED_BYTE, part);
+      else gl.texImage3D(gl.TEXTURE_3D, 0, gl.RGBA8, 1, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    });
+    this.grid = grid;
+  }
+
+  paint() {
+    const { gl, canvas, grid } = this;
+    const camera = state.camera;
+    if (!grid || !camera || canvas.clientWidth === 0) return;
+    canvas.width = canvas.clientWidth;
+    canvas.height = canvas.clientHeight;
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    const { right, down, forward } = axes(camera);
+    const size = grid.count.map((n) => n * grid.pitch_mm);
+    for (const [name, value] of Object.entries({ origin: grid.origin_mm, size, target: camera.target, right, down, forward })) gl.uniform3fv(this.at(name), value);
+    gl.uniform1f(this.at("height"), camera.height);
+    gl.uniform1f(this.at("aspect"), canvas.width / canvas.height);
+    gl.uniform1f(this.at("unit"), Math.hypot(...size) / 30);
+    gl.uniform1i(this.at("steps"), 2 * Math.max(...grid.count));
+    const values = new Float32Array(4 * most);
+    grid.materials.forEach((m, n) => values.set([...m.colour.slice(0, 3).map((c) => c / 255), state.opacity[m.name] ?? (m.colour[3] ?? 255) / 255], 4 * n));
+    gl.uniform4fv(this.at("materials"), values);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    canvas.dataset.state = "ready";
+    canvas.dataset.design = grid.design;
+  }
+}
+
+export function VolumeView() {
+  const { design, camera, opacity } = useStore();
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const painter = useRef<VolumePainter>();
+  const [side, setSide] = useState(64);
+  const [problem, setProblem] = useState("");
+  const pointer = useMemo(() => moveByPointer(canvas), []);
+  useEffect(() => {
+    try {
+      painter.current = new VolumePainter(canvas.current!);
+    } catch (error) {
+      setProblem((error as Error).message);
+      return;
+    }
+    const size = new ResizeObserver(() => painter.current!.paint());
+    size.observe(canvas.current!);
+    return () => size.disconnect();
+  }, []);
+  useEffect(() => {
+    if (!design || !painter.current) return;
+    canvas.current!.dataset.state = "drawing";
+    about("volume", { side }, "volume")
+      .then((reply) => {
+        painter.current!.take({ ...(reply as any), design: design.design }, reply.bytes!);
+        painter.current!.paint();
+        setProblem(reply.left_out > 0 ? `${reply.left_out} materials are left out: the view shows ${most}.` : "");
+      })
+      .catch((error: Refused) => error.isCancelled || setProblem(error.message));
+  }, [design, side]);
+  useEffect(() => painter.current?.paint(), [camera, opacity]);
+  return (
+    <section class="view volume" aria-label="Volume">
+      <div class="viewbar">
+        <ViewButtons />
+        <label>
+          Detail
+          <select value={side} onChange={(e) => setSide(+e.currentTarget.value)}>
+            {[32, 64, 96, 128, 192].map((n) => <option value={n}>{n}³</option>)}
+          </select>
+        </label>
+      </div>
+      <div class="stage">
+        <canvas ref={canvas} tabIndex={0} role="img" {...pointer} onKeyDown={moveByKeys}
+                aria-label="The inside of the design; opacities are in the panel of materials. Arrows turn it, with Shift they move it." />
+        <p class="viewproblem" role="status">{problem}</p>
+      </div>
+    </section>
+  );
+}

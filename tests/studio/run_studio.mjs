@@ -1,0 +1,381 @@
+// The studio as people use it, in Chromium.
+//
+//     node tests/studio/run_studio.mjs build/release/apps/ombre/ombre chromium [--pictures FOLDER]
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { inflateSync } from "node:zlib";
+
+const source = join(dirname(fileURLToPath(import.meta.url)), "../..");
+const require = createRequire(join(source, "apps/studio/web/package.json"));
+const { chromium } = require("playwright-core");
+const axeSource = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+
+const [ombre, browserPath] = process.argv.slice(2);
+const folder = mkdtempSync(join(tmpdir(), "ombre-studio-"));
+const file = join(folder, "ball.vcad");
+const token = "5eed".repeat(8);
+const script = `// A ball, graded from red to blue.
+radius = 12;  // [5:20]
+fgrade(["0.5 + x / 40", "0.5 - x / 40"], [red, blue]) sphere(radius);
+`;
+writeFileSync(file, script);
+writeFileSync(join(folder, "box.scad"), "width = 4; // [1:9]\ncolor(\"red\") cube([width, 3, 2]);\n");
+writeFileSync(join(folder, "drop.py"), "import ombre\nroot = ombre.sphere(3, 'blue')\n");
+
+let server;
+async function startServer(port = 0, key = token) {
+  const variables = { ...process.env, OMBRE_DATA: source, OMBRE_STUDIO_TOKEN: key };
+  server = spawn(ombre, ["studio", file, "--json", "--no-browser", "--port", String(port)], { env: variables, stdio: ["ignore", "pipe", "inherit"] });
+  const url = await new Promise((resolve, reject) => {
+    let text = "";
+    server.once("exit", (code) => reject(new Error(`the server ended with ${code}`)));
+    server.stdout.on("data", (data) => {
+      text += data;
+      const found = /"url": ?"([^"]+)"/.exec(text);
+      if (found) resolve(found[1]);
+    });
+  });
+  server.removeAllListeners("exit");
+  return url;
+}
+function stopServer(signal) {
+  const ended = new Promise((resolve) => server.once("exit", resolve));
+  server.kill(signal);
+  return ended;
+}
+
+const url = await startServer();
+const port = new URL(url).port;
+const browser = await chromium.launch({ executablePath: browserPath, args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+const context = await browser.newContext({ viewport: { width: 1400, height: 860 } });
+context.setDefaultTimeout(20000);
+const page = await context.newPage();
+const complaints = [];
+page.on("pageerror", (error) => complaints.push(error.message));
+await context.route("**", (route) => {
+  const { hostname } = new URL(route.request().url());
+  if (hostname !== "127.0.0.1") complaints.push(`the page asked ${hostname} for something`);
+  route.continue();
+});
+
+const pictures = process.argv.includes("--pictures") ? process.argv.at(-1) : "";
+const picture = (name, of = page) => pictures && of.screenshot({ path: join(pictures, `${name}.png`) });
+const status = (what, of = page) => of.waitForSelector(`.status${what}`);
+// Playwright's own way evaluates texts, which the page's policy forbids.
+const until = async (isSo, argument) => {
+  for (let n = 0; n < 400; ++n) {
+    if (await page.evaluate(isSo, argument)) return;
+    await page.waitForTimeout(50);
+  }
+  assert.fail(`in vain: ${isSo}`);
+};
+const editor = page.locator(".cm-content");
+const isReady = (view, more = "") => page.waitForSelector(`.${view} canvas[data-state=ready]${more}`);
+const onDisk = () => readFileSync(file, "utf8");
+const untilOnDisk = async (part) => {
+  for (let n = 0; n < 200 && !onDisk().includes(part); ++n) await new Promise((done) => setTimeout(done, 50));
+  assert.match(onDisk(), new RegExp(part.replace(/[()]/g, "\\$&")));
+};
+const type = async (text, of = page) => {
+  await of.locator(".cm-content").click();
+  await of.keyboard.press("Control+End");
+  await of.keyboard.insertText(text);
+};
+const alphaInMiddle = (view) =>
+  page.evaluate((name) => {
+    const canvas = document.querySelector(`.${name} canvas`);
+    const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+    copy.drawImage(canvas, 0, 0);
+    return [...copy.getImageData(canvas.width >> 1, canvas.height >> 1, 1, 1).data];
+  }, view);
+
+// The pixels of a PNG of 8 bits, RGBA; what the printer of this test gets.
+function pixelsOf(path) {
+  const bytes = readFileSync(path);
+  const width = bytes.readUInt32BE(16), height = bytes.readUInt32BE(20);
+  assert.deepEqual([bytes[24], bytes[25]], [8, 6]);
+  const parts = [];
+  for (let at = 8; at < bytes.length; at += 12 + bytes.readUInt32BE(at))
+    if (bytes.toString("latin1", at + 4, at + 8) === "IDAT") parts.push(bytes.subarray(at + 8, at + 8 + bytes.readUInt32BE(at)));
+  const raw = inflateSync(Buffer.concat(parts)), stride = 4 * width, rows = Buffer.alloc(stride * height);
+  for (let y = 0; y < height; ++y) {
+    const filter = raw[y * (stride + 1)];
+    for (let x = 0; x < stride; ++x) {
+      const a = x < 4 ? 0 : rows[y * stride + x - 4], b = y === 0 ? 0 : rows[(y - 1) * stride + x], c = x < 4 || y === 0 ? 0 : rows[(y - 1) * stride + x - 4];
+      const p = a + b - c, pa = Math.abs(p - a), pb = Math.abs(p - b), pc = Math.abs(p - c);
+      const guess = [0, a, b, (a + b) >> 1, pa <= pb && pa <= pc ? a : pb <= pc ? b : c][filter];
+      rows[y * stride + x] = raw[y * (stride + 1) + 1 + x] + guess;
+    }
+  }
+  return { width, height, at: (x, y) => [...rows.subarray(y * stride + 4 * x, y * stride + 4 * x + 4)] };
+}
+
+const checks = {
+  async "opens the design and draws it"() {
+    await page.goto(url);
+    await isReady("surface");
+    assert.equal(new URL(page.url()).search, ""); // the token is not left in the address
+    assert.equal((await alphaInMiddle("surface"))[3], 255);
+    assert.match(await editor.innerText(), /graded from red to blue/);
+  },
+
+  async "tells mistakes while one types, and keeps the last picture"() {
+    const before = await page.getAttribute(".surface canvas", "data-design");
+    await type("spher(2);");
+    await page.waitForSelector('.problems[data-errors="1"]');
+    await status("[data-old=true]");
+    assert.match(await page.innerText(".problems"), /did you mean "sphere"/);
+    assert.match(await page.innerText(".problems .place"), /^4:1/);
+    await page.waitForSelector(".cm-lintRange-error");
+    await page.waitForSelector(".oldmark");
+    assert.equal((await alphaInMiddle("surface"))[3], 255);
+    assert.equal(await page.getAttribute(".surface canvas", "data-design"), before);
+    await picture("error");
+    await page.keyboard.press("Control+z");
+    await page.waitForSelector('.problems[data-errors="0"]');
+    await status("[data-old=false][data-saved=saved]");
+    assert.equal(onDisk(), script);
+  },
+
+  async "completes names from the reference"() {
+    await type("cyl");
+    await page.keyboard.press("Control+Space");
+    await page.waitForSelector(".cm-tooltip-autocomplete li:has-text('cylinder')");
+    await page.waitForSelector(".cm-completionInfo:has-text('Cylinder along z')");
+    await page.keyboard.press("Escape");
+    for (let n = 0; n < 3; ++n) await page.keyboard.press("Backspace");
+    await status("[data-old=false][data-saved=saved]");
+  },
+
+  async "a slider changes the design, and the camera stays"() {
+    const bar = await page.innerText(".surface .scalebar");
+    const before = await page.getAttribute(".surface canvas", "data-design");
+    await page.focus("#variable-radius");
+    await page.keyboard.press("ArrowRight");
+    await until((old) => document.querySelector(".surface canvas").dataset.design !== old, before);
+    assert.equal(await page.innerText(".surface .scalebar"), bar);
+    await page.click("text=Write into the script");
+    await untilOnDisk("radius = 13;");
+    await page.fill("[aria-label='radius, exactly']", "12.5");
+    await page.click("text=Write into the script");
+    await untilOnDisk("radius = 12.5;");
+  },
+
+  async "opacity shows through"() {
+    await page.click("#tab-materials");
+    await isReady("surface");
+    for (const name of ["red", "blue"]) {
+      await page.focus(`#opacity-${name}`);
+      await page.keyboard.press("Home");
+    }
+    await until(() => document.querySelector(".surface canvas").dataset.state === "ready");
+    assert.ok((await alphaInMiddle("surface"))[3] < 30);
+    await page.click("text=Reset opacities");
+    await page.click("text=Measure volumes");
+    await page.waitForSelector(".material .amount");
+    assert.match(await page.innerText(".panel"), /8\.1\d\d cm³ in all/); // 4/3 pi 12.5^3 is 8181 mm³
+  },
+
+  async "cuts open"() {
+    await page.selectOption(".surface .viewbar select >> nth=1", "y<");
+    await isReady("surface");
+    await page.selectOption(".surface .viewbar select >> nth=1", "");
+  },
+
+  async "shows the inside by rays"() {
+    await page.click("#tab-volume");
+    await isReady("volume");
+    assert.ok((await alphaInMiddle("volume"))[3] > 200);
+    await picture("volume");
+  },
+
+  async "the graph leads to the script"() {
+    await page.click("#tab-graph");
+    await page.click(".graph .node:has-text('sphere')");
+    assert.equal(await page.evaluate(() => getSelection().toString().slice(0, 6)), "sphere");
+  },
+
+  async "slides through layers, and probes pixels"() {
+    await page.click("#tab-slices");
+    await page.selectOption(".slices .printer", "j750");
+    await isReady("slices");
+    await page.focus(".slices input[type=range]");
+    for (let n = 0; n < 5; ++n) await page.keyboard.press("ArrowRight");
+    const layer = await page.inputValue(".slices input[type=range]");
+    await isReady("slices", `[data-layer="${layer}"]`);
+    await page.focus(".slices canvas");
+    for (let n = 0; n < 8 && (await page.getAttribute(".slices canvas", "data-level")) !== "0"; ++n) {
+      await page.keyboard.press("+");
+      await isReady("slices");
+    }
+    for (let n = 0; n < 5; ++n) await page.keyboard.press("+"); // so that a voxel is several pixels of the screen
+    await isReady("slices");
+    const box = await page.locator(".slices canvas").boundingBox();
+    for (let n = 0; n < 12; ++n) {
+      const place = { x: box.width * (0.3 + 0.03 * n), y: box.height * (0.7 - 0.03 * n) };
+      await page.click(".slices canvas", { position: place });
+      await until((old) => ![undefined, old].includes(document.querySelector(".probe")?.dataset.voxel), probed.at(-1)?.voxel);
+      const { voxel, material } = await page.evaluate(() => ({ ...document.querySelector(".probe").dataset }));
+      const shown = await page.evaluate(({ x, y }) => {
+        const canvas = document.querySelector(".slices canvas");
+        const scale = canvas.width / canvas.clientWidth;
+        const around = canvas.getContext("2d").getImageData(Math.floor(x * scale) - 1, Math.floor(y * scale) - 1, 3, 3).data;
+        return Array.from({ length: 9 }, (_, k) => around.slice(4 * k, 4 * k + 4).join());
+      }, place);
+      probed.push({ voxel, material, shown });
+    }
+    await picture("slices");
+  },
+
+  async "slices for a printer, pauses and goes on"() {
+    await page.click("#tab-export");
+    await page.click("button.main");
+    await page.waitForSelector(".job[data-state=working]");
+    await page.click("text=Pause");
+    await page.waitForSelector(".job[data-state=paused]");
+    assert.ok(existsSync(join(folder, "ball_slices/job.json")));
+    await page.click("text=Resume");
+    await page.waitForSelector(".job[data-state=done]");
+    const job = JSON.parse(readFileSync(join(folder, "ball_slices/job.json"), "utf8"));
+    assert.ok(job.totals);
+    const [z] = [...new Set(probed.map((p) => p.voxel.split(",")[2]))];
+    const layer = pixelsOf(join(folder, "ball_slices", `slice_${z.padStart(5, "0")}.png`));
+    const colours = { red: [255, 0, 0, 255], blue: [0, 80, 255, 255], void: [0, 0, 0, 0] };
+    for (const { voxel, material, shown } of probed) {
+      const [i, j] = voxel.split(",").map(Number);
+      assert.deepEqual(layer.at(i, layer.height - 1 - j), colours[material], `voxel ${voxel}`);
+      assert.ok(shown.includes(colours[material].join()), `the page shows voxel ${voxel} as ${shown[4]}`);
+    }
+    assert.ok(new Set(probed.map((p) => p.material)).size > 1);
+    await picture("job");
+  },
+
+  async "a reload loses nothing"() {
+    await page.reload();
+    await isReady("slices");
+    assert.equal(await page.inputValue(".slices .printer"), "j750");
+    assert.match(await editor.innerText(), /radius = 12\.5/);
+    await page.waitForSelector(".job[data-state=done]");
+    await page.click("#tab-surface");
+    await isReady("surface");
+  },
+
+  async "two windows show the same text"() {
+    const other = await context.newPage();
+    await other.goto(`http://127.0.0.1:${port}/`);
+    await status("[data-saved=saved]", other);
+    await type("// seen by both\n");
+    await other.waitForSelector(".cm-line:has-text('seen by both')");
+    await other.close();
+  },
+
+  async "changes on the disk are taken, and never overwritten"() {
+    await status("[data-saved=saved]");
+    writeFileSync(file, onDisk() + "// by another program\n");
+    await page.waitForSelector(".cm-line:has-text('by another program')");
+    await page.evaluate(() => {
+      window.sent = WebSocket.prototype.send;
+      WebSocket.prototype.send = function (text) {
+        if (!text.includes('"do":"save"')) window.sent.call(this, text);
+      };
+    });
+    await type("// mine\n"); // cannot be saved in time
+    writeFileSync(file, onDisk() + "// theirs\n");
+    await page.waitForSelector(".bar.warning");
+    await page.evaluate(() => (WebSocket.prototype.send = window.sent));
+    await page.reload(); // what was typed is a draft, the conflict is found again
+    await page.waitForSelector(".bar.warning");
+    assert.match(await editor.innerText(), /mine/);
+    assert.match(onDisk(), /theirs/);
+    await page.click("text=Keep what is here");
+    await untilOnDisk("// mine");
+    assert.doesNotMatch(onDisk(), /theirs/);
+  },
+
+  async "a server that is killed and started again loses nothing"() {
+    await page.click("#tab-export");
+    await page.fill(".panel input[type=text]", "again_slices");
+    await page.click("button.main");
+    await page.waitForSelector("[data-folder=again_slices][data-state=working]");
+    await stopServer("SIGKILL");
+    await status("[data-status=lost]");
+    await type("// while it was away\n");
+    await startServer(port, "0".repeat(32));
+    await status("[data-status=refused]");
+    await stopServer("SIGINT");
+    await startServer(port);
+    await status("[data-status=open]");
+    await untilOnDisk("// while it was away");
+    await status("[data-old=false][data-busy=false]");
+    await page.selectOption(".surface .viewbar select >> nth=0", "top");
+    await isReady("surface");
+    await page.click("[data-folder=again_slices][data-state=interrupted] >> text=Resume");
+    await page.waitForSelector("[data-folder=again_slices][data-state=done]");
+    const bytes = (name) => readFileSync(join(folder, name, "slice_00400.png"));
+    assert.deepEqual(bytes("again_slices"), bytes("ball_slices")); // comments alone were added since
+  },
+
+  async "shows OpenSCAD scripts, and Python scripts when they are run"() {
+    await page.click("#tab-variables");
+    await page.selectOption("select.file", "box.scad");
+    await page.waitForSelector("#variable-width");
+    await isReady("surface");
+    assert.equal((await alphaInMiddle("surface"))[3], 255);
+    await page.selectOption("select.file", "drop.py");
+    await page.waitForSelector(".cm-line:has-text('import ombre')");
+    const before = await page.getAttribute(".surface canvas", "data-design");
+    await page.click("button:has-text('Run')");
+    await until((old) => document.querySelector(".surface canvas").dataset.design !== old, before);
+    await isReady("surface");
+    const [red, , blue] = await alphaInMiddle("surface");
+    assert.ok(blue > red);
+    await page.selectOption("select.file", "ball.vcad");
+    await isReady("surface");
+  },
+
+  async "axe finds nothing"() {
+    await page.click("#tab-all");
+    await page.evaluate(axeSource);
+    for (const theme of ["light", "dark"]) {
+      await page.selectOption("header select >> nth=1", theme);
+      for (const tab of theme === "light" ? ["reference", "variables", "materials", "export"] : ["export"]) {
+        await page.click(`#tab-${tab}`);
+        const found = await page.evaluate(() => axe.run());
+        assert.deepEqual(found.violations.map((v) => `${theme} ${tab}: ${v.id} at ${v.nodes.map((n) => n.html.slice(0, 120)).join(" and ")}`), []);
+      }
+      await page.waitForTimeout(pictures ? 2500 : 0);
+      await picture(`all_${theme}`);
+    }
+  },
+
+  async "nothing went wrong unseen"() {
+    assert.deepEqual(complaints, []);
+  },
+};
+
+const probed = [];
+let failed = 0;
+const watch = () => `${((performance.now() - begun) / 1000).toFixed(1)} s`;
+let begun = performance.now();
+for (const [name, check] of Object.entries(checks)) {
+  begun = performance.now();
+  try {
+    await check();
+    console.log(`${name}: ${watch()}`);
+  } catch (error) {
+    ++failed;
+    console.log(`FAILED ${name} (${watch()})\n    ${String(error.stack).split("\n").slice(0, 12).join("\n    ")}`);
+    await page.screenshot({ path: join(tmpdir(), "ombre-studio-failed.png") }).catch(() => undefined);
+    console.log(`    the page is in ${join(tmpdir(), "ombre-studio-failed.png")}`);
+    break;
+  }
+}
+await browser.close();
+await stopServer("SIGINT");
+rmSync(folder, { recursive: true, force: true });
+process.exit(failed);
