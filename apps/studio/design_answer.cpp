@@ -1,5 +1,7 @@
 #include "studio/design_answer.h"
 
+#include <algorithm>
+#include <span>
 #include <unordered_map>
 
 #include "base/text.h"

@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <future>
+#include <memory>
 #include <thread>
+#include <vector>
 
 #include "base/stopwatch.h"
 #include "studio/test_folder.h"

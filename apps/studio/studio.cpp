@@ -1,6 +1,7 @@
 #include "studio/studio.h"
 
 #include <algorithm>
+#include <variant>
 
 #include "base/error.h"
 #include "base/tasks.h"

@@ -1,10 +1,12 @@
 // The studio apart from its connections: takes requests, sends answers and events.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "sources/source_cache.h"
 #include "studio/exports.h"

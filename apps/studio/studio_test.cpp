@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <map>
+#include <mutex>
 
 #include "base/json.h"
 #include "base/stopwatch.h"

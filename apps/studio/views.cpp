@@ -1,5 +1,8 @@
 #include "studio/views.h"
 
+#include <algorithm>
+#include <array>
+
 #include "base/error.h"
 #include "base/json.h"
 #include "compile/colour_map.h"

@@ -1,6 +1,9 @@
 // Grids of a design's materials: for the page's volume view, and to measure.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "base/error.h"
 #include "compile/find_printer.h"
