@@ -290,6 +290,15 @@ def a_hook_holds_its_coat(folder):
     near(events["solution"]["reaction_n"][1], 20 + weight, 0.02 * weight, "the reaction")
 
 
+def a_mug_cools(folder):
+    """What enters from the tea leaves to the air, about film times area times difference at most; none is colder than it."""
+    examples = program.SOURCE / "examples"
+    solution = folder.events(examples / "mug.vcad", "--study", examples / "studies" / "tea.json", "--cell", "2",
+                             "--assign", "mix", "--solve")["solution"]
+    near(solution["enters_w"], solution["leaves_w"], 1e-5 * solution["enters_w"], "the heat")
+    expect(solution["least_temperature_c"] > 20 and solution["greatest_temperature_c"] <= 80 + 1e-6, str(solution))
+
+
 def wrong_use_is_told(folder):
     def error(*arguments, status=1):
         return folder.run(*arguments, status=status).stderr
@@ -315,6 +324,7 @@ def wrong_use_is_told(folder):
     expect("--min-cell" in error(*solve, "--elements", "tet4", "--size-by", "1"), "no least size")
     expect("nothing without --solve" in error(*cube, "--study", "pull.json", "--solver", "calculix", "-o", "x.inp"), "solver")
     if has_tetrahedra(folder):
+        folder.run(*solve, "--elements", "tet4", "--size", "100")  # larger than the part
         message = error(*solve, "--elements", "tet4", "--size", "0.01", status=2)
         expect("tetrahedra take about" in message and "larger --size" in message, message)
         message = error(*solve, "--elements", "tet4", "--size-by", "min_cel", "--min-cell", "1", "--max-cell", "2")
@@ -354,7 +364,7 @@ def main():
 
     checks = [bars_stretch_by_hookes_law, results_are_in_the_grid, mixtures_are_drawn_or_mixed,
               moduli_come_from_attributes, decks_are_complete, tetrahedra_reach_the_surface,
-              adaptive_meshes_cost_less, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix, a_hook_holds_its_coat, wrong_use_is_told, ctrl_c_ends_it]
+              adaptive_meshes_cost_less, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix, a_hook_holds_its_coat, a_mug_cools, wrong_use_is_told, ctrl_c_ends_it]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
 
 

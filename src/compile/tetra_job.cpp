@@ -16,12 +16,12 @@
 namespace ombre::compile {
 namespace {
 
-// The surface, whose sharp edges count, has cells and a tolerance of these shares of the least size, but no more than
-// so many cells along an axis.
-constexpr double cell_share = 0.5, tolerance_share = 0.01, most_cells_along = 500;
+// The surface, whose sharp edges count, has cells and a tolerance of these shares of the least size, or of an eighth of
+// the part where that is less, but no more than so many cells along an axis.
+constexpr double cell_share = 0.5, tolerance_share = 0.01, most_cells_along = 500, least_sizes_along = 8;
 // Measured: of the size's third power a tetrahedron has so much, and asks for the region so many times.
 constexpr double volume_of_cube = 0.115, questions_of_element = 60;
-constexpr double most_questions = 2000;  // of an expected element: then the mesher does not come to an end
+constexpr double most_questions = 300;  // of an expected element: then the mesher does not come to an end
 constexpr double bytes_of_element = 700;
 constexpr double least_share = 0.9;  // of the surface's volume that tetrahedra fill
 constexpr double draws = 16777216;   // 2^24
@@ -48,8 +48,9 @@ class TetraMaker {
     if (!box) return std::nullopt;
     const Vec3 extent = box->size();
     const double longest = std::max({extent.x, extent.y, extent.z});
-    tolerance_mm_ = tolerance_share * request_.size.least_mm;
-    cell_mm_ = std::max(cell_share * request_.size.least_mm, longest / most_cells_along);
+    const double size_mm = std::min(request_.size.least_mm, longest / least_sizes_along);
+    tolerance_mm_ = tolerance_share * size_mm;
+    cell_mm_ = std::max(cell_share * size_mm, longest / most_cells_along);
     design_ = with_stages(for_tolerance(loaded_->design, tolerance_mm_), loan());
     auto size = ElementSize::build(design_, *box, request_.size, diagnostics_);
     if (!size || !find_regions(*box) || !check_count(*size, *box) || !find_surface()) return std::nullopt;
@@ -155,6 +156,13 @@ class TetraMaker {
     wanted.least_size_mm = size.least_mm();
     wanted.sharp_edges = std::move(edges.lines);
     wanted.fixed_points = std::move(edges.smooth_points);
+    if (request_.memory_bytes > 0) wanted.memory_bytes = request_.memory_bytes;
+    wanted.stop = stop_;
+    // The mesher asks in a process of its own, on one thread.
+    StageLoan alone = loan();
+    alone.threads = 1;
+    stages_of(design_)->lend(alone);
+    if (progress_) progress_->preparing("tetrahedra", {0, 1});
     solids::Tetrahedra made = solids::make_tetrahedra(wanted);
     if (volume_of(made) > least_share * volume_mm3) return made;
     wanted.fixed_points.insert(wanted.fixed_points.end(), edges.face_points.begin(), edges.face_points.end());
@@ -174,7 +182,7 @@ class TetraMaker {
   void count_question() {
     constexpr uint64_t look_each = 1024;
     if (++questions_ % look_each != 0) return;
-    if (static_cast<double>(questions_) > most_questions * (plan_.elements + 1000))
+    if (static_cast<double>(questions_) > most_questions * (plan_.elements + 5000))
       throw Error("the tetrahedra become far too many and too small, about " + format_rounded(plan_.elements, 2) +
                   " were expected: choose another --size, since sharp edges may lie too close together for this one");
     if (stop_ && stop_->requested()) throw Cancelled();

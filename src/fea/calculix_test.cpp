@@ -140,7 +140,8 @@ bool has_program() {
 
 // The energies are those of CalculiX 2.20; where it is installed, all is compared.
 TEST(Calculix, GivesWhatTheBuiltInSolverGives) {
-  constexpr std::array<std::pair<ElementKind, double>, 2> cases{{{ElementKind::c3d4, 0.233955525}, {ElementKind::c3d10, 2.945740925}}};
+  constexpr std::array<std::pair<ElementKind, double>, 2> cases{
+      {{ElementKind::c3d4, 0.233955525}, {ElementKind::c3d10, 2.945740925}}};
   for (const auto& [kind, energy] : cases) {
     const auto [model, conditions] = pushed_block(kind);
     const Solution own = solve_mesh(model, conditions, {1e-10, 20000, 0});

@@ -101,8 +101,8 @@ std::vector<OuterSide> outer_sides(const MeshView& mesh) {
   entries.reserve(mesh.count() * shape.sides.size());
   for (uint32_t element = 0; element < mesh.count(); ++element) {
     const auto nodes = mesh.nodes(element);
-    for (uint8_t side = 0; side < shape.sides.size(); ++side) {
-      Entry entry{{none, none, none, none}, {element, side}};
+    for (size_t side = 0; side < shape.sides.size(); ++side) {
+      Entry entry{{none, none, none, none}, {element, static_cast<uint8_t>(side)}};
       for (size_t n = 0; n < shape.side_corners; ++n) entry.corners[n] = nodes[shape.sides[side][n]];
       std::ranges::sort(entry.corners);
       entries.push_back(entry);

@@ -38,7 +38,8 @@ class ElementsOfNodes {
     std::vector<size_t> next(begins_.begin(), begins_.end() - 1);
     for (uint32_t element = 0; element < mesh.count(); ++element) {
       const auto nodes = mesh.nodes(element);
-      for (uint8_t place = 0; place < nodes.size(); ++place) entries_[next[nodes[place]]++] = {element, place};
+      for (size_t place = 0; place < nodes.size(); ++place)
+        entries_[next[nodes[place]]++] = {element, static_cast<uint8_t>(place)};
     }
   }
 

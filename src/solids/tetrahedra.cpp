@@ -1,7 +1,11 @@
 // Loads the module that makes tetrahedra when it is first needed.
 #include "solids/tetrahedra.h"
 
+#include <new>
+
+#include "base/byte_pack.h"
 #include "base/error.h"
+#include "base/helper_process.h"
 #include "base/module_loader.h"
 
 namespace ombre::solids {
@@ -10,11 +14,42 @@ namespace ombre::solids {
 
 bool has_tetrahedra() { return true; }
 
-Tetrahedra make_tetrahedra(const TetrahedraRequest& request) {
-  static const auto make =
-      load_function<decltype(ombre_make_tetrahedra)>(OMBRE_TETRAHEDRA_MODULE, "ombre_make_tetrahedra", "tetrahedra");
+namespace {
+
+using Make = decltype(ombre_make_tetrahedra);
+
+std::string make_and_pack(Make* make, const TetrahedraRequest& request) {
   Tetrahedra made;
-  make(request, made);
+  try {
+    make(request, made);
+  } catch (const std::bad_alloc&) {
+    throw Error("the tetrahedra take more memory than is allowed; choose a larger size, or more memory");
+  }
+  BytePacker packer;
+  packer.add_list(made.points);
+  packer.add_list(made.nodes);
+  packer.add_list(made.regions);
+  return packer.take();
+}
+
+std::string explain(HelperFailure) {
+  return "the mesher of tetrahedra crashed, most likely since sharp edges cross or touch each other: choose another "
+         "size "
+         "of elements, or use bricks";
+}
+
+}  // namespace
+
+Tetrahedra make_tetrahedra(const TetrahedraRequest& request) {
+  static Make* const make = load_function<Make>(OMBRE_TETRAHEDRA_MODULE, "ombre_make_tetrahedra", "tetrahedra");
+  constexpr double a_week = 7 * 24 * 3600.0;
+  const HelperLimits limits{a_week, request.memory_bytes};
+  const std::string bytes = run_in_helper([&] { return make_and_pack(make, request); }, limits, explain, request.stop);
+  ByteUnpacker unpacker(bytes);
+  Tetrahedra made;
+  made.points = unpacker.get_list<Vec3>();
+  made.nodes = unpacker.get_list<std::array<uint32_t, 4>>();
+  made.regions = unpacker.get_list<uint32_t>();
   return made;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/box.h"
+#include "base/progress.h"
 
 namespace ombre::solids {
 
@@ -22,6 +23,8 @@ struct TetrahedraRequest {
   std::vector<Polyline> sharp_edges;
   // Points of the surface that become nodes, for closed surfaces without sharp edges, which are not found otherwise.
   std::vector<Vec3> fixed_points;
+  size_t memory_bytes = size_t{8} << 30;  // most that the mesher may take
+  const StopFlag* stop = nullptr;         // may be null
 };
 
 // Nodes come in ascending order of z, then y, then x; tetrahedra in that of their nodes. All are positive: seen from
@@ -34,7 +37,9 @@ struct Tetrahedra {
 
 // Delaunay refinement of the volume (CGAL's Mesh_3, after Rineau and Yvinec, 2007; sharp edges after Cheng, Dey and
 // Levine, 2007), then slivers are removed by moves of nodes and by weights. On one thread, so that the same request
-// gives the same bits. Throws Error where there is no such library in this build, or it fails.
+// gives the same bits; in a process of its own, since edges that cross each other crash it: `region` and `size_mm` run
+// there, and must not use other threads. Throws Error where there is no such library in this build, or it fails, and
+// Cancelled.
 Tetrahedra make_tetrahedra(const TetrahedraRequest& request);
 bool has_tetrahedra();
 
