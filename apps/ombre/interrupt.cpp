@@ -14,12 +14,13 @@ namespace ombre::cli {
 namespace {
 
 std::atomic<StopFlag*> current_flag{nullptr};
+std::atomic<bool> quits_at_once{false};
 static_assert(std::atomic<StopFlag*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 // Only what a signal handler may do.
 void on_signal(int) {
   StopFlag* flag = current_flag.load();
-  if (!flag || flag->requested()) ::_exit(interrupted);
+  if (!flag || flag->requested() || quits_at_once) ::_exit(interrupted);
   flag->request();
   constexpr std::string_view text =
       "\nstopping, once what is under way is finished; press Ctrl-C again to quit at once\n";
@@ -40,5 +41,8 @@ InterruptGuard::~InterruptGuard() {
   std::signal(SIGTERM, terminate_before_);
   current_flag = nullptr;
 }
+
+QuitAtOnce::QuitAtOnce() { quits_at_once = true; }
+QuitAtOnce::~QuitAtOnce() { quits_at_once = false; }
 
 }  // namespace ombre::cli

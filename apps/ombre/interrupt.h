@@ -21,4 +21,14 @@ class InterruptGuard {
   void (*terminate_before_)(int);
 };
 
+// While one exists, the first signal ends the program at once: nothing has been written yet, and what is under way, in
+// libraries of others, cannot be told to stop.
+class QuitAtOnce {
+ public:
+  QuitAtOnce();
+  ~QuitAtOnce();
+  QuitAtOnce(const QuitAtOnce&) = delete;
+  QuitAtOnce& operator=(const QuitAtOnce&) = delete;
+};
+
 }  // namespace ombre::cli

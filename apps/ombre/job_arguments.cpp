@@ -6,6 +6,7 @@
 #include "compile/find_printer.h"
 #include "ombre/arguments.h"
 #include "ombre/checks.h"
+#include "ombre/interrupt.h"
 
 namespace ombre::cli {
 namespace {
@@ -103,6 +104,7 @@ compile::LoadedPtr load_design(const DesignArguments& a, Session& session, Diagn
   options.stop = &session.stop;
   options.threads = threads;
   options.cache = &session.cache;
+  const QuitAtOnce quits;
   return session.load(a.design, options, diagnostics);
 }
 

@@ -1,9 +1,11 @@
 #include "ombre/scad_files.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "compile/scad_job.h"
 #include "ombre/command_line.h"
+#include "ombre/interrupt.h"
 
 namespace ombre::cli {
 namespace {
@@ -34,6 +36,8 @@ bool write_solids(const solids::TreePtr& tree, const std::vector<std::string>& p
   request.no_overlap = no_overlap;
   request.stop = &session.stop;
   Diagnostics messages;
+  std::optional<QuitAtOnce> quits(std::in_place);
+  request.before_writing = [&] { quits.reset(); };
   const compile::ScadResult result = compile::run_scad(request, messages);
   session.console.diagnose(messages);
   if (messages.has_errors()) return false;

@@ -207,6 +207,7 @@ ScadResult run_scad(const ScadRequest& request, Diagnostics& messages) {
     result.pieces = without_overlaps(result.pieces, options);
   else if (!request.outputs.empty())
     warn_of_overlaps(result.pieces, request.tree ? request.tree->where : SourceRange{}, options, messages);
+  if (request.before_writing && !request.outputs.empty()) request.before_writing();
   for (const SolidsExport& output : request.outputs) {
     const std::vector<std::string> paths = write_pieces(result.pieces, output, messages);
     result.files.insert(result.files.end(), paths.begin(), paths.end());

@@ -1,6 +1,7 @@
 // From a tree of polyhedral geometry to files.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct ScadRequest {
   int threads = 0;
   const StopFlag* stop = nullptr;
   Progress* progress = nullptr;
+  std::function<void()> before_writing = {};  // called when the geometry is there, unless there is nothing to write
 };
 
 struct ScadResult {
