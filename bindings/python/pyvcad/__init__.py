@@ -13,11 +13,11 @@ from ._converters import (AttributeConverterBase, AttributeModifier, ExpressionC
 from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
 from ._errors import MissingFeature
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
-from ._missing import (Blend, Convolution, HexahedralMesh, Map, PointMap, SimulationField, TetrahedralMesh, Voxels,
-                       attribute_of)
+from ._missing import (Blend, Convolution, HexahedralMesh, Map, TetrahedralMesh, Voxels, attribute_of)
 from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference, FGrade, Identity, Intersection, Mirror,
                           Offset, Rotate, Scale, Shell, Sum, Tile, Translate, Union)
 from ._outlines import PolygonExtrude, Text
+from ._results import PointMap, SimulationField
 from ._sampling import AttributeSamples, TreeSampler
 from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, Sphere, Strut, Torus
 from ._supports import SupportAnalyzer, SupportAnalyzerParallel

@@ -105,14 +105,6 @@ class Voxels(_Missing):
     """Solid of a grid of voxels."""
 
 
-class SimulationField(_Missing):
-    """Composition from the results of a simulation."""
-
-
-class PointMap(_Missing):
-    """Composition from values at points."""
-
-
 class Map(_Missing):
     """Coordinates along a surface."""
 
