@@ -11,11 +11,11 @@ namespace {
 constexpr double radius = 100, gap = 40, top = 50;  // of a diagram, in the picture's units
 constexpr int directions = 180, rings = 4;
 
-struct Plane {
+struct ChartPlane {
   const char* name;
   int first, second;  // axes to the right and upwards
 };
-constexpr std::array<Plane, 3> planes{{{"xy", 0, 1}, {"yz", 1, 2}, {"zx", 2, 0}}};
+constexpr std::array<ChartPlane, 3> planes{{{"xy", 0, 1}, {"yz", 1, 2}, {"zx", 2, 0}}};
 
 std::string number(double value) { return format_rounded(value, 6); }
 
@@ -34,7 +34,7 @@ double step_for(double greatest) {
   return 10 * power;
 }
 
-std::string diagram(const Stiffness& stiffness, const Plane& plane, double x, double step) {
+std::string diagram(const Stiffness& stiffness, const ChartPlane& plane, double x, double step) {
   const double y = top + radius;
   const char* axes = "xyz";
   std::string svg;
@@ -62,7 +62,7 @@ std::string diagram(const Stiffness& stiffness, const Plane& plane, double x, do
 
 std::string stiffness_chart(const Stiffness& stiffness, const std::string& title) {
   double greatest = 0;
-  for (const Plane& plane : planes)
+  for (const ChartPlane& plane : planes)
     for (int n = 0; n < directions; ++n) {
       Vec3 d;
       d[plane.first] = math::cos(360.0 * n / directions * math::degree);

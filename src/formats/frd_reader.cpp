@@ -151,11 +151,13 @@ class FrdReader {
     read_format();
     ResultField field;
     size_t components = 0;
+    next_value_ = values_end_ = 0;
     for (std::string_view key = next_in_block(); !key.empty(); key = next_in_block()) {
       if (key == "-4") {
         field.name = plain_name(std::string(word(5, 8)));
       } else if (key == "-5") {
         // The length of a vector is not in the file.
+        if (!field.values.empty()) fail_line("the name of a component comes behind values");
         if (word(5, 8) != "ALL") ++components;
       } else if (key == "-1" || key == "-2") {
         add_values(key == "-1", components, field);
@@ -163,7 +165,7 @@ class FrdReader {
         fail_line("expected a line that begins with -1, found " + quoted(key));
       }
     }
-    if (field.name.empty() || components == 0) return;
+    if (field.name.empty() || field.values.empty()) return;
     // A later step takes the place of those before.
     std::erase_if(mesh_.results.fields, [&](const ResultField& known) { return known.name == field.name; });
     mesh_.results.fields.push_back(std::move(field));

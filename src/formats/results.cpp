@@ -31,6 +31,14 @@ void add_von_mises(Results& results) {
   results.fields.push_back(std::move(added));
 }
 
+// Nodes and elements that the file names after a field have no value there.
+void fill_up_fields(Results& results) {
+  for (ResultField& field : results.fields) {
+    const size_t count = field.is_of_elements ? results.kinds.size() : results.points.size();
+    field.values.resize(count * field.components, std::nan(""));
+  }
+}
+
 Results read_any(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& values,
                  Diagnostics& diagnostics) {
   const std::string_view text = trim(bytes.substr(0, std::min<size_t>(bytes.size(), 4096)));
@@ -104,6 +112,7 @@ std::optional<Results> read_results(const std::string& name, std::string_view by
   try {
     Results results = read_any(name, bytes, values, diagnostics);
     if (results.points.empty()) fail(diagnostics, name, "the file holds no points");
+    fill_up_fields(results);
     tell_names_apart(results.fields);
     add_von_mises(results);
     return results;

@@ -182,6 +182,13 @@ TEST(Results, FrdOfCalculix) {
   EXPECT_EQ(moves->values[0], 1e-101);  // of the last step
   EXPECT_EQ(moves->values[3 * 4 + 1], 2);
   EXPECT_EQ(moves->values[59], -2);
+  // A field of which no values come is none.
+  const std::string empty = bar.substr(0, bar.find("  100CL")) +
+                            "  100CL  101 1.000000000          20                     0    1           1\n"
+                            " -4  DISP        4    1\n -5  D1          1    2    1    0\n -3\n 9999\n";
+  const auto without = read_results("a.frd", empty, {}, diagnostics);
+  ASSERT_TRUE(without);
+  EXPECT_TRUE(without->fields.empty());
   for (size_t size = 0; size < bar.size(); size += 101) read_results("a.frd", bar.substr(0, size), {}, diagnostics);
 }
 

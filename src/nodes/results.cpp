@@ -23,8 +23,8 @@ std::vector<std::string> component_names(size_t count) {
 }
 
 struct Results {
-  FilePath path, values;
-  std::string field, component;
+  FilePath path;
+  std::string field, component, values;
   Choice outside = "none", between = "weights";
   std::optional<double> within;
   double otherwise = 0, deform = 0;
@@ -68,11 +68,20 @@ struct Results {
 
   bool complete(const Reader& reader) {
     if (!reader.loader) return fail(reader, "results cannot be read here", "");
-    ResultsRequest request{path, values, field, outside, within, otherwise, between, deform};
+    ResultsRequest request;
+    request.file = path;
+    request.values.path = values;
+    request.field = field;
+    request.outside = outside;
+    request.within_mm = within;
+    request.otherwise = otherwise;
+    request.between = between;
+    request.deform = deform;
     loaded = reader.loader->source(request, reader);
     if (!loaded) return false;
-    path = request.file;
-    values = request.values;
+    path.path = request.file.path;
+    path.content = loaded->source->content();  // of both files
+    values = request.values.path;
     return choose(reader);
   }
 

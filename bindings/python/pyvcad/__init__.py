@@ -14,10 +14,11 @@ from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignm
 from ._errors import MissingFeature
 from ._filters import Blend, BoxKernel, Convolution, Convolve, CustomKernel, Voxels
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
-from ._missing import HexahedralMesh, Map, PointMap, SimulationField, TetrahedralMesh, attribute_of
+from ._missing import HexahedralMesh, Map, TetrahedralMesh, attribute_of
 from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference, FGrade, Identity, Intersection, Mirror,
                           Offset, Rotate, Scale, Shell, Sum, Tile, Translate, Union)
 from ._outlines import PolygonExtrude, Text
+from ._results import PointMap, SimulationField
 from ._sampling import AttributeSamples, TreeSampler
 from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, Sphere, Strut, Torus
 from ._supports import SupportAnalyzer, SupportAnalyzerParallel

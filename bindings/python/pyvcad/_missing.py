@@ -101,14 +101,6 @@ class _Missing(Node):
         raise missing(type(self).__name__)
 
 
-class SimulationField(_Missing):
-    """Composition from the results of a simulation."""
-
-
-class PointMap(_Missing):
-    """Composition from values at points."""
-
-
 class Map(_Missing):
     """Coordinates along a surface."""
 
