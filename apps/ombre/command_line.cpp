@@ -44,11 +44,12 @@ class CommandLine {
     program_.footer(program_footer);
     program_.set_version_flag("--version", "ombre " OMBRE_VERSION);
     program_.require_subcommand(0, 1);
-    commands_ = {add_slice(program_, output_),     add_layer(program_, output_), add_render(program_, output_),
-                 add_voxels(program_, output_),    add_mesh(program_, output_),  add_contours(program_, output_),
-                 add_fea(program_, output_),       add_sheet(program_, output_), add_probe(program_, output_),
-                 add_info(program_, output_),      add_nodes(program_, output_), add_printers(program_, output_),
-                 add_materials(program_, output_), add_scad(program_, output_),  add_completion(program_)};
+    commands_ = {add_slice(program_, output_),    add_layer(program_, output_),     add_render(program_, output_),
+                 add_voxels(program_, output_),   add_mesh(program_, output_),      add_contours(program_, output_),
+                 add_fea(program_, output_),      add_optimise(program_, output_),  add_sheet(program_, output_),
+                 add_probe(program_, output_),    add_info(program_, output_),      add_nodes(program_, output_),
+                 add_printers(program_, output_), add_materials(program_, output_), add_scad(program_, output_),
+                 add_completion(program_)};
     // Only for those who ask what there is: Python runs it before it comes here (python_designs.h).
     program_.add_subcommand("run",
                             "Run a Python script; with --, its root is the design of a command (see: ombre run -h)");
