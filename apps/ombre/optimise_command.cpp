@@ -262,6 +262,7 @@ class Report {
       write_file(name, script_of(a_, study_, folder_, history_.rows()[row]));
       tell(row, name);
     }
+    console_.event("done", {{"files", files_}});
     return done;
   }
 
