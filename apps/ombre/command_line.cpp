@@ -49,7 +49,7 @@ class CommandLine {
                  add_fea(program_, output_),      add_homogenise(program_, output_), add_sheet(program_, output_),
                  add_probe(program_, output_),    add_info(program_, output_),       add_nodes(program_, output_),
                  add_printers(program_, output_), add_materials(program_, output_),  add_scad(program_, output_),
-                 add_studio(program_, output_),   add_completion(program_)};
+                 add_studio(program_, output_),   add_optimise(program_, output_),   add_completion(program_)};
     // Only for those who ask what there is: Python runs it before it comes here (python_designs.h).
     program_.add_subcommand("run",
                             "Run a Python script; with --, its root is the design of a command (see: ombre run -h)");

@@ -47,6 +47,7 @@ Command add_mesh(CLI::App& program, OutputOptions& output);
 Command add_contours(CLI::App& program, OutputOptions& output);
 Command add_fea(CLI::App& program, OutputOptions& output);
 Command add_homogenise(CLI::App& program, OutputOptions& output);
+Command add_optimise(CLI::App& program, OutputOptions& output);
 Command add_probe(CLI::App& program, OutputOptions& output);
 Command add_sheet(CLI::App& program, OutputOptions& output);
 Command add_info(CLI::App& program, OutputOptions& output);

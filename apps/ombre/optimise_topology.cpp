@@ -1,0 +1,151 @@
+#include "ombre/optimise_topology.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+#include "base/text.h"
+#include "compile/optimise_job.h"
+#include "compile/topology_study.h"
+#include "export/volume_file.h"
+#include "ombre/overwrite.h"
+#include "ombre/progress_line.h"
+#include "optimise/chart.h"
+
+namespace ombre::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TopologyCase {
+  fea::Model model;
+  fea::Conditions conditions;
+};
+
+std::optional<TopologyCase> make_topology_case(const TopologyArguments& a, const compile::TopologyStudy& study,
+                                               Session& session, Diagnostics& diagnostics) {
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
+  if (!loaded) return std::nullopt;
+  auto options = plan_options(JobArguments{}, diagnostics);
+  if (!options) return std::nullopt;
+  options->threads = a.threads;
+  options->stop = &session.stop;
+  const auto plan = compile::plan_bricks(loaded, study.model, *options, diagnostics);
+  if (!plan) return std::nullopt;
+  compile::FeaRequest request = study.model.request;
+  request.threads = a.threads;
+  auto model = compile::fea_model(loaded, *plan, study.model.fea, request, diagnostics, nullptr, &session.stop);
+  if (!model) return std::nullopt;
+  auto conditions = fea::conditions_of(study.model.fea, *model, diagnostics);
+  if (!conditions) return std::nullopt;
+  return TopologyCase{std::move(*model), std::move(*conditions)};
+}
+
+// Densities as a grid around the bricks; 0 where there is none.
+void write_density(const std::string& path, const fea::Bricks& bricks, const std::vector<float>& density) {
+  fea::Cell low = bricks.cells.front(), high = low;
+  for (const fea::Cell& cell : bricks.cells)
+    for (size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], cell[axis]);
+      high[axis] = std::max(high[axis], cell[axis]);
+    }
+  exporting::Volume volume;
+  volume.is_float = true;
+  volume.spacing_mm = bricks.size_mm;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<int>(axis);
+    volume.count[axis] = high[axis] - low[axis] + 1;
+    volume.origin_mm[at] = bricks.origin[at] + (low[axis] + 0.5) * bricks.size_mm[at];
+  }
+  volume.about = {{"what", "density"}};
+  std::vector<float> grid(static_cast<size_t>(volume.count[0] * volume.count[1] * volume.count[2]));
+  for (size_t n = 0; n < bricks.count(); ++n) {
+    const fea::Cell& cell = bricks.cells[n];
+    const int64_t row = (cell[2] - low[2]) * volume.count[1] + (cell[1] - low[1]);
+    grid[static_cast<size_t>(row * volume.count[0] + (cell[0] - low[0]))] = density[n];
+  }
+  std::string bytes(grid.size() * sizeof(float), '\0');
+  std::memcpy(bytes.data(), grid.data(), bytes.size());
+  exporting::VolumeFile file(path, exporting::VolumeFormat::nrrd, volume);
+  file.append(bytes);
+  file.close();
+  file.commit();
+}
+
+std::string history_of(const optimise::Topology& topology) {
+  std::string text = "step,compliance [N mm],volume fraction,change\n";
+  for (const optimise::TopologyStep& step : topology.steps)
+    text += std::to_string(step.number) + "," + format_number(step.compliance) + "," +
+            format_number(step.volume_fraction) + "," + format_number(step.change) + "\n";
+  return text;
+}
+
+std::string chart_of(const optimise::Topology& topology) {
+  optimise::Chart chart;
+  chart.title = "Compliance of each step";
+  chart.x_label = "step";
+  chart.y_label = "compliance [N mm]";
+  chart.joins_best = true;
+  for (const optimise::TopologyStep& step : topology.steps)
+    chart.points.push_back({static_cast<double>(step.number), step.compliance, optimise::ChartPoint::Kind::best});
+  return optimise::chart_svg(chart);
+}
+
+// What takes the result: the design where there is most of its material.
+std::string script_of(const TopologyArguments& a) {
+  const fs::path design = fs::proximate(fs::absolute(a.design.design), fs::absolute(a.folder));
+  return "// The densities are numbers of a grid, for solids and for mixtures: volume(\"density.nrrd\").value.\n"
+         "// The design was " +
+         design.generic_string() + "\nvolume_solid(\"density.nrrd\", level=0.5);\n";
+}
+
+}  // namespace
+
+int optimise_topology(const TopologyArguments& a, const Data& data, Session& session) {
+  Diagnostics diagnostics;
+  auto study = compile::read_topology_study(data, diagnostics);
+  const auto made = study ? make_topology_case(a, *study, session, diagnostics) : std::nullopt;
+  session.console.diagnose(diagnostics);
+  if (!made) return wrong_input;
+  const double bytes = fea::solve_bytes(made->model.bricks);
+  if (bytes > a.memory_bytes)
+    throw Error("solving takes about " + format_bytes(bytes) + " of memory, more than the " +
+                format_bytes(a.memory_bytes) + " allowed; choose larger bricks with \"cell\", or more --memory");
+  const auto file = [&](const char* name) { return (fs::path(a.folder) / name).string(); };
+  const std::vector<std::string> files{file("density.nrrd"), file("topology.vcad"), file("history.csv"),
+                                       file("chart.svg")};
+  for (const std::string& path : files) refuse_to_overwrite(path, a.force);
+  std::error_code problem;
+  fs::create_directories(a.folder, problem);
+  if (problem) throw Error("cannot make the folder " + a.folder + ": " + problem.message());
+
+  optimise::TopologyOptions options = study->options;
+  options.threads = a.threads;
+  const Vec3 size = made->model.bricks.size_mm;
+  if (!(options.radius_mm > 0)) options.radius_mm = 1.5 * std::max({size.x, size.y, size.z});
+  ProgressLine progress(session.console, Counted::steps);
+  const auto told = [&](const optimise::TopologyStep& step) { progress.update({step.number, options.steps}); };
+  const optimise::Topology topology =
+      optimise::find_topology(made->model, made->conditions, options, told, &session.stop);
+  progress.finish();
+
+  write_density(files[0], made->model.bricks, topology.density);
+  exporting::write_file(files[1], script_of(a));
+  exporting::write_file(files[2], history_of(topology));
+  exporting::write_file(files[3], chart_of(topology));
+  const optimise::TopologyStep &first = topology.steps.front(), &last = topology.steps.back();
+  session.console.say(format_count(topology.steps.size()) + " steps: the compliance fell from " +
+                      format_rounded(first.compliance, 5) + " to " + format_rounded(last.compliance, 5) +
+                      " N mm with " + format_rounded(100 * last.volume_fraction, 3) + " % of the volume" +
+                      (last.change > options.change ? ", and would fall further with more steps" : ""));
+  session.console.say("densities in " + files[0] + ", a solid of them in " + files[1]);
+  session.console.event("topology", {{"bricks", static_cast<double>(made->model.bricks.count())},
+                                     {"steps", static_cast<double>(topology.steps.size())},
+                                     {"compliance_n_mm", last.compliance},
+                                     {"volume_fraction", last.volume_fraction},
+                                     {"change", last.change},
+                                     {"files", DataList(files.begin(), files.end())}});
+  return done;
+}
+
+}  // namespace ombre::cli

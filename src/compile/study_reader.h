@@ -1,0 +1,44 @@
+// Reads members of JSON studies, each mistake with its place.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/box.h"
+#include "base/data.h"
+#include "base/diagnostic.h"
+#include "compile/optimise_study.h"
+
+namespace ombre::compile {
+
+class StudyMembers {
+ public:
+  // `what` names the object in messages: "a variable". A diagnostic when it is no object or has other members.
+  StudyMembers(const Data& data, std::string what, const std::vector<std::string>& known, Diagnostics& diagnostics);
+
+  bool has(const std::string& name) const { return data_.find(name) != nullptr; }
+  const Data* find(const std::string& name) const { return data_.find(name); }
+  const Data& data() const { return data_; }
+
+  // Without the member what is given; a diagnostic when it is missing and nothing is given, or is something else.
+  double number(const std::string& name, std::optional<double> missing, double least, double most);
+  bool boolean(const std::string& name, bool missing);
+  std::string text(const std::string& name, const std::optional<std::string>& missing);
+  std::string choice(const std::string& name, const std::string& missing, const std::vector<std::string>& choices);
+  std::optional<Box> box(const std::string& name);
+
+  void fail(const Data& at, const std::string& message, const std::string& hint = "");
+
+ private:
+  const Data& data_;
+  std::string what_;
+  Diagnostics& diagnostics_;
+};
+
+// The members "fea", "cell", "bricks", "assign", "modulus" and "sections" of a study.
+inline const std::vector<std::string> model_members{"fea", "cell", "bricks", "assign", "modulus", "sections"};
+std::optional<ModelChoice> read_model_choice(StudyMembers& members, Diagnostics& diagnostics);
+
+}  // namespace ombre::compile

@@ -1,0 +1,55 @@
+#include "compile/topology_study.h"
+
+#include <algorithm>
+
+#include "compile/study_reader.h"
+
+namespace ombre::compile {
+namespace {
+
+void read_topology(const Data& data, optimise::TopologyOptions& options, Diagnostics& diagnostics) {
+  constexpr double longest_mm = 1e6;
+  StudyMembers members(data, "a topology", {"volume_fraction", "radius", "penalty", "steps", "move", "change"},
+                       diagnostics);
+  if (!data.members()) return;
+  options.volume_fraction = members.number("volume_fraction", std::nullopt, 0.01, 1);
+  options.radius_mm = members.number("radius", 0, 0, longest_mm);
+  options.penalty = members.number("penalty", options.penalty, 1, 10);
+  options.steps = static_cast<size_t>(members.number("steps", static_cast<double>(options.steps), 1, 100'000));
+  options.move = members.number("move", options.move, 0.001, 1);
+  options.change = members.number("change", options.change, 1e-6, 1);
+}
+
+void check_conditions(const fea::Study& fea, const Data& at, Diagnostics& diagnostics) {
+  if (fea.loads.empty())
+    diagnostics.error(at.where, "a topology needs loads, and the study has none",
+                      R"(write into "fea" for example "loads": [{"on": "zmax", "force_n": [0, 0, -10]}])");
+  if (length(fea.gravity_mm_s2) > 0)
+    diagnostics.error(at.where, "a topology takes no gravity, since weight goes with the densities that it looks for",
+                      "leave gravity_mm_s2 out");
+  for (const fea::Support& support : fea.supports)
+    for (const auto& u : support.displacement_mm)
+      if (u && *u != 0)
+        return diagnostics.error(support.on.where, "a topology takes supports that do not move",
+                                 "write \"fix\", and forces as loads");
+}
+
+}  // namespace
+
+std::optional<TopologyStudy> read_topology_study(const Data& data, Diagnostics& diagnostics) {
+  std::vector<std::string> known = model_members;
+  known.insert(known.begin(), "topology");
+  StudyMembers members(data, "a study of topology", known, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  TopologyStudy study;
+  read_topology(*members.find("topology"), study.options, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  auto model = read_model_choice(members, diagnostics);
+  if (!model) return std::nullopt;
+  study.model = std::move(*model);
+  check_conditions(study.model.fea, *members.find("fea"), diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  return study;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,60 @@
+// Searches for the best points of a problem whose functions are only known by their values.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace ombre::optimise {
+
+// What a problem says about a point.
+struct Outcome {
+  bool failed = false;             // nothing is known about the point
+  std::vector<double> objectives;  // the less, the better
+  std::vector<double> excesses;    // of constraints, which hold where the excess is at most 0
+
+  // How far the constraints are from holding: 0 where all of them do.
+  double violation() const {
+    double sum = 0;
+    for (const double excess : excesses) sum += std::max(excess, 0.0);
+    return sum;
+  }
+};
+
+// A point has a coordinate from 0 to 1 for each variable.
+using Point = std::vector<double>;
+
+struct Problem {
+  Point start;
+  size_t objectives = 1, constraints = 0;
+  // The outcomes of several points, in their order. May throw; then the search ends with that exception.
+  std::function<std::vector<Outcome>(const std::vector<Point>&)> evaluate;
+};
+
+struct SearchOptions {
+  std::string method = "cobyla";
+  size_t evaluations = 200;  // at most
+  size_t population = 24;    // of nsga2 and cmaes
+  uint32_t seed = 0;         // of nsga2 and cmaes
+  double tolerance = 1e-4;   // of coordinates, at which cobyla and bobyqa end
+};
+
+// A method of a library: for one objective or for several, and whether with constraints.
+struct Method {
+  std::string name, library;
+  bool many_objectives = false, takes_constraints = true;
+};
+// cobyla (Powell, 1994), bobyqa (Powell, 2009), direct (Jones et al., 1993; Gablonsky's DIRECT-L), by NLopt;
+// nsga2 (Deb et al., 2002), cmaes (Hansen, 2006), by pagmo.
+const std::vector<Method>& methods();
+const Method* find_method(const std::string& name);
+// Whether this build has the method's library; else `search` throws Error.
+bool is_built(const Method& method);
+
+// The same problem, options and outcomes ask for the same points in the same order, so a search that was interrupted
+// goes on when it is repeated with the outcomes that are known. Throws Error without the library.
+void search(const Problem& problem, const SearchOptions& options);
+
+}  // namespace ombre::optimise

@@ -1,0 +1,310 @@
+#!/usr/bin/env python3
+"""Searches for the best values of variables, and for topologies, run as a user would.
+
+    python3 tests/run_optimise.py build/dev/apps/ombre/ombre
+"""
+import argparse
+import csv
+import functools
+import json
+import math
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+
+import program
+
+# Two bars one on the other, of mixtures of red and blue by the shares a and b.
+BARS = """a = 0.9;
+b = 0.9;
+fgrade([str(a), str(1 - a)], [red, blue]) translate(0, 0, 5) rectprism((10, 10, 10), red);
+fgrade([str(b), str(1 - b)], [red, blue]) translate(0, 0, -5) rectprism((10, 10, 10), red);
+"""
+PULL = {"materials": {"red": {"modulus_mpa": 2000, "poissons_ratio": 0, "density_kg_m3": 2000},
+                      "blue": {"modulus_mpa": 100, "poissons_ratio": 0, "density_kg_m3": 1000}},
+        "supports": [{"on": "zmin", "fix": "xyz"}], "loads": [{"on": "zmax", "pressure_mpa": -100}]}
+LIGHT = {"variables": {"a": {"from": 0, "to": 1, "start": 0.9}, "b": {"from": 0, "to": 1, "start": 0.7}},
+         "objectives": [{"minimise": "mass"}],
+         "constraints": [{"measure": "displacement", "axis": "z", "at_most": 2}],
+         "fea": PULL, "cell": 5, "tolerance": 1e-5}
+SCHAFFER = "x = 5;\necho(near = x * x, far = (x - 2) * (x - 2));\nsphere(1);\n"
+FRONT = {"variables": {"x": {"from": -10, "to": 10, "start": 5}},
+         "objectives": [{"minimise": "echo", "name": "near"}, {"minimise": "echo", "name": "far"}],
+         "evaluations": 480}
+
+
+def expect(truth, message):
+    if not truth:
+        raise AssertionError(message)
+
+
+def near(got, wanted, tolerance, what):
+    expect(abs(got - wanted) <= tolerance, f"{what} is {got}, not {wanted}")
+
+
+class Folder:
+    def __init__(self, ombre, scratch):
+        self.ombre, self.path = ombre, pathlib.Path(scratch)
+        self.write("bars.vcad", BARS)
+        self.write("light.json", LIGHT)
+        self.write("schaffer.vcad", SCHAFFER)
+        self.write("front.json", FRONT)
+
+    def write(self, name, text):
+        (self.path / name).write_text(text if isinstance(text, str) else json.dumps(text), encoding="utf-8")
+
+    def read(self, name):
+        return (self.path / name).read_text(encoding="utf-8")
+
+    def table(self, name):
+        return list(csv.DictReader(self.read(name).splitlines()))
+
+    def run(self, *arguments, status=0, command="optimise"):
+        result = program.run([self.ombre, command, *arguments], cwd=self.path)
+        expect(result.returncode == status, f"status {result.returncode}, not {status}: {result.stderr[-1500:]}")
+        return result
+
+    def events(self, *arguments):
+        return [json.loads(line) for line in self.run(*arguments, "--json").stdout.splitlines()]
+
+    def best(self, *arguments):
+        return next(event for event in self.events(*arguments) if event["event"] == "best")
+
+
+def bars_are_as_light_as_hookes_law_lets_them(folder):
+    """Of equal stress, the sum of 1/modulus has a limit, and the mass goes with the sum of moduli: so both are equal,
+    1000 MPa each where 100 MPa stretch 20 mm by 2 mm."""
+    share = (1000 - 100) / (2000 - 100)
+    mass = 2000 * (1000 + 1000 * share) * 1e-6
+    for method, evaluations, tolerance in (("cobyla", 150, 2e-4), ("cmaes", 1200, 2e-3)):
+        folder.write("study.json", {**LIGHT, "method": method, "evaluations": evaluations})
+        best = folder.best("bars.vcad", "--study", "study.json", "-o", method)
+        near(best["measures"]["mass [g]"], mass, tolerance * mass, f"the mass by {method}")
+        near(best["variables"]["a"], share, 0.05, f"a by {method}")
+        expect(best["measures"]["displacement z [mm]"] < 2 * (1 + 1e-5), "the limit does not hold")
+    rows = folder.table("cobyla/history.csv")
+    expect(min(float(row["mass [g]"]) for row in rows if float(row["displacement z [mm]"]) < 2.00001) >= mass * 0.9999,
+           "a design is lighter than any can be")
+
+
+def the_best_design_is_a_script(folder):
+    best = folder.best("bars.vcad", "--study", "light.json", "-o", "light")
+    folder.write("pull.json", PULL)
+    lines = folder.run("light/best_1.vcad", "--study", "pull.json", "--cell", "5", "--assign", "mix", "--solve", "--json",
+                       command="fea").stdout.splitlines()
+    solution = next(event for event in map(json.loads, lines) if event["event"] == "solution")
+    near(solution["greatest_displacement_mm"][2], best["measures"]["displacement z [mm]"], 1e-6, "the displacement")
+    expect("<circle" in folder.read("light/chart.svg"), "no chart")
+
+
+def beams_follow_beam_theory(folder):
+    """The lightest beam under a limit of its deflection is as high as may be, and as wide as that needs."""
+    length, force, modulus, limit, height = 100, 5, 1000, 2, 10
+    folder.write("beam.vcad", f"b = 8;\nh = 6;\ntranslate({length / 2}, 0, 0) rectprism(({length}, b, h), red);\n")
+    folder.write("beam.json", {
+        "variables": {"b": {"from": 1, "to": 20, "start": 8}, "h": {"from": 2, "to": height, "start": 6}},
+        "objectives": [{"minimise": "volume"}],
+        "constraints": [{"measure": "displacement", "axis": "z", "at_most": limit}],
+        "fea": {"materials": {"red": {"modulus_mpa": modulus, "poissons_ratio": 0}},
+                "supports": [{"on": "xmin", "fix": "xyz"}], "loads": [{"on": "xmax", "force_n": [0, 0, -force]}]},
+        "bricks": [40, 1, 4], "evaluations": 120})
+    best = folder.best("beam.vcad", "--study", "beam.json", "-o", "beam")["variables"]
+    near(best["h"], height, 0.01, "the height")
+    # Deflection by bending and by shear (Timoshenko), of width 1.
+    shear = force * length / (5 / 6 * modulus / 2 * height)
+    width = (force * length**3 / (3 * modulus * height**3 / 12) + shear) / limit
+    # Four linear bricks across the height are some per cent too stiff.
+    near(best["b"], width, 0.06 * width, "the width")
+
+
+def fronts_are_found(folder):
+    """Schaffer's problem: between its ends, the roots of the two objectives add up to 2."""
+    folder.run("schaffer.vcad", "--study", "front.json", "-o", "front")
+    rows = folder.table("front/front.csv")
+    expect(len(rows) > 20, f"only {len(rows)} designs are in the front")
+    for row in rows:
+        near(math.sqrt(float(row["near"])) + math.sqrt(float(row["far"])), 2, 1e-6, "the sum of roots")
+    expect(len(list((folder.path / "front").glob("best_*.vcad"))) == 10, "not ten scripts")
+    one = folder.read("front/best_1.vcad")
+    expect("include <../schaffer.vcad>" in one and "\nx = " in one, one)
+    # The same search finds the same, with any number of threads.
+    folder.run("schaffer.vcad", "--study", "front.json", "-o", "again", "--threads", "1")
+    for name in ("history.csv", "front.csv", "chart.svg"):
+        expect(folder.read(f"front/{name}") == folder.read(f"again/{name}"), name + " differs")
+
+
+def whole_variables_are_whole(folder):
+    folder.write("whole.json", {**FRONT, "variables": {"x": {"from": -10.5, "to": 10.5, "whole": True}},
+                                "objectives": FRONT["objectives"][1:], "method": "cmaes", "evaluations": 100})
+    best = folder.best("schaffer.vcad", "--study", "whole.json", "-o", "whole")
+    expect(best["variables"]["x"] == 2, str(best))
+    rows = folder.table("whole/history.csv")
+    expect(len(rows) <= 21 and all(float(row["x"]) == int(row["x"]) for row in rows), "a number is not whole")
+    folder.write("most.json", {**FRONT, "objectives": [{"maximise": "echo", "name": "far"}], "method": "direct",
+                               "constraints": [{"measure": "echo", "name": "near", "at_least": 4},
+                                               {"measure": "echo", "name": "near", "at_most": 16}]})
+    near(folder.best("schaffer.vcad", "--study", "most.json", "-o", "most")["variables"]["x"], -4, 0.01, "x")
+
+
+def searches_go_on(folder):
+    """A search that was cut short, and goes on, measures what a whole one does."""
+    folder.run("bars.vcad", "--study", "light.json", "-o", "whole")
+    folder.write("short.json", {**LIGHT, "evaluations": 12})
+    folder.run("bars.vcad", "--study", "short.json", "-o", "parts")
+    before = folder.read("parts/history.csv")
+    expect(before.count("\n") == 13, before)
+    # What a loss of power leaves of a line does not count.
+    (folder.path / "parts/history.csv").write_text(before + "14,0.5,", encoding="utf-8")
+    events = folder.events("bars.vcad", "--study", "light.json", "-o", "parts", "--resume")
+    known = next(event for event in events if event["event"] == "search")["known"]
+    expect(known == 12, f"{known} designs were known")
+    for name in ("history.csv", "front.csv", "chart.svg"):
+        expect(folder.read(f"whole/{name}") == folder.read(f"parts/{name}"), name + " differs")
+
+
+def ctrl_c_keeps_the_history(folder):
+    folder.write("fine.json", {**LIGHT, "cell": 0.4})
+    process = subprocess.Popen([folder.ombre, "optimise", "bars.vcad", "--study", "fine.json", "-o", "fine"],
+                               cwd=folder.path, env=program.environment(), text=True,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    history = folder.path / "fine/history.csv"
+    end = time.monotonic() + 60
+    while time.monotonic() < end and not (history.exists() and history.read_text().count("\n") > 2):
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    _, told = process.communicate(timeout=60)
+    expect(process.returncode == 130 and "--resume goes on" in told, f"{process.returncode}: {told}")
+    expect(history.read_text().endswith("\n") and len(folder.table("fine/history.csv")) >= 2, "the history is gone")
+    expect(not list((folder.path / "fine").glob("*.part")), "a part of a file is left")
+
+
+def wrong_studies_are_told(folder):
+    def error(study, design="bars.vcad", *options, status=1):
+        folder.write("wrong.json", study)
+        return folder.run(design, "--study", "wrong.json", "-o", "wrong", "--force", *options, status=status).stderr
+
+    def with_variables(**variables):
+        return {**LIGHT, "variables": variables}
+
+    told = error(with_variables(width={"from": 0, "to": 1}))
+    expect('no top-level variable "width"' in told and "it has a, b" in told and "wrong.json:1:" in told, told)
+    expect("the range of \"a\" is empty" in error(with_variables(a={"from": 1, "to": 1})), "range")
+    expect('a variable needs "to"' in error(with_variables(a={"from": 1})), "a bound")
+    expect('"start" is a number from 0 to 1, not 3' in error(with_variables(a={"from": 0, "to": 1, "start": 3})), "start")
+    expect("names no variables" in error({**LIGHT, "variables": {}}), "no variables")
+    expect('did you mean "mass"?' in error({**LIGHT, "objectives": [{"minimise": "mas"}]}), "a measure")
+    expect("the measures are volume, mass" in error({**LIGHT, "objectives": [{"minimise": "beauty"}]}), "measures")
+    expect("has no objectives" in error({**LIGHT, "objectives": []}), "objectives")
+    expect('either "minimise" or "maximise"' in error({**LIGHT, "objectives": [{}]}), "an objective")
+    expect('either "at_most" or "at_least"' in error({**LIGHT, "constraints": [{"measure": "mass"}]}), "a limit")
+    expect("needs loads" in error({**LIGHT, "fea": {**PULL, "loads": []}}), "loads")
+    expect('"fea" is missing' in error({name: LIGHT[name] for name in LIGHT if name != "fea"}), "fea")
+    expect('did you mean "cobyla"?' in error({**LIGHT, "method": "cobila"}), "a method")
+    expect("nsga2 takes several objectives" in error({**LIGHT, "method": "nsga2"}), "nsga2")
+    expect("bobyqa takes no constraints" in error({**LIGHT, "method": "bobyqa"}), "bobyqa")
+    expect("cobyla takes one objective" in error({**FRONT, "method": "cobyla"}, "schaffer.vcad"), "cobyla")
+    expect('did you mean "cell"?' in error({**LIGHT, "cel": 1}), "a member")
+    expect("no design keeps all limits" in error({**LIGHT, "evaluations": 20, "constraints": [
+        {"measure": "displacement", "at_most": 0.1}]}, status=3), "infeasible")
+    expect('prints no number named "cost"' in error(
+        {**FRONT, "objectives": [{"minimise": "echo", "name": "cost"}], "method": "cobyla"}, "schaffer.vcad"), "echo")
+    bare = {name: {"modulus_mpa": 1, "poissons_ratio": 0} for name in ("red", "blue")}
+    expect("the mass is unknown" in error({**LIGHT, "fea": {**PULL, "materials": bare}}), "density")
+    expect("in the box of displacement" in error({**LIGHT, "constraints": [
+        {"measure": "displacement", "in": [90, 90, 90, 99, 99, 99], "at_most": 1}]}), "a box")
+    folder.write("part.json", {})
+    expect("take a .vcad or .scad script" in error(LIGHT, "part.json"), "a design without variables")
+    expect("none.json" in folder.run("bars.vcad", "--study", "none.json", "-o", "x", status=2).stderr, "a missing file")
+    folder.run("schaffer.vcad", "--study", "front.json", "-o", "there")
+    before = folder.read("there/history.csv")
+    again = ("schaffer.vcad", "--study", "front.json", "-o", "there")
+    expect("--resume to go on" in folder.run(*again, status=1).stderr, "a folder that is there")
+    folder.write("other.json", {**FRONT, "seed": 1})
+    told = folder.run("schaffer.vcad", "--study", "other.json", "-o", "there", "--resume", status=1).stderr
+    expect("of another study" in told, told)
+    folder.write("schaffer.vcad", SCHAFFER + "cube(1);\n")
+    expect("of another study" in folder.run(*again, "--resume", status=1).stderr, "another design")
+    expect(folder.read("there/history.csv") == before, "the history changed")
+    expect("leave out --resume" in folder.run("schaffer.vcad", "--study", "front.json", "-o", "new", "--resume",
+                                              status=1).stderr, "nothing to resume")
+
+
+def designs_that_fail_are_left_out(folder):
+    folder.write("half.vcad", 'x = 5;\nassert(x > 1, "x, or \\"size\\", is too small");\necho(far = (x + 3) * (x + 3));\n'
+                              "sphere(x);\n")
+    study = {**FRONT, "objectives": FRONT["objectives"][1:], "method": "cmaes", "evaluations": 200}
+    folder.write("half.json", study)
+    best = folder.best("half.vcad", "--study", "half.json", "-o", "half")
+    near(best["variables"]["x"], 1, 0.05, "x")
+    failures = [row["failure"] for row in folder.table("half/history.csv") if row["failure"]]
+    expect(failures and 'x, or "size", is too small' in failures[0], str(failures[:1]))
+    folder.write("half.json", {**study, "evaluations": 240})
+    folder.run("half.vcad", "--study", "half.json", "-o", "half", "--resume")
+
+
+MBB = {"topology": {"volume_fraction": 0.5, "radius": 2.4},
+       "fea": {"materials": {"red": {"modulus_mpa": 1, "poissons_ratio": 0.3}},
+               "supports": [{"on": "xmin", "fix": "x"}, {"on": {"box": [60, 0, 0, 60, 0, 1]}, "fix": "y"},
+                            {"on": "zmin", "fix": "z"}],
+               "loads": [{"on": {"box": [0, 20, 0, 0, 20, 1]}, "force_n": [0, -1, 0]}]},
+       "cell": 1}
+
+
+def topologies_are_as_stiff_as_published(folder):
+    """Half of a beam on two supports, 60 by 20: Andreassen and others (2011) publish a compliance of 233.71 with a filter
+    of densities of radius 2.4. Theirs are plane elements, ours are bricks of one layer."""
+    folder.write("mbb.vcad", "translate(30, 10, 0.5) rectprism((60, 20, 1), red);\n")
+    folder.write("mbb.json", MBB)
+    events = folder.events("mbb.vcad", "--study", "mbb.json", "-o", "mbb")
+    found = next(event for event in events if event["event"] == "topology")
+    near(found["compliance_n_mm"], 233.71, 0.01 * 233.71, "the compliance")
+    near(found["volume_fraction"], 0.5, 1e-4, "the volume")
+    expect(found["change"] <= 0.01, "it did not come to rest")
+    # The result is a volume, which designs take for solids and for mixtures.
+    folder.write("mixed.vcad", 'd = volume("mbb/density.nrrd", clamp=true);\n'
+                 "fgrade([d.value, 1 - d.value], [red, blue]) translate(30, 10, 0.5) rectprism((60, 20, 1), red);\n")
+    for at, share in (("0.5,19.5,0.5", 1), ("0.5,10.5,0.5", 0)):
+        told = folder.run("mixed.vcad", "--at", at, "--json", command="probe").stdout
+        expect(('"red":1' if share else '"blue":1') in told, told)
+        wanted = "inside" if share else "outside"
+        expect(wanted in folder.run("mbb/topology.vcad", "--at", at, command="probe").stdout, f"{at} is not {wanted}")
+
+
+def wrong_topologies_are_told(folder):
+    folder.write("mbb.vcad", "translate(30, 10, 0.5) rectprism((60, 20, 1), red);\n")
+
+    def error(study, *options):
+        folder.write("wrong.json", study)
+        return folder.run("mbb.vcad", "--study", "wrong.json", "-o", "wrong", *options, status=1).stderr
+
+    expect('needs "volume_fraction"' in error({**MBB, "topology": {}}), "a volume")
+    expect("a number from 0.01 to 1" in error({**MBB, "topology": {"volume_fraction": 2}}), "a large volume")
+    expect("did you mean" in error({**MBB, "topology": {"volume_fraction": 0.5, "radios": 2}}), "a member")
+    expect("needs loads" in error({**MBB, "fea": {**MBB["fea"], "loads": []}}), "loads")
+    expect("takes no gravity" in error({**MBB, "fea": {**MBB["fea"], "gravity_mm_s2": [0, -9810, 0]}}), "gravity")
+    expect("supports that do not move" in error({**MBB, "fea": {**MBB["fea"], "supports": [
+        {"on": "xmin", "displacement_mm": [1, None, None]}]}}), "a support that moves")
+    expect("leave out --resume" in error(MBB, "--resume"), "resume")
+    expect(not (folder.path / "wrong").exists(), "a folder is left")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("ombre", type=pathlib.Path)
+    ombre = parser.parse_args().ombre.resolve()
+
+    def check(function):
+        with tempfile.TemporaryDirectory() as scratch:
+            function(Folder(ombre, scratch))
+
+    checks = [bars_are_as_light_as_hookes_law_lets_them, the_best_design_is_a_script, beams_follow_beam_theory,
+              fronts_are_found, whole_variables_are_whole, searches_go_on, ctrl_c_keeps_the_history,
+              wrong_studies_are_told, designs_that_fail_are_left_out, topologies_are_as_stiff_as_published,
+              wrong_topologies_are_told]
+    return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
