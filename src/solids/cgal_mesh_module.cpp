@@ -181,9 +181,12 @@ Tetrahedra make(const TetrahedraRequest& request) {
                     params::facet_distance = distance, params::cell_radius_edge_ratio = most_radius_to_edge,
                     params::cell_size = cell);
   const Criteria criteria(usual, request.size_mm);
+  // Without a limit of their own, what mends slivers ends after as many seconds as the mesh took: another mesh each
+  // time.
   const Complex complex =
       CGAL::make_mesh_3<Complex>(domain, criteria, params::features(domain), params::no_lloyd(), params::no_odt(),
-                                 params::perturb(params::sliver_bound = 12), params::exude(params::sliver_bound = 12));
+                                 params::perturb(params::time_limit = 0, params::sliver_bound = 12),
+                                 params::exude(params::time_limit = 0, params::sliver_bound = 12));
   return in_order(complex);
 }
 

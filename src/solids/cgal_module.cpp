@@ -55,27 +55,6 @@ bool try_corefinement(Boolean operation, ExactMesh first, ExactMesh second, Exac
   return false;
 }
 
-// Numerator and denominator, together.
-size_t bits_of(const Exact::FT& number) {
-  const auto& exact = CGAL::exact(number);
-  return mpz_sizeinbase(exact.get_num_mpz_t(), 2) + mpz_sizeinbase(exact.get_den_mpz_t(), 2);
-}
-
-// Coordinates of crossings have some four times the digits of what crosses, so those of a chain of operations grow
-// without end. Long ones are rounded to doubles, unless the surface crosses itself then.
-void shorten(ExactMesh& mesh) {
-  constexpr size_t most_bits = 1500;
-  ExactMesh rounded = mesh;
-  bool is_changed = false;
-  for (const auto vertex : rounded.vertices()) {
-    Exact::Point_3& p = rounded.point(vertex);
-    if (std::max({bits_of(p.x()), bits_of(p.y()), bits_of(p.z())}) <= most_bits) continue;
-    p = {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
-    is_changed = true;
-  }
-  if (is_changed && !processing::does_self_intersect(rounded)) mesh = std::move(rounded);
-}
-
 // Whether corefinement could do it; the result may be empty.
 bool corefined(Boolean operation, const ExactMesh& a, const ExactMesh& b, ExactMesh& result) {
   try {
@@ -85,7 +64,6 @@ bool corefined(Boolean operation, const ExactMesh& a, const ExactMesh& b, ExactM
   }
   result.collect_garbage();
   for (const auto vertex : result.vertices()) CGAL::exact(result.point(vertex));
-  shorten(result);
   return true;
 }
 
