@@ -83,7 +83,8 @@ Interval brick20_bounds(std::span<const double> values) {
   std::array<double, 27> grid{};
   std::array<double, 20> weights{};
   for (size_t n = 0; n < grid.size(); ++n) {
-    const Vec3 at{static_cast<double>(n % 3) - 1, static_cast<double>(n / 3 % 3) - 1, static_cast<double>(n / 9) - 1};
+    const size_t i = n % 3, j = n / 3 % 3, k = n / 9;
+    const Vec3 at{static_cast<double>(i) - 1, static_cast<double>(j) - 1, static_cast<double>(k) - 1};
     shape_weights(ElementKind::brick20, at, weights);
     for (size_t c = 0; c < weights.size(); ++c) grid[n] += weights[c] * values[c];
   }

@@ -122,8 +122,8 @@ void ResultMesh::make_border() const {
   std::vector<NamedSide> sides;
   for (uint32_t element = 0; element < element_count(); ++element) {
     const auto& own = sides_of(results_.kinds[element]);
-    for (uint8_t n = 0; n < own.size(); ++n) {
-      NamedSide side{{UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX}, element, n};
+    for (size_t n = 0; n < own.size(); ++n) {
+      NamedSide side{{UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX}, element, static_cast<uint8_t>(n)};
       for (size_t c = 0; c < own[n].corners.size(); ++c) side.points[c] = nodes(element)[own[n].corners[c]];
       std::ranges::sort(side.points);
       sides.push_back(side);
