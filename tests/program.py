@@ -31,6 +31,17 @@ def run(arguments, cwd=None, timeout=120, **options):
                           stderr=subprocess.PIPE, **options)
 
 
+def expect(truth, message):
+    """Fails a check with a message, unless it is true."""
+    if not truth:
+        raise AssertionError(message)
+
+
+def near(got, wanted, tolerance, what):
+    """Fails a check unless the numbers differ by at most the tolerance."""
+    expect(abs(got - wanted) <= tolerance, f"{what} is {got}, not {wanted}")
+
+
 def check_all(checks, threads=None):
     """Runs (name, function) pairs side by side. A function returns what is wrong, "" if nothing is, or
     "skipped: why". Prints the failures and a summary; returns the exit status."""

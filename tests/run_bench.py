@@ -14,16 +14,12 @@ import tempfile
 import time
 
 import program
+from program import expect
 
 sys.path.insert(0, str(program.SOURCE / "bench"))
 import jobs  # noqa: E402
 
 SUITE = program.SOURCE / "bench" / "run.py"
-
-
-def expect(condition, message):
-    if not condition:
-        raise AssertionError(message)
 
 
 def command(build, scratch, *arguments):

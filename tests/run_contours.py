@@ -18,6 +18,7 @@ import time
 import xml.etree.ElementTree as ElementTree
 
 import program
+from program import expect
 
 SVG = "{http://www.w3.org/2000/svg}"
 HALVES = 'fgrade(["x/20 + 0.5", "0.5 - x/20"], ["red", "blue"]) rectprism(20, 10, 2);'
@@ -45,11 +46,6 @@ class Drawing:
 
     def names(self):
         return sorted(path.name for path in self.folder.iterdir() if path.suffix != ".vcad")
-
-
-def expect(good, message):
-    if not good:
-        raise AssertionError(message)
 
 
 def area(polygon):

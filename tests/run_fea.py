@@ -18,6 +18,7 @@ import tempfile
 import time
 
 import program
+from program import expect, near
 
 RED = {"modulus_mpa": 2850, "poissons_ratio": 0.39}
 CUBE = "rectprism((10, 10, 10), red);"
@@ -25,11 +26,6 @@ MIX = 'fgrade(["0.75", "0.25"], [red, blue]) { rectprism((10, 10, 10), red); }'
 PULL = {"materials": {"red": RED, "blue": {"modulus_mpa": 50, "poissons_ratio": 0.39}},
         "supports": [{"on": "xmin", "fix": "x"}, {"on": "ymin", "fix": "y"}, {"on": "zmin", "fix": "z"}],
         "loads": [{"on": "zmax", "pressure_mpa": -100}]}
-
-
-def expect(truth, message):
-    if not truth:
-        raise AssertionError(message)
 
 
 class Folder:
@@ -63,10 +59,6 @@ class Folder:
         begin = data.index(b'<AppendedData encoding="raw">\n_') + 31 + int(tag[1])
         size = struct.unpack_from("<Q", data, begin)[0]
         return struct.unpack_from(f"<{size // 4}f", data, begin + 8)
-
-
-def near(got, wanted, tolerance, what):
-    expect(abs(got - wanted) <= tolerance, f"{what} is {got}, not {wanted}")
 
 
 def bars_stretch_by_hookes_law(folder):
@@ -299,6 +291,14 @@ def a_mug_cools(folder):
     expect(solution["least_temperature_c"] > 20 and solution["greatest_temperature_c"] <= 80 + 1e-6, str(solution))
 
 
+def materials_that_are_nowhere_need_no_properties(folder):
+    """Shares that vary make the block's own material, red, possible, but no brick has any of it."""
+    folder.write("possible.vcad", "s = noise(size=3).value; fgrade([1 - s, s], [magenta, gray]) rectprism((4, 4, 4), red);")
+    folder.write("two.json", json.dumps({**PULL, "materials": {"magenta": RED, "gray": RED}}))
+    solution = folder.events("possible.vcad", "--study", "two.json", "--cell", "2", "--solve", "--assign", "mix")["solution"]
+    near(solution["greatest_displacement_mm"][2], 4 * 100 / 2850, 1e-6, "the stretch")
+
+
 def wrong_use_is_told(folder):
     def error(*arguments, status=1):
         return folder.run(*arguments, status=status).stderr
@@ -364,7 +364,9 @@ def main():
 
     checks = [bars_stretch_by_hookes_law, results_are_in_the_grid, mixtures_are_drawn_or_mixed,
               moduli_come_from_attributes, decks_are_complete, tetrahedra_reach_the_surface,
-              adaptive_meshes_cost_less, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix, a_hook_holds_its_coat, a_mug_cools, wrong_use_is_told, ctrl_c_ends_it]
+              adaptive_meshes_cost_less, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix,
+              a_hook_holds_its_coat, a_mug_cools, materials_that_are_nowhere_need_no_properties, wrong_use_is_told,
+              ctrl_c_ends_it]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
 
 

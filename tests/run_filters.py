@@ -13,14 +13,10 @@ import numpy as np
 from scipy import ndimage
 
 import program
+from program import expect
 
 SPACING = (0.5, 0.4, 0.8)  # mm along x, y and z
 SHAPE = (15, 13, 9)  # voxels along x, y and z
-
-
-def expect(truth, message):
-    if not truth:
-        raise AssertionError(message)
 
 
 class Scene:

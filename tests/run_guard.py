@@ -12,6 +12,7 @@ import tempfile
 import zlib
 
 import program
+from program import expect
 
 sys.path.insert(0, str(program.SOURCE / "tools"))
 import guard_differences  # noqa: E402
@@ -23,11 +24,6 @@ BLOCK = "rectprism((4, 4, 2), red);\n"
 # A corner's voxel is taken out of the upper of two layers, each of 4 x 4 voxels of 1 mm.
 WITHOUT_A_CORNER = "difference() { rectprism((4, 4, 2), red); translate(1.5, 1.5, 0.5) cube(0.8); }\n"
 COMMAND = "command (in this folder): time ombre slice d.vcad --voxel 1 -o out; ombre probe d.vcad --at 0,0,0\n"
-
-
-def expect(good, message):
-    if not good:
-        raise AssertionError(message)
 
 
 def write_case(folder, text):

@@ -10,13 +10,9 @@ import pathlib
 import tempfile
 
 import program
+from program import expect
 
 STUDY = program.SOURCE / "examples" / "studies" / "polyjet.json"
-
-
-def expect(truth, message):
-    if not truth:
-        raise AssertionError(message)
 
 
 def near(got, wanted, tolerance, what):

@@ -12,16 +12,12 @@ import struct
 import tempfile
 
 import program
+from program import expect
 
 SEAT = program.SOURCE / "examples" / "seat.vcad"
 STUDY = program.SOURCE / "examples" / "studies" / "rider.json"
 WITHOUT_READERS = "built without libzip and pugixml"
 LEAST, MOST, STIFFEST = 3, 9, 0.8  # as the design has them
-
-
-def expect(truth, message):
-    if not truth:
-        raise AssertionError(message)
 
 
 def array(path, name, kind):

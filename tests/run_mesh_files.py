@@ -17,15 +17,11 @@ import xml.etree.ElementTree as ElementTree
 import zipfile
 
 import program
+from program import expect
 
 CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 MATERIAL = "{http://schemas.microsoft.com/3dmanufacturing/material/2015/02}"
 NO_ZIP = "without libzip"
-
-
-def expect(good, message):
-    if not good:
-        raise AssertionError(message)
 
 
 def entry(path, name):

@@ -17,6 +17,7 @@ import time
 import zipfile
 
 import program
+from program import expect
 
 EXAMPLES = sorted((program.SOURCE / "examples").glob("*.vcad"))
 # Pairs of facets that lie in a line, and cross once files round their corners to floats.
@@ -72,11 +73,6 @@ class Meshes:
 
     def names(self):
         return sorted(path.name for path in self.folder.iterdir())
-
-
-def expect(good, message):
-    if not good:
-        raise AssertionError(message)
 
 
 def near(a, b, share, what):

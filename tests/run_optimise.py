@@ -15,6 +15,7 @@ import tempfile
 import time
 
 import program
+from program import expect, near
 
 # Two bars one on the other, of mixtures of red and blue by the shares a and b.
 BARS = """a = 0.9;
@@ -33,15 +34,6 @@ SCHAFFER = "x = 5;\necho(near = x * x, far = (x - 2) * (x - 2));\nsphere(1);\n"
 FRONT = {"variables": {"x": {"from": -10, "to": 10, "start": 5}},
          "objectives": [{"minimise": "echo", "name": "near"}, {"minimise": "echo", "name": "far"}],
          "evaluations": 480}
-
-
-def expect(truth, message):
-    if not truth:
-        raise AssertionError(message)
-
-
-def near(got, wanted, tolerance, what):
-    expect(abs(got - wanted) <= tolerance, f"{what} is {got}, not {wanted}")
 
 
 class Folder:

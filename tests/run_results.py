@@ -10,21 +10,13 @@ import pathlib
 import tempfile
 
 import program
+from program import expect, near
 
 RED = {"modulus_mpa": 2850, "poissons_ratio": 0.39}
 PULL = {"materials": {"red": RED},
         "supports": [{"on": "xmin", "fix": "x"}, {"on": "ymin", "fix": "y"}, {"on": "zmin", "fix": "z"}],
         "loads": [{"on": "zmax", "pressure_mpa": -100}]}
 STRAIN = 100 / 2850
-
-
-def expect(truth, message):
-    if not truth:
-        raise AssertionError(message)
-
-
-def near(got, wanted, tolerance, what):
-    expect(abs(got - wanted) <= tolerance, f"{what} is {got}, not {wanted}")
 
 
 class Folder:

@@ -18,6 +18,7 @@ import tempfile
 import time
 
 import program
+from program import expect
 
 try:
     import numpy
@@ -51,11 +52,6 @@ class Grid:
 
     def names(self):
         return sorted(path.name for path in self.folder.iterdir())
-
-
-def expect(good, message):
-    if not good:
-        raise AssertionError(message)
 
 
 def nrrd(path):

@@ -6,6 +6,7 @@ import tempfile
 
 import png
 import program
+from program import expect
 
 # Something to do for some seconds at small voxels: a graded gyroid in a ball.
 BALL = """
@@ -47,11 +48,6 @@ class Job:
 
     def images(self, out):
         return [png.read(path) for path in layers(self.folder / out)]
-
-
-def expect(good, message):
-    if not good:
-        raise AssertionError(message)
 
 
 def layers(folder):

@@ -27,18 +27,6 @@ void put_data(const std::string& text) {
   if (!written) throw Error("cannot write to standard output: " + std::generic_category().message(errno));
 }
 
-const char* name(Severity severity) {
-  switch (severity) {
-    case Severity::note:
-      return "note";
-    case Severity::warning:
-      return "warning";
-    case Severity::error:
-      return "error";
-  }
-  return "";
-}
-
 bool is_set(const char* variable) {
   const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe)
   return value && *value;
@@ -80,8 +68,9 @@ void Console::diagnose(const Diagnostics& diagnostics) const {
       if (diagnostic.severity == Severity::error) put(stderr, to_text(diagnostic));
       continue;
     }
-    DataMembers members{
-        {"severity", name(diagnostic.severity)}, {"message", diagnostic.message}, {"hint", diagnostic.hint}};
+    DataMembers members{{"severity", std::string(name_of(diagnostic.severity))},
+                        {"message", diagnostic.message},
+                        {"hint", diagnostic.hint}};
     if (diagnostic.where.source) {
       const Place place = diagnostic.where.source->place(diagnostic.where.begin);
       members.emplace_back("file", diagnostic.where.source->name());

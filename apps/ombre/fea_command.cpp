@@ -166,7 +166,7 @@ std::string counted(size_t count, const std::string& what) {
 
 Data triple(Vec3 v) { return DataList{v.x, v.y, v.z}; }
 
-// What is solved: bricks or tetrahedra, and what holds and pulls them.
+// A model of bricks or tetrahedra with its supports and loads.
 struct Case {
   std::variant<fea::Model, compile::TetraModel> made;
   fea::Conditions conditions;

@@ -115,7 +115,7 @@ void tell(const Console& console, const fea::Homogenised& found, double seconds)
   console.say(percent(found.solid_share) + " of the box is solid; solved in " + format_count(found.iterations) +
               " iterations and " + format_rounded(seconds, 3) + " s");
   console.say("stiffness, MPa (xx, yy, zz, xy, yz, zx):");
-  // What is nothing but rounding is shown as 0.
+  // Values below a millionth of the greatest come from rounding, and are shown as 0.
   const double greatest = std::max({found.stiffness_mpa[0][0], found.stiffness_mpa[1][1], found.stiffness_mpa[2][2]});
   for (const auto& row : found.stiffness_mpa) {
     std::string line;

@@ -81,7 +81,7 @@ struct Folder {
   std::string key() const { return file("study.key"); }
 };
 
-// What decides what a search finds, but for how many designs it may measure.
+// A text that is equal for two searches if they find the same, whatever number of designs each may measure.
 std::string key_of(const OptimiseArguments& a, const Data& study) {
   DataMembers members;
   for (const auto& [name, value] : *study.members())

@@ -91,7 +91,7 @@ std::string chart_of(const optimise::Topology& topology) {
   return optimise::chart_svg(chart);
 }
 
-// What takes the result: the design where there is most of its material.
+// A design that uses the result: it is solid where the density is above a half.
 std::string script_of(const TopologyArguments& a) {
   const fs::path design = fs::proximate(fs::absolute(a.design.design), fs::absolute(a.folder));
   return "// The densities are numbers of a grid, for solids and for mixtures: volume(\"density.nrrd\").value.\n"

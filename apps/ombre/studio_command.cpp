@@ -40,7 +40,8 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
-// Of a server that is started again and again at a port, say by a test, so that its page finds it again.
+// Returns the token that the environment sets, so that a page finds a server again that was started anew; empty for a
+// random one. Throws WrongArgument.
 std::string chosen_token() {
   std::string token = environment("OMBRE_STUDIO_TOKEN");
   constexpr size_t shortest = 32;

@@ -38,8 +38,8 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-// In a process group of its own, with these ends of pipes as stdout and stderr (negative: those of this program).
-// 0 when it cannot start.
+// Starts a command in a process group of its own, with these ends of pipes as stdout and stderr (negative: those of
+// this program). Returns 0 when it cannot start.
 pid_t spawn(const std::vector<std::string>& command, int out, int err) {
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);

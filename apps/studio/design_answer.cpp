@@ -25,7 +25,7 @@ class NodeLister {
     for (size_t n = 0; n < waiting_.size(); ++n) nodes_.emplace_back(describe_one(*waiting_[n], n));
     return std::move(nodes_);
   }
-  // By their numbers; after list().
+  // Returns the numbers of the parts' nodes. To be called after list().
   DataList part_nodes() { return std::move(part_nodes_); }
 
  private:

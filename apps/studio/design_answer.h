@@ -1,4 +1,4 @@
-// What the page is told about a design that was loaded.
+// Answers of the studio about a design that was loaded.
 #pragma once
 
 #include "base/data.h"

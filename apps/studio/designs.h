@@ -59,7 +59,7 @@ class OpenDesign {
 };
 using OpenDesignPtr = std::shared_ptr<OpenDesign>;
 
-// Those that were loaded last, by handles. Thread-safe.
+// Keeps the designs that were loaded last, each by a handle. Thread-safe.
 class Designs {
  public:
   static constexpr size_t most = 12;
@@ -74,7 +74,7 @@ class Designs {
   uint64_t count_ = 0;
 };
 
-// What is wrong, on one line a mistake.
+// Returns an error that lists the mistakes, one on each line.
 RequestError design_error(const Diagnostics& diagnostics);
 
 }  // namespace ombre::studio

@@ -50,7 +50,7 @@ std::string_view query_value(std::string_view target, std::string_view key) {
   return {};
 }
 
-// In a time that does not depend on where the two differ.
+// Takes the same time wherever the two texts differ, so that nobody can guess the token bit by bit.
 bool Guard::is_token(std::string_view text) const {
   if (text.size() != token_.size()) return false;
   unsigned difference = 0;

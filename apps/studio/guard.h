@@ -12,7 +12,7 @@ namespace ombre::studio {
 // 32 random hexadecimal digits, from the system. Throws Error.
 std::string random_token();
 
-// What of a request's head decides whether it is let in. Empty where a header is missing.
+// The parts of a request's head that decide whether it is let in; empty where a header is missing.
 struct RequestHead {
   std::string method, target, host, origin, cookie, authorization;
 };
@@ -33,7 +33,7 @@ class Guard {
   //   token   in the cookie, in the address (?token=) or as "Authorization: Bearer"
   std::optional<Refusal> refuse(const RequestHead& head) const;
 
-  // Of GET /?token=...: the answer sets the cookie.
+  // Whether this is GET /?token=..., whose answer sets the cookie.
   bool brings_token(std::string_view target) const;
   std::string cookie() const;  // the value of Set-Cookie
 

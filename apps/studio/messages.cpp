@@ -16,20 +16,8 @@ namespace {
 
 bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
 
-// Of a character by its first byte: those of four bytes are pairs.
+// Returns how many UTF-16 units a character takes, by its first byte: characters of four bytes take two.
 size_t units_of(char first) { return static_cast<unsigned char>(first) >= 0xF0 ? 2 : 1; }
-
-const char* name_of(Severity severity) {
-  switch (severity) {
-    case Severity::note:
-      return "note";
-    case Severity::warning:
-      return "warning";
-    case Severity::error:
-      break;
-  }
-  return "error";
-}
 
 }  // namespace
 
@@ -148,7 +136,7 @@ DataList describe(const Diagnostics& diagnostics, const SourcePtr& source) {
   const PageOffsets offsets(source ? source->text() : std::string_view());
   DataList list;
   for (const Diagnostic& diagnostic : diagnostics.list()) {
-    DataMembers members{{"severity", name_of(diagnostic.severity)}, {"message", diagnostic.message}};
+    DataMembers members{{"severity", std::string(name_of(diagnostic.severity))}, {"message", diagnostic.message}};
     if (!diagnostic.hint.empty()) members.emplace_back("hint", diagnostic.hint);
     const SourceRange& where = diagnostic.where;
     if (where.source) {

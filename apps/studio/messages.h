@@ -51,7 +51,7 @@ struct Answer {
   std::string bytes;
 };
 
-// As one frame: text, or, with bytes, 4 bytes that say how long the JSON is (lowest first), the JSON, the bytes.
+// A frame holds text; or, with bytes, 4 bytes that say how long the JSON is (lowest first), the JSON, then the bytes.
 struct Frame {
   std::string data;
   bool is_binary = false;

@@ -28,7 +28,7 @@ struct ServerOptions {
   ServerLimits limits;
 };
 
-// Where it listens.
+// The address at which the server listens.
 struct Address {
   uint16_t port = 0;
   std::string token;

@@ -22,7 +22,7 @@ Answer volume_answer(OpenDesign& design, const Request& request, const StopFlag&
 // "measure": volume and mass of each material.
 Answer measure_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
 
-// Of a request: "printer", "dither", "level".
+// Reads "printer", "dither" and "level" of a request.
 Cutting cutting_of(const Request& request);
 
 }  // namespace ombre::studio

@@ -103,7 +103,7 @@ double sum_of(const voxel::FieldTile& tile, size_t output) {
   return sum;
 }
 
-// In g, where the material says its density in g/cm3.
+// Returns the mass in g; nothing where the material does not say its density in g/cm3.
 std::optional<double> mass_of(const design::Material& material, double volume_mm3) {
   for (const auto& [name, value] : material.properties)
     if (name == "density" && value.number()) return *value.number() * volume_mm3 / 1000;

@@ -38,7 +38,7 @@ class Workspace {
   // Throws Error when it cannot be read, RequestError when it is too large or no text.
   FileText read(const std::string& name);
   // Replaces `version`, empty for a file that must not be there yet; the new version, or what is there instead.
-  // What is there stays whole whatever happens. Throws Error.
+  // The file that is there stays whole whatever happens. Throws Error.
   std::variant<std::string, SaveConflict> save(const std::string& name, const std::string& text,
                                                const std::string& version);
 

@@ -7,18 +7,6 @@ namespace {
 
 constexpr size_t widest_line = 160;  // longer source lines are shown from the mistake on
 
-std::string_view label(Severity severity) {
-  switch (severity) {
-    case Severity::note:
-      return "note";
-    case Severity::warning:
-      return "warning";
-    case Severity::error:
-      break;
-  }
-  return "error";
-}
-
 // Control characters in a design could steer the terminal that shows them.
 std::string without_controls(std::string_view text) {
   std::string clean;
@@ -67,6 +55,18 @@ std::string excerpt(const SourceRange& where, Place place) {
 
 }  // namespace
 
+std::string_view name_of(Severity severity) {
+  switch (severity) {
+    case Severity::note:
+      return "note";
+    case Severity::warning:
+      return "warning";
+    case Severity::error:
+      break;
+  }
+  return "error";
+}
+
 void Diagnostics::add(Diagnostic diagnostic) {
   if (diagnostic.severity == Severity::error && ++error_count_ > most) return;
   list_.push_back(std::move(diagnostic));
@@ -113,7 +113,7 @@ std::string to_text(const Diagnostic& diagnostic) {
     place = where.source->place(where.begin);
     text.insert(text.size() - 1, std::to_string(place.line) + ':' + std::to_string(place.column) + ':');
   }
-  text += label(diagnostic.severity);
+  text += name_of(diagnostic.severity);
   text += ": " + diagnostic.message;
   if (!diagnostic.hint.empty()) text += "; " + diagnostic.hint;
   text += '\n';

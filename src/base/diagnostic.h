@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/source_text.h"
@@ -43,6 +44,9 @@ class Diagnostics {
   std::vector<Diagnostic> list_;
   size_t error_count_ = 0;
 };
+
+// "note", "warning" or "error".
+std::string_view name_of(Severity severity);
 
 // "file:line:column: error: message; hint" ("file: error: ..." for a file as a whole), then the source line and a caret
 // line.

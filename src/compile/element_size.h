@@ -15,7 +15,7 @@ struct SizeRequest {
   std::string formula;               // empty: least_mm
 };
 
-// Of one thread.
+// Each thread has one of its own.
 class ElementSize {
  public:
   // The formula knows x, y and z and what else formulas know, min_cell and max_cell, the attributes, and h, the

@@ -150,8 +150,11 @@ class SectionMaker {
     const fea::ValueField* given = attribute_ ? given_field() : nullptr;
     std::vector<Property> means(materials_.count);
     for (size_t f = 0; f < materials_.fractions.size(); ++f) {
+      const std::vector<float>& shares = (*materials_.fields)[f].values;
+      // A material that is possible, and that no element has, needs no properties.
+      if (std::ranges::all_of(shares, [](float share) { return share == 0; })) continue;
       const Property here = properties_.of(materials_.fractions[f]);
-      for (size_t n = 0; n < means.size(); ++n) means[n].add((*materials_.fields)[f].values[n], here);
+      for (size_t n = 0; n < means.size(); ++n) means[n].add(shares[n], here);
     }
     size_t wrong = 0;
     for (size_t n = 0; given && n < means.size(); ++n) {

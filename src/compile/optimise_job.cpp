@@ -227,7 +227,7 @@ void check_variables(const OptimiseStudy& study, const SourcePtr& script, Diagno
   for (const auto& statement : file.statements)
     if (statement->kind == lang::ast::Statement::Kind::assign)
       names.push_back(static_cast<const lang::ast::Assign&>(*statement).name.text());
-  // What an included file assigns is not seen from here.
+  // Assignments in included files are not seen from here.
   if (has_include(file)) return;
   for (const DesignVariable& variable : study.variables) {
     if (std::ranges::find(names, variable.name) != names.end()) continue;

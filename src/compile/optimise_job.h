@@ -50,7 +50,7 @@ std::optional<Plan> plan_bricks(const LoadedPtr& loaded, const ModelChoice& choi
 
 // A point's values of the variables: within their ranges, whole where they are to be.
 std::vector<double> values_at(const OptimiseStudy& study, const optimise::Point& point);
-// What a search minimises, and how far limits are exceeded, in units of the limit, or of 1 where that is 0.
+// Returns what a search minimises, and how far limits are exceeded, in units of the limit, or of 1 where that is 0.
 optimise::Outcome outcome_of(const OptimiseStudy& study, const Measured& measured);
 
 // The designs that were measured, by their values; a table of comma-separated values.
@@ -63,7 +63,8 @@ class History {
 
   explicit History(const OptimiseStudy& study) : study_(study) {}
 
-  // Of what `text` has; lines that are not whole are left out. Nothing, and a diagnostic, when it is another table.
+  // Takes the lines of `text`; those that are not whole are left out. False, and a diagnostic, when it is another
+  // table.
   bool read(const std::string& path, const std::string& text, Diagnostics& diagnostics);
   const Row* find(const std::vector<double>& values) const;
   void add(Row row);

@@ -15,7 +15,7 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 struct MeasureName {
   const char *name, *unit;
 };
-// In the order of Measure::Kind.
+// Names and units of measures, in the order of Measure::Kind.
 constexpr std::array<MeasureName, 7> measure_names{{{"volume", "mm3"},
                                                     {"mass", "g"},
                                                     {"share", ""},

@@ -9,10 +9,11 @@
 
 namespace ombre::compile {
 
-// Of one thread. Long programs, and those of many parts, are shortened for cells of space, once for all points there.
+// Evaluates a program at points, for one thread. Long programs, and those of many parts, are shortened for cells of
+// space, once for all points there.
 class PointValues {
  public:
-  // Of nothing.
+  // Evaluates nothing.
   PointValues() = default;
   // Points are asked for mostly within `space`; neighbours lie about `cell_mm` apart.
   PointValues(program::Program program, const Box& space, double cell_mm);

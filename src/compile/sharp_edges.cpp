@@ -11,7 +11,8 @@ namespace {
 
 constexpr double sharp_cosine = 0.766;   // of 40 degrees, between normals
 constexpr double corner_cosine = 0.766;  // between a line's directions before and after a point
-// In sizes: the shortest line that ends nowhere; how far fixed points are from each other, and from the lowest one.
+// Lengths, as multiples of the element size: the shortest line that ends nowhere; how far fixed points are from each
+// other, and from the lowest one.
 constexpr double least_length = 0.5, spacing = 0.7, reach = 2;
 
 using Key = std::array<double, 3>;
@@ -101,7 +102,7 @@ class EdgeFinder {
       if (length(body.vertices[n] - p) < reach * size_mm_) add(body.vertices[n]);
   }
 
-  // Of each surface without sharp edges its lowest point and those around it, and the outermost ones along each axis: a
+  // Adds the lowest point of each surface without sharp edges, points around it, and the outermost along each axis: a
   // mesher sees a surface where its points lie close together, and goes on from there.
   void add_smooth_points(const surface::Body& body, std::vector<uint32_t>& parents, const std::vector<bool>& has_edge) {
     std::map<uint32_t, Vertices> surfaces;
@@ -120,7 +121,7 @@ class EdgeFinder {
     }
   }
 
-  // Of each face between sharp edges the point that is farthest from them, and those around it.
+  // Adds the point of each face that is farthest from its sharp edges, and those around it.
   void add_face_points(const surface::Body& body, const std::map<Edge, std::vector<Vec3>>& normals) {
     std::vector<bool> is_sharp(body.vertices.size());
     std::vector<uint32_t> parents(body.vertices.size());
@@ -204,7 +205,7 @@ class EdgeFinder {
     const bool is_ring = line.front() == line.back();
     std::vector<Vec3> simple;
     if (is_ring) {
-      // In two halves, since a ring has no direction as a whole.
+      // A ring is simplified in two halves, since it has no direction as a whole.
       const auto far = farthest_from_first(points);
       simple = simplified({points.begin(), points.begin() + far + 1});
       const auto rest = simplified({points.begin() + far, points.end()});
@@ -220,7 +221,7 @@ class EdgeFinder {
     return far - points.begin();
   }
 
-  // Without the points that lie within the tolerance of the line (Douglas and Peucker, 1973).
+  // Leaves out the points that lie within the tolerance of the line (Douglas and Peucker, 1973).
   std::vector<Vec3> simplified(const std::vector<Vec3>& points) const {
     std::vector<bool> kept(points.size());
     kept.front() = kept.back() = true;
@@ -252,7 +253,7 @@ class EdgeFinder {
     return dot(a, b) < corner_cosine * length(a) * length(b);
   }
 
-  // Where the line turns sharply, another one begins.
+  // Begins another line where this one turns sharply.
   void split(std::vector<Vec3> points, bool is_ring) {
     if (is_ring && points.size() > 3) {
       // A ring begins in a corner, if it has any.

@@ -22,7 +22,7 @@ class StudyMembers {
   const Data* find(const std::string& name) const { return data_.find(name); }
   const Data& data() const { return data_; }
 
-  // Without the member what is given; a diagnostic when it is missing and nothing is given, or is something else.
+  // Returns `missing` where there is no such member; adds a diagnostic when there is neither, or it is something else.
   double number(const std::string& name, std::optional<double> missing, double least, double most);
   bool boolean(const std::string& name, bool missing);
   std::string text(const std::string& name, const std::optional<std::string>& missing);

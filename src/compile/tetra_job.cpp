@@ -98,7 +98,7 @@ class TetraMaker {
     return label > 0 && is_void(regions_[label - 1]) ? 0 : label;
   }
 
-  // By samples in the middles of a coarse grid's cells.
+  // Estimates the count by samples in the middles of a coarse grid's cells.
   TetraPlan plan(ElementSize& size, const Box& box) {
     constexpr int cells_along = 32;
     const Vec3 extent = box.size(), cell = (1.0 / cells_along) * extent;
@@ -191,7 +191,7 @@ class TetraMaker {
     progress_->preparing("tetrahedra", {std::min(questions_, total - 1), total});
   }
 
-  // Those whose region is no void, with their regions.
+  // Takes the tetrahedra whose region is no void, with their regions.
   void take(const solids::Tetrahedra& tetrahedra, TetraModel& made) {
     made.model.mesh.kind = fea::ElementKind::c3d4;
     made.model.mesh.points = tetrahedra.points;

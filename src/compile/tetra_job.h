@@ -10,7 +10,7 @@
 
 namespace ombre::compile {
 
-// What tetrahedra will take, about.
+// About how many tetrahedra there will be, and the memory that they take.
 struct TetraPlan {
   double elements = 0, memory_bytes = 0;
 };

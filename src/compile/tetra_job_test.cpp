@@ -87,7 +87,7 @@ TEST_F(Tetra, TheSameBytesWithAnyThreads) {
   EXPECT_EQ(one->model.section_of, four->model.section_of);
 }
 
-// Of draws by x / 10 + 0.5, the share of red in each half is its mean; another seed draws others.
+// Red is drawn with the odds x / 10 + 0.5, so its share in each half is the mean there; another seed draws others.
 TEST_F(Tetra, MixturesAreDrawnByTheirFractions) {
   const LoadedPtr loaded =
       design_of(R"(fgrade(["0.5 + x/10", "0.5 - x/10"], [red, blue]) { rectprism((10, 10, 10), red); })");
@@ -160,7 +160,7 @@ TEST_F(Tetra, WhatIsWrongIsTold) {
   EXPECT_THROW(tetra_model(loaded, any_study(), of_size(0.5), diagnostics, nullptr, &stop), Cancelled);
 }
 
-// Of a cube of twelve triangles: its twelve edges, of which the diagonals are none.
+// A cube of twelve triangles has twelve sharp edges; the diagonals are none.
 TEST(SharpEdges, OfACube) {
   surface::Body cube;
   for (int n = 0; n < 8; ++n) cube.vertices.push_back({n & 1 ? 1.0 : 0.0, n & 2 ? 1.0 : 0.0, n & 4 ? 1.0 : 0.0});

@@ -334,7 +334,7 @@ Data write(const std::vector<NamedWord>& value, bool for_hash);
 Data write(const NumberTable& value, bool for_hash);
 Data write(const ScriptVariables& value, bool for_hash);
 
-// Of the parameter that takes arguments of a call whose names no other parameter has.
+// The kind of the parameter that takes those arguments of a call whose names no other parameter has.
 inline constexpr std::string_view variables_kind = "values by name";
 
 // "number or field", "material", ...: for help.

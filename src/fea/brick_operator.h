@@ -16,7 +16,7 @@ struct Moduli {
   float shear = 0, bulk = 0;
 };
 
-// Of E and Poisson's ratio.
+// Converts Young's modulus and Poisson's ratio.
 inline Moduli moduli_of(double modulus_mpa, double poissons_ratio) {
   return {static_cast<float>(modulus_mpa / (2 * (1 + poissons_ratio))),
           static_cast<float>(modulus_mpa / (3 * (1 - 2 * poissons_ratio)))};

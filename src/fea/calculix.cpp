@@ -52,7 +52,7 @@ std::string text_of_file(const std::string& path) {
   return text.str();
 }
 
-// What the program said of its failure, or else its last words.
+// Returns the lines in which the program tells of its failure, or else its last ones.
 std::string words_of_failure(const std::string& log) {
   const size_t error = log.find("*ERROR");
   std::string words =
@@ -282,7 +282,7 @@ Conduction conduct_by_calculix(const ModelView& model, const Conditions& conditi
   for (const Prescribed& flow : conditions.forces) flows[flow.node] = flow.value;
   for (const Prescribed& held : conditions.displacements)
     found.flows.push_back({held.node, 0, milli * results.heat[held.node] - flows[held.node]});
-  // What does not leave where temperatures are held goes through the films.
+  // Heat that does not leave where temperatures are held goes through the films.
   for (const Prescribed& flow : found.flows) found.lost_w += flow.value;
   for (const double flow : flows) found.lost_w += flow;
   if (conditions.films.empty()) found.lost_w = 0;

@@ -19,7 +19,7 @@ namespace {
 
 using namespace test;
 
-// As CalculiX 2.20 prints them, shortened.
+// The text is what CalculiX 2.20 prints, shortened.
 TEST(Calculix, PrintedResultsHaveTheirPlaces) {
   const PrintedResults found = read_printed(R"(
  displacements (vx,vy,vz) for set NALL and time  0.1000000E+01
@@ -49,7 +49,7 @@ TEST(Calculix, PrintedResultsHaveTheirPlaces) {
   EXPECT_THROW(read_printed(" stresses (elem)\n   1 1 0. 0. 0. 0. 0. 0.\n", 2, 2), Error);
 }
 
-// In place of the real program one that says and does what `script` has.
+// Puts a script that says and does what a test wants in the place of the real program.
 class FakeProgram : public testing::Test {
  protected:
   void SetUp() override {
@@ -76,7 +76,7 @@ class FakeProgram : public testing::Test {
 Solution solve_small(const StopFlag* stop = nullptr) {
   const MeshModel model = mesh_model_of(block_of(ElementKind::c3d4, {1, 1, 1}, {1, 1, 1}), {1000, 0.3, 0});
   const auto ends = [](Vec3) { return true; };
-  return solve_by_calculix(model, held_at(model.mesh, ends, [](Vec3 p) { return Vec3{0, 0, 1e-3 * p.z}; }), {}, stop);
+  return solve_by_calculix(model, held(model.mesh, ends, [](Vec3 p) { return Vec3{0, 0, 1e-3 * p.z}; }), {}, stop);
 }
 
 std::string failure_of(const std::function<void()>& work) {
@@ -123,7 +123,7 @@ Pushed pushed_block(ElementKind kind) {
   model.sections.push_back({"soft", {100, 0.45, 0}});
   for (size_t n = 0; n < model.section_of.size(); ++n)
     if (MeshView(model.mesh).centroid(n).x > 2) model.section_of[n] = 1;
-  Conditions conditions = held_at(
+  Conditions conditions = held(
       model.mesh, [](Vec3 p) { return p.x == 0; }, [](Vec3) { return Vec3{}; });
   for (uint32_t n = 0; n < model.mesh.points.size(); ++n)
     if (model.mesh.points[n].x == 4) conditions.forces.push_back({n, 2, 0.5});

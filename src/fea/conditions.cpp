@@ -77,7 +77,7 @@ class Selector {
     return sides_;
   }
 
-  // Of a drawn model those whose section has the name; else those that have more of it than of any other.
+  // Chooses elements by material: in a drawn model those whose section has the name, else those with most of it.
   std::vector<bool> of_material(const PlacedText& name) {
     const std::string wanted = to_lower(name.text);
     std::vector<bool> nodes(mesh_.node_count());

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "fea/brick_operator.h"
 #include "fea/conjugate_gradients.h"
+#include "fea/strains.h"
 
 namespace ombre::fea {
 namespace {
@@ -20,32 +21,6 @@ BrickOperator operator_of(const Model& model, const Conditions& conditions, int 
   std::vector<uint8_t> free(3 * model.bricks.node_count(), 1);
   for (const Prescribed& held : conditions.displacements) free[3 * size_t{held.node} + held.axis] = 0;
   return {model.bricks, std::move(moduli), std::move(free), threads};
-}
-
-std::array<double, 6> strain_at_middle(const Bricks& bricks, size_t brick, const std::array<Vec3, 8>& gradients,
-                                       const Vector& x) {
-  std::array<double, 6> strain{};
-  for (size_t c = 0; c < 8; ++c) {
-    const double* const u = x.data() + 3 * size_t{bricks.nodes[brick][c]};
-    const Vec3 g = gradients[c];
-    strain[0] += g.x * u[0];
-    strain[1] += g.y * u[1];
-    strain[2] += g.z * u[2];
-    strain[3] += g.y * u[0] + g.x * u[1];
-    strain[4] += g.z * u[1] + g.y * u[2];
-    strain[5] += g.z * u[0] + g.x * u[2];
-  }
-  return strain;
-}
-
-std::array<double, 6> stress_of(const std::array<double, 6>& strain, const Moduli& moduli) {
-  const double dilation = strain[0] + strain[1] + strain[2];
-  std::array<double, 6> stress{};
-  for (size_t n = 0; n < 3; ++n) {
-    stress[n] = 2.0 * moduli.shear * (strain[n] - dilation / 3) + moduli.bulk * dilation;
-    stress[3 + n] = moduli.shear * strain[3 + n];
-  }
-  return stress;
 }
 
 }  // namespace
@@ -78,8 +53,9 @@ Solution solve(const Model& model, const Conditions& conditions, const SolveOpti
   for (size_t n = 0; n < x.size(); n += 3) solution.displacement_mm.push_back({x[n], x[n + 1], x[n + 2]});
   const auto gradients = shape_gradients(model.bricks.size_mm, {0.5, 0.5, 0.5});
   for (size_t n = 0; n < model.bricks.count(); ++n) {
-    solution.strain.push_back(strain_at_middle(model.bricks, n, gradients, x));
-    solution.stress_mpa.push_back(stress_of(solution.strain.back(), stiffness.moduli()[n]));
+    const Moduli& moduli = stiffness.moduli()[n];
+    solution.strain.push_back(strain_of(model.bricks.nodes[n], gradients, x));
+    solution.stress_mpa.push_back(stress_of(solution.strain.back(), moduli.shear, moduli.bulk));
   }
   return solution;
 }

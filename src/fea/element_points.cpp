@@ -37,7 +37,7 @@ ElementPoint quadratic_at(const Barycentric& tetrahedron, const std::array<doubl
   return point;
 }
 
-// At coordinates from -1 to 1; `weight` is of a cube of side 2.
+// `at` has coordinates from -1 to 1; `weight` is the share of a cube of side 2.
 ElementPoint hexahedron_at(const MeshView& mesh, size_t element, Vec3 at, double weight) {
   const auto nodes = mesh.nodes(element);
   std::array<Vec3, 8> natural;

@@ -38,7 +38,7 @@ Matrix6 isotropic(const Moduli& moduli) {
   return matrix;
 }
 
-// Of a symmetric matrix; nothing where it is not positive definite but for rounding.
+// Inverts a symmetric matrix; nothing where it is not positive definite but for rounding.
 std::optional<Matrix6> inverse(const Matrix6& matrix) {
   constexpr double least_share = 1e-9;  // of the greatest number, that a pivot must have
   const Eigen::LDLT<Matrix6> factor(matrix);
@@ -112,7 +112,7 @@ class Cell6 {
     return f;
   }
 
-  // What an even strain lacks to balance.
+  // Returns the forces that an even strain lacks to balance.
   Vector forces_of(const Strain& strain) const {
     Vector forces(operator_.size());
     const BrickVector u = even_in_brick(strain, model_.bricks.size_mm);

@@ -8,7 +8,7 @@
 
 namespace ombre::fea {
 
-// Of stresses over strains, each as xx, yy, zz, xy, yz, zx with engineering shear (Voigt's notation).
+// Maps strains to stresses, each as xx, yy, zz, xy, yz, zx with engineering shear (Voigt's notation).
 using Stiffness = std::array<std::array<double, 6>, 6>;
 
 struct Homogenised {
@@ -25,12 +25,12 @@ struct Homogenised {
 Homogenised homogenise(const Model& model, const SolveOptions& options, Progress* progress = nullptr,
                        const StopFlag* stop = nullptr);
 
-// What engineers call the numbers of a stiffness.
+// The numbers that engineers derive from a stiffness.
 struct EngineeringConstants {
   std::array<double, 3> modulus_mpa{};        // along x, y, z
   std::array<double, 3> shear_modulus_mpa{};  // xy, yz, zx
   std::array<double, 3> poissons_ratio{};     // xy, yz, zx: -strain along the second, pulled along the first
-  // Of all directions: means after Voigt, Reuss and Hill, and how far the material is from isotropic: 0 if it is
+  // Means over all directions, after Voigt, Reuss and Hill, and how far the material is from isotropic: 0 if it is
   // (Ranganathan and Ostoja-Starzewski, 2008).
   double bulk_modulus_mpa = 0, mean_shear_modulus_mpa = 0;
   double universal_anisotropy = 0;

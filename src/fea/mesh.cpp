@@ -19,7 +19,7 @@ constexpr std::array<Side, 4> tetrahedron_sides{
 constexpr std::array<Side, 6> hexahedron_sides{
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
-// Of bricks: the side that is perpendicular to an axis, the lower and the upper one.
+// For each axis, a brick's lower and upper side that are perpendicular to it.
 constexpr std::array<std::array<uint8_t, 2>, 3> brick_sides{{{5, 3}, {2, 4}, {0, 1}}};
 
 constexpr std::array<std::array<uint8_t, 2>, 6> tetrahedron_edges{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};

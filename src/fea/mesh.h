@@ -10,7 +10,7 @@
 
 namespace ombre::fea {
 
-// By their names in Abaqus and CalculiX; their nodes have the same order there and in VTK.
+// Kinds have their names in Abaqus and CalculiX; their nodes have the same order there and in VTK.
 enum class ElementKind : uint8_t {
   c3d4,   // tetrahedron: three nodes that turn counter-clockwise as seen from the fourth
   c3d10,  // with nodes in the middle of the edges 12, 23, 31, 14, 24, 34
@@ -67,7 +67,7 @@ struct OuterSide {
   uint32_t element = 0;
   uint8_t side = 0;
 };
-// In the order of elements, then sides.
+// Sides come in the order of elements, then of an element's sides.
 std::vector<OuterSide> outer_sides(const MeshView& mesh);
 // The side's nodes, corners first.
 std::vector<uint32_t> side_nodes(const MeshView& mesh, const OuterSide& side);

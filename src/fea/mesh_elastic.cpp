@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "fea/node_matrix.h"
+#include "fea/strains.h"
 
 namespace ombre::fea {
 namespace {
@@ -46,32 +47,6 @@ void add_stiffness(const LameModuli& moduli, bool has_mean_volume, const Element
   for (size_t b = 0; b < node_count; ++b) add_outer(moduli.bulk / volume, means[a], means[b], blocks[b]);
 }
 
-std::array<double, 6> strain_at(const ElementPoint& point, std::span<const uint32_t> nodes,
-                                const std::vector<double>& x) {
-  std::array<double, 6> strain{};
-  for (size_t n = 0; n < nodes.size(); ++n) {
-    const double* const u = x.data() + 3 * size_t{nodes[n]};
-    const Vec3 g = point.gradients[n];
-    strain[0] += g.x * u[0];
-    strain[1] += g.y * u[1];
-    strain[2] += g.z * u[2];
-    strain[3] += g.y * u[0] + g.x * u[1];
-    strain[4] += g.z * u[1] + g.y * u[2];
-    strain[5] += g.z * u[0] + g.x * u[2];
-  }
-  return strain;
-}
-
-std::array<double, 6> stress_at(const std::array<double, 6>& strain, const LameModuli& moduli) {
-  const double dilation = strain[0] + strain[1] + strain[2];
-  std::array<double, 6> stress{};
-  for (size_t n = 0; n < 3; ++n) {
-    stress[n] = 2 * moduli.shear * (strain[n] - dilation / 3) + moduli.bulk * dilation;
-    stress[3 + n] = moduli.shear * strain[3 + n];
-  }
-  return stress;
-}
-
 }  // namespace
 
 Solution solve_mesh(const ModelView& model, const Conditions& conditions, const SolveOptions& options,
@@ -111,8 +86,9 @@ Solution solve_mesh(const ModelView& model, const Conditions& conditions, const 
   }
   for (size_t n = 0; n < size; n += 3) solution.displacement_mm.push_back({x[n], x[n + 1], x[n + 2]});
   for (size_t element = 0; element < mesh.count(); ++element) {
-    solution.strain.push_back(strain_at(middle_point(mesh, element), mesh.nodes(element), x));
-    solution.stress_mpa.push_back(stress_at(solution.strain.back(), moduli[model.section_of[element]]));
+    const LameModuli& own = moduli[model.section_of[element]];
+    solution.strain.push_back(strain_of(mesh.nodes(element), middle_point(mesh, element).gradients, x));
+    solution.stress_mpa.push_back(stress_of(solution.strain.back(), own.shear, own.bulk));
   }
   return solution;
 }

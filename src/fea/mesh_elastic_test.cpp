@@ -31,7 +31,7 @@ TEST(MeshElastic, LinearDisplacementsAreExact) {
   };
   for (const ElementKind kind : all_kinds) {
     const MeshModel model = mesh_model_of(block_of(kind, {4, 3, 4}, {1, 0.5, 2}, 0.15), stiff);
-    const Solution solution = solve_mesh(model, held_at(model.mesh, on_border, linear), {});
+    const Solution solution = solve_mesh(model, held(model.mesh, on_border, linear), {});
     for (size_t n = 0; n < model.mesh.points.size(); ++n)
       EXPECT_LT(length(linear(model.mesh.points[n]) - solution.displacement_mm[n]), 1e-9);
     // Hooke's law for these strains.
@@ -166,7 +166,7 @@ double plate_error(ElementKind kind, int32_t fine) {
     return Vec3{std::abs(p.x) < 1e-9 ? 0 : any_value, std::abs(p.y) < 1e-9 ? 0 : any_value, 0};
   };
   const Solution solution = solve_mesh(model,
-                                       held_at(
+                                       held(
                                            model.mesh, [](Vec3) { return true; }, value),
                                        {});
   double sum = 0, scale = 0;
@@ -194,7 +194,7 @@ TEST(MeshElastic, QuadraticTetrahedraHoldUpTo049) {
     const MeshModel model = mesh_model_of(block_of(kind, {4, 4, 4}, {1, 1, 1}), {1, 0.49, 0});
     const auto ends = [](Vec3 p) { return p.z == 0 || p.z == 4; };
     const auto press = [](Vec3 p) { return Vec3{0, 0, p.z > 1 ? -0.1 : 0}; };
-    const Solution solution = solve_mesh(model, held_at(model.mesh, ends, press), {});
+    const Solution solution = solve_mesh(model, held(model.mesh, ends, press), {});
     double sum = 0;
     for (const Prescribed& r : solution.reactions_n)
       if (r.axis == 2 && r.value < 0) sum -= r.value;
@@ -209,7 +209,7 @@ TEST(MeshElastic, ManyUnknownsAreIterated) {
   const MeshModel model = mesh_model_of(block_of(ElementKind::c3d4, {16, 16, 16}, {1, 1, 1}), stiff);
   const auto ends = [](Vec3 p) { return p.x == 0 || p.x == 16; };
   const auto pull = [](Vec3 p) { return Vec3{p.x == 0 ? 0 : 0.16, 0, 0}; };
-  const Conditions conditions = held_at(model.mesh, ends, pull);
+  const Conditions conditions = held(model.mesh, ends, pull);
   const Solution one = solve_mesh(model, conditions, {1e-8, 20000, 1});
   EXPECT_GT(one.iterations, 0U);
   EXPECT_EQ(one.displacement_mm, solve_mesh(model, conditions, {1e-8, 20000, 3}).displacement_mm);
@@ -224,7 +224,7 @@ TEST(MeshElastic, InvertedElementsAreErrors) {
   std::swap(model.mesh.nodes[4], model.mesh.nodes[5]);
   try {
     solve_mesh(model,
-               held_at(
+               held(
                    model.mesh, [](Vec3 p) { return p.z == 0; }, [](Vec3) { return Vec3{}; }),
                {});
     FAIL();

@@ -74,7 +74,7 @@ struct Prescribed {
   double value = 0;  // displacement, mm; or force, N; temperature, degrees Celsius, or heat that enters, W; V or A
 };
 
-// What is solved for.
+// The equations that are solved.
 enum class Physics : uint8_t {
   mechanics,  // displacements, mm
   heat,       // temperatures, degrees Celsius

@@ -38,7 +38,7 @@ struct LinearReport {
   double residual = 0;
 };
 
-// Of the free unknowns, x such that the matrix times x is `right`; those that are held count as 0 and stay so. The
+// Finds x such that the matrix times x is `right`, for the free unknowns; held ones count as 0 and stay so. The
 // matrix must be symmetric and positive definite. Few unknowns by a direct factorisation (Eigen's SimplicialLDLT), else
 // by conjugate gradients with an incomplete one
 // (IncompleteCholesky: Lin and More, 1999) and a coarse grid. Progress counts thousandths

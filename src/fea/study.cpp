@@ -17,7 +17,7 @@ const char* const selection_help =
     "write \"zmin\" or another side, or {\"box\": [x0, y0, z0, x1, y1, z1]} in mm, {\"plane\": [x, y, z, nx, ny, nz]}, "
     "{\"facing\": [0, 0, 1]}, {\"material\": \"red\"}, {\"part\": \"arm\"} or {\"where\": \"z > 9 && x < 2\"}";
 
-// What physics calls its numbers.
+// The names that each physics has for its numbers.
 struct Words {
   const char *conductivity, *unknown, *flow, *flux;
 };
@@ -105,7 +105,7 @@ class StudyReader {
     return {v[0], v[1], v[2]};
   }
 
-  // Of length one.
+  // Returns a direction of length one.
   Vec3 read_direction(const Data& data, Vec3 v) {
     if (length(v) > 0) return (1 / length(v)) * v;
     diagnostics_.error(data.where, "the direction is of no length", "write for example [0, 0, 1]");

@@ -41,17 +41,4 @@ inline MeshModel mesh_model_of(Mesh mesh, Elastic elastic) {
   return model;
 }
 
-inline Conditions held_at(const MeshView& mesh, const std::function<bool(Vec3)>& where,
-                          const std::function<Vec3(Vec3)>& displacement) {
-  Conditions conditions;
-  for (uint32_t n = 0; n < mesh.node_count(); ++n) {
-    const Vec3 p = mesh.node(n);
-    if (!where(p)) continue;
-    for (uint8_t axis = 0; axis < 3; ++axis)
-      if (const double value = displacement(p)[axis]; value == value)
-        conditions.displacements.push_back({n, axis, value});
-  }
-  return conditions;
-}
-
 }  // namespace ombre::fea::test

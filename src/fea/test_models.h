@@ -23,11 +23,11 @@ inline Model model_of(Bricks bricks, Elastic elastic) {
 }
 
 // Displacements by a function of the node's place, where another says so; axes that it leaves are NaN.
-inline Conditions held(const Bricks& bricks, const std::function<bool(Vec3)>& where,
+inline Conditions held(const MeshView& mesh, const std::function<bool(Vec3)>& where,
                        const std::function<Vec3(Vec3)>& displacement) {
   Conditions conditions;
-  for (uint32_t n = 0; n < bricks.node_count(); ++n) {
-    const Vec3 p = bricks.node(n);
+  for (uint32_t n = 0; n < mesh.node_count(); ++n) {
+    const Vec3 p = mesh.node(n);
     if (!where(p)) continue;
     for (uint8_t axis = 0; axis < 3; ++axis)
       if (const double value = displacement(p)[axis]; value == value)

@@ -69,7 +69,7 @@ S, E
 )");
 }
 
-// Of conduction with a film and a named set; a number that is longer than what CalculiX reads.
+// The deck has conduction with a film, a named set, and a number that is longer than what CalculiX reads.
 TEST(InpWriter, ConductionIsInMilliwatts) {
   MeshModel model{
       {ElementKind::c3d4, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3}}, {{"wall", {}, 0.25}}, {0}, {}};

@@ -71,7 +71,7 @@ class LineJoiner {
     constexpr double places_per_mm = 1000;  // beyond that, ends meet
     return {std::llround(p.x * places_per_mm), std::llround(p.y * places_per_mm)};
   }
-  // By lines at its end, until it is closed.
+  // Adds lines at the ring's end, until it is closed.
   void extend(Ring& ring, std::vector<bool>& used) const {
     while (key(ring.front()) != key(ring.back())) {
       const auto next = unused_at(key(ring.back()), used);

@@ -16,7 +16,7 @@ struct PlaneOptions {
   std::string layer, id;      // only what is on the layer (DXF), or in the element (SVG); empty: all
   double dots_per_inch = 72;  // of SVG lengths without a unit
   int chords_per_turn = 40;   // of circles and arcs
-  // Of those of a radius, in units of the drawing (DXF); empty: the same for all.
+  // Chords of circles and arcs by their radius, in units of the drawing (DXF); empty: the same for all.
   std::function<int(double radius)> chords_of_radius = {};
 };
 

@@ -45,7 +45,7 @@ void set_name(ResultField& field, std::string_view text);
 std::string folded_field_name(std::string_view name);
 // The field that is called so, or the only one whose name begins so; null where there is none, or where several do.
 const ResultField* find_field(const Results& results, std::string_view name);
-// Of a tensor xx, yy, zz, xy, yz, zx.
+// The von Mises stress of a tensor xx, yy, zz, xy, yz, zx.
 double von_mises(const double* tensor);
 
 // Moves the points by the displacement, times `factor`. False where the results have none.

@@ -57,7 +57,7 @@ TEST(Results, VtuAsText) {
   EXPECT_EQ(find_field(results, "none"), nullptr);
 }
 
-// Of a pull of 10 MPa along x.
+// A pull of 10 MPa along x has a von Mises stress of 10 MPa.
 TEST(Results, VonMisesIsAddedToStresses) {
   const Results results = read(tetrahedron("", text_points));
   ASSERT_TRUE(find_field(results, "von_mises"));
@@ -174,7 +174,7 @@ TEST(Results, FrdOfCalculix) {
   const auto results = read_results("a.frd", bar, {}, diagnostics);
   ASSERT_TRUE(results) << to_text(diagnostics);
   ASSERT_EQ(results->kinds, std::vector<ElementKind>{ElementKind::brick20});
-  // In the order of C3D20: upper edges, then upright ones.
+  // Nodes stand in the order of C3D20: upper edges, then upright ones.
   EXPECT_EQ(results->points[results->nodes[12]], (Vec3{0.5, 0, 2}));
   EXPECT_EQ(results->points[results->nodes[16]], (Vec3{0, 0, 1}));
   const ResultField* moves = find_field(*results, "displacement");

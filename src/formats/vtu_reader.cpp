@@ -152,7 +152,7 @@ class VtuReader {
     file_.fail_at(parent, "expected an array " + quoted(name) + " among the cells");
   }
 
-  // Which cells became elements.
+  // Returns which cells became elements.
   std::vector<bool> add_cells(xml_node piece, size_t first_point, uint64_t point_count, uint64_t count) {
     std::vector<bool> is_kept(count, false);
     const xml_node cells = piece.child("Cells");

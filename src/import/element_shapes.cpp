@@ -37,9 +37,9 @@ constexpr std::array<Vec3, 4> share_slopes{{{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, 
 // 1 + a*b along each axis, for a node at b.
 Vec3 factors(Vec3 at, Vec3 node) { return {1 + at.x * node.x, 1 + at.y * node.y, 1 + at.z * node.z}; }
 double product(Vec3 f) { return f.x * f.y * f.z; }
-// Of the product of factors.
+// The gradient of the product of three factors, one for each axis.
 Vec3 product_slope(Vec3 f, Vec3 node) { return {node.x * f.y * f.z, node.y * f.x * f.z, node.z * f.x * f.y}; }
-// Of a node between corners one factor is 1 - a*a.
+// Returns the axis along which a node lies between corners: its factor there is 1 - a*a.
 int free_axis(Vec3 node) { return node.x == 0 ? 0 : node.y == 0 ? 1 : 2; }
 
 double brick20_weight(Vec3 at, size_t n) {
@@ -227,7 +227,7 @@ bool place_in_element(ElementKind kind, std::span<const Vec3> nodes, Vec3 target
     if (size < enough) return true;
     if (!(length(at) < far)) return false;
   }
-  // What rounding does not let come nearer.
+  // Rounding may not let it come nearer.
   shape_weights(kind, at, weights);
   Vec3 here;
   double extent = 0;

@@ -29,14 +29,14 @@ Vec3 middle_of(ElementKind kind);
 // Does it lie in the element, or out of it by no more than `room`?
 bool is_in_element(ElementKind kind, Vec3 at, double room);
 Vec3 clamped_to(ElementKind kind, Vec3 at);
-// Where the nodes lie.
+// The places of the nodes, in coordinates of the reference element.
 std::span<const Vec3> node_places(ElementKind kind);
 
 // Encloses the field that takes these values at the nodes: its control values in Bernstein's basis, but for rounding.
 Interval field_bounds(ElementKind kind, std::span<const double> values);
 
-// Where the element is at `target`; at most some steps of Newton's method from its middle. False where these do not
-// arrive.
+// Finds the place in the element that is at `target`, by steps of Newton's method from its middle. False where these do
+// not arrive.
 bool place_in_element(ElementKind kind, std::span<const Vec3> nodes, Vec3 target, Vec3& at);
 
 // The triangles of an element's sides, corner by corner, counter-clockwise from outside; those of a quadratic element

@@ -7,7 +7,7 @@
 namespace ombre::importing {
 namespace {
 
-// In reference coordinates: what rounding may put outside of the element that holds it.
+// How far, in reference coordinates, rounding may put a place outside of the element that holds it.
 constexpr double element_room = 1e-8;
 
 Box box_of_element(const formats::Results& results, size_t element) {

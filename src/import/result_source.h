@@ -6,7 +6,7 @@
 
 namespace ombre::importing {
 
-// What there is outside of the mesh.
+// The values outside of the mesh.
 struct OutsideRule {
   enum class Kind : uint8_t { none, nearest, value };
   Kind kind = Kind::none;

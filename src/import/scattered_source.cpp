@@ -122,7 +122,7 @@ class ScatteredSource final : public program::FieldSource {
     const ScatteredChannel& which = channels_[static_cast<size_t>(channel - 1)];
     const formats::ResultField& field = results_->fields[which.field];
     const auto at = [&](size_t n) { return field.values[near.list[n].point * field.components + which.component]; };
-    // Of squares of distances, relative to the least: they neither overflow nor vanish.
+    // Weights are relative to that of the nearest point, so that they neither overflow nor vanish.
     const double least = near.list[0].distance_mm;
     if (least == 0 || near.count == 1) return at(0);
     double sum = 0, weights = 0;

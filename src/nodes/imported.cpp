@@ -85,7 +85,20 @@ Box bounds_of(const AnyParts& parts) {
   return box;
 }
 
-struct Mesh {
+// A solid whose parts are known when the node is made.
+struct SolidOfParts {
+  Parts parts;
+
+  Box bounds(const Box&) const { return bounds_of(parts); }
+  Field distance(const Point& p) const { return least_distance(parts, p); }
+  Field inside(const Inputs&, const Point& p) const { return inside_any(parts, p); }
+  Field interior(const Inputs& in, const Point& p) const { return inside(in, p); }
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return composition_of(parts, in, p, demand);
+  }
+};
+
+struct Mesh : SolidOfParts {
   FilePath path;
   MaterialName material;
   Choice inside_rule = "nonzero";
@@ -94,7 +107,6 @@ struct Mesh {
   std::vector<MaterialForName> material_map;
   double deform = 0;
   std::shared_ptr<const std::vector<MeshPart>> loaded;  // when the node is made
-  Parts parts;
 
   static Spec<Mesh> spec() {
     return {"mesh",
@@ -139,17 +151,9 @@ struct Mesh {
 
   // Walls between two parts are nearer than the surface of the whole.
   Metric metric() const { return parts.size() == 1 && loaded->front().is_exact ? Metric::exact() : Metric::bounded(); }
-
-  Box bounds(const Box&) const { return bounds_of(parts); }
-  Field distance(const Point& p) const { return least_distance(parts, p); }
-  Field inside(const Inputs&, const Point& p) const { return inside_any(parts, p); }
-  Field interior(const Inputs& in, const Point& p) const { return inside(in, p); }
-  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    return composition_of(parts, in, p, demand);
-  }
 };
 
-struct Scad {
+struct Scad : SolidOfParts {
   FilePath path;
   MaterialName material;
   std::string part;
@@ -157,7 +161,6 @@ struct Scad {
   std::vector<MaterialForName> material_map;
   ScriptVariables variables;
   std::shared_ptr<const ScadSolids> loaded;  // when the node is made
-  Parts parts;
 
   static Spec<Scad> spec() {
     return {
@@ -197,13 +200,6 @@ struct Scad {
 
   // Walls between two parts are nearer than the surface of the whole.
   Metric metric() const { return parts.size() == 1 ? Metric::exact() : Metric::bounded(); }
-  Box bounds(const Box&) const { return bounds_of(parts); }
-  Field distance(const Point& p) const { return least_distance(parts, p); }
-  Field inside(const Inputs&, const Point& p) const { return inside_any(parts, p); }
-  Field interior(const Inputs& in, const Point& p) const { return inside(in, p); }
-  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    return composition_of(parts, in, p, demand);
-  }
 };
 
 struct Cad {

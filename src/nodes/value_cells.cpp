@@ -14,7 +14,6 @@ namespace ombre::nodes {
 namespace {
 
 using namespace design;
-using program::Op;
 
 constexpr double sqrt3 = 1.7320508075688772;
 

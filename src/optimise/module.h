@@ -3,7 +3,7 @@
 
 #include "optimise/search.h"
 
-// What the modules export.
+// The functions that the modules export.
 extern "C" void ombre_search_nlopt(const ombre::optimise::Problem* problem,
                                    const ombre::optimise::SearchOptions* options);
 extern "C" void ombre_search_pagmo(const ombre::optimise::Problem* problem,

@@ -10,7 +10,7 @@ namespace ombre::optimise {
 namespace {
 
 constexpr double first_step = 0.25;  // of coordinates from 0 to 1
-// What stands for values that are unknown, in units of what they were at the first point.
+// The value of a point that could not be measured, in units of that of the first point.
 constexpr double penalty = 10;
 
 // NLopt asks for objective and constraints by separate calls, which share the outcome of a point.
@@ -27,7 +27,7 @@ class Values {
     const Outcome& outcome = at(x);
     for (size_t n = 0; n < problem_.constraints; ++n) result[n] = outcome.failed ? 1 : outcome.excesses[n];
   }
-  // For methods without constraints a violation makes the objective worse.
+  // Makes violations worsen the objective, for methods without constraints.
   void add_violations() { adds_violations_ = true; }
   void rethrow() const {
     if (thrown_) std::rethrow_exception(thrown_);
@@ -98,7 +98,7 @@ void run_nlopt(const Problem& problem, const SearchOptions& options) {
   }
   Point x = problem.start;
   double value = 0;
-  // What it returns says why it stopped; the evaluations say the rest.
+  // The status says why it stopped; the evaluations say the rest.
   nlopt_optimize(optimiser.get(), x.data(), &value);
   values.rethrow();
 }

@@ -1,4 +1,4 @@
-// Which of many points are best.
+// Ranks points: which of many are best.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,7 @@
 
 namespace ombre::optimise {
 
-// What a problem says about a point.
+// The answer of a problem at a point.
 struct Outcome {
   bool failed = false;             // nothing is known about the point
   std::vector<double> objectives;  // the less, the better

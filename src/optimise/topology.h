@@ -1,4 +1,4 @@
-// Where to put a share of the material so that a solid is stiffest under its loads.
+// Finds where to put a share of the material so that a solid is stiffest under its loads.
 #pragma once
 
 #include <functional>

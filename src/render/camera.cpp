@@ -79,7 +79,7 @@ Camera camera_around(const Box& box, const ViewOptions& options, double aspect) 
   camera.forward = turn.linear({0, 1, 0});
   camera.right = turn.linear({1, 0, 0});
   camera.down = turn.linear({0, 0, -1});
-  // Of the ball around the target that holds the box.
+  // The ball around the target that holds the box has this radius.
   const double radius = length(box.size()) / 2 + length(box.center() - camera.target);
   if (options.field_of_view_deg > 0) {
     const double half = options.field_of_view_deg * 3.14159265358979323846 / 360;

@@ -29,7 +29,7 @@ struct Part {
 };
 using Parts = std::vector<Part>;
 
-// What parts hold has no common inside, but they may touch each other. Most bodies have one.
+// The insides of parts do not overlap, but they may touch each other. Most bodies have one.
 class CgalBody : public Body {
  public:
   // Coordinates are evaluated, so that bodies can be read by several threads and forget how they were made.

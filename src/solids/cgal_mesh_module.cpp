@@ -25,8 +25,8 @@ using Triangulation = CGAL::Mesh_triangulation_3<Domain, CGAL::Default, CGAL::Se
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
 using Usual = CGAL::Mesh_criteria_3<Triangulation>;
 
-// Of the size: radii of the balls around facets and cells, so that the mean edge has about the size, and how far
-// facets may lie from the surface.
+// Shares of the element size: radii of the balls around facets and cells, so that the mean edge has about the size, and
+// how far facets may lie from the surface.
 constexpr double facet_share = 0.8, cell_share = 0.8, distance_share = 0.05;
 constexpr double least_angle = 25, most_radius_to_edge = 2.2;
 // How near to the surface its points lie, as a share of the size.
@@ -181,8 +181,8 @@ Tetrahedra make(const TetrahedraRequest& request) {
                     params::facet_distance = distance, params::cell_radius_edge_ratio = most_radius_to_edge,
                     params::cell_size = cell);
   const Criteria criteria(usual, request.size_mm);
-  // Without a limit of their own, what mends slivers ends after as many seconds as the mesh took: another mesh each
-  // time.
+  // 0 is no limit. By default the steps that mend slivers stop after as many seconds as meshing took, so that each run
+  // would give another mesh.
   const Complex complex =
       CGAL::make_mesh_3<Complex>(domain, criteria, params::features(domain), params::no_lloyd(), params::no_odt(),
                                  params::perturb(params::time_limit = 0, params::sliver_bound = 12),

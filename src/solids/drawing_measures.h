@@ -8,14 +8,14 @@
 
 namespace ombre::solids {
 
-// Which drawing, and what is meant of it. Empty: any layer, any name. Places are moved by -origin, then scaled.
+// Chooses a drawing, and what is meant of it. Empty: any layer, any name. Places are moved by -origin, then scaled.
 struct MeasureChoice {
   std::string path, layer, name;
   Vec2 origin;
   double scale = 1;
 };
 
-// What is found, or why it is not: a warning for the script.
+// A value, or the warning that says why there is none.
 template <class Value>
 struct Measure {
   std::optional<Value> value;
@@ -24,7 +24,7 @@ struct Measure {
 
 // The first dimension of that name on that layer of a DXF file: mm, or degrees.
 Measure<double> dimension_of(const MeasureChoice& choice);
-// Where the first two lines of the layer cross.
+// The place where the first two lines of the layer cross.
 Measure<Vec2> crossing_of(const MeasureChoice& choice);
 
 }  // namespace ombre::solids

@@ -18,7 +18,7 @@ Region intersect(const Region& a, const Region& b);
 Region subtract(const Region& a, const Region& b);
 Region moved(const Region& region, const Affine& map);  // by what the map does in the plane
 Region offset(const Region& region, const Offset& by);
-// Without what is narrower than the distance: points that lie closer, slits, slivers, and corners of nearly straight
+// Leaves out what is narrower than the distance: points that lie closer, slits, slivers, and corners of nearly straight
 // lines.
 Region cleaned(const Region& region, double distance_mm);
 Region fill(const Region& region);  // without its holes

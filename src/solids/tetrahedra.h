@@ -45,5 +45,5 @@ bool has_tetrahedra();
 
 }  // namespace ombre::solids
 
-// What the module exports.
+// The function that the module exports.
 extern "C" void ombre_make_tetrahedra(const ombre::solids::TetrahedraRequest& request, ombre::solids::Tetrahedra& made);

@@ -40,7 +40,7 @@ const formats::ResultField* field_of(const formats::Results& results, const Resu
   return field;
 }
 
-// What a file holds, with the mesh to look places up in; null for points alone.
+// The results of a file, with the mesh to look places up in; null for points alone.
 struct LoadedResults {
   std::shared_ptr<const formats::Results> points;
   std::shared_ptr<const ResultMesh> mesh;
@@ -48,7 +48,7 @@ struct LoadedResults {
   const formats::Results& results() const { return mesh ? mesh->results() : *points; }
 };
 
-// With the table of values, if there is one. Nothing, and diagnostics, where a file is wrong.
+// Reads the file and the table of values, if there is one. Nothing, and diagnostics, where a file is wrong.
 std::optional<formats::Results> read_files(const ResultsRequest& request, Loading& loading, const Reader& reader) {
   const auto bytes = loading.bytes(request.file);
   if (request.values.path.empty()) return formats::read_results(request.file.path, *bytes, {}, reader.diagnostics);

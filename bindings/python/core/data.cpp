@@ -145,9 +145,7 @@ py::list to_python(const Diagnostics& diagnostics) {
   py::list list;
   for (const Diagnostic& diagnostic : diagnostics.list()) {
     py::dict entry;
-    entry["severity"] = diagnostic.severity == Severity::error     ? "error"
-                        : diagnostic.severity == Severity::warning ? "warning"
-                                                                   : "note";
+    entry["severity"] = std::string(name_of(diagnostic.severity));
     entry["message"] = diagnostic.message;
     entry["hint"] = diagnostic.hint;
     if (diagnostic.where.source) {

@@ -64,7 +64,7 @@ export class Connection {
     return { answer, cancel: () => this.waiting.has(id) && this.isOpen && this.socket!.send(JSON.stringify({ id, do: "cancel" })) };
   }
 
-  // What is at work in a lane is no longer needed.
+  // Cancels what is at work in a lane.
   cancelLane(lane: string) {
     if (this.isOpen) this.socket!.send(JSON.stringify({ id: 0, do: "cancel", lane }));
   }

@@ -143,7 +143,7 @@ function takeFromDisk(disk: Reply) {
   if (editor!.text() !== savedText) editor!.replace(savedText);
 }
 
-// Which of two texts counts, when others changed the file as well.
+// Settles which of two texts counts, when others changed the file as well.
 export function settle(mine: boolean) {
   const disk = state.conflict;
   if (!disk) return;

@@ -12,7 +12,7 @@ const steps = [
   { share: 1, samples: 2 },
 ];
 
-// What decides a picture, but for its size.
+// Pictures of equal keys differ in size alone.
 function pictureKey(): string {
   const { design, camera, cut, by, palette, opacity } = state;
   return JSON.stringify([design?.design, camera, cut, by, palette, opacity]);
