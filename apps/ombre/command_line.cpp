@@ -21,8 +21,8 @@ namespace {
 
 constexpr const char* description = "Ombre compiles solids whose material varies through their volume.";
 constexpr const char* program_footer =
-    "A design is a script (.vcad), a design file (.json) or a Python script (.py, whose root it is; see: ombre run "
-    "-h).\n"
+    "A design is a script (.vcad, or .scad of OpenSCAD), a design file (.json) or a Python script\n"
+    "(.py, whose root it is; see: ombre run -h).\n"
     "ombre COMMAND --help tells more. Lengths are millimetres, angles degrees; z is up, layer 0 the lowest.\n"
     "Exit codes: 0 done, 1 the design or the arguments are wrong, 2 a file or the machine failed,\n"
     "3 a check failed, 130 interrupted.\n";

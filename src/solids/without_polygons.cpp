@@ -22,6 +22,7 @@ Region intersect(const Region&, const Region&) { report(); }
 Region subtract(const Region&, const Region&) { report(); }
 Region moved(const Region&, const Affine&) { report(); }
 Region offset(const Region&, const Offset&) { report(); }
+Region cleaned(const Region&, double) { report(); }
 Region fill(const Region&) { report(); }
 Region hull(std::span<const Region>) { report(); }
 Region minkowski(const Region&, const Region&) { report(); }
