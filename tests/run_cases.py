@@ -115,7 +115,7 @@ class Case:
         for wish in wishes:
             if wish in ("inside", "outside"):
                 good = result["inside"] == (wish == "inside")
-            elif wish.startswith("part "):
+            elif wish.startswith("part ") and " = " not in wish:
                 parts.append(wish[len("part "):])
                 continue
             elif " = " in wish:

@@ -27,6 +27,7 @@ declare -A options=(
   [unit_cells]="--from -15,50"
   [orthosis]="--by modulus --legend --palette plasma --from 30,30"
   [shoe_sole]="--by color_rgb --from -20,50"
+  [value_nodes]="--from 0,90"
   [wood]="--from -20,35"
   [turned_handle]="--cut z=12 --from -50,35"
 )

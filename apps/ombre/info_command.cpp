@@ -126,6 +126,13 @@ std::string range_text(const std::optional<Interval>& range) {
   return format_rounded(range->lo, 5) + " to " + format_rounded(range->hi, 5);
 }
 
+// "1 lid, 2 bottom"
+std::string labels_text(const std::vector<std::string>& labels) {
+  std::vector<std::string> numbered;
+  for (size_t n = 0; n < labels.size(); ++n) numbered.push_back(std::to_string(n + 1) + " " + labels[n]);
+  return join(numbered, ", ");
+}
+
 std::string attributes_text(const std::vector<compile::SurveyedAttribute>& attributes) {
   std::string text;
   for (const compile::SurveyedAttribute& attribute : attributes) {
@@ -133,6 +140,10 @@ std::string attributes_text(const std::vector<compile::SurveyedAttribute>& attri
     const std::string unit = declared.unit.empty() || declared.unit == "1" ? "" : ", " + declared.unit;
     text += declared.name + "  " + std::string(design::name(declared.type)) + unit + ", " +
             std::string(design::overlap_names[static_cast<size_t>(declared.overlap)]) + " where solids meet";
+    if (declared.type == design::ValueType::label) {
+      text += ": " + labels_text(declared.labels) + "\n";
+      continue;
+    }
     if (attribute.ranges.size() == 1) {
       text += ", " + range_text(attribute.ranges[0].second) + "\n";
       continue;
@@ -146,6 +157,7 @@ std::string attributes_text(const std::vector<compile::SurveyedAttribute>& attri
 Data attribute_data(const compile::SurveyedAttribute& attribute) {
   const design::AttributeDeclaration& declared = attribute.declaration;
   DataMembers numbers;
+  const DataList labels(declared.labels.begin(), declared.labels.end());
   for (const auto& [part, range] : attribute.ranges)
     numbers.emplace_back(part, range ? Data(DataList{range->lo, range->hi}) : Data());
   return DataMembers{{"name", declared.name},
@@ -153,6 +165,7 @@ Data attribute_data(const compile::SurveyedAttribute& attribute) {
                      {"unit", declared.unit},
                      {"default", declared.default_value},
                      {"overlap", std::string(design::overlap_names[static_cast<size_t>(declared.overlap)])},
+                     {"labels", labels},
                      {"values", std::move(numbers)}};
 }
 

@@ -66,6 +66,10 @@ void add_job_arguments(CLI::App& app, JobArguments& a) {
   app.add_option("--range", a.range, "The values that are black and white (default: those of the design)")
       ->needs(by)
       ->type_name("LO,HI");
+  app.add_option("--bits", a.bits, "Of a gray pixel: 8 (default, 256 shades) or 16 (65,536)")
+      ->needs(by)
+      ->check(one_of({"8", "16"}))
+      ->type_name("8|16");
 }
 
 Interval parse_range(const std::string& text) {
@@ -93,7 +97,7 @@ std::optional<compile::PlanOptions> plan_options(const JobArguments& a, Diagnost
   if (a.by.empty()) return options;
   if (!a.image.empty() && a.image != "gray")
     throw WrongArgument("--format " + a.image + " holds materials; --by makes gray images: leave --format out");
-  options.value = compile::ValueChoice{a.by, std::nullopt};
+  options.value = compile::ValueChoice{a.by, std::nullopt, a.bits == "16" ? 16 : 8};
   if (!a.range.empty()) options.value->range = parse_range(a.range);
   return options;
 }

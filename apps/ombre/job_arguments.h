@@ -21,7 +21,7 @@ void add_design_arguments(CLI::App& app, DesignArguments& arguments);
 
 struct JobArguments : DesignArguments {
   std::string printer, voxel, dpi, layer_height, dither = "stochastic", evaluator = "batch", seed = "0", image, place,
-                                                 by, range;
+                                                 by, range, bits = "8";
   bool tray = false;
 };
 

@@ -36,11 +36,12 @@ void add_region_arguments(CLI::App& app, RegionArguments& a, const std::string& 
                  "Largest distance to the design's surface; mm (default: a thousandth of its longest side)")
       ->type_name("MM");
   app.add_option("--cell", a.cell, "Edge of the smallest cells; mm (default: 4 times the tolerance)")->type_name("MM");
-  app.add_option("--by", a.by,
-                 piece +
-                     " for each of the materials, or for bands of a material's fraction or an attribute; of several,\n"
-                     "with commas, for each combination of their bands")
-      ->type_name("materials|NAME");
+  app.add_option(
+         "--by", a.by,
+         piece +
+             " for each of the materials or named parts, or for bands of a material's fraction or an attribute; of\n"
+             "several, with commas, for each combination of their bands")
+      ->type_name("materials|parts|NAME");
   auto* bands =
       app.add_option("--bands", a.bands, "Number of bands of equal width (default 4, of the fraction that varies most)")
           ->check(whole_between(2, 1000))
@@ -55,11 +56,14 @@ compile::RegionRequest region_request(const RegionArguments& a) {
   request.tolerance_mm = length_of("--tolerance", a.tolerance);
   request.cell_mm = length_of("--cell", a.cell);
   request.by_material = a.by == "materials";
+  request.by_part = a.by == "parts";
   const std::vector<double> borders = borders_of(a.borders);
   const bool has_bands = a.bands > 0 || !borders.empty();
-  if (request.by_material && has_bands)
-    throw WrongArgument("--by materials has no bands; leave out --bands and --borders, or name a material: --by red");
-  if (!has_bands && (a.by.empty() || request.by_material)) return request;
+  const bool is_without_bands = request.by_material || request.by_part;
+  if (is_without_bands && has_bands)
+    throw WrongArgument("--by " + a.by +
+                        " has no bands; leave out --bands and --borders, or name a material: --by red");
+  if (!has_bands && (a.by.empty() || is_without_bands)) return request;
   const std::vector<std::string> names = split(a.by, ',');
   if (names.size() > 1 && !borders.empty())
     throw WrongArgument("--borders are those of one value; with --by " + a.by + " write --bands, the number for each");

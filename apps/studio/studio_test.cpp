@@ -156,6 +156,7 @@ TEST_F(StudioTest, ShowsOpenScadScripts) {
   };
   const Data loaded =
       load_script("size = 2; // [1:9]\necho(size);\ncolor(\"red\") cube(size);\ntranslate([size, 0, 0]) cube(1);\n");
+  if (print_json(loaded).find("built without CGAL") != std::string::npos) GTEST_SKIP();
   ASSERT_EQ(*loaded.find("ok"), Data(true)) << print_json(loaded);
   EXPECT_EQ(*loaded.find("echo"), Data(DataList{"ECHO: 4"}));
   ASSERT_EQ(loaded.find("variables")->list()->size(), 1U);

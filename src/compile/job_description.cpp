@@ -47,8 +47,11 @@ Data images(const SliceRequest& request) {
 }
 
 Data shades(const ShadeMeaning& meaning) {
-  return DataMembers{
-      {"of", meaning.of}, {"unit", meaning.unit}, {"black", meaning.range.lo}, {"white", meaning.range.hi}};
+  return DataMembers{{"of", meaning.of},
+                     {"unit", meaning.unit},
+                     {"black", meaning.range.lo},
+                     {"white", meaning.range.hi},
+                     {"bits", static_cast<double>(meaning.bits)}};
 }
 
 // In the order of the palette of indexed images.

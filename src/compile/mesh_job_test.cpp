@@ -395,6 +395,37 @@ TEST(Mesh, OfPartsSmallerThanTheToleranceEnds) {
   expect_manifold(made.bodies[0].body);
 }
 
+// Of two balls of radius 3 whose middles are 4 apart the first has the lens between them, whose caps are 1 high. What
+// stands in no part at the top level comes first.
+TEST(Mesh, ByPartsHasABodyForEachName) {
+  MeshRequest request = cells_of(0.2, 0.01);
+  request.by_part = true;
+  const MeshedDesign made = mesh_text(
+      "part(\"left\") sphere(3); translate(20, 0, 0) cube(2);"
+      "union() { translate(4, 0, 0) part(\"right\") sphere(3); rotate(0, 0, 9) part(\"right\") translate(0, 9, 0) "
+      "cube(1); }",
+      request);
+  ASSERT_EQ(made.bodies.size(), 3u);
+  std::map<std::string, double> volumes;
+  for (const RegionBody& body : made.bodies) {
+    expect_manifold(body.body);
+    volumes[body.region.name] = body.volume_mm3;
+  }
+  const double ball = 4 * pi / 3 * 27, lens = 2 * pi / 3 * (3 * 3 - 1);
+  EXPECT_NEAR(volumes["rest"], 8, 1e-6);
+  EXPECT_NEAR(volumes["left"], ball - lens, 0.005 * ball);
+  EXPECT_NEAR(volumes["right"], ball + 1, 0.005 * ball);
+}
+
+TEST(Mesh, ByPartsNeedsNames) {
+  MeshRequest request;
+  request.by_part = true;
+  Diagnostics diagnostics;
+  const LoadedPtr loaded = load_text("sphere(3);", diagnostics);
+  EXPECT_FALSE(mesh_design(*loaded, request, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("no part of the design has a name"), std::string::npos) << to_text(diagnostics);
+}
+
 TEST(Mesh, OfNothingIsAnError) {
   for (const auto& [of, message] : {std::pair("gold", "attribute \"gold\""), std::pair("red", "material \"red\"")}) {
     MeshRequest request;

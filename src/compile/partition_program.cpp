@@ -41,6 +41,8 @@ Field number_of_band(Field score, const std::vector<double>& borders) {
   return number;
 }
 
+constexpr const char* part_label = "part";
+
 std::string list_names(const std::vector<std::string>& names) {
   return names.empty() ? "there is none" : "there are " + join(names, ", ");
 }
@@ -75,6 +77,8 @@ class RegionBuilder {
         return true;
       case RegionRule::Kind::materials:
         return add_materials();
+      case RegionRule::Kind::parts:
+        return add_parts();
       case RegionRule::Kind::fraction:
         return add_fraction();
       case RegionRule::Kind::attribute:
@@ -96,6 +100,27 @@ class RegionBuilder {
     for (const auto& [id, fraction] : question_.composition().fractions) {
       scores_.push_back(fraction);
       made_.regions.push_back({design_.materials.all()[id].name, id, {}, {}});
+    }
+    return true;
+  }
+
+  // What has no name comes first.
+  bool add_parts() {
+    const design::AttributeDeclaration* declared = question_.declaration(part_label);
+    if (!declared) {
+      diagnostics_.error(question_.solid()->where(), "no part of the design has a name",
+                         "name some: part(\"handle\") { ... }");
+      return false;
+    }
+    const auto label = question_.attribute(part_label, diagnostics_);
+    if (!label) return false;
+    made_.partition.division = surface::Division::greatest;
+    std::vector<std::string> names{"rest"};
+    names.insert(names.end(), declared->labels.begin(), declared->labels.end());
+    for (size_t n = 0; n < names.size(); ++n) {
+      scores_.push_back(
+          question_.builder().apply(program::Op::equal, *label, label->builder->constant(static_cast<double>(n))));
+      made_.regions.push_back({names[n], {}, {}, {}});
     }
     return true;
   }

@@ -16,6 +16,7 @@ struct RegionRule {
   enum class Kind : uint8_t {
     whole,      // all that is inside
     materials,  // by the material of the greatest fraction
+    parts,      // by the name of the part
     fraction,   // by bands of a material's fraction
     attribute,  // by bands of an attribute
     crossed,    // by bands of several values at once: a region for each combination
@@ -29,7 +30,7 @@ struct RegionRule {
 
 // A region as people know it; regions count from 1, this list from 0.
 struct Region {
-  std::string name;                       // "red", "red 25-50 %", "density 0.2-0.4"
+  std::string name;                       // "red", "handle", "red 25-50 %", "density 0.2-0.4"
   std::optional<MaterialId> material;     // of Kind::materials
   std::optional<double> least, greatest;  // of bands: values from `least`, up to and without `greatest`
   // A body made by bands of attributes has each attribute here, with the value in the middle of its band.

@@ -2,6 +2,7 @@
 #include "compile/picture_labels.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
 #include "compile/colour_map.h"
@@ -34,21 +35,29 @@ std::vector<uint8_t> on_background(const std::vector<uint8_t>& part, const rende
   return pixels;
 }
 
-// Some values with their colours, the greatest first.
-std::vector<render::Swatch> value_legend(const design::Design& design, const ValueColours& value) {
-  const int lines = value.range.is_point() ? 1 : 5;
-  std::string unit = value_unit(design, value.of);
-  if (!unit.empty()) unit.insert(0, " ");
-  std::vector<render::Swatch> legend;
-  if (attribute_parts(design, value.of).size() > 1) return legend;  // it is a colour itself
+// Round numbers within the range, some five of them.
+std::vector<render::ColourBar::Mark> marks_of(Interval range) {
+  if (range.is_point()) return {{0.5, format_rounded(range.lo, 3)}};
+  constexpr double most_steps = 6;
+  const double width = range.hi - range.lo;
+  double step = render::round_length(width / most_steps);
+  if (width / step > most_steps) step = render::round_length(2.5 * step);  // the next
+  std::vector<render::ColourBar::Mark> marks;
+  for (double n = std::ceil(range.lo / step - 1e-9); n * step <= range.hi + 1e-9 * width; ++n)
+    marks.push_back({(n * step - range.lo) / width, format_rounded(n * step, 6)});
+  return marks;
+}
+
+// Nothing where the value is a colour itself.
+std::optional<render::ColourBar> colour_bar(const design::Design& design, const ValueColours& value) {
+  constexpr int colours = 256;
+  if (attribute_parts(design, value.of).size() > 1) return std::nullopt;
   const Palette* palette = palette_called(value.palette);
-  for (int n = lines - 1; n >= 0; --n) {
-    const double share = static_cast<double>(n) / std::max(1, lines - 1);
-    const double at = value.range.lo + share * (value.range.hi - value.range.lo);
-    legend.push_back(
-        {value.of + " " + format_rounded(at, 3) + unit, map_colour(share, palette ? *palette : palettes().front())});
-  }
-  return legend;
+  const std::string unit = value_unit(design, value.of);
+  render::ColourBar bar{unit.empty() ? value.of : value.of + ", " + unit, {}, marks_of(value.range)};
+  for (int n = 0; n < colours; ++n)
+    bar.colours.push_back(map_colour((n + 0.5) / colours, palette ? *palette : palettes().front()));
+  return bar;
 }
 
 }  // namespace
@@ -60,7 +69,7 @@ std::optional<PictureLabels> PictureLabels::make(const Loaded& loaded, const Pic
   PictureLabels labels(request, draw::Pen(wanted.font_file));
   labels.annotations_.axes = wanted.axes;
   labels.annotations_.scale_bar = wanted.scale_bar;
-  if (wanted.legend && value) labels.annotations_.legend = value_legend(loaded.design, *value);
+  if (wanted.legend && value) labels.annotations_.colour_bar = colour_bar(loaded.design, *value);
   if (wanted.legend && !value) {
     const auto materials = materials_within(loaded.design, box, request.threads, diagnostics);
     if (!materials) return std::nullopt;

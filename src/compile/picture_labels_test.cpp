@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "compile/colour_map.h"
 #include "compile/test_designs.h"
 
 namespace ombre::compile {
@@ -111,6 +112,31 @@ TEST_F(Labels, LegendsHaveTheColours) {
   ASSERT_EQ(swatches.size(), 2U);
   EXPECT_EQ(swatches[0].green, 160);  // by their order in the file of materials
   EXPECT_EQ(swatches[1].blue, 255);
+}
+
+// The bar goes from the last colour on top to the first below, without steps.
+TEST_F(Labels, ValuesHaveABarOfTheirColours) {
+  PictureRequest request;
+  request.by = "density";
+  request.annotations.legend = true;
+  const auto picture = take("attribute(\"density\", \"1 + x/20\") sphere(5);", request);
+  ASSERT_TRUE(picture);
+  const auto matches = [&](Pixel p, design::Rgba c) { return p.red == c[0] && p.green == c[1] && p.blue == c[2]; };
+  int64_t bar = 0, first = 0, last = 0;
+  for (int64_t column = width - 1; column > width / 2 && bar == 0; --column)
+    for (int64_t line = 0; line < height; ++line)
+      if (matches(at(*picture, column, line), map_colour(511.0 / 512))) bar = column;
+  ASSERT_GT(bar, 0);
+  for (int64_t line = height - 1; line >= 0; --line) {
+    if (matches(at(*picture, bar, line), map_colour(511.0 / 512))) first = line;
+    if (last == 0 && matches(at(*picture, bar, line), map_colour(1.0 / 512))) last = line;
+  }
+  ASSERT_GT(last, first + 60);
+  for (int64_t line = first; line < last; ++line) {
+    const double share = 1 - (static_cast<double>(line - first) + 0.5) / static_cast<double>(last - first + 1);
+    const design::Rgba expected = map_colour(share);
+    EXPECT_NEAR(at(*picture, bar, line).green, expected[1], 4) << line;
+  }
 }
 
 TEST_F(Labels, MakeRoomForThemselves) {

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "compile/region_survey.h"
+#include "nodes/all_nodes.h"
 
 namespace ombre::compile {
 namespace {
@@ -69,10 +70,26 @@ std::optional<RegionRule> crossed_rule(const design::Design& design, const Box& 
   return rule;
 }
 
+// The name of a part that front ends made of all that is in none.
+constexpr std::string_view unnamed_part = "part";
+
+// Names that only the list of parts has become nodes.
+design::Design with_part_nodes(design::Design design) {
+  const design::NodeType& type = *nodes::registry().find("part");
+  for (design::Part& part : design.parts) {
+    if (part.name == unnamed_part || &part.solid->type() == &type) continue;
+    Diagnostics none;
+    const design::Reader reader{design.materials, none, nullptr, part.solid->where(), "part", ""};
+    part.solid = design::make_node(type, {{type.parameters.data(), Data(part.name)}}, {part.solid}, reader);
+  }
+  return design;
+}
+
 std::optional<RegionRule> region_rule(const design::Design& design, const Box& box, const RegionRequest& request,
                                       Diagnostics& diagnostics) {
   if (request.bands && !request.crossed.empty()) return crossed_rule(design, box, request, diagnostics);
   if (request.bands) return band_rule(design, box, *request.bands, diagnostics);
+  if (request.by_part) return RegionRule{RegionRule::Kind::parts, "", {}};
   return RegionRule{request.by_material ? RegionRule::Kind::materials : RegionRule::Kind::whole, "", {}};
 }
 
@@ -96,8 +113,9 @@ design::Design for_tolerance(const design::Design& design, double tolerance_mm) 
   return design::for_job(design, {{voxel, voxel, voxel}, triangles_of_tolerance * tolerance_mm});
 }
 
-std::optional<RegionProgram> build_regions(const design::Design& design, const Box& box, const RegionRequest& request,
+std::optional<RegionProgram> build_regions(const design::Design& given, const Box& box, const RegionRequest& request,
                                            Diagnostics& diagnostics, const design::NodePtr& shape) {
+  const design::Design design = request.by_part ? with_part_nodes(given) : given;
   const auto rule = region_rule(design, box, request, diagnostics);
   return rule ? build_region_program(design, box, *rule, diagnostics, shape) : std::nullopt;
 }

@@ -20,6 +20,7 @@ struct BandRequest {
 
 struct RegionRequest {
   bool by_material = false;            // a region for each material
+  bool by_part = false;                // or for each part that has a name
   std::optional<BandRequest> bands;    // or for each band; else one for all
   std::vector<BandRequest> crossed;    // further values, whose bands are crossed with those
   std::optional<double> tolerance_mm;  // else a thousandth of the longest side, rounded

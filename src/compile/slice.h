@@ -28,6 +28,7 @@ struct SliceMaterial {
 struct ShadeMeaning {
   std::string of, unit;  // a material, for its fraction, or an attribute with its unit
   Interval range;
+  int bits = 8;  // of a pixel: 8 or 16
 };
 
 // Everything that decides the bytes of a job, already resolved.

@@ -146,7 +146,9 @@ std::vector<EncodedLayer> make_slab(const SliceRequest& request, const LayerProd
       result.entry.voxels.push_back(layer.material_counts[material.id]);
     result.entry.checks = layer.checks;
     result.entry.checks.resize(request.check_texts.size());
-    if (!request.drop_empty_layers || !result.entry.is_empty()) result.images = stack.encode(layer.runs);
+    if (!request.drop_empty_layers || !result.entry.is_empty())
+      result.images = layer.lower_bytes ? std::vector{stack.encode_shades(layer.runs, *layer.lower_bytes)}
+                                        : stack.encode(layer.runs);
     encoded.push_back(std::move(result));
   }
   return encoded;

@@ -13,15 +13,17 @@ namespace ombre::compile {
 struct ValueChoice {
   std::string of;  // a material, for its fraction, or an attribute
   std::optional<Interval>
-      range;  // from black to white; nothing: from the least to the greatest inside, of a fraction 0-1
+      range;     // from black to white; nothing: from the least to the greatest inside, of a fraction 0-1
+  int bits = 8;  // of a pixel: 8 or 16
 };
 
 // Nothing, and a diagnostic, when the design has no such value.
 std::optional<ShadeMeaning> shade_meaning(const design::Design& design, const Box& box, const ValueChoice& choice,
                                           Diagnostics& diagnostics);
 
-// Voxels have the shades 0 to 255 in place of materials: 0 up to range.lo and outside, 255 from range.hi on, linear and
-// to the nearest in between. Nothing, and a diagnostic, when the program would not fit into memory.
+// Voxels have the shades 0 to 255, or 65,535, in place of materials: 0 up to range.lo and outside, the last from
+// range.hi on, linear and to the nearest in between. Those of 16 bits are counted by their upper bytes, 1 to 255 as 1.
+// Nothing, and a diagnostic, when the program would not fit into memory.
 std::optional<RegionProducer> value_layers(const design::Design& design, const voxel::Lattice& lattice,
                                            const ShadeMeaning& meaning, voxel::Evaluator evaluator,
                                            Diagnostics& diagnostics);

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <functional>
 
+#include "compile/slice_work.h"
 #include "compile/test_designs.h"
+#include "export/material_stack.h"
+#include "formats/png.h"
 
 namespace ombre::compile {
 namespace {
@@ -47,6 +50,26 @@ TEST(ValueLayers, ShadesAreLinearBetweenTheEndsOfTheRange) {
     const double share = std::clamp((5 + p.z - 3) / 4, 0.0, 1.0);
     ASSERT_NEAR(shade, 255 * share, 0.501) << p.z;
   });
+}
+
+// Each layer's image holds them too, with its rows from the greatest y down.
+TEST(ValueLayers, ShadesOfSixteenBitsAreFiner) {
+  const Plan plan = planned("attribute(\"dose\", \"5 + y\") { cube(6); }", {"dose", Interval(2, 8), 16});
+  const voxel::Lattice& lattice = plan.request.lattice;
+  const auto layers = plan.producer(0, 1, nullptr);
+  ASSERT_TRUE(layers[0].lower_bytes);
+  exporting::MaterialStack stack = image_stack(plan.request);
+  stack.flip_y = false;
+  const formats::GrayImage image =
+      formats::decode_gray_png(stack.encode_shades(layers[0].runs, *layers[0].lower_bytes), "test");
+  ASSERT_EQ(image.width, lattice.count[0]);
+  ASSERT_EQ(image.height, lattice.count[1]);
+  for (int64_t j = 0; j < lattice.count[1]; ++j)
+    for (int64_t i = 0; i < lattice.count[0]; ++i) {
+      const int shade = image.pixels[static_cast<size_t>((lattice.count[1] - 1 - j) * lattice.count[0] + i)];
+      ASSERT_NEAR(shade, 65535 * (lattice.center(i, j, 0).y + 3) / 6, 0.51);  // of floats too
+    }
+  EXPECT_EQ(layers[0].material_counts[0], 0u);
 }
 
 TEST(ValueLayers, SolidsWithoutTheAttributeHaveItsDefault) {

@@ -18,6 +18,7 @@ size_t numbers_in(ValueType type) {
     case ValueType::colour:
       return 4;
     case ValueType::mixture:
+    case ValueType::label:  // which attributes of designs do not set
       break;
   }
   return 0;

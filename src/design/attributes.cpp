@@ -69,9 +69,11 @@ std::string_view name(ValueType type) {
     case ValueType::colour:
       return "colour";
     case ValueType::mixture:
+      return "mixture";
+    case ValueType::label:
       break;
   }
-  return "mixture";
+  return "label";
 }
 
 Overlap overlap_called(std::string_view name) {
@@ -85,6 +87,7 @@ std::vector<std::string> parts_of(const AttributeDeclaration& declaration) {
   std::vector<std::string> parts;
   switch (declaration.type) {
     case ValueType::number:
+    case ValueType::label:
       return {name};
     case ValueType::vector:
       for (const std::string_view part : vector_parts) parts.push_back(name + std::string(part));
@@ -104,7 +107,7 @@ std::string_view attribute_of_part(std::string_view part) { return part.substr(0
 
 double default_of(const AttributeDeclaration& declaration, std::string_view part) {
   if (declaration.type == ValueType::number) return declaration.default_value;
-  if (declaration.type == ValueType::mixture) return 0;
+  if (declaration.type == ValueType::mixture || declaration.type == ValueType::label) return 0;
   const std::vector<std::string> parts = parts_of(declaration);
   const auto found = std::ranges::find(parts, part);
   return found == parts.end() ? 0 : declaration.default_numbers[static_cast<size_t>(found - parts.begin())];

@@ -82,8 +82,8 @@ inline std::string_view name(Metric::Kind kind) {
 }
 
 // A value has one of these types. A vector has three numbers; a colour has red, green, blue and alpha from 0 to 1, in
-// sRGB.
-enum class ValueType : uint8_t { number, vector, colour, mixture };
+// sRGB. A label is one of several names: its number is the name's place in their list, from 1 on; 0 is none of them.
+enum class ValueType : uint8_t { number, vector, colour, mixture, label };
 std::string_view name(ValueType type);
 
 // How an attribute's values combine where solids overlap, number by number. Between solids that are blended, `mix`
@@ -99,11 +99,12 @@ struct AttributeDeclaration {
   ValueType type = ValueType::number;
   std::array<double, 4> default_numbers{};  // of vectors and colours
   std::vector<std::string> materials = {};  // of a mixture: those that it may hold, in the order of their ids
+  std::vector<std::string> labels = {};     // of a label: the names
   Interval range = Interval::everything();  // that its numbers are meant to lie in
   bool operator==(const AttributeDeclaration&) const = default;
 };
 
-// An attribute is asked for number by number. These are the names of its numbers: of a number its own, of others
+// An attribute is asked for number by number. These are the names of its numbers: of a number or label its own, of others
 // "fibre.x", "color_rgba.r", "tissue.red". Names of attributes have no dots.
 std::vector<std::string> parts_of(const AttributeDeclaration& declaration);
 // "fibre" of "fibre.x".

@@ -100,7 +100,7 @@ LoweringContext::LoweringContext(const MaterialTable& materials, const std::vect
 
 LoweringContext::~LoweringContext() = default;
 
-// The first node that sets an attribute says what it is; a mixture holds the materials of all.
+// The first node that sets an attribute says what it is; a mixture holds the materials of all, a label the names.
 void LoweringContext::declare(const AttributeDeclaration& declared) {
   const auto known = std::ranges::find(attributes_, declared.name, &AttributeDeclaration::name);
   if (known == attributes_.end()) return attributes_.push_back(declared);
@@ -109,6 +109,8 @@ void LoweringContext::declare(const AttributeDeclaration& declared) {
     if (!is_held && std::ranges::find(declared.materials, material.name) != declared.materials.end())
       known->materials.push_back(material.name);
   }
+  for (const std::string& label : declared.labels)
+    if (std::ranges::find(known->labels, label) == known->labels.end()) known->labels.push_back(label);
 }
 
 void LoweringContext::use_stages(const std::optional<StageLattice>& lattice, std::shared_ptr<StageHost> host) {

@@ -133,6 +133,10 @@ Field Inputs::inside_of(const SolidName& solid, const Point& p) const {
   return lowering_ ? lowering_->inside(*solid.node, p) : anything(p, {0, 1});
 }
 
+Field Inputs::attribute_of(const SolidName& solid, std::string_view attribute_name, const Point& p) const {
+  return lowering_ ? lowering_->attribute(*solid.node, attribute_name, p, Demand::inside) : anything(p);
+}
+
 Field Inputs::along(size_t i, const Point& p) const { return lowering_->along(input(i), p); }
 
 namespace {

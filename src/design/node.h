@@ -91,6 +91,8 @@ class Inputs {
   // Of a solid that a parameter holds: mm, negative inside. Anything where only ranges are evaluated.
   Field distance_to(const SolidName& solid, const Point& p) const;
   Field inside_of(const SolidName& solid, const Point& p) const;
+  // One of the numbers of its attributes.
+  Field attribute_of(const SolidName& solid, std::string_view attribute_name, const Point& p) const;
   // The input's attribute, or number of one, that formulas call by this name in small letters; empty: it has none.
   std::string attribute_called(size_t i, std::string_view lower_case) const;
   // How fine the job is in this node's space, if it is known.

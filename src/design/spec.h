@@ -36,9 +36,9 @@ struct Parameter {
   Parameter(std::string_view name_, M T::*member, std::string_view doc_, Domain domain_ = {})
       : name(name_), doc(doc_), kind(kind_name<M>()), domain(std::move(domain_)) {
     static_assert(std::is_object_v<M>, "a parameter is a member, not a method");
-    if constexpr (std::is_same_v<M, MaterialName> && !HasComposition<T>) {
-      domain.may_mix = true;
-      kind = "material or mixture";
+    if constexpr (std::is_same_v<M, MaterialName>) {
+      if (!HasComposition<T>) domain.may_mix = true;
+      if (domain.may_mix) kind = "material or mixture";
     }
     set = [member, limits = domain](T& value, const Data& data, const Reader& reader) {
       return read(data, limits, value.*member, reader);
@@ -46,6 +46,7 @@ struct Parameter {
     get = [member](const T& value, bool for_hash) { return write(value.*member, for_hash); };
     if constexpr (std::is_same_v<M, Number>)
       is_constant = [member](const T& value) { return (value.*member).constant() != nullptr; };
+    if (domain.one_is_enough) kind = "number or 3 numbers, or fields";
     if constexpr (std::is_same_v<M, Numbers3>)
       is_constant = [member](const T& value) {
         const Numbers3& n = value.*member;

@@ -233,6 +233,10 @@ bool read(const Data& data, const Domain& domain, Number& value, const Reader& r
 }
 
 bool read(const Data& data, const Domain& domain, Numbers3& value, const Reader& reader) {
+  if (domain.one_is_enough && !data.list()) {
+    value = {0, 0, 0};
+    return read(data, domain, value.x, reader);
+  }
   if (!read_vector(data, domain, reader)) return false;
   const DataList& list = *data.list();
   const bool x = read(list[0], domain, value.x, reader), y = read(list[1], domain, value.y, reader),

@@ -196,6 +196,7 @@ struct Domain {
   std::vector<std::string> choices;    // of a Choice
   std::vector<std::string> variables;  // known in expressions besides the coordinates
   bool may_mix = false;                // of a material: may it be a mixture?
+  bool one_is_enough = false;          // of three numbers: may one stand for itself and two zeros?
   bool child_attributes = false;       // may expressions call attributes of the inputs by their names?
 };
 
@@ -231,6 +232,16 @@ inline Domain one_of(std::vector<std::string> choices) {
 }
 inline Domain required(Domain domain = {}) {
   domain.required = true;
+  return domain;
+}
+// Of three numbers, in whose place one may stand.
+inline Domain one_or_three(Domain domain = {}) {
+  domain.one_is_enough = true;
+  return domain;
+}
+// Of materials, where mixtures may stand too.
+inline Domain mixable(Domain domain = {}) {
+  domain.may_mix = true;
   return domain;
 }
 inline Domain with_variables(std::vector<std::string> variables, Domain domain = {}) {

@@ -63,6 +63,23 @@ std::vector<std::string> MaterialStack::encode(const RunLayer& layer) const {
   return files;
 }
 
+std::string MaterialStack::encode_shades(const RunLayer& upper_bytes, const RunLayer& lower_bytes) const {
+  const uint32_t width = upper_bytes.width(), height = upper_bytes.height();
+  std::vector<uint16_t> pixels;
+  pixels.reserve(size_t{width} * height);
+  std::vector<MaterialId> upper(width), lower(width);
+  for (uint32_t i = 0; i < height; ++i) {
+    const uint32_t j = flip_y ? i : height - 1 - i;
+    upper_bytes.row(j).unpack(upper.data());
+    lower_bytes.row(j).unpack(lower.data());
+    for (uint32_t n = 0; n < width; ++n) {
+      const uint32_t at = flip_x ? width - 1 - n : n;
+      pixels.push_back(static_cast<uint16_t>(upper[at] << 8 | lower[at]));
+    }
+  }
+  return formats::encode_gray_png(width, height, pixels, {pitch_x.dots_per_metre(), pitch_y.dots_per_metre()});
+}
+
 formats::Rgba shown(formats::Rgba colour, ImageFormat format) {
   if (format != ImageFormat::gray) return colour;
   const int thousandths = 299 * colour[0] + 587 * colour[1] + 114 * colour[2];

@@ -27,6 +27,8 @@ struct MaterialStack {
 
   // One PNG file, or one for each material, in their order. Throws Error when memory runs out.
   std::vector<std::string> encode(const RunLayer& layer) const;
+  // One PNG file in 65,536 shades of gray.
+  std::string encode_shades(const RunLayer& upper_bytes, const RunLayer& lower_bytes) const;
 };
 
 // What an image of this format shows for a colour: with `gray` its brightness, 0.299 r + 0.587 g + 0.114 b

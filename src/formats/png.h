@@ -30,6 +30,13 @@ std::string encode_png(const RunLayer& layer, const Palette& palette, const PngL
 // Rows from the top, 4 bytes a pixel.
 std::string encode_png(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgba);
 
+struct DotsPerMetre {
+  double x = 0, y = 0;  // rounded to whole dots; 0 writes none
+};
+// In 65,536 shades of gray, rows from the top.
+std::string encode_gray_png(uint32_t width, uint32_t height, const std::vector<uint16_t>& pixels,
+                            const DotsPerMetre& resolution);
+
 struct PngImage {
   uint32_t width = 0, height = 0;
   PngFormat format = PngFormat::rgba;

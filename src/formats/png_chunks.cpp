@@ -2,9 +2,19 @@
 
 #include <libdeflate.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/assert.h"
 
 namespace ombre::formats {
+namespace {
+
+uint32_t whole_dots(double dots_per_metre) {
+  return static_cast<uint32_t>(std::clamp(std::round(dots_per_metre), 0.0, 2147483647.0));
+}
+
+}  // namespace
 
 std::string big_endian(uint32_t value) {
   std::string bytes;
@@ -29,6 +39,12 @@ void PngChunks::add_palette(std::span<const Rgba> colours) {
   }
   add("PLTE", opaque);
   if (alpha_count > 0) add("tRNS", alphas.substr(0, alpha_count));
+}
+
+void PngChunks::add_resolution(double dots_per_metre_x, double dots_per_metre_y) {
+  const uint32_t x = whole_dots(dots_per_metre_x), y = whole_dots(dots_per_metre_y);
+  const std::string per_metre(1, 1);
+  if (x > 0 && y > 0) add("pHYs", big_endian(x) + big_endian(y) + per_metre);
 }
 
 void PngChunks::add(std::string_view type, std::initializer_list<std::string_view> data) {

@@ -19,6 +19,8 @@ class PngChunks {
 
   void add_header(uint32_t width, uint32_t height, PngColours type, int bit_depth);
   void add_palette(std::span<const Rgba> colours);
+  // Rounded to whole dots; none where one is 0.
+  void add_resolution(double dots_per_metre_x, double dots_per_metre_y);
 
   // `type` has four letters.
   void add(std::string_view type, std::string_view data) { add(type, {data}); }

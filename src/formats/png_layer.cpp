@@ -68,16 +68,6 @@ Palette fitting(const RunLayer& layer, const Palette& palette) {
   return palette.first(size_t{1} << bits);
 }
 
-uint32_t whole_dots(double dots_per_metre) {
-  return static_cast<uint32_t>(std::clamp(std::round(dots_per_metre), 0.0, 2147483647.0));
-}
-
-void add_resolution(PngChunks& file, const PngLayout& layout) {
-  const uint32_t x = whole_dots(layout.dots_per_metre_x), y = whole_dots(layout.dots_per_metre_y);
-  const std::string per_metre(1, 1);
-  if (x > 0 && y > 0) file.add("pHYs", big_endian(x) + big_endian(y) + per_metre);
-}
-
 // The data of the image in chunks, as it comes.
 class DataChunks {
  public:
@@ -128,7 +118,7 @@ std::string encode_png(const RunLayer& layer, const Palette& job_palette, const 
   ZlibStream stream;
   file.add_header(layer.width(), layer.height(), type, numbers.bit_depth);
   if (type == PngColours::indexed) file.add_palette(palette.colours());
-  add_resolution(file, layout);
+  file.add_resolution(layout.dots_per_metre_x, layout.dots_per_metre_y);
   if (type == PngColours::rgba)
     add_data(file, layer, layout.flip_y,
              RgbaRows(layer.width(), palette, occurring(layer, palette), layout.flip_x, stream), stream);

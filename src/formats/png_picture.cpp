@@ -63,6 +63,23 @@ std::string compressed(const std::string& bytes) {
   return out;
 }
 
+// Each row as its differences to the row above, which are small where shades change slowly.
+std::string differences_of(const std::vector<uint16_t>& pixels, uint32_t width, uint32_t height) {
+  constexpr char up = 2;  // the filter's number
+  std::string rows;
+  rows.reserve((size_t{2} * width + 1) * height);
+  const auto byte = [&](size_t row, size_t n, int shift) {
+    return static_cast<uint8_t>(pixels[row * width + n] >> shift);
+  };
+  for (size_t row = 0; row < height; ++row) {
+    rows += up;
+    for (size_t n = 0; n < width; ++n)
+      for (const int shift : {8, 0})
+        rows += static_cast<char>(byte(row, n, shift) - (row > 0 ? byte(row - 1, n, shift) : 0));
+  }
+  return rows;
+}
+
 }  // namespace
 
 // Pictures of at most 256 colours are indexed, which makes them several times smaller.
@@ -74,6 +91,19 @@ std::string encode_png(uint32_t width, uint32_t height, const std::vector<uint8_
   file.add_header(width, height, is_indexed ? PngColours::indexed : PngColours::rgba, 8);
   if (is_indexed) file.add_palette(few.colours);
   file.add("IDAT", compressed(rows_of(is_indexed ? few.numbers : rgba, height)));
+  file.add("IEND", "");
+  return file.take();
+} catch (const std::bad_alloc&) {
+  throw Error("not enough memory to encode an image; try fewer threads");
+}
+
+std::string encode_gray_png(uint32_t width, uint32_t height, const std::vector<uint16_t>& pixels,
+                            const DotsPerMetre& resolution) try {
+  ASSERT(!pixels.empty() && pixels.size() == size_t{width} * height);
+  PngChunks file;
+  file.add_header(width, height, PngColours::gray, 16);
+  file.add_resolution(resolution.x, resolution.y);
+  file.add("IDAT", compressed(differences_of(pixels, width, height)));
   file.add("IEND", "");
   return file.take();
 } catch (const std::bad_alloc&) {

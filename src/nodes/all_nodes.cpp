@@ -36,6 +36,7 @@ const design::Registry& registry() {
     add_value_cells(r);
     add_value_curves(r);
     add_value_colours(r);
+    add_attribute_of(r);
     add_convolutions(r);
     add_whole_solids(r);
     return r;

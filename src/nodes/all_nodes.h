@@ -36,6 +36,7 @@ void add_value_places(design::Registry& registry);
 void add_value_cells(design::Registry& registry);
 void add_value_curves(design::Registry& registry);
 void add_value_colours(design::Registry& registry);
+void add_attribute_of(design::Registry& registry);
 void add_convolutions(design::Registry& registry);
 void add_whole_solids(design::Registry& registry);
 

@@ -24,6 +24,23 @@ MaterialName material_of(const std::string& name, const MaterialName& otherwise,
   return name.empty() ? otherwise : MaterialName{reader.materials.find(name)};
 }
 
+// A mixture is that of the whole solid, so it leaves no room for materials of the file.
+bool check_mixture(const MaterialName& material, const Choice& materials, const Reader& reader) {
+  if (!material.mixture || materials == "one") return true;
+  reader.diagnostics.error(
+      reader.where,
+      std::string(reader.node) +
+          " has a mixture, which is for the whole of it, and is asked for the materials of the file",
+      "leave out materials=\"" + std::string(materials.text()) +
+          "\", or name one material for what has none in the file");
+  return false;
+}
+
+// What a reader of files is told of the node's material: it makes no difference to what is read.
+MaterialName told_material(const MaterialName& material, const Reader& reader) {
+  return material.mixture ? MaterialName{&reader.materials.first()} : material;
+}
+
 Field read(const SolidPart& part, const char* channel, const Point& p) {
   const int number = part.source->channel(channel);
   ASSERT(number >= 0);
@@ -60,8 +77,13 @@ std::vector<Field> weights(const Parts& parts, const Point& p, Demand demand) {
 }
 
 Composition composition_of(const Parts& parts, const Inputs& in, const Point& p, Demand demand) {
-  if (parts.size() == 1) return Composition::pure(in.material(parts[0].material), p.constant(1));
+  if (parts.size() == 1) return in.composition_of(parts[0].material, p);
   const std::vector<Field> shares = first_true(weights(parts, p, demand));
+  if (std::ranges::any_of(parts, [](const SolidPart& part) { return part.material.mixture; })) {
+    std::vector<Composition> own;
+    for (const SolidPart& part : parts) own.push_back(in.composition_of(part.material, p));
+    return weighted(own, shares);
+  }
   Composition result;
   for (size_t n = 0; n < parts.size(); ++n) result.fractions.emplace_back(in.material(parts[n].material), shares[n]);
   std::sort(result.fractions.begin(), result.fractions.end(),
@@ -114,7 +136,8 @@ struct Mesh : SolidOfParts {
             "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF (with its beams) or AMF in "
             "their own unit; or by the outer sides of a mesh of results, VTU, FRD or INP.",
             {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
-             {"material", &Mesh::material, "Its material; beside the file's materials, that of what has none there"},
+             {"material", &Mesh::material, "Its material; beside the file's materials, that of what has none there",
+              mixable()},
              {"inside", &Mesh::inside_rule,
               "What is inside: nonzero (winding number; overlapping shells stay solid), parity, or generalized (for "
               "open meshes)",
@@ -140,7 +163,9 @@ struct Mesh : SolidOfParts {
     if (materials == "one" && !material_map.empty())
       return fail("material_map of mesh: the materials of the file are not asked for",
                   "write materials=\"names\" or materials=\"colours\" too");
-    MeshRequest request{path, {object, inside_rule, materials, material, material_map}, deform};
+    if (!check_mixture(material, materials, reader)) return false;
+    const MaterialName told = told_material(material, reader);
+    MeshRequest request{path, {object, inside_rule, materials, told, material_map}, deform};
     loaded = reader.loader->source(request, reader);
     if (!loaded) return false;
     path.path = request.file.path;
@@ -169,7 +194,9 @@ struct Scad : SolidOfParts {
         "Solid that an OpenSCAD script makes, in mm; arguments of other names are values for the script's "
         "variables.",
         {{"path", &Scad::path, "The script; relative to this one, then to the working directory", required()},
-         {"material", &Scad::material, "Its material; beside the script's own, that of what has none there"},
+         {"material", &Scad::material,
+          "Its material; beside the script's own, that of what has none there. A mixture is for the whole solid",
+          mixable()},
          {"part", &Scad::part, "The name of one of the script's parts, rest for solids of no part; none: all of them"},
          {"materials", &Scad::materials,
           "Whose materials: one (the node's), names (those of material() in the script), colours (those whose "
@@ -188,7 +215,9 @@ struct Scad : SolidOfParts {
       reader.diagnostics.error(reader.where, "OpenSCAD scripts cannot be run here");
       return false;
     }
-    ScadRequest request{path, variables, part, materials, material, material_map};
+    if (material.mixture && materials == "auto") materials = "one";
+    if (!check_mixture(material, materials, reader)) return false;
+    ScadRequest request{path, variables, part, materials, told_material(material, reader), material_map};
     loaded = reader.loader->source(request, reader);
     if (!loaded) return false;
     path.path = request.file.path;
@@ -218,7 +247,8 @@ struct Cad {
             "imported",
             "Solid of a CAD file: STEP or IGES, in the file's own unit.",
             {{"path", &Cad::path, "The file; relative to the script, then to the working directory", required()},
-             {"material", &Cad::material, "Its material; beside the file's materials, that of what has none there"},
+             {"material", &Cad::material, "Its material; beside the file's materials, that of what has none there",
+              mixable()},
              {"mode", &Cad::mode,
               "fast (by triangles) or exact (by the surfaces themselves: slow, and distances are exact)",
               one_of({"fast", "exact"})},
@@ -244,7 +274,9 @@ struct Cad {
     if (materials == "one" && !material_map.empty())
       return fail("material_map of cad: the materials of the file are not asked for",
                   "write materials=\"names\" or materials=\"colours\" too");
-    CadRequest request{path, {object, "nonzero", materials, material, material_map}, mode == "exact", tolerance};
+    if (!check_mixture(material, materials, reader)) return false;
+    const MaterialName told = told_material(material, reader);
+    CadRequest request{path, {object, "nonzero", materials, told, material_map}, mode == "exact", tolerance};
     parts = reader.loader->source(request, reader);
     if (!parts) return false;
     for (const CadPart& part : *parts) part_materials.push_back(material_of(part.material, material, reader));

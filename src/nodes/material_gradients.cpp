@@ -22,7 +22,7 @@ bool same_length(const Reader& reader, size_t functions, size_t materials, std::
 // Fractions from raw values, each for its material. Where they are unusable the input's own composition
 // stands and the check tells.
 struct Mixture {
-  std::vector<MaterialId> materials;
+  std::vector<Composition> parts;  // each a material alone, or a mixture
   std::vector<Field> raw;
   bool threshold = false;
 
@@ -40,15 +40,25 @@ struct Mixture {
         logical_and(program::fold(finite, program::logical_and), program::fold(nonzero, program::logical_or));
     std::map<MaterialId, std::vector<Field>> terms;
     const std::vector<Field> shares = threshold ? winners(values) : normalised(values);
-    for (size_t i = 0; i < shares.size(); ++i) terms[materials[i]].push_back(shares[i]);
+    std::map<uint32_t, std::vector<Field>> marks;
+    for (size_t i = 0; i < shares.size(); ++i) {
+      for (const auto& [id, fraction] : parts[i].fractions) terms[id].push_back(shares[i] * fraction);
+      for (const auto& [number, mark] : parts[i].checks)
+        marks[number].push_back(logical_and(usable, logical_and(truth(shares[i]), mark)));
+    }
 
-    if (p.builder().constant_value(usable) == 1.0) return fractions(terms, {}, usable, zero);
-    const Composition own = in.composition(0, p, demand);
+    const bool is_usable = p.builder().constant_value(usable) == 1.0;
+    const Composition own = is_usable ? Composition() : in.composition(0, p, demand);
     for (const auto& [id, fraction] : own.fractions) terms.try_emplace(id);
     Composition result = fractions(terms, own, usable, zero);
-    const Field bad = logical_not(usable);
-    for (const auto& [number, mark] : own.checks) result.checks.emplace_back(number, logical_and(bad, mark));
-    result.checks.push_back(in.check(bad, message()));
+    if (!is_usable) {
+      const Field bad = logical_not(usable);
+      for (const auto& [number, mark] : own.checks) marks[number].push_back(logical_and(bad, mark));
+      const auto [number, mark] = in.check(bad, message());
+      marks[number].push_back(mark);
+    }
+    for (auto& [number, list] : marks)
+      result.checks.emplace_back(number, program::fold(std::move(list), program::logical_or));
     return result;
   }
 
@@ -92,7 +102,7 @@ Mixture mixture(const Inputs& in, const Point& p, std::span<const Number> functi
   Mixture result;
   const expr::Variables variables = child_variables(in, p);
   for (const Number& function : functions) result.raw.push_back(function.at(p, variables));
-  for (const MaterialName& name : materials) result.materials.push_back(in.material(name));
+  for (const MaterialName& name : materials) result.parts.push_back(in.composition_of(name, p));
   return result;
 }
 
@@ -116,7 +126,7 @@ struct FGrade {
         "Sets the composition of its child by formulas, one for each material.",
         {{"functions", &FGrade::functions,
           "Expressions; d is the signed distance of the child, t the place along its struts", required(over_child())},
-         {"materials", &FGrade::materials, "A material for each expression", required()},
+         {"materials", &FGrade::materials, "A material or mixture for each expression", required(mixable())},
          {"mode", &FGrade::mode, "prob: the values are shares of a mixture. thresh: the greatest value takes all",
           one_of({"prob", "thresh"})}},
         one_solid,
@@ -150,7 +160,7 @@ struct Material {
     return {"material",
             "material gradients",
             "Sets the composition of its child: one material, or a mixture.",
-            {{"materials", &Material::materials, "One or more materials", required()},
+            {{"materials", &Material::materials, "One or more materials or mixtures", required(mixable())},
              {"fractions", &Material::fractions, "A share for each, numbers or fields; without it all the same",
               over_child()}},
             one_solid,

@@ -1,4 +1,7 @@
 // Names for the parts of a design.
+#include <algorithm>
+
+#include "base/assert.h"
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
 
@@ -7,22 +10,40 @@ namespace {
 
 using namespace design;
 
+constexpr std::string_view label_name = "part";
+
 struct Part {
   std::string name;
 
   static Spec<Part> spec() {
-    return {"part",
-            "parts",
-            "Names a part of the design. Stands at the top level, or directly in root.",
-            {{"name", &Part::name, "Its name", required()}},
-            one_solid,
-            "part(\"handle\") { cylinder(2, 20, \"red\"); }"};
+    return {
+        "part",
+        "parts",
+        "Names a part of the design: the label \"part\" of all that is in its braces, outer names before inner ones.",
+        {{"name", &Part::name, "Its name", required()}},
+        one_solid,
+        "part(\"handle\") { cylinder(2, 20, \"red\"); }"};
   }
 
   bool complete(const Reader& reader) const {
     if (!name.empty()) return true;
     reader.diagnostics.error(reader.where, "a part needs a name");
     return false;
+  }
+
+  AttributeDeclaration declares() const {
+    AttributeDeclaration declared{std::string(label_name), "", 0, Overlap::first};
+    declared.type = ValueType::label;
+    declared.labels = {name};
+    return declared;
+  }
+
+  Field attribute(const Inputs& in, std::string_view wanted, const Point& p, Demand demand) const {
+    if (wanted != label_name) return in.attribute(0, wanted, p, demand);
+    const std::vector<std::string> all = in.declaration(label_name).labels;
+    const auto found = std::ranges::find(all, name);
+    ASSERT(found != all.end());
+    return p.constant(static_cast<double>(found - all.begin() + 1));
   }
 };
 

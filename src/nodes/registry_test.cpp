@@ -74,6 +74,17 @@ class RandomDesign {
  private:
   static Data object(const NodePtr& node) { return Data(HostObjectPtr(std::make_shared<NodeObject>(node))); }
 
+  // With the attribute that every text names.
+  NodePtr dense_node() {
+    const NodeType& type = *registry().find("attribute");
+    const auto named = [&](const char* name, Data data) {
+      return NamedValue{&type.parameters[static_cast<size_t>(type.parameter(name))], std::move(data)};
+    };
+    Diagnostics none;
+    return make_node(type, {named("name", Data("density")), named("value", Data("1 + x^2"))}, {any_node(0)},
+                     {materials, none, nullptr, {}, "", ""});
+  }
+
   // A number from 0.01 to 1 that a node gives: sizes must not be 0.
   Data share() {
     const NodePtr node = value_node(ValueType::number, 0);
@@ -132,7 +143,7 @@ class RandomDesign {
     if (kind == "list of pairs of words")
       return Data(DataList{Data(DataList{Data("density"), Data(domain.choices[index(domain.choices.size())])})});
     if (kind == "number, field, vector, colour or mixture") return attribute_value(domain);
-    if (kind == "solid") return object(any_node(0));
+    if (kind == "solid") return object(type.name == "attribute_of" ? dense_node() : any_node(0));
     if (kind == design::variables_kind) return Data(DataMembers{{"width", Data(number(1, 9))}, {"name", Data("lid")}});
     if (kind == "rows of numbers, or a CSV file") return Data("table.csv");
     if (!domain.choices.empty()) return Data(domain.choices[index(domain.choices.size())]);
@@ -143,7 +154,7 @@ class RandomDesign {
     if (kind == "number or field" && type.name == "function")
       return Data("x^2 + 2*y^2 + z^2 - " + format_rounded(number(4, 30)));
     if (kind == "number or field") return one_number(domain, true);
-    if (kind == "3 numbers or fields") return vector(domain, true);
+    if (kind == "3 numbers or fields" || kind == "number or 3 numbers, or fields") return vector(domain, true);
     if (kind == "3 numbers" && type.name == "function")
       return Data(DataList(3, Data(parameter.name == "min" ? number(-6, -1) : number(1, 6))));
     if (kind == "3 numbers" && type.name == "tile" && parameter.name != "size") {

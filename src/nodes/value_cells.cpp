@@ -250,8 +250,10 @@ struct RandomOf {
   static Spec<RandomOf> spec() {
     return {"random",
             "values",
-            "A random number for each cell: the same wherever its index is the same.",
-            {{"index", &RandomOf::index, "Three numbers, which are rounded, such as the index of a cell", required()},
+            "A random number for each cell or part: the same wherever its index is the same.",
+            {{"index", &RandomOf::index,
+              "One number or three, which are rounded, such as the index of a cell or the label of a part",
+              required(one_or_three())},
              {"seed", &RandomOf::seed, "Whole number that tells draws apart", from_to(0, 1e9)},
              {"lo", &RandomOf::least, "The least number"},
              {"hi", &RandomOf::greatest, "The greatest number"}},

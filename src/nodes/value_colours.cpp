@@ -240,12 +240,6 @@ struct Texture {
   }
 };
 
-Domain materials_or_mixtures() {
-  Domain domain = required();
-  domain.may_mix = true;
-  return domain;
-}
-
 struct MixMany {
   SharedList<MaterialName> materials;
   SharedList<Number> shares;
@@ -254,7 +248,7 @@ struct MixMany {
     return {"mix_many",
             "values",
             "A mixture of several materials or mixtures by their shares, of which negative ones count as 0.",
-            {{"materials", &MixMany::materials, "Materials or mixtures", materials_or_mixtures()},
+            {{"materials", &MixMany::materials, "Materials or mixtures", required(mixable())},
              {"shares", &MixMany::shares, "A number for each; they need not add up to 1", required()}},
             no_inputs,
             "sphere(8, mix_many([\"red\", \"blue\", \"clear\"], [\"x^2\", \"y^2\", \"z^2\"]));",

@@ -22,6 +22,7 @@ constexpr int smallest_text = 11, largest_text = 64;
 constexpr double axes_strip = 6, scale_strip = 2.6, row = 1.6, margin = 1, gap = 0.5, swatch = 1, arm = 2;
 constexpr double legend_share = 0.3;  // of the picture's width, at most
 constexpr double bar_share = 0.3;     // of the width of what is shown, at most
+constexpr double bar_lines = 14;      // the height of a bar of colours, at most
 constexpr Rgb dark_ink{45, 48, 54}, light_ink{235, 237, 240};
 
 int text_size(int64_t height) {
@@ -89,6 +90,28 @@ class Annotator {
       write({left, line - unit_ * 0.14}, "and " + std::to_string(legend.size() - shown) + " more");
   }
 
+  void draw_colour_bar(const ColourBar& bar) {
+    const double left = std::round(static_cast<double>(layout_.width) + unit_ * margin);
+    const double room = static_cast<double>(picture_.width) - unit_ * margin - left;
+    write({left, unit_ * (margin + swatch)}, shortened(bar.title, room, layout_.text_size, pen_));
+    const double top = std::round(unit_ * (margin + swatch + row));
+    const double most = static_cast<double>(picture_.height) - unit_ * margin - top;
+    const double height = std::round(std::min(unit_ * bar_lines, most)), right = left + std::round(unit_ * swatch);
+    if (height < unit_) return;
+    pen_.rectangle(picture_, {left - 1, top - 1}, {right + 1, top + height + 1}, ink_);
+    for (double line = 0; line < height; ++line) {
+      const auto n = static_cast<size_t>((1 - (line + 0.5) / height) * static_cast<double>(bar.colours.size()));
+      const Rgba8& colour = bar.colours[n];
+      pen_.rectangle(picture_, {left, top + line}, {right, top + line + 1}, {colour[0], colour[1], colour[2]});
+    }
+    const double thick = std::max(1.0, std::round(unit_ / 12)), text_left = right + unit_ * gap;
+    for (const ColourBar::Mark& mark : bar.marks) {
+      const double at = std::round(top + (1 - mark.share) * height);
+      pen_.rectangle(picture_, {right, at - thick / 2}, {right + unit_ * gap / 2, at + thick / 2}, ink_);
+      write({text_left, at + unit_ * 0.36}, shortened(mark.text, room - (text_left - left), layout_.text_size, pen_));
+    }
+  }
+
  private:
   double text_width(const std::string& text) { return pen_.text_width(text, layout_.text_size); }
   void write(Spot left, const std::string& text) { pen_.write(picture_, left, text, layout_.text_size, ink_); }
@@ -144,8 +167,12 @@ Layout lay_out(int64_t picture_width, int64_t picture_height, const Annotations&
   const double unit = layout.text_size;
   if (annotations.axes || annotations.scale_bar)
     layout.height -= std::llround(unit * (annotations.axes ? axes_strip : scale_strip));
-  if (annotations.legend.empty()) return layout;
+  if (annotations.legend.empty() && !annotations.colour_bar) return layout;
   double text = 0;
+  if (const auto& bar = annotations.colour_bar) {
+    text = pen.text_width(bar->title, layout.text_size) - unit * (swatch + gap);
+    for (const ColourBar::Mark& mark : bar->marks) text = std::max(text, pen.text_width(mark.text, layout.text_size));
+  }
   for (const Swatch& one : annotations.legend) text = std::max(text, pen.text_width(one.name, layout.text_size));
   const double wanted = unit * (margin + swatch + gap + margin) + text;
   layout.width -= std::lround(std::ceil(std::min(wanted, legend_share * static_cast<double>(picture_width))));
@@ -158,6 +185,7 @@ void annotate(const Canvas& picture, const Layout& layout, const Annotations& an
   if (annotations.axes) annotator.draw_axes(camera);
   if (annotations.scale_bar) annotator.draw_scale_bar(camera, pixel_mm);
   annotator.draw_legend(annotations.legend);
+  if (annotations.colour_bar) annotator.draw_colour_bar(*annotations.colour_bar);
 }
 
 }  // namespace ombre::render

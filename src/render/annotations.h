@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,23 @@ struct Swatch {
   Rgba8 colour{};
 };
 
+// A bar of the colours of numbers, the greatest on top.
+struct ColourBar {
+  struct Mark {
+    double share = 0;  // of the bar, from 0 below to 1 on top
+    std::string text;
+  };
+  std::string title;
+  std::vector<Rgba8> colours;  // from below
+  std::vector<Mark> marks;
+};
+
 struct Annotations {
   bool axes = false, scale_bar = false;
   std::vector<Swatch> legend;  // empty: none
+  std::optional<ColourBar> colour_bar = {};
 
-  bool are_none() const { return !axes && !scale_bar && legend.empty(); }
+  bool are_none() const { return !axes && !scale_bar && legend.empty() && !colour_bar; }
 };
 
 // What a picture shows lies in its left upper corner, with the legend to the right of it and the rest below.

@@ -176,7 +176,7 @@ solids::Pieces of_part(const ScadRequest& request, const solids::Pieces& pieces,
 std::shared_ptr<const ScadSolids> ScadRequest::load(sources::Loading& loading) {
   const Reader& reader = loading.reader();
   if (!solids::has_kernel()) {
-    reader.diagnostics.error(reader.where, "OpenSCAD scripts cannot be used: this build has no library for polyhedra");
+    reader.diagnostics.error(reader.where, "OpenSCAD scripts cannot be used: this ombre was built without CGAL");
     return nullptr;
   }
   if (!loading.find(file) || !loading.look_at(file)) return nullptr;

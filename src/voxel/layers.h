@@ -40,6 +40,7 @@ struct CheckHits {
 
 struct LayerResult {
   RunLayer runs;                                // of the whole width and height of the lattice, or of a region's
+  std::optional<RunLayer> lower_bytes;          // of shades of 16 bits, whose upper bytes are the runs
   std::array<uint64_t, 256> material_counts{};  // by MaterialId
   std::vector<CheckHits> checks;
 };

@@ -99,7 +99,8 @@ _questions = '''    bounds: tuple[tuple[float, float, float], tuple[float, float
     def view(self, frames: int = ..., **options: Option) -> str: ...
 '''
 _kinds = {"number": "float", "whole number": "int", "3 whole numbers": "Sequence[int]", "number or field": "Number",
-          "3 numbers or fields": "Numbers", "true or false": "bool",
+          "3 numbers or fields": "Numbers", "number or 3 numbers, or fields": "Union[Number, Numbers]",
+          "true or false": "bool",
           "text": "str", "3 numbers": "Optional[Numbers]", "matrix": "ArrayLike", "material": "Material",
           "material or mixture": "Material", "number, field, material or mixture": "Union[Number, Material]",
           "file": "Path", "list of numbers or fields": "Union[Number, Numbers]",

@@ -1,7 +1,6 @@
 #include "lang/vocabulary/vcad.h"
 
 #include <algorithm>
-#include <unordered_set>
 
 #include "base/text.h"
 #include "lang/vocabulary/facets.h"
@@ -49,6 +48,16 @@ std::vector<NodePtr> nodes_of(std::vector<Product> products) {
   nodes.reserve(products.size());
   for (Product& product : products) nodes.push_back(std::static_pointer_cast<const design::Node>(std::move(product)));
   return nodes;
+}
+
+// Makes these solids children that stand before those in the braces, each like a statement of its own.
+void put_first(const std::vector<NodePtr>& solids, Invocation& call) {
+  if (solids.empty()) return;
+  call.children.insert(call.children.begin(), solids.begin(), solids.end());
+  std::vector<size_t> ends;
+  for (size_t n = 1; n <= solids.size(); ++n) ends.push_back(n);
+  for (const size_t end : call.group_ends) ends.push_back(end + solids.size());
+  call.group_ends = std::move(ends);
 }
 
 // Does each statement of the braces give one solid?
@@ -126,6 +135,7 @@ std::optional<Value> VcadVocabulary::value(Invocation call, Diagnostics& diagnos
 
 NodePtr VcadVocabulary::make_of_type(const NodeType& type, Invocation& call, Diagnostics& diagnostics) {
   const Reader reader{materials_, diagnostics, loader_, call.whole, type.name, "", &call.variable};
+  if (type.inputs.most > 0) put_first(take_solids(call.arguments), call);
   const auto values = bound_arguments(type, std::move(call.arguments), reader);
   if (!values) return nullptr;
   if (call.children.empty() && call.has_wrong_children && type.inputs.least > 0) return nullptr;  // told already
@@ -233,28 +243,22 @@ std::optional<design::Design> VcadVocabulary::finish(std::vector<Product> produc
   design::Design design{materials_, {}, sampling_};
   const Reader reader{materials_, diagnostics, loader_, whole, "", ""};
   std::vector<NodePtr> unnamed;
-  std::unordered_set<const design::Node*> parts;
   for (const NodePtr& solid : solids) {
     if (solid->is_nothing()) continue;
     if (solid->type().name != "part") {
       unnamed.push_back(solid);
       continue;
     }
-    parts.insert(solid.get());
     const std::string name = *solid->type().get(*solid, 0, false).string();
     for (const design::Part& other : design.parts)
       if (other.name == name) diagnostics.error(solid->where(), "there are two parts with the name \"" + name + "\"");
-    design.parts.push_back({name, solid->inputs()[0]});
+    design.parts.push_back({name, solid});
   }
   if (!unnamed.empty()) {
     const NodePtr rest = joined(unnamed, registry_, reader);
     if (!rest) return std::nullopt;
     design.parts.insert(design.parts.begin(), {"part", rest});
   }
-  for (const design::Node* node : topological(design.roots()))
-    if (node->type().name == "part" && !parts.contains(node))
-      diagnostics.warning(node->where(), "a part inside of something else does not count as one",
-                          "move it to the top level");
   if (diagnostics.has_errors()) return std::nullopt;
   return design;
 }
