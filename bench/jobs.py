@@ -1,9 +1,11 @@
 """The jobs of the suite: designs in their boxes, with the voxels and the times that the papers state."""
 import dataclasses
 import math
+import pathlib
 import random
 import typing
 
+ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Stratasys J750: 600 x 300 dpi, layers of 27 micrometres (mm).
 J750 = (25.4 / 600, 25.4 / 300, 0.027)
 # Table 3 of the 2023 paper samples every node on this grid.
@@ -172,10 +174,26 @@ def lattices(cells=10, parts=10_000):
     ]
 
 
+def values():
+    """Cubes of two materials whose share is a value; the first, whose share is a number, costs what the mixture alone does."""
+    leaf = ROOT / "examples" / "models" / "leaf.png"
+    shares = {
+        "half and half": "0.5",
+        "noise": "noise(size=4)",
+        "noise, octaves": "noise(size=8, octaves=3)",
+        "table": 'table([[-20, 0], [-10, 0.8], [0, 0.3], [10, 0.4], [20, 1]], "x", mode="cubic")',
+        "texture": f'texture("{leaf}", 40).value',
+        "path distance": "path_distance([for (n = [0:100]) 18*[cos(25*n)*n/100, sin(25*n)*n/100, n/50 - 1]]) / 20",
+    }
+    cube, voxels = centred((40, 40, 40)), (1000, 1000, 1000)
+    return [Job(f"value: {name}", lambda share=share: f"cube(40, mix(red, blue, {share}));", *cube, voxels, published=False)
+            for name, share in shares.items()]
+
+
 def all_jobs(data, size, full=False):
     counts = STRUTS + (MORE_STRUTS if full else ())
     tiny = size == "tiny"
     if tiny:
         counts = STRUTS[:3]
     return (table_3(data) + table_4(data) + [struts_job(count) for count in counts]
-            + (lattices(3, 200) if tiny else lattices()))
+            + (lattices(3, 200) if tiny else lattices()) + values())

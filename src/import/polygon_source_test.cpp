@@ -218,6 +218,27 @@ TEST(PolygonWalls, FindRingsThatCrossThemselves) {
   EXPECT_FALSE(find_self_crossing(touching));
 }
 
+// Near and far, on joints, where two segments are equally near, and where they are no numbers.
+TEST(PathSource, ManyPointsAtOnceGetTheSameBits) {
+  std::vector<Vec3> corners;
+  for (int n = 0; n <= 60; ++n) corners.push_back({10 * std::cos(0.4 * n), 10 * std::sin(0.4 * n), 0.3 * n});
+  for (const auto& source : {make_path_source(corners), make_points_source(corners),
+                             make_path_source({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}})}) {
+    std::vector<Vec3> points{corners[3], {0.5, 0.5, 0}, {0, 0, 1e6}, {NAN, 0, 0}};
+    for (int k = 0; k < 9; ++k)
+      for (int j = 0; j < 20; ++j)
+        for (int i = 0; i < 40; ++i) points.push_back({0.5 * i - 9, 0.7 * j - 6, 1.5 * k - 2});
+    for (const int channel : {0, 1}) {
+      std::vector<double> values(points.size());
+      source->sample_all(channel, points, values);
+      for (size_t n = 0; n < points.size(); ++n) {
+        const double alone = source->sample(channel, points[n]);
+        ASSERT_TRUE(values[n] == alone || (std::isnan(values[n]) && std::isnan(alone))) << n;
+      }
+    }
+  }
+}
+
 TEST(PathSource, KnowsDistancesToLines) {
   const auto source = make_path_source({{0, 0, 0}, {10, 0, 0}, {10, 0, 5}});
   EXPECT_EQ(source->sample(0, {3, 4, 0}), 4);

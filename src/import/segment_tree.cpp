@@ -22,6 +22,14 @@ double squared_distance(const Box& box, Vec3 p) {
   return sum;
 }
 
+// The nearest segment of a point is at most its way to the middle farther from it than from there, and the middle's
+// nearest is as near; with room for rounding. Squared.
+double squared_reach(double nearest_of_middle, const Box& box) {
+  constexpr double room = 1 + 1e-9;
+  const double reach = (nearest_of_middle + length(box.size())) * room;
+  return reach * reach;
+}
+
 int longest_axis(Vec3 size) {
   if (size.x >= size.y && size.x >= size.z) return 0;
   return size.y >= size.z ? 1 : 2;
@@ -38,6 +46,17 @@ double nearest_share(const LineSegment& segment, Vec3 p) {
 double squared_distance(const LineSegment& segment, Vec3 p) {
   const Vec3 rest = (p - segment.from) - nearest_share(segment, p) * (segment.to - segment.from);
   return dot(rest, rest);
+}
+
+std::vector<LineSegment> near(const std::vector<LineSegment>& segments, const Box& box) {
+  const Vec3 middle = box.center();
+  double best = std::numeric_limits<double>::infinity();
+  for (const LineSegment& segment : segments) best = std::min(best, squared_distance(segment, middle));
+  const double most = squared_reach(std::sqrt(best), box);
+  std::vector<LineSegment> found;
+  for (const LineSegment& segment : segments)
+    if (squared_distance(segment, middle) <= most) found.push_back(segment);
+  return found;
 }
 
 SegmentTree::SegmentTree(std::vector<LineSegment> segments) : segments_(std::move(segments)) {
@@ -87,6 +106,18 @@ void SegmentTree::visit_near(Vec3 p, const Visit& visit) const {
     waiting[count++] = second;
     waiting[count++] = first;  // the nearer one, which comes next
   }
+}
+
+std::vector<LineSegment> SegmentTree::near(const Box& box) const {
+  const Vec3 middle = box.center();
+  const double most = squared_reach(distance(middle), box);
+  std::vector<LineSegment> found;
+  visit_near(middle, [&](const LineSegment& segment) {
+    if (squared_distance(segment, middle) <= most) found.push_back(segment);
+    return most;
+  });
+  std::ranges::sort(found, {}, &LineSegment::number);
+  return found;
 }
 
 double SegmentTree::distance(Vec3 p) const {

@@ -17,6 +17,9 @@ struct LineSegment {
 double nearest_share(const LineSegment& segment, Vec3 p);
 double squared_distance(const LineSegment& segment, Vec3 p);
 
+// Those of the segments that may be the nearest to some point of the box.
+std::vector<LineSegment> near(const std::vector<LineSegment>& segments, const Box& box);
+
 // Boxes within boxes around the segments.
 class SegmentTree {
  public:
@@ -25,6 +28,8 @@ class SegmentTree {
   double distance(Vec3 p) const;
   // Of equally near ones the first in its list. There is one at least.
   const LineSegment& nearest(Vec3 p) const;
+  // All that may be the nearest to some point of the box, in the order of their list.
+  std::vector<LineSegment> near(const Box& box) const;
   Box bounds() const { return nodes_.empty() ? Box::empty() : nodes_[0].box; }
 
  private:
