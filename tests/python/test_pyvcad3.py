@@ -1,6 +1,8 @@
 """Attributes, converters, samplers and compilers of pyvcad 3."""
 import math
+import re
 import struct
+import zipfile
 
 import numpy
 import pytest
@@ -126,3 +128,60 @@ def test_solids_are_arguments_of_values():
     assert part.attribute("tint", [0, 0, 0]).tolist() == [1, 0, 0, 1]
     copy = ombre.Design.from_json(part.with_attribute("far", ombre.mask(ombre.cube(2))).to_json())
     assert numpy.allclose(copy.attribute("far", [[0, 0, 0], [2, 0, 0]]), [1, 0])
+
+
+def test_cones_and_bars():
+    cone = pv.Cone(math.atan(0.5), 4)  # 2 mm wide below, a point on top
+    assert cone.volume(0.05) == pytest.approx(math.pi * 4 * 4 / 3, rel=0.01)
+    assert cone.evaluate(0, 0, 1.9) < 0 < cone.evaluate(0, 0, 2.1) and cone.evaluate(1.9, 0, -1.99) < 0
+    with pytest.raises(ValueError, match="radians"):
+        pv.Cone(2, 4)
+    bar = pv.Strut(pv.Vec3(0, 0, 0), pv.Vec3(3, 4, 0), 1, 0.5, pv.CapMode.HemiSphere, pv.CapMode.Butt)
+    frustum = math.pi * 5 / 3 * (1 + 0.5 + 0.25)
+    assert bar.volume(0.05) == pytest.approx(frustum + 2 / 3 * math.pi, rel=0.01)
+    assert bar.evaluate(-0.59, -0.79, 0) < 0 < bar.evaluate(3.1, 4.1, 0)
+    whole = pv.Strut(pv.Vec3(0, 0, 0), pv.Vec3(0, 0, 5), 0.5, 1, pv.CapMode.Butt, pv.CapMode.Sphere)
+    assert whole.evaluate(0, 0, 5.99) < 0 < whole.evaluate(0, 0, -0.01)
+
+
+def test_polygons_turn_about_any_axis():
+    square = [(1, 2, 0), (1, 3, 0), (1, 3, 2), (1, 2, 2)]  # about the line x = 1, y = 0 along z
+    ring = pv.PolygonRevolve([pv.Vec3(*p) for p in square], pv.Vec3(1, 0, 0), pv.Vec3(1, 0, 1), 360)
+    assert ring.volume(0.1) == pytest.approx(math.pi * (9 - 4) * 2, rel=0.01)
+    assert ring.evaluate(1 + 2.5, 0, 1) < 0 < ring.evaluate(1, 0, 1)
+    quarter = pv.PolygonRevolve([pv.Vec3(*p) for p in square], pv.Vec3(1, 0, 0), pv.Vec3(1, 0, 1), 90)
+    assert quarter.evaluate(0, 2.3, 1) < 0 < quarter.evaluate(2, 2.3, 1)  # right-handed from +y is to -x
+    with pytest.raises(RuntimeError, match="both sides"):
+        pv.PolygonRevolve([pv.Vec3(0, -1, 0), pv.Vec3(0, 1, 0), pv.Vec3(0, 1, 2)], pv.Vec3(0, 0, 0), pv.Vec3(0, 0, 1), 360)
+
+
+def test_surfaces_of_triangles(tmp_path):
+    corners = [(0, 0, 0), (3, 0, 0), (0, 3, 0), (0, 0, 3)]
+    faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    surface = pv.SurfaceMesh([pv.Vec3(*c) for c in corners], faces)
+    assert surface.triangles.shape == (4, 3)
+    part = pv.Mesh(surface)
+    assert part.volume(0.05) == pytest.approx(4.5, rel=0.02) and part.evaluate(0.5, 0.5, 0.5) < 0
+    surface.write_stl(tmp_path / "a.stl")
+    again = pv.SurfaceMesh(str(tmp_path / "a.stl"))
+    assert sorted(map(tuple, again.vertices)) == sorted(map(tuple, surface.vertices))
+    of_ball = pv.SurfaceMesh(ball(2), 0.4)
+    assert numpy.linalg.norm(of_ball.vertices, axis=1) == pytest.approx(2, abs=0.06)
+    with pytest.raises(RuntimeError, match="not closed"):
+        pv.SurfaceMesh(corners, faces[:3])
+    with pytest.raises(RuntimeError, match="vertex that is not there"):
+        pv.SurfaceMesh(corners, [(0, 1, 9)])
+
+
+def test_projects_of_slicers_have_a_body_for_each_band(tmp_path):
+    part = pv.RectPrism(origin, pv.Vec3(20, 10, 10))
+    part.set_attribute(pv.DefaultAttributes.INFILL_DENSITY, pv.FloatAttribute("50 + 2*x"))
+    pvc.PrusaSlicerProjectCompiler(part, pv.Vec3(1, 1, 1), tmp_path / "a.3mf", num_regions=4).compile()
+    with zipfile.ZipFile(tmp_path / "a.3mf") as archive:
+        config = archive.read("Metadata/Slic3r_PE_model.config").decode()
+    densities = sorted(float(value.rstrip("%")) for value in re.findall(r'key="fill_density" value="([^"]*)"', config))
+    assert densities == pytest.approx([35, 45, 55, 65], abs=1)
+    with pytest.raises(RuntimeError, match="infill_density"):
+        pvc.PrusaSlicerProjectCompiler(ball(), pv.Vec3(1, 1, 1), tmp_path / "b.3mf").compile()
+    with pytest.raises(pv.MissingFeature):
+        pvc.PrusaSlicerProjectCompiler(part, pv.Vec3(1, 1, 1), tmp_path / "b.3mf", enable_color_mix=True)

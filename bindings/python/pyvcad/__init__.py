@@ -7,6 +7,7 @@
 """
 from ._attributes import (Attribute, DefaultAttributes, DerivedFloatAttribute, FloatAttribute, Vec3Attribute,
                           Vec4Attribute, VolumeFractionsAttribute)
+from ._bars import CapMode, Cone, PolygonRevolve, Strut
 from ._converters import (AttributeConverterBase, AttributeModifier, ExpressionConverter, InterpolationMode,
                           LookupTableConverter, LookupTableEntry, ScalarsToVec3Converter, ScalarsToVec4Converter,
                           Vec3ToScalarsConverter, Vec4Mode, VolumeFractionsExpressionConverter, resolvers)
@@ -20,10 +21,11 @@ from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference,
 from ._outlines import PolygonExtrude, Text
 from ._results import PointMap, SimulationField
 from ._sampling import AttributeSamples, TreeSampler
-from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, Sphere, Strut, Torus
+from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, Sphere, Torus
 from ._supports import SupportAnalyzer, SupportAnalyzerParallel
 from ._texts import parse_vcad_text, version
 from ._tree import Node
+from ._triangles import SurfaceMesh
 from ._vectors import Vec2, Vec3, Vec4
 
 __version__ = version()
@@ -33,7 +35,7 @@ __all__ = ["Attribute", "AttributeConverterBase", "AttributeModifier", "Attribut
            "LookupTableEntry", "ScalarsToVec3Converter", "ScalarsToVec4Converter", "TreeSampler", "Vec3Attribute",
            "Vec3ToScalarsConverter", "Vec4Attribute", "Vec4Mode", "VolumeFractionsAttribute",
            "VolumeFractionsExpressionConverter", "resolvers", "BBoxIntersection", "Identity",
-           "Mirror", "Torus", "FontAspect", "HorizontalAlignment", "LatticeType", "VerticalAlignment", "MissingFeature", "MaterialDefs",
+           "Mirror", "Torus", "CapMode", "Cone", "PolygonRevolve", "SurfaceMesh", "FontAspect", "HorizontalAlignment", "LatticeType", "VerticalAlignment", "MissingFeature", "MaterialDefs",
            "default_materials", "j750_materials", "resources_path", "CAD", "Blend", "BoxKernel", "Convolve", "CustomKernel", "ConformalMap", "Convolution",
            "HexahedralMesh", "Map", "Offset", "PointMap", "PolygonExtrude", "Shell", "SimulationField",
            "SupportAnalyzer", "SupportAnalyzerParallel", "TetrahedralMesh", "Text", "Tile", "Voxels", "BBoxUnion",

@@ -16,10 +16,9 @@ _images = "ombre.relief reads images as heights"
 # Names that are missing, by the package that has them in pyvcad 3, each with what to use instead.
 MISSING: dict[str, dict[str, str]] = {
     "pyvcad": {
-        "Cone": "ombre.cone(base, top, height) makes cones", "PolygonRevolve": "ombre.revolve turns a profile about z",
-        "SignedDistanceField": "", "SurfaceMesh": "Mesh(path) reads a file", "TexturedMesh": "Mesh(path) reads the shape",
+        "SignedDistanceField": "", "TexturedMesh": "Mesh(path) reads the shape",
         "BeamLattice": "GraphLattice(edges, radius) joins struts", "ThreeMFBeamLattice": "GraphLattice(edges, radius)",
-        "Beam": "", "Ball": "", "BallMode": "", "CapMode": "", "ClipMode": "", "read_3mf_beam_lattice": "",
+        "Beam": "", "Ball": "", "BallMode": "", "ClipMode": "", "read_3mf_beam_lattice": "",
         "SurfaceReliefVolume": _surfaces, "ImageHeightField": _images, "FunctionalHeightField": _surfaces,
         "Mix": "Union(True, [...]) mixes compositions",
         "ColorMap": "", "FloatVolume": _grids, "Vec2sVolume": _grids, "Vec3sVolume": _grids,
@@ -39,8 +38,8 @@ MISSING: dict[str, dict[str, str]] = {
          "MyersonCompiler"), "VatCompiler writes gray images") | dict.fromkeys(
         ("SimulationCompiler", "SimulationCompilerSettings", "SimulationBackend", "SimulationMeshKind",
          "SimulationHexMeshSettings", "SimulationTetFixedMeshSettings"), "") | dict.fromkeys(
-        ("PrusaSlicerProjectCompiler", "FullSpectrumSlicerProjectCompiler"),
-        "MeshCompiler writes a .3mf with a body for each band"),
+        ("FullSpectrumSlicerProjectCompiler",),
+        "PrusaSlicerProjectCompiler writes a .3mf with a body for each band"),
     "pyvcad_rendering": {
         "Render_Image": "Render(root, materials, path=\"part.png\")", "Render_Sweep_Animation": "", "VisualizeSDF": "",
         "Render_Turntable_Animation": "", "Render_Tree_Diagram": "", "Render_Tree_Legend": "",

@@ -91,21 +91,6 @@ class Cylinder(_Leaf):
         return _at(self._center, ombre.cylinder(self._radius, self._height, self._material))
 
 
-class Strut(_Leaf):
-    """Cylinder from one point to another, with flat ends: Strut(start, end, radius, material=1)."""
-
-    def __init__(self, *arguments: Any, **named: Any) -> None:
-        super().__init__()
-        form = {"start": vector, "end": vector, "radius": length, "material": _one}
-        values = read("Strut", ({}, form), arguments, named)
-        self._start: Point = values.get("start", (0, 0, 0))
-        self._end: Point = values.get("end", (10, 0, 0))
-        self._radius, self._material = values.get("radius", 1.0), values.get("material", 1)
-
-    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return ombre.strut(self._start, self._end, self._radius, self._material)
-
-
 def _edges(value: Any) -> list[tuple[Point, Point]]:
     if isinstance(value, (str, LatticeType)) or not hasattr(value, "__iter__"):
         raise TypeError(f"expected a list of pairs of Vec3, found {type(value).__name__}")
@@ -175,7 +160,7 @@ def _sample_size(value: Any) -> Point | float:
 
 
 class Mesh(_Leaf):
-    """Solid of a file's triangles: Mesh(path, material=1, disable_validation=False).
+    """Solid of a file's triangles: Mesh(path, material=1, disable_validation=False), or of a SurfaceMesh.
 
     A second argument that is a float or a Vec3 is a sample size: it is accepted, and nothing is sampled, since rows of
     voxels are found exactly. Without validation open meshes are closed by their winding number.
@@ -184,6 +169,9 @@ class Mesh(_Leaf):
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__()
         options = {"material": _one, "disable_validation": Optional(boolean, False)}
+        if arguments and hasattr(arguments[0], "_stl_path"):  # a SurfaceMesh, whose file stays as long as it is held
+            self._surface = arguments[0]
+            arguments = (self._surface._stl_path(), *arguments[1:])
         values = read("Mesh", ({"path": text, **options}, {"path": text, "sample_size": _sample_size, **options}),
                       arguments, named)
         self._path = _find("Mesh", values["path"])

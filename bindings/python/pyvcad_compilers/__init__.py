@@ -6,8 +6,9 @@ from pyvcad._missing import attribute_of
 
 from ._attribute_compilers import MaterialInkjetCompiler, MaterialInkjetExportMode, VatCompiler, VdbCompiler
 from ._compilers import (CrossSectionSlicer, DirectMaterialCompiler, GrayscaleCompiler, InpWriter, MeshCompiler)
+from ._slicer_projects import PrusaSlicerProjectCompiler
 
-__all__ = ["MaterialInkjetCompiler", "MaterialInkjetExportMode", "VatCompiler", "VdbCompiler", "CrossSectionSlicer", "DirectMaterialCompiler", "GrayscaleCompiler", "InpWriter", "MeshCompiler"]
+__all__ = ["PrusaSlicerProjectCompiler", "MaterialInkjetCompiler", "MaterialInkjetExportMode", "VatCompiler", "VdbCompiler", "CrossSectionSlicer", "DirectMaterialCompiler", "GrayscaleCompiler", "InpWriter", "MeshCompiler"]
 
 
 def __getattr__(name: str) -> object:
