@@ -77,7 +77,7 @@ def test_converters_compute_attributes():
     with pytest.raises(RuntimeError, match="AttributeModifier"):
         dense.set_attribute("a", pv.FloatAttribute(1))
     with pytest.raises(pv.MissingFeature):
-        pv.LookupTableConverter(["a", "b"], ["c"], entries)
+        pv.LookupTableConverter(["a", "b", "c"], ["d"], entries, pv.InterpolationMode.LINEAR)
 
 
 @pytest.mark.parametrize("resolver, expected", [
@@ -185,3 +185,26 @@ def test_projects_of_slicers_have_a_body_for_each_band(tmp_path):
         pvc.PrusaSlicerProjectCompiler(ball(), pv.Vec3(1, 1, 1), tmp_path / "b.3mf").compile()
     with pytest.raises(pv.MissingFeature):
         pvc.PrusaSlicerProjectCompiler(part, pv.Vec3(1, 1, 1), tmp_path / "b.3mf", enable_color_mix=True)
+
+
+def test_tables_of_several_inputs():
+    part = pv.RectPrism(origin, pv.Vec3(20, 20, 2))
+    part.set_attribute("a", pv.FloatAttribute("x"))
+    part.set_attribute("b", pv.FloatAttribute("y"))
+    entry, lines = pv.LookupTableEntry, pv.InterpolationMode.LINEAR
+    grid = [entry([p, q], 10 * p + p * q) for q in (-4, 0, 5) for p in (-2, 3)]  # bilinear itself
+    between = pv.AttributeModifier(pv.LookupTableConverter(["a", "b"], ["c"], grid, lines), part)
+    for x, y in [(0, 0), (1.5, -3), (2.9, 4), (-2, 5)]:
+        assert between.sample(x, y, 0)[1].get_sample("c") == pytest.approx(10 * x + x * y)
+    assert between.sample(9, 9, 0)[1].get_sample("c") == pytest.approx(10 * 3 + 3 * 5)  # the ends
+    steps = [entry([(-10, 0), (-10, 5)], [1, 7]), entry([(0, 10), (5, 10)], [2, 8])]
+    each = pv.AttributeModifier(pv.LookupTableConverter(["a", "b"], ["c", "e"], steps), part).sample(4, -3, 0)[1]
+    assert each.get_sample("c") == 2 and each.get_sample("e") == 7
+    with pytest.raises(ValueError, match="each pair of keys"):
+        pv.LookupTableConverter(["a", "b"], ["c"], grid[:-1], lines)
+    with pytest.raises(ValueError, match="2 ranges"):
+        pv.LookupTableConverter(["a", "b"], ["c", "e"], [entry(0, 1, [1, 2])])
+    grid[0].is_valid = False
+    holed = pv.AttributeModifier(pv.LookupTableConverter(["a", "b"], ["c"], grid, lines), part)
+    assert math.isnan(holed.sample(-1, -3, 0)[1].get_sample("c"))
+    assert holed.sample(1, 2, 0)[1].get_sample("c") == pytest.approx(12)

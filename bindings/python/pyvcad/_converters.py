@@ -161,39 +161,86 @@ class ScalarsToVec4Converter(_Joined):
         super().__init__(x, y, z, w, destination)
 
 
+_unknown = "0/0"  # the formula of what no entry says
+
+
+def _pair(value: Any) -> tuple[float, float]:
+    low, high = value
+    return number(low), number(high)
+
+
 class LookupTableEntry:
-    """A row of a table: (low, high, value) for steps, (key, value) for lines; a value, or a list of one for each output."""
+    """A row of a table; a value, or a list of one for each output.
+
+    In steps of one input (low, high, value), of several ([(low, high), ...], [value of each]); in lines (key, value), of two
+    inputs ([key, key], value). Where `is_valid` is False the table gives no number.
+    """
 
     def __init__(self, *row: Any) -> None:
         if len(row) not in (2, 3):
             raise TypeError(f"LookupTableEntry: expected (low, high, value) or (key, value), found {len(row)} arguments")
-        if not all(isinstance(bound, (int, float)) for bound in row[:-1]):
-            raise missing("a LookupTableEntry of several inputs", "ombre.table takes rows of one, two or three inputs")
-        self.input_low, self.input_high = number(row[0]), number(row[-2])
+        key = row[0]
+        self.input_points: list[float] = []
+        self.input_ranges: list[tuple[float, float]] = []
+        if isinstance(key, (list, tuple)) and key and isinstance(key[0], (list, tuple)):
+            self.input_ranges = [_pair(bounds) for bounds in key]
+        elif isinstance(key, (list, tuple)):
+            self.input_points = [number(value) for value in key]
+        else:
+            self.input_ranges = [(number(key), number(row[-2]))]
+            self.input_points = [number(key)]
         value = row[-1]
         self.output_values = list(value) if isinstance(value, (list, tuple)) else [value]
         self.is_valid = True
 
+    @property
+    def input_low(self) -> float:
+        return self.input_ranges[0][0]
+
+    @property
+    def input_high(self) -> float:
+        return self.input_ranges[0][1]
+
+
+def _steps(key: str, ranges: list[tuple[float, float]], texts: list[str]) -> str:
+    """The text of the first range that holds the key."""
+    formula = _unknown
+    for (low, high), text in zip(reversed(ranges), reversed(texts)):
+        formula = f"if({key} >= {low!r} and {key} <= {high!r}, {text}, {formula})"
+    return formula
+
+
+def _lines(key: str, keys: list[float], texts: list[str]) -> str:
+    """Straight lines between formulas at keys that rise, and the ends beyond them."""
+    formula = texts[-1]
+    for n in reversed(range(1, len(keys))):
+        low, high = keys[n - 1], keys[n]
+        if low == high:
+            raise ValueError(f"LookupTableConverter: the key {low:g} stands there twice")
+        line = f"{texts[n - 1]} + ({key} - {low!r})/{high - low!r}*({texts[n]} - ({texts[n - 1]}))"
+        formula = f"if({key} < {high!r}, {line}, {formula})"
+    return f"if({key} < {keys[0]!r}, {texts[0]}, {formula})"
+
 
 class LookupTableConverter(AttributeConverterBase):
-    """What a table gives for one attribute: in steps, or in straight lines from key to key."""
+    """What a table gives for attributes: in steps, or in straight lines from key to key.
+
+    In steps each of several inputs is looked up in its own ranges and gives its own output, or its number of the one vector
+    or colour. Lines take one input, or two with an entry for each pair of their keys.
+    """
 
     def __init__(self, input_attributes: Any, output_attributes: Any, entries: Any,
                  mode: InterpolationMode = InterpolationMode.STEP) -> None:
         self._inputs = _names("LookupTableConverter", input_attributes)
         self._outputs = _names("LookupTableConverter", output_attributes)
         self._entries: list[LookupTableEntry] = list(entries)
-        if len(self._inputs) != 1:
-            raise missing("a LookupTableConverter of several inputs", "ombre.table takes one, two or three")
-        if not self._entries:
-            raise ValueError("LookupTableConverter: expected at least one entry")
-        for entry in self._entries:
-            if len(entry.output_values) != len(self._outputs):
-                raise ValueError(f"LookupTableConverter: expected {len(self._outputs)} values in an entry, found "
-                                 f"{len(entry.output_values)}")
         self._mode = mode
+        if not self._entries or not self._inputs:
+            raise ValueError("LookupTableConverter: expected at least one entry and one input")
         if mode is InterpolationMode.LINEAR:
-            self._entries.sort(key=lambda entry: entry.input_low)
+            self._check_lines()
+        else:
+            self._check_steps()
 
     def required_attributes(self) -> list[str]:
         return list(self._inputs)
@@ -201,7 +248,38 @@ class LookupTableConverter(AttributeConverterBase):
     def output_attributes(self) -> list[str]:
         return list(self._outputs)
 
+    def _check_steps(self) -> None:
+        count = len(self._inputs)
+        for entry in self._entries:
+            if len(entry.input_ranges) != count:
+                raise ValueError(f"LookupTableConverter: expected {count} ranges in an entry, found "
+                                 f"{len(entry.input_ranges)}")
+            self._check_values(entry, count if count > 1 else len(self._outputs))
+        if count > 1 and len(self._outputs) not in (1, count):
+            raise ValueError(f"LookupTableConverter: expected one output, or {count}, found {len(self._outputs)}")
+
+    def _check_lines(self) -> None:
+        count = len(self._inputs)
+        if count > 2:
+            raise missing("a LookupTableConverter in lines of three inputs and more", "ombre.table takes up to three")
+        for entry in self._entries:
+            if len(entry.input_points) != count:
+                raise ValueError(f"LookupTableConverter: expected {count} keys in an entry, found {len(entry.input_points)}")
+            self._check_values(entry, len(self._outputs))
+        self._entries.sort(key=lambda entry: entry.input_points)
+        self._keys = [sorted({entry.input_points[i] for entry in self._entries}) for i in range(count)]
+        if count == 2 and len(self._entries) != len(self._keys[0]) * len(self._keys[1]):
+            raise ValueError("LookupTableConverter: expected one entry for each pair of keys, found "
+                             f"{len(self._entries)} for {len(self._keys[0])} times {len(self._keys[1])}")
+
+    @staticmethod
+    def _check_values(entry: LookupTableEntry, count: int) -> None:
+        if len(entry.output_values) != count:
+            raise ValueError(f"LookupTableConverter: expected {count} values in an entry, found {len(entry.output_values)}")
+
     def _apply(self, solid: ombre.Solid) -> ombre.Solid:
+        if len(self._inputs) > 1 and self._mode is InterpolationMode.STEP:
+            return self._apply_steps(solid)
         for n, name in enumerate(self._outputs):
             values = [entry.output_values[n] for entry in self._entries]
             if isinstance(values[0], dict):
@@ -214,22 +292,26 @@ class LookupTableConverter(AttributeConverterBase):
                 solid = ombre.attribute(solid, name, parts, type="colour" if len(parts) == 4 else "vector")
         return solid
 
+    def _apply_steps(self, solid: ombre.Solid) -> ombre.Solid:
+        formulas = []
+        for n, key in enumerate(self._inputs):
+            texts = [repr(float(entry.output_values[n])) if entry.is_valid else _unknown for entry in self._entries]
+            formulas.append(_steps(key, [entry.input_ranges[n] for entry in self._entries], texts))
+        if len(self._outputs) > 1:
+            for name, formula in zip(self._outputs, formulas):
+                solid = ombre.attribute(solid, name, formula)
+            return solid
+        return ombre.attribute(solid, self._outputs[0], formulas, type="colour" if len(formulas) == 4 else "vector")
+
     def _formula(self, values: list[Any]) -> str:
-        key, entries = self._inputs[0], self._entries
-        texts = [repr(float(value)) for value in values]
+        texts = [repr(float(value)) if entry.is_valid else _unknown for value, entry in zip(values, self._entries)]
         if self._mode is InterpolationMode.STEP:
-            formula = "0/0"  # where no entry holds the number
-            for entry, text in zip(reversed(entries), reversed(texts)):
-                formula = f"if({key} >= {entry.input_low!r} and {key} <= {entry.input_high!r}, {text}, {formula})"
-            return formula
-        formula = texts[-1]
-        for n in reversed(range(1, len(entries))):
-            low, high = entries[n - 1].input_low, entries[n].input_low
-            if low == high:
-                raise ValueError(f"LookupTableConverter: the key {low:g} stands there twice")
-            slope = (float(values[n]) - float(values[n - 1])) / (high - low)
-            formula = f"if({key} < {high!r}, {texts[n - 1]} + ({key} - {low!r})*{slope!r}, {formula})"
-        return f"if({key} < {entries[0].input_low!r}, {texts[0]}, {formula})"
+            return _steps(self._inputs[0], [entry.input_ranges[0] for entry in self._entries], texts)
+        if len(self._inputs) == 1:
+            return _lines(self._inputs[0], [entry.input_points[0] for entry in self._entries], texts)
+        across = len(self._keys[1])
+        rows = [_lines(self._inputs[1], self._keys[1], texts[n:n + across]) for n in range(0, len(texts), across)]
+        return _lines(self._inputs[0], self._keys[0], rows)
 
     def _materials(self) -> set[int] | None:
         found = {id for entry in self._entries for value in entry.output_values if isinstance(value, dict)
