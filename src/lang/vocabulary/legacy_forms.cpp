@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "design/outputs.h"
 
 namespace ombre::lang {
 namespace {
@@ -40,7 +41,8 @@ constexpr Alias aliases[] = {
 constexpr std::string_view vector_nodes[] = {"rectprism", "ellipsoid",  "translate", "scale",   "mirror",
                                              "rotate",    "half_space", "blend",     "majority"};
 
-bool is_number_like(const Data& data) { return data.number() || data.string(); }
+bool is_number(const Data& data) { return data.number() || (design::is_value(data) && !design::is_mixture(data)); }
+bool is_number_like(const Data& data) { return is_number(data) || data.string(); }
 
 // The parameter that three numbers in a row make.
 std::string first_parameter(const design::NodeType& type) { return type.parameters[0].name; }
@@ -61,7 +63,7 @@ Argument vector_argument(const std::string& name, const Argument& a, const Argum
 void gather_leading_numbers(const design::NodeType& type, std::vector<Argument>& arguments) {
   if (std::find(std::begin(vector_nodes), std::end(vector_nodes), type.name) == std::end(vector_nodes)) return;
   if (positional_count(arguments) < 3) return;
-  if (!arguments[0].value.number() || !is_number_like(arguments[1].value) || !is_number_like(arguments[2].value))
+  if (!is_number(arguments[0].value) || !is_number_like(arguments[1].value) || !is_number_like(arguments[2].value))
     return;
   arguments[0] = vector_argument("", arguments[0], arguments[1], arguments[2]);
   arguments.erase(arguments.begin() + 1, arguments.begin() + 3);
