@@ -68,6 +68,49 @@ double interpolated(const Grid<T>& grid, Vec3 p) {
   return blend(layer(z.first), layer(z.next), z.share);
 }
 
+// The eight voxels around places that differ along x alone: in four rows, the value before and what is added up to the
+// one behind.
+struct CellCorners {
+  std::array<double, 4> values{}, differences{};
+
+  template <class T>
+  CellCorners(const Grid<T>& grid, const std::array<size_t, 4>& rows, const VoxelPair& x) {
+    for (size_t n = 0; n < 4; ++n) {
+      values[n] = static_cast<double>(grid.values[rows[n] + static_cast<size_t>(x.first)]);
+      differences[n] = static_cast<double>(grid.values[rows[n] + static_cast<size_t>(x.next)]) - values[n];
+    }
+  }
+  double at(double share, double share_y, double share_z) const {
+    const auto row = [&](size_t n) { return values[n] + share * differences[n]; };
+    return blend(blend(row(0), row(1), share_y), blend(row(2), row(3), share_y), share_z);
+  }
+};
+
+// As interpolated(), for points from number n on that lie in one row along x; returns how far that goes. Points of fine
+// lattices lie in the same cell many times, whose corners are looked up once.
+template <class T>
+size_t interpolate_row(const Grid<T>& grid, std::span<const Vec3> points, size_t n, std::span<double> values) {
+  const Vec3 p = points[n];
+  const VoxelPair y = pair_at(p.y, grid.count[1]), z = pair_at(p.z, grid.count[2]);
+  const std::array<size_t, 4> rows{grid.row(y.first, z.first), grid.row(y.next, z.first), grid.row(y.first, z.next),
+                                   grid.row(y.next, z.next)};
+  size_t row_end = n + 1;
+  while (row_end < points.size() && points[row_end].y == p.y && points[row_end].z == p.z &&
+         !std::isnan(points[row_end].x))
+    ++row_end;
+  const double last = static_cast<double>(grid.count[0] - 1);
+  while (n < row_end) {
+    const VoxelPair x = pair_at(points[n].x, grid.count[0]);
+    const CellCorners corners(grid, rows, x);
+    const double begin = static_cast<double>(x.first), end = begin + 1;
+    const auto place = [&](size_t m) { return std::min(std::max(points[m].x, 0.0), last); };
+    size_t cell_end = n + 1;
+    while (cell_end < row_end && place(cell_end) >= begin && place(cell_end) < end) ++cell_end;
+    for (; n < cell_end; ++n) values[n] = corners.at(place(n) - begin, y.share, z.share);
+  }
+  return n;
+}
+
 // The four voxels around a place along an axis, with their weights and how fast these change.
 struct VoxelFour {
   std::array<int64_t, 4> voxels{};
@@ -206,6 +249,17 @@ class GridSource final : public program::FieldSource {
     if (channel >= cubic_channel) return cubic_at(*grid_, p, channel);
     return grid_->at(nearest_to(p.x, grid_->count[0]), nearest_to(p.y, grid_->count[1]),
                      nearest_to(p.z, grid_->count[2]));
+  }
+
+  void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const override {
+    if (channel != value_channel) return FieldSource::sample_all(channel, points, values);
+    for (size_t n = 0; n < points.size();) {
+      const Vec3& p = points[n];
+      if (std::isnan(p.x + p.y + p.z))
+        values[n++] = std::numeric_limits<double>::quiet_NaN();
+      else
+        n = interpolate_row(*grid_, points, n, values);
+    }
   }
 
   Interval range(int channel, const Box& box) const override {

@@ -88,6 +88,27 @@ TEST(VolumeSource, CubicValuesPassThroughVoxelsWithoutEdges) {
   }
 }
 
+TEST(VolumeSource, ManyPointsGiveTheBitsOfEach) {
+  const auto volume = grid_of<int16_t>(scattered);
+  std::mt19937 random(6);
+  std::vector<Vec3> points;
+  for (int n = 0; n < 40; ++n) {
+    const Vec3 begin = somewhere(random);
+    for (int m = 0; m < 30; ++m) points.push_back({begin.x + 0.37 * m - 4, begin.y, begin.z});
+  }
+  points.push_back({std::nan(""), 1, 2});
+  points.push_back({1, std::nan(""), 2});
+  for (int n = 0; n < 100; ++n) points.push_back(somewhere(random));
+  for (const int channel : {0, 1, 2}) {
+    std::vector<double> values(points.size());
+    volume.source->sample_all(channel, points, values);
+    for (size_t n = 0; n < points.size(); ++n) {
+      const double alone = volume.source->sample(channel, points[n]);
+      ASSERT_TRUE(values[n] == alone || (std::isnan(alone) && std::isnan(values[n]))) << n;
+    }
+  }
+}
+
 TEST(VolumeSource, NearestIsTheVoxelThatHoldsAPoint) {
   const auto volume = grid_of<uint8_t>(scattered);
   EXPECT_EQ(volume.source->sample(1, {2.4, 0.6, 4.9}), static_cast<double>(scattered(2, 1, 5)));
