@@ -59,6 +59,11 @@ GYROID = ("sin(w*x)*cos(w*y) + sin(w*y)*cos(w*z) + sin(w*z)*cos(w*x)"
 # Eqs 2 and 3.
 GRADE = '["1/(1 + exp(x))", "1 - 1/(1 + exp(x))"], ["red", "blue"]'
 
+# A ball of two materials, and the kernel of 10 x 10 x 1 equal weights of Fig. 8.
+HALVES = ('intersection(materials="first") { union() { translate(-5, 0, 0) rectprism((10, 20, 20), "red"); '
+          'translate(5, 0, 0) rectprism((10, 20, 20), "blue"); } sphere(10); }')
+KERNEL = "[for (i = [1:10]) [for (j = [1:10]) [1]]]"
+
 # Fig. A.19.
 ACTUATOR = """
 fgrade(["0.2", "sin(4.5*z + 1.57) - 0.1",
@@ -117,6 +122,9 @@ def table_3(data):
         Job("mesh", lambda: f'mesh("{data}/screwdriver.stl");', *screwdriver, TABLE_3, (163, 251)),
         Job("F-rep", lambda: gyroid, (-23, -5, -1), (23, 5, 3), TABLE_3, (584, 248), "materials"),
         Job("grade", lambda: f"fgrade({GRADE}) sphere(10);", *cube, TABLE_3, (1147, 223), "inside"),
+        Job("halves", lambda: HALVES, *cube, TABLE_3, published=False),
+        Job("convolve", lambda: f"convolve(kernel, pitch=(20/2048, 20/2048, 20/4096)) {{ {HALVES} }}".replace(
+            "kernel", KERNEL), *cube, TABLE_3, (62, 250), published=False),
     ]
 
 

@@ -6,6 +6,7 @@
 import argparse
 import pathlib
 import struct
+import sys
 import tempfile
 import zlib
 
@@ -14,6 +15,9 @@ from scipy import ndimage
 
 import program
 from program import expect
+
+sys.path.insert(0, str(program.SOURCE / "tools"))
+import make_volumes  # pylint: disable=wrong-import-position
 
 SPACING = (0.5, 0.4, 0.8)  # mm along x, y and z
 SHAPE = (15, 13, 9)  # voxels along x, y and z
@@ -211,6 +215,26 @@ def parts_are_those_of_scipy(scene):
     expect(filled.sum() > solid.sum(), "the map has no holes")
 
 
+def a_noisy_scan_becomes_clearer(scene):
+    """The phantom of examples/sharpened_scan.vcad, whose truth is known: how much of each voxel is of the right material."""
+    i, j, k = np.indices((64, 64, 32))
+    spots = np.zeros((64, 64, 32), bool)
+    for a, b, c, radius in make_volumes.SPOTS:
+        spots |= (i - a)**2 + (j - b)**2 + (k - c)**2 < radius**2
+    file = program.SOURCE / "examples" / "models" / "noisy_scan.nrrd"
+    solid = (f'volume_solid("{file}", transfer(volume("{file}").value, [[50, "cyan"], [250, "magenta"]]), level=25);')
+
+    def shares(filters):
+        grids = scene.sample_text(f"root((-32, -32, -16), (32, 32, 16), (1, 1, 1)) {{ {filters} {solid} }}", "fractions")
+        inside = grids["cyan"] + grids["magenta"] > 0.5
+        right = np.where(spots, grids["magenta"], grids["cyan"])
+        return right[inside].mean(), right[inside & spots].mean()
+    before, spots_before = shares("")
+    after, spots_after = shares("sharpen(5, sigma=3, pitch=(1, 1, 1)) gaussian(1, pitch=(1, 1, 1))")
+    expect(abs(before - 0.92) < 0.005 and abs(spots_before - 0.64) < 0.005, f"before: {before}, {spots_before}")
+    expect(abs(after - 0.96) < 0.005 and abs(spots_after - 0.97) < 0.005, f"after: {after}, {spots_after}")
+
+
 def distances_are_those_of_a_ball(scene):
     (scene.path / "part.vcad").write_text("""root((-7, -7, -7), (7, 7, 7), (0.25, 0.25, 0.25))
       redistance(4, pitch=(0.25, 0.25, 0.25)) function("x^2 + y^2 + z^2 - 16", min=(-4, -4, -4), max=(4, 4, 4));""")
@@ -274,7 +298,7 @@ def main():
     checks = [convolutions_are_those_of_scipy, products_of_lists_are_the_same_kernel, boxes_are_kernels_of_ones,
               sharpening_keeps_no_negative_share, gaussians_are_those_of_scipy, attributes_are_filtered_inside,
               medians_are_those_of_scipy, majorities_count_materials, morphology_is_that_of_scipy,
-              smoothing_takes_the_half, parts_are_those_of_scipy, distances_are_those_of_a_ball,
+              smoothing_takes_the_half, a_noisy_scan_becomes_clearer, parts_are_those_of_scipy, distances_are_those_of_a_ball,
               stacks_of_slices_are_read_back, grey_stacks_are_volumes]
     ombre = str(pathlib.Path(options.ombre).resolve())
     for check in checks:

@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
-"""Scans written by other libraries (pydicom, GDCM's tools, nibabel), read through Python.
+"""Scans and images written by other libraries (pydicom, GDCM's tools, nibabel, Pillow), read through Python.
 
     PYTHONPATH=build/release/python python3 tests/run_scans.py
 """
+import base64
 import gzip
 import pathlib
 import subprocess
+import sys
 import tempfile
+import zlib
 
 import nibabel
 import numpy as np
+import PIL.Image
 import pydicom
 import pydicom.uid
 
@@ -207,7 +211,12 @@ def nifti_affines_are_honoured(folder):
     nibabel.save(big, folder / "h.nii")
     compare(folder / "h.nii", affine, tolerance=1e-5)
     nibabel.save(nibabel.Nifti1Image(np.zeros((*SHAPE, 3), np.int16), affine), folder / "time.nii")
-    fails(folder / "time.nii", "has 3 values in each voxel, or volumes in time")
+    fails(folder / "time.nii", "has 3 values in each voxel, or volumes in time", "channel=0, up to 2")
+    times = np.stack([phantom(), 2 * phantom(), -phantom()], axis=-1)
+    nibabel.save(nibabel.Nifti1Image(times, affine), folder / "times.nii.gz")
+    compare(folder / "times.nii.gz", affine, ", channel=1", 2 * phantom(), tolerance=1e-5)
+    compare(folder / "times.nii.gz", affine, ", channel=2", -phantom(), tolerance=1e-5)
+    fails(folder / "times.nii.gz", "has no channel 3; 0 to 2 are there", options=", channel=3")
     whole = (folder / "a.nii").read_bytes()
     (folder / "cut.nii").write_bytes(whole[:-1])
     fails(folder / "cut.nii", "is cut off")
@@ -220,7 +229,6 @@ def meta_images_are_read(folder):
               "CompressedData = {packed}\nTransformMatrix = 0 1 0 -1 0 0 0 0 1\nOffset = 1 2 3\n"
               "CenterOfRotation = 0 0 0\nElementSpacing = 0.5 0.75 3\nDimSize = 12 10 6\nElementType = MET_SHORT\n"
               "ElementDataFile = {file}\n")
-    import zlib
     numbers = phantom().transpose(2, 1, 0).astype("<i2").tobytes()
     affine = np.array([[0, -0.75, 0, 1], [0.5, 0, 0, 2], [0, 0, 3, 3], [0, 0, 0, 1.0]])
     (folder / "a.mha").write_bytes(header.format(packed=False, file="LOCAL").encode() + numbers)
@@ -229,6 +237,11 @@ def meta_images_are_read(folder):
     (folder / "c.raw").write_bytes(numbers)
     for name in ("a.mha", "b.mha", "c.mhd"):
         compare(folder / name, affine)
+    both = np.stack([phantom(), -phantom()], axis=-1).transpose(2, 1, 0, 3).astype("<i2").tobytes()
+    two = header.replace("DimSize", "ElementNumberOfChannels = 2\nDimSize").format(packed=False, file="LOCAL")
+    (folder / "two.mha").write_bytes(two.encode() + both)
+    compare(folder / "two.mha", affine, ", channel=1", -phantom())
+    fails(folder / "two.mha", "has 2 values in each voxel")
     (folder / "d.mhd").write_text(header.format(packed=False, file="nowhere.raw"))
     fails(folder / "d.mhd", "nowhere.raw, which is not there")
     (folder / "e.mha").write_text("ObjectType = Image\nNDims = 3\nDimSize = 1 2\nElementDataFile = LOCAL\n")
@@ -256,6 +269,194 @@ def arrays_are_volumes(folder):
         raise AssertionError("a wrong array was taken")
 
 
+def files_of_many_frames_are_read(folder):
+    """An enhanced CT image: all slices in one file, their places in sequences."""
+    meta = pydicom.dataset.FileMetaDataset()
+    meta.MediaStorageSOPClassUID = "1.2.840.10008.5.1.4.1.1.2.1"
+    meta.MediaStorageSOPInstanceUID = pydicom.uid.generate_uid()
+    meta.TransferSyntaxUID = pydicom.uid.ExplicitVRLittleEndian
+    data = pydicom.dataset.FileDataset("frames", {}, file_meta=meta, preamble=b"\0" * 128)
+    data.is_little_endian, data.is_implicit_VR = True, False
+    data.SOPClassUID, data.SOPInstanceUID = meta.MediaStorageSOPClassUID, meta.MediaStorageSOPInstanceUID
+    data.Modality, data.SeriesInstanceUID, data.StudyInstanceUID = "CT", "1.2.826.0.1.9", "1.2.3"
+    data.Rows, data.Columns, data.NumberOfFrames = SHAPE[1], SHAPE[0], SHAPE[2]
+    data.SamplesPerPixel, data.PhotometricInterpretation = 1, "MONOCHROME2"
+    data.BitsAllocated, data.BitsStored, data.HighBit, data.PixelRepresentation = 16, 16, 15, 1
+
+    def item(name, **members):
+        inner, outer = pydicom.Dataset(), pydicom.Dataset()
+        for key, value in members.items():
+            setattr(inner, key, value)
+        setattr(outer, name, [inner])
+        return outer
+
+    shared = item("PixelMeasuresSequence", PixelSpacing=[SPACING[1], SPACING[0]], SliceThickness=SPACING[2])
+    shared.update(item("PlaneOrientationSequence", ImageOrientationPatient=[1, 0, 0, 0, 1, 0]))
+    shared.update(item("PixelValueTransformationSequence", RescaleIntercept=0, RescaleSlope=1, RescaleType="HU"))
+    data.SharedFunctionalGroupsSequence = [shared]
+    data.PerFrameFunctionalGroupsSequence = [
+        item("PlanePositionSequence", ImagePositionPatient=[ORIGIN[0], ORIGIN[1], ORIGIN[2] + SPACING[2] * k])
+        for k in range(SHAPE[2])]
+    data.PixelData = phantom().transpose(2, 1, 0).astype("<i2").tobytes()
+    data.save_as(folder / "frames.dcm", write_like_original=False)
+    compare(folder / "frames.dcm", lps_affine())
+
+
+def stack_affine():
+    """Of images with the spacing given: rows count from the top, the first voxel's centre is at the origin."""
+    return np.diag([*SPACING, 1.0])
+
+
+def stacks_of_images_are_read(folder):
+    grey = (phantom() + 1000).astype(np.uint16)
+    place = f", spacing={SPACING}"
+    layers = [np.flipud(grey[:, :, k].T) for k in range(SHAPE[2])]
+    for packing in (None, "tiff_lzw", "tiff_adobe_deflate", "packbits"):
+        pages = [PIL.Image.fromarray(layer) for layer in layers]
+        pages[0].save(folder / f"pages_{packing}.tif", save_all=True, append_images=pages[1:], compression=packing)
+        compare(folder / f"pages_{packing}.tif", stack_affine(), place, grey)
+    floats = [PIL.Image.fromarray((0.5 * layer).astype(np.float32)) for layer in layers]
+    floats[0].save(folder / "floats.tif", save_all=True, append_images=floats[1:])
+    compare(folder / "floats.tif", stack_affine(), place, 0.5 * grey)
+    bytes_ = (grey // 16).astype(np.uint8)
+    small = [PIL.Image.fromarray(np.flipud(bytes_[:, :, k].T)) for k in range(SHAPE[2])]
+    for kind in ("tif", "bmp", "png"):
+        (folder / kind).mkdir()
+        for k, image in enumerate(small):
+            image.save(folder / kind / f"layer{k}.{kind}")
+        compare(folder / kind, stack_affine(), place, bytes_)
+        coloured = folder / f"coloured_{kind}"
+        coloured.mkdir()
+        for k, image in enumerate(small):
+            PIL.Image.merge("RGB", [image, small[0], small[k - 1]]).save(coloured / f"layer{k}.{kind}")
+        compare(coloured, stack_affine(), place + ", channel=0", bytes_)
+        compare(coloured, stack_affine(), place + ", channel=2", np.roll(bytes_, 1, axis=2))
+        fails(coloured, "in colour; choose one of its values by channel=0", options=place)
+    whole = (folder / "pages_tiff_lzw.tif").read_bytes()
+    (folder / "cut.tif").write_bytes(whole[:len(whole) // 2])
+    fails(folder / "cut.tif", "cannot be read", options=place)
+    (folder / "cut.bmp").write_bytes((folder / "bmp" / "layer0.bmp").read_bytes()[:-20])
+    fails(folder / "cut.bmp", "is cut off", options=place)
+    fails(folder / "tif", "does not say how large its voxels are")
+
+
+def vti(values, form, packed=False, order="LittleEndian", where="PointData"):
+    """Image data as the VTK User's Guide describes them ("VTK XML file formats")."""
+    nx, ny, nz = values.shape if where == "PointData" else (n + 1 for n in values.shape)
+    turned = values.transpose(2, 1, 0).astype(values.dtype.newbyteorder("<" if order == "LittleEndian" else ">"))
+    raw, word = turned.tobytes(), "<u4" if order == "LittleEndian" else ">u4"
+    number = lambda *n: np.array(n, word).tobytes()
+    if packed:
+        size = 256
+        blocks = [raw[n:n + size] for n in range(0, len(raw), size)]
+        small = [zlib.compress(block) for block in blocks]
+        head = number(len(blocks), size, len(blocks[-1]) % size, *map(len, small))
+        parts = [head, b"".join(small)]
+    else:
+        parts = [number(len(raw)) + raw]
+    inside = {"ascii": " ".join(str(v) for v in turned.ravel()),
+              "binary": "".join(base64.b64encode(part).decode() for part in parts), "appended": ""}[form]
+    compressor = ' compressor="vtkZLibDataCompressor"' if packed else ""
+    kind = {"i2": "Int16", "f4": "Float32"}[values.dtype.str[1:]]
+    offset = ' offset="0"' if form == "appended" else ""
+    text = (f'<?xml version="1.0"?>\n<VTKFile type="ImageData" version="0.1" byte_order="{order}"{compressor}>\n'
+            f'<ImageData WholeExtent="1 {nx} 0 {ny - 1} 0 {nz - 1}" Origin="1 2 3" Spacing="0.5 0.75 3">\n'
+            f'<Piece Extent="1 {nx} 0 {ny - 1} 0 {nz - 1}"><{where}>\n'
+            f'<DataArray type="{kind}" Name="ct" format="{form}"{offset}>{inside}</DataArray>\n'
+            f'</{where}></Piece></ImageData>\n').encode()
+    if form == "appended":
+        text += b'<AppendedData encoding="raw">_' + b"".join(parts) + b"</AppendedData>\n"
+    return text + b"</VTKFile>\n"
+
+
+def vtk_images_are_read(folder):
+    affine = np.diag([*SPACING, 1.0])
+    affine[:3, 3] = (1.5, 2, 3)
+    for form in ("ascii", "binary", "appended"):
+        for packed in (False, True) if form != "ascii" else (False,):
+            for order in ("LittleEndian", "BigEndian"):
+                for kind in (np.int16, np.float32):
+                    (folder / "a.vti").write_bytes(vti(phantom().astype(kind), form, packed, order))
+                    compare(folder / "a.vti", affine)
+    cells = affine.copy()
+    cells[:3, 3] += 0.5 * np.array(SPACING)
+    (folder / "cells.vti").write_bytes(vti(phantom(), "appended", where="CellData"))
+    compare(folder / "cells.vti", cells)
+    whole = vti(phantom(), "appended")
+    (folder / "cut.vti").write_bytes(whole[:-200])
+    fails(folder / "cut.vti", "cut off")
+    (folder / "wrong.vti").write_bytes(whole.replace(b'Extent="1', b'Extent="one', 2))
+    fails(folder / "wrong.vti", "cannot be read")
+
+
+def image_data_of_ours_are_read_back(folder):
+    part = ombre.load_text('root((-5, -5, -5), (5, 5, 5), (0.25, 0.25, 0.5)) attribute("heat", "x + 2*y") sphere(4);')
+    part.write_voxels(folder / "ball.vti", what="distance,heat")
+    points = np.random.default_rng(4).uniform(-2.2, 2.2, (200, 3))
+    heat = values_at(folder / "ball.vti", points, ', series="heat"')
+    expect(np.abs(heat - points[:, 0] - 2 * points[:, 1]).max() < 1e-5, "values of image data")
+    fails(folder / "ball.vti", "holds several arrays", "distance", "heat")
+    fails(folder / "ball.vti", 'no array "cold"', options=', series="cold"')
+
+
+def voxels_may_be_counted(folder):
+    np.save(folder / "a.npy", phantom().transpose(2, 1, 0))
+    compare(folder / "a.npy", np.eye(4), ', space="index"')
+    both = np.stack([phantom(), -phantom()], axis=-1).transpose(2, 1, 0, 3)
+    np.save(folder / "both.npy", both)
+    compare(folder / "both.npy", np.eye(4), ', space="index", channel=1', -phantom())
+
+
+def facts_and_pictures_name_nobody(folder):
+    write_series(folder / "ct")
+    result = subprocess.run([sys.executable, "-m", "ombre", "info", folder / "ct", "--picture", folder / "planes.png"],
+                            capture_output=True, text=True)
+    expect(result.returncode == 0, result.stderr)
+    picture = (folder / "planes.png").read_bytes()
+    for told in (result.stdout.encode(), result.stderr.encode(), picture):
+        expect(b"Doe" not in told and b"12345" not in told, "a patient is named")
+    expect("12 x 10 x 6 voxels" in result.stdout, result.stdout)
+    image = np.asarray(PIL.Image.open(folder / "planes.png").convert("L")).astype(float)
+    # 6 x 7.5 x 18 mm: 480 pixels are 18 mm.
+    expect(image.shape == (480, 160 + 8 + 160 + 8 + 200), f"a picture of {image.shape}")
+    least, greatest = np.sort(phantom().ravel())[[3, -4]]
+    voxel = lambda i, j, k: 255 * np.clip((phantom()[i, j, k] - least) / (greatest - least), 0, 1)
+    for i, j in ((0, 0), (11, 9), (3, 7)):  # in the first plane, the third axis in its middle
+        found = image[199 - int(20 * (j + 0.5)), int((i + 0.5) * 160 / 12)]
+        expect(abs(found - voxel(i, j, 3)) < 4, f"pixel ({i}, {j}) is {found}, not {voxel(i, j, 3)}")
+    labels = np.zeros((4, 5, 6), np.uint8)
+    labels[1], labels[2, 2] = 7, 3
+    np.save(folder / "labels.npy", labels)
+    facts = ombre.volume_info(folder / "labels.npy")
+    expect(facts["labels"] == [[0, 4 * 30 - 30 - 6], [3, 6], [7, 30]], facts["labels"])
+    try:
+        ombre.volume_info(folder / "labels.npy", picture=folder / "planes.png")
+    except ombre.MachineError as error:
+        expect("planes.png" in str(error), str(error))
+    else:
+        raise AssertionError("a picture was replaced")
+
+
+def large_files_stay_on_disk(folder):
+    """A raw NRRD of 300 MiB takes far less memory than that; what it says is right."""
+    shape = (512, 512, 600)
+    header = ("NRRD0004\ntype: int16\ndimension: 3\nsizes: %d %d %d\nendian: little\nencoding: raw\n"
+              "space directions: (0.5,0,0) (0,0.5,0) (0,0,1)\nspace dimension: 3\nspace origin: (0,0,0)\n\n" % shape)
+    with open(folder / "large.nrrd", "wb") as file:
+        file.write(header.encode())
+        for k in range(shape[2]):
+            file.write(np.full(shape[:2], k - 300, "<i2").tobytes())
+    (folder / "part.vcad").write_text('volume_solid("large.nrrd", "red", level=0);')
+    script = ("import resource, ombre; d = ombre.load('part.vcad'); print(d.bounds); print(resource.getrusage("
+              "resource.RUSAGE_SELF).ru_maxrss, open('/proc/self/status').read().split('RssAnon:')[1].split()[0])")
+    result = subprocess.run([sys.executable, "-c", script], cwd=folder, capture_output=True, text=True)
+    expect(result.returncode == 0, result.stderr)
+    anonymous = int(result.stdout.split()[-1]) / 1024
+    expect(anonymous < 150, f"{anonymous:.0f} MiB are taken")
+    points = np.array([[10.0, 20.0, 450.0], [0.0, 0.0, 1.25], [255.0, 255.0, 599.0]])
+    expect(np.allclose(values_at(folder / "large.nrrd", points), points[:, 2] - 300), "values of a large file")
+
+
 def sparse_grids_are_read(folder):
     part = ombre.load_text('root((-5, -5, -5), (5, 5, 5), (0.25, 0.25, 0.5)) attribute("heat", "x + 2*y") sphere(4);')
     part.write_voxels(folder / "ball.vdb", what="distance,heat")
@@ -273,7 +474,9 @@ def main():
     checks = [series_are_read_in_their_places, packed_series_are_the_same, scales_are_applied, oblique_series_are_read,
               of_several_series_one_is_chosen, missing_slices_are_an_error, slices_that_come_twice_are_left_out,
               what_is_no_image_is_passed_over, broken_files_are_errors, nifti_affines_are_honoured,
-              meta_images_are_read, arrays_are_volumes, sparse_grids_are_read]
+              meta_images_are_read, arrays_are_volumes, files_of_many_frames_are_read, stacks_of_images_are_read,
+              vtk_images_are_read, image_data_of_ours_are_read_back, voxels_may_be_counted,
+              facts_and_pictures_name_nobody, large_files_stay_on_disk, sparse_grids_are_read]
     for check in checks:
         with tempfile.TemporaryDirectory() as scratch:
             check(pathlib.Path(scratch))

@@ -22,6 +22,7 @@ declare -A options=(
   [graded_wing]="--from -20,35"
   [keychain]="--from -20,50"
   [knob]="--cut x=0 --from -50,20"
+  [sharpened_scan]="--view top"
   [soft_actuator]="--from -50,15"
   [seat]="--from -35,30"
   [unit_cells]="--from -15,50"

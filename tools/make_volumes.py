@@ -5,6 +5,7 @@
 """
 
 import gzip
+import math
 import struct
 import zlib
 from pathlib import Path
@@ -78,6 +79,47 @@ def head(path):
                "left-posterior-superior", value)
 
 
+def noise(*numbers):
+    """A number of a normal distribution that the numbers decide, the same on every machine: the sum of twelve even ones."""
+    state = 0x9E3779B9
+    for number in numbers:
+        state = (state ^ number) * 0x85EBCA6B % 2**32
+        state ^= state >> 13
+    total = 0
+    for _ in range(12):
+        state = (1664525 * state + 1013904223) % 2**32
+        total += state >> 8
+    return total / 2**24 - 6
+
+
+SPOTS = ((22, 36, 15, 8), (42, 26, 16, 6), (38, 44, 15, 5), (26, 20, 16, 5))  # places and radii, voxels
+
+
+def is_in_spot(i, j, k):
+    """The truth that noisy_scan blurs."""
+    return any((i - a)**2 + (j - b)**2 + (k - c)**2 < r * r for a, b, c, r in SPOTS)
+
+
+def noisy_scan(path):
+    """A body with four spots in voxels of 1 mm, as a scanner blurs it: 50 in the body, 250 in spots, with a standard
+    deviation of 20, and borders that are eight voxels wide; 0 around it."""
+    size, sigma = (64, 64, 32), 2.0
+    reach = 8
+    weights = [math.exp(-n * n / (2 * sigma * sigma)) for n in range(-reach, reach + 1)]
+    weights = [w / sum(weights) for w in weights]
+    nx, ny, nz = size
+    values = [1.0 * is_in_spot(i, j, k) for k in range(nz) for j in range(ny) for i in range(nx)]
+    for step, count in ((1, nx), (nx, ny), (nx * ny, nz)):  # along one axis after another
+        values = [sum(w * values[n + (m - reach) * step] for m, w in enumerate(weights)
+                      if 0 <= n // step % count + m - reach < count) for n in range(len(values))]
+
+    def value(i, j, k):
+        if ((i - 31.5) / 30)**2 + ((j - 31.5) / 30)**2 + ((k - 15.5) / 15)**2 >= 1:
+            return 0
+        return min(max(round(50 + 200 * values[(k * ny + j) * nx + i] + 20 * noise(i, j, k)), 26), 255)
+    write_nrrd(path, "uint8", "B", size, along_axes((1, 1, 1)), (-31.5, -31.5, -15.5), "left-posterior-superior", value)
+
+
 def write_png(path, rows):
     """Rows of (red, green, blue, alpha) from the top."""
     def chunk(name, data):
@@ -118,6 +160,7 @@ def arms(path, space):
 def main():
     two_lobes(ROOT / "examples" / "models" / "two_lobes.nrrd")
     head(ROOT / "examples" / "models" / "head.nrrd")
+    noisy_scan(ROOT / "examples" / "models" / "noisy_scan.nrrd")
     stack(ROOT / "examples" / "models" / "stack")
     fixtures = ROOT / "tests" / "cases" / "volumes" / "fixtures"
     ball(fixtures / "ball.nrrd")

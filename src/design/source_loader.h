@@ -184,7 +184,8 @@ struct TextRequest {
 // The frame of a volume's places; L is left, P posterior, S superior, R right, A anterior.
 enum class PatientSpace : uint8_t { unknown, ras, lps, las, left_handed };
 
-// A grid of numbers in the space of its voxels' indices: channels "value" (trilinear) and "nearest".
+// A grid of numbers in the space of its voxels' indices: channels "value" (trilinear), "nearest", "cubic" and its
+// derivatives "cubic_x", "cubic_y" and "cubic_z".
 struct VolumeGrid {
   program::SourceField source;
   std::optional<Affine> space_from_index;  // in mm, where the file says it
@@ -194,12 +195,13 @@ struct VolumeGrid {
   std::function<Box(int channel, Interval values)> places;
 };
 
-// NRRD, NIfTI, MetaImage, NPY, raw numbers with a description beside them, a file or folder of DICOM, or a folder of
-// PNG images in shades of grey, from the lowest layer up, whose numbers are those of the pixels.
+// NRRD, NIfTI, MetaImage, VTI, NPY, raw numbers with a description beside them, a file or folder of DICOM, or an image
+// or a folder of images (PNG, TIFF, BMP), from the lowest layer up, whose numbers are those of the pixels.
 struct VolumeRequest {
   using Result = VolumeGrid;
   FilePath file;
   std::string series = {};  // of several in a folder: its number or UID; empty: there is one
+  int channel = -1;         // of several values in each voxel, counted from 0; -1: there is one
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
@@ -210,8 +212,8 @@ struct ColourGrid {
   std::vector<Rgba> colours;
 };
 
-// The PNG files of a folder, in the order of the numbers in their names, from the lowest layer up; or one PNG file. In
-// a layer x grows to the right and y upwards.
+// The images of a folder (PNG, TIFF, BMP), in the order of the numbers in their names, from the lowest layer up; or one
+// file. In a layer x grows to the right and y upwards.
 struct ImageStackRequest {
   using Result = ColourGrid;
   FilePath file;

@@ -38,6 +38,8 @@ std::string pack(const Series& series) {
   put(bytes, series.count.data(), series.count.size());
   put(bytes, series.lps_from_index.rows.data(), 3);
   put(bytes, &series.lps_from_index.offset, 1);
+  put(bytes, &series.slope, 1);
+  put(bytes, &series.intercept, 1);
   for (const std::string& warning : series.warnings) warnings += warning + '\n';
   put_list(bytes, std::vector<char>(warnings.begin(), warnings.end()));
   put_list(bytes, series.whole);
@@ -50,6 +52,8 @@ Series unpack(std::string_view bytes) {
   take(bytes, series.count.data(), series.count.size());
   take(bytes, series.lps_from_index.rows.data(), 3);
   take(bytes, &series.lps_from_index.offset, 1);
+  take(bytes, &series.slope, 1);
+  take(bytes, &series.intercept, 1);
   std::vector<char> warnings;
   take_list(bytes, warnings);
   std::string line;

@@ -17,7 +17,8 @@ struct Series {
   // x fastest, as many as voxels. Whole ones where all values are whole numbers of 16 bits, else floats.
   std::vector<int16_t> whole;
   std::vector<float> real;
-  Affine lps_from_index;  // of voxels' centres, in mm; x to the patient's left, y to the back, z to the head
+  double slope = 1, intercept = 0;  // that the first slice's numbers went through
+  Affine lps_from_index;            // of voxels' centres, in mm; x to the patient's left, y to the back, z to the head
   std::vector<std::string> warnings;
 };
 

@@ -52,7 +52,7 @@ class Reading {
     std::array<Vec3, 2> directions;  // of columns and rows
     std::array<double, 3> spacing{};
     std::array<int64_t, 3> count{};
-    double instance = 0;
+    double instance = 0, slope = 1, intercept = 0;
     std::vector<float> values;
   };
 
@@ -123,6 +123,8 @@ class Reading {
     for (unsigned int n = 0; n < 3; ++n) slice.spacing[n] = image.GetSpacing(n);
     if (image.GetPixelFormat().GetSamplesPerPixel() != 1)
       fail("has pixels in colour in \"" + file.path + "\"; export it in shades of grey");
+    slice.slope = image.GetSlope();
+    slice.intercept = image.GetIntercept();
     slice.values = values_of(image, file.path);
     slices_.push_back(std::move(slice));
   }
@@ -264,6 +266,8 @@ class Reading {
     for (int axis = 0; axis < 3; ++axis)
       series.lps_from_index.rows[static_cast<size_t>(axis)] = {across[axis], down[axis], step[axis]};
     series.lps_from_index.offset = first.place;
+    series.slope = first.slope;
+    series.intercept = first.intercept;
     series.warnings = warnings_;
     take_values(series);
     return series;

@@ -80,7 +80,7 @@ class FrdReader {
     uint64_t value = 0;
     const auto [stop, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (status != std::errc() || stop != text.data() + text.size())
-      fail_line("expected a whole number in column " + std::to_string(begin + 1) + ", found " + quoted(text));
+      fail_line("expected a whole number in column " + std::to_string(begin + 1) + ", found " + formats::quoted(text));
     return value;
   }
   // CalculiX writes exponents of three digits without their E.
@@ -92,7 +92,8 @@ class FrdReader {
     const std::string small = to_lower(text);
     if (small == "nan" || small.find("inf") != std::string::npos) return std::nan("");
     const auto value = parse_number(text);
-    if (!value) fail_line("expected a number in column " + std::to_string(begin + 1) + ", found " + quoted(text));
+    if (!value)
+      fail_line("expected a number in column " + std::to_string(begin + 1) + ", found " + formats::quoted(text));
     return *value;
   }
 
@@ -162,7 +163,7 @@ class FrdReader {
       } else if (key == "-1" || key == "-2") {
         add_values(key == "-1", components, field);
       } else {
-        fail_line("expected a line that begins with -1, found " + quoted(key));
+        fail_line("expected a line that begins with -1, found " + formats::quoted(key));
       }
     }
     if (field.name.empty() || field.values.empty()) return;

@@ -81,7 +81,8 @@ class InpReader {
     }
     const auto kind = kind_of_nodes(*nodes);
     if (!kind)
-      fail_line("elements of the type " + quoted(type) + " are not read", "read are C3D4, C3D10, C3D8 and C3D20");
+      fail_line("elements of the type " + formats::quoted(type) + " are not read",
+                "read are C3D4, C3D10, C3D8 and C3D20");
     kind_ = *kind;
   }
 
@@ -91,7 +92,7 @@ class InpReader {
       const std::string_view text = trim(word);
       if (text.empty()) continue;
       const auto value = parse_number(text);
-      if (!value) fail_line("expected a number, found " + quoted(text));
+      if (!value) fail_line("expected a number, found " + formats::quoted(text));
       list.push_back(*value);
     }
     return list;

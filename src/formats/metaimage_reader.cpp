@@ -40,7 +40,7 @@ class MetaImage {
     return to_lower(name) == "local" ? "" : name;
   }
 
-  VoxelVolume read(const std::string* data) const {
+  VoxelVolume read(const VolumeFile& file) const {
     check_shape();
     VoxelVolume volume;
     const std::vector<double> sizes = numbers("dimsize", 3);
@@ -50,8 +50,10 @@ class MetaImage {
     const uint64_t size = voxel_bytes(path_, volume.count, bytes_per_value(volume.values));
     volume.space = VolumeSpace::lps;
     volume.space_from_index = placed();
-    if (!data_file().empty() && !data) fail("has its numbers in " + data_file() + ", which is not there");
-    take(data_file().empty() ? rest_ : std::string_view(*data), size, volume);
+    if (!data_file().empty() && !file.companion) fail("has its numbers in " + data_file() + ", which is not there");
+    const double channels = fields_.contains("elementnumberofchannels") ? numbers("elementnumberofchannels", 1)[0] : 1;
+    const Channel channel = chosen_channel(file, whole("elementnumberofchannels", channels), false);
+    take(file, data_file().empty() ? rest_ : *file.companion, size, channel, volume);
     return volume;
   }
 
@@ -97,8 +99,6 @@ class MetaImage {
   void check_shape() const {
     if (to_lower(field_or("objecttype", "image")) != "image") fail("is a MetaIO file of another kind than an image");
     if (numbers("ndims", 1)[0] != 3) fail("has " + field("ndims") + " axes; three are read");
-    const std::string channels = field_or("elementnumberofchannels", "1");
-    if (channels != "1") fail("has " + channels + " values in each voxel; save one of them by itself");
     if (to_lower(field_or("binarydata", "true")) != "true") fail("has its numbers as text; save it as binary");
   }
 
@@ -137,16 +137,20 @@ class MetaImage {
     return map;
   }
 
-  void take(std::string_view bytes, uint64_t size, VoxelVolume& volume) const {
+  void take(const VolumeFile& file, std::string_view bytes, uint64_t voxels_size, const Channel& channel,
+            VoxelVolume& volume) const {
+    const uint64_t size = voxels_size * static_cast<uint64_t>(channel.count);
     const bool is_big = flag("elementbyteordermsb") || flag("binarydatabyteordermsb");
-    if (flag("compresseddata"))
-      return take_numbers(path_, unpacked(path_, bytes, is_gzip(bytes) ? Packing::gzip : Packing::zlib, size), is_big,
-                          volume);
+    if (flag("compresseddata")) {
+      check_room(path_, size);
+      const Packing packing = is_gzip(bytes) ? Packing::gzip : Packing::zlib;
+      return take_own_numbers(file, unpacked(path_, bytes, packing, size), is_big, channel, volume);
+    }
     const int64_t skip = whole("headersize", fields_.contains("headersize") ? numbers("headersize", 1)[0] : 0);
     const uint64_t before = skip == -1 ? bytes.size() - std::min<uint64_t>(size, bytes.size())
                                        : static_cast<uint64_t>(std::max<int64_t>(skip, 0));
     if (skip < -1 || before > bytes.size()) fail("has a wrong \"HeaderSize\"");
-    take_numbers(path_, bytes.substr(before), is_big, volume);
+    take_numbers(file, bytes.substr(before), is_big, channel, volume);
   }
 
   const std::string& path_;
@@ -167,8 +171,6 @@ std::string metaimage_data_path(const std::string& path, std::string_view bytes)
   return name.empty() ? "" : (std::filesystem::path(path).parent_path() / name).string();
 }
 
-VoxelVolume read_metaimage(const std::string& path, std::string_view bytes, const std::string* data) {
-  return MetaImage(path, bytes).read(data);
-}
+VoxelVolume read_metaimage(const VolumeFile& file) { return MetaImage(file.path, file.bytes).read(file); }
 
 }  // namespace ombre::formats

@@ -85,22 +85,27 @@ std::string type_of(const std::string& path, int code) {
   }
 }
 
-std::array<int64_t, 3> counts_of(const std::string& path, const NiftiHeader& header) {
+struct NiftiSize {
+  std::array<int64_t, 3> count{1, 1, 1};
+  int64_t channels = 1;  // along the axes beyond the third, time among them
+};
+
+NiftiSize size_of(const std::string& path, const NiftiHeader& header) {
   const auto dimension = [&](size_t n) {
     return header.whole(header.layout().dimensions + n * header.layout().dimension_bytes);
   };
   const int64_t dimensions = dimension(0);
   if (dimensions < 1 || dimensions > 7) fail_volume(path, "has a header with " + std::to_string(dimensions) + " axes");
-  std::array<int64_t, 3> count{1, 1, 1};
+  NiftiSize size;
+  constexpr int64_t most_channels = 100'000;
   for (int64_t n = 1; n <= dimensions; ++n) {
     const int64_t length = dimension(static_cast<size_t>(n));
     if (n <= 3)
-      count[static_cast<size_t>(n - 1)] = length;
-    else if (length > 1)
-      fail_volume(path, "has " + std::to_string(length) +
-                            " values in each voxel, or volumes in time; save one of them by itself");
+      size.count[static_cast<size_t>(n - 1)] = length;
+    else if (length > 1 && (length > most_channels || (size.channels *= length) > most_channels))
+      fail_volume(path, "has more than 100000 values in each voxel, or volumes in time");
   }
-  return count;
+  return size;
 }
 
 double mm_of(const NiftiHeader& header) {
@@ -169,7 +174,7 @@ void rescale(const std::string& path, const NiftiHeader& header, VoxelVolume& vo
   const double slope = header.real(header.layout().slope), intercept = header.real(header.layout().intercept);
   if (slope == 0 || (slope == 1 && intercept == 0)) return;
   if (!std::isfinite(slope) || !std::isfinite(intercept)) fail_volume(path, "has a scale that is not finite");
-  rescale_numbers(slope, intercept, volume);
+  rescale_numbers(path, slope, intercept, volume);
   check_finite(path, volume);
 }
 
@@ -195,26 +200,38 @@ std::string nifti_data_path(const std::string& path, std::string_view bytes) {
   return std::filesystem::path(header).replace_extension(".img").string();
 }
 
-VoxelVolume read_nifti(const std::string& path, std::string_view bytes, const std::string* data) {
-  const NiftiHeader header(path, bytes);
+VoxelVolume read_nifti(const VolumeFile& file) {
+  const std::string& path = file.path;
+  const NiftiHeader header(path, file.bytes);
   VoxelVolume volume;
-  volume.count = counts_of(path, header);
+  const NiftiSize sizes = size_of(path, header);
+  const Channel channel = chosen_channel(file, sizes.channels, true);
+  volume.count = sizes.count;
   volume.type = type_of(path, header.data_type());
   volume.values = values_of_type(path, volume.type);
-  const uint64_t size = voxel_bytes(path, volume.count, bytes_per_value(volume.values));  // before anything is unpacked
+  const uint64_t size = voxel_bytes(path, volume.count, bytes_per_value(volume.values)) *
+                        static_cast<uint64_t>(channel.count);  // before anything is unpacked
   place(path, header, volume);
-  if (header.is_pair() && !data) fail_volume(path, "has its numbers in an .img file, which is not there");
-  std::string_view numbers = header.is_pair() ? std::string_view(*data) : bytes;
-  std::string unpacked;
+  if (header.is_pair() && !file.companion) fail_volume(path, "has its numbers in an .img file, which is not there");
+  const std::string_view numbers = header.is_pair() ? *file.companion : file.bytes;
   const double offset = header.layout().spacing_bytes == 8
                             ? static_cast<double>(header.read<int64_t>(header.layout().offset))
                             : static_cast<double>(header.read<float>(header.layout().offset));
   if (!(offset >= 0 && offset <= 1e15)) fail_volume(path, "has a header with a wrong offset of its numbers");
-  if (header.is_pair() && is_gzip(numbers))
-    numbers = unpacked = unpacked_file(path, numbers, size + static_cast<uint64_t>(offset));
   const auto skip = static_cast<uint64_t>(offset);
-  if (skip > numbers.size()) fail_volume(path, "is cut off: its numbers begin behind its end");
-  take_numbers(path, numbers.substr(skip), header.is_big_endian(), volume);
+  const auto check_begin = [&](std::string_view all) {
+    if (skip > all.size()) fail_volume(path, "is cut off: its numbers begin behind its end");
+  };
+  if (header.is_pair() && is_gzip(numbers)) {
+    check_room(path, size);
+    std::string unpacked = unpacked_file(path, numbers, size + skip);
+    check_begin(unpacked);
+    unpacked.erase(0, skip);
+    take_own_numbers(file, std::move(unpacked), header.is_big_endian(), channel, volume);
+  } else {
+    check_begin(numbers);
+    take_numbers(file, numbers.substr(skip), header.is_big_endian(), channel, volume);
+  }
   rescale(path, header, volume);
   return volume;
 }

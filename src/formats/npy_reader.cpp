@@ -99,18 +99,24 @@ void turn_axes(VoxelVolume& volume) {
 
 }  // namespace
 
-VoxelVolume read_npy(const std::string& path, std::string_view bytes, const std::string* description) {
-  const NpyHeader header = read_header(path, bytes);
-  if (header.shape.size() != 3)
-    fail_volume(path, "has an array of " + std::to_string(header.shape.size()) + " axes; its shape must be (z, y, x)");
+VoxelVolume read_npy(const VolumeFile& file) {
+  const std::string& path = file.path;
+  const NpyHeader header = read_header(path, file.bytes);
+  const size_t axes = header.shape.size();
+  if (axes != 3 && (axes != 4 || header.is_fortran))
+    fail_volume(path, "has an array of " + std::to_string(axes) +
+                          " axes; its shape must be (z, y, x), or (z, y, x, channel) by rows");
   VoxelVolume volume;
   volume.type = type_called(path, header.type);
   volume.values = values_of_type(path, volume.type);
   volume.count = {header.shape[2], header.shape[1], header.shape[0]};
-  take_numbers(path, bytes.substr(header.bytes), header.type[0] == '>', volume);
+  const Channel channel = chosen_channel(file, axes == 4 ? header.shape[3] : 1, false);
+  VolumeFile as_used = file;
+  as_used.may_refer = file.may_refer && !header.is_fortran;
+  take_numbers(as_used, file.bytes.substr(header.bytes), header.type[0] == '>', channel, volume);
   if (header.is_fortran) turn_axes(volume);
-  if (!description) return volume;
-  const VolumeDescription about = read_description(path, *description);
+  if (!file.companion) return volume;
+  const VolumeDescription about = read_description(path, std::string(*file.companion));
   if (about.count && *about.count != volume.count) fail_volume(path, "has another size than its description says");
   volume.space_from_index = about.space_from_index;
   volume.space = about.space;

@@ -43,17 +43,14 @@ class NrrdReader {
     return name;
   }
 
-  VoxelVolume read(const std::string* data) const {
+  VoxelVolume read(const VolumeFile& file) const {
     VoxelVolume volume;
     volume.type = type();
     volume.values = values_of_type(path_, volume.type);
-    read_axes(volume);
+    const Channel channel = read_axes(file, volume);
     voxel_bytes(path_, volume.count, bytes_per_value(volume.values));  // before anything is unpacked
-    if (data_file().empty())
-      data = nullptr;
-    else if (!data)
-      fail("has its numbers in " + data_file() + ", which is not there");
-    read_numbers(data ? std::string_view(*data) : rest_, volume);
+    if (!data_file().empty() && !file.companion) fail("has its numbers in " + data_file() + ", which is not there");
+    read_numbers(file, data_file().empty() ? rest_ : *file.companion, channel, volume);
     return volume;
   }
 
@@ -163,8 +160,9 @@ class NrrdReader {
     return result;
   }
 
-  // Axes along which there is one value only, and which are none of space, do not count.
-  void read_axes(VoxelVolume& volume) const {
+  // Axes along which there is one value only, and which are none of space, do not count. One that is the first or the
+  // last, and none of space, has the values of a voxel.
+  Channel read_axes(const VolumeFile& file, VoxelVolume& volume) const {
     const Words sizes = words_of(field("sizes"));
     const bool has_directions = fields_.contains("space directions");
     const auto directions =
@@ -176,11 +174,18 @@ class NrrdReader {
     std::vector<int64_t> counts;
     std::vector<Vec3> steps;
     std::vector<double> lengths;
+    Channel channel;
     for (size_t axis = 0; axis < sizes.size(); ++axis) {
       const int64_t count = whole("sizes", sizes[axis]);
-      const bool is_space = has_directions ? directions[axis].has_value() : sizes.size() == 3 || count != 1;
+      const bool is_space = has_directions ? directions[axis].has_value() : is_space_by_kind(axis, sizes.size(), count);
       if (!is_space && count == 1) continue;
-      if (!is_space) fail("has " + std::to_string(count) + " values in each voxel; save one of them by itself");
+      const bool is_at_end = axis == 0 || axis + 1 == sizes.size();
+      if (!is_space && (!is_at_end || channel.count > 1))
+        fail("has values of voxels along several axes, or in the middle");
+      if (!is_space) {
+        channel = chosen_channel(file, count, axis != 0);
+        continue;
+      }
       counts.push_back(count);
       steps.push_back(*directions[axis]);
       if (!spacings.empty()) lengths.push_back(number("spacings", spacings[axis]));
@@ -193,6 +198,15 @@ class NrrdReader {
       volume.space_from_index = placed(steps);
     else if (!lengths.empty() && !std::isnan(lengths[0] + lengths[1] + lengths[2]))
       volume.space_from_index = placed({{lengths[0], 0, 0}, {0, lengths[1], 0}, {0, 0, lengths[2]}});
+    if (channel.count == 1) chosen_channel(file, 1, false);
+    return channel;
+  }
+
+  // Without directions "kinds" tells axes of space from others.
+  bool is_space_by_kind(size_t axis, size_t axes, int64_t count) const {
+    const Words kinds = words_of(to_lower(field_or("kinds", "")));
+    if (kinds.size() == axes) return kinds[axis] == "space" || kinds[axis] == "domain" || kinds[axis] == "???";
+    return axes == 3 || count != 1;
   }
 
   void read_space(VoxelVolume& volume) const {
@@ -235,23 +249,25 @@ class NrrdReader {
     return mm.value_or(1);
   }
 
-  void read_numbers(std::string_view bytes, VoxelVolume& volume) const {
+  void read_numbers(const VolumeFile& file, std::string_view bytes, const Channel& channel, VoxelVolume& volume) const {
     const std::string encoding = to_lower(field("encoding"));
     for (int64_t lines = whole("line skip", field_or("line skip", field_or("lineskip", "0"))); lines > 0; --lines)
       bytes.remove_prefix(bytes.find('\n') == std::string_view::npos ? bytes.size() : bytes.find('\n') + 1);
-    if (encoding == "txt" || encoding == "text" || encoding == "ascii") return read_text(bytes, volume);
-    const uint64_t size = voxel_bytes(path_, volume.count, bytes_per_value(volume.values));
+    if (encoding == "txt" || encoding == "text" || encoding == "ascii") return read_text(bytes, channel, volume);
+    const uint64_t size =
+        voxel_bytes(path_, volume.count, bytes_per_value(volume.values)) * static_cast<uint64_t>(channel.count);
     const int64_t skip = whole("byte skip", field_or("byte skip", field_or("byteskip", "0")));
     const bool is_big = is_big_endian(bytes_per_value(volume.values));
     if (encoding == "gzip" || encoding == "gz") {
       if (skip != 0) fail("has a \"byte skip\" before packed numbers; save it without");
-      return take_numbers(path_, unpacked(path_, bytes, Packing::gzip, size), is_big, volume);
+      check_room(path_, size);
+      return take_own_numbers(file, unpacked(path_, bytes, Packing::gzip, size), is_big, channel, volume);
     }
     if (encoding != "raw") fail("has the encoding \"" + encoding + "\"; save it as raw, gzip or ascii");
     const uint64_t before =
         skip == -1 ? bytes.size() - std::min<uint64_t>(size, bytes.size()) : static_cast<uint64_t>(skip);
     if (skip < -1 || before > bytes.size()) fail("has a wrong \"byte skip\"");
-    take_numbers(path_, bytes.substr(before), is_big, volume);
+    take_numbers(file, bytes.substr(before), is_big, channel, volume);
   }
 
   bool is_big_endian(size_t bytes_per_number) const {
@@ -261,7 +277,8 @@ class NrrdReader {
     return endian == "big";
   }
 
-  void read_text(std::string_view bytes, VoxelVolume& volume) const {
+  void read_text(std::string_view bytes, const Channel& channel, VoxelVolume& volume) const {
+    if (channel.count > 1) fail("has several values in each voxel as text; save it as raw or gzip");
     const auto count = static_cast<size_t>(volume.count[0] * volume.count[1] * volume.count[2]);
     if (bytes.size() / 2 + 1 < count) fail("is cut off: its text has too few numbers");
     std::visit(
@@ -298,8 +315,6 @@ std::string nrrd_data_path(const std::string& path, std::string_view bytes) {
   return name.empty() ? "" : (fs::path(path).parent_path() / name).string();
 }
 
-VoxelVolume read_nrrd(const std::string& path, std::string_view bytes, const std::string* data) {
-  return NrrdReader(path, bytes).read(data);
-}
+VoxelVolume read_nrrd(const VolumeFile& file) { return NrrdReader(file.path, file.bytes).read(file); }
 
 }  // namespace ombre::formats

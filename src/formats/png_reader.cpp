@@ -87,7 +87,8 @@ bool read_gray_header(PngReader& reader) {
   reader.stored_bit_depth = png_get_bit_depth(reader.png, reader.info);
   reader.stored_bits_per_pixel = reader.stored_bit_depth * png_get_channels(reader.png, reader.info);
   if ((png_get_color_type(reader.png, reader.info) & PNG_COLOR_MASK_COLOR) != 0)
-    png_error(reader.png, "it is in colour, not in shades of grey");
+    png_error(reader.png,
+              "it is in colour; choose one of its values by channel=0, up to 3, or save it in shades of grey");
   constexpr int byte_bits = 8;
   if (reader.stored_bit_depth < byte_bits) png_set_packing(reader.png);
   if (reader.stored_bit_depth > byte_bits) png_set_swap(reader.png);

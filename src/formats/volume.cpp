@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/free_memory.h"
 #include "base/text.h"
 #include "formats/volume_packing.h"
 #include "formats/volume_parts.h"
@@ -14,7 +15,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers lie in memory low byte first");
 
-constexpr uint64_t most_volume_bytes = uint64_t{16} << 30;
+constexpr uint64_t most_volume_bytes = uint64_t{1} << 40;
+constexpr uint64_t most_unpacked_bytes = uint64_t{64} << 30;
 constexpr int64_t most_along_volume = int64_t{1} << 24;
 constexpr double least_spacing_mm = 1e-6, greatest_spacing_mm = 1e4, farthest_mm = 1e6;
 
@@ -74,51 +76,114 @@ uint64_t voxel_bytes(const std::string& path, const std::array<int64_t, 3>& coun
     if (length < 1) fail_volume(path, "has an axis of " + std::to_string(length) + " voxels");
     if (length > most_along_volume || bytes > most_volume_bytes / static_cast<uint64_t>(length))
       fail_volume(path, "has " + std::to_string(count[0]) + " x " + std::to_string(count[1]) + " x " +
-                            std::to_string(count[2]) +
-                            " voxels, which are more than 16 GiB; cut it or make it coarser");
+                            std::to_string(count[2]) + " voxels, which are more than 1 TiB; cut it or make it coarser");
     bytes *= static_cast<uint64_t>(length);
   }
   return bytes;
 }
 
-void take_numbers(const std::string& path, std::string_view bytes, bool is_big_endian, VoxelVolume& volume) {
-  const uint64_t size = voxel_bytes(path, volume.count, bytes_per_value(volume.values));
-  if (bytes.size() < size)
-    fail_volume(path, "is cut off: it has " + format_count(bytes.size()) + " of the " + format_count(size) +
-                          " bytes of its numbers");
-  std::visit(
-      [&](auto& list) {
-        list.resize(size / sizeof list[0]);
-        std::memcpy(list.data(), bytes.data(), size);
-        if (is_big_endian && sizeof list[0] > 1)
-          for (auto& value : list) swap_bytes(value);
-      },
-      volume.values);
-  check_finite(path, volume);
+void check_room(const std::string& path, uint64_t bytes) {
+  const uint64_t free = free_memory_bytes();
+  if (free == 0 || bytes <= free) return;
+  fail_volume(path, "needs " + format_bytes(static_cast<double>(bytes)) + " of memory, and " +
+                        format_bytes(static_cast<double>(free)) +
+                        " are free; save it without compression, low byte first (as .nrrd, .mhd, .nii or .npy), since "
+                        "such files stay on disk, or cut it or make it coarser");
 }
 
-void rescale_numbers(double slope, double intercept, VoxelVolume& volume) {
+Channel chosen_channel(const VolumeFile& file, int64_t count, bool is_apart) {
+  const int wanted = file.choice.channel;
+  const std::string most = std::to_string(count - 1);
+  if (count < 1) fail_volume(file.path, "has no values in its voxels");
+  if (count > 1 && wanted < 0)
+    fail_volume(file.path, "has " + std::to_string(count) +
+                               " values in each voxel, or volumes in time; choose one by channel=0, up to " + most);
+  if (wanted >= count)
+    fail_volume(file.path, "has no channel " + std::to_string(wanted) + "; 0 " +
+                               (count > 1 ? "to " + most + " are" : "is") + " there");
+  return {count, std::max(wanted, 0), is_apart};
+}
+
+namespace {
+
+// Does nothing of them need a change?
+bool lie_as_used(const Channel& channel, bool is_big_endian, size_t value_bytes) {
+  return (channel.is_apart || channel.count == 1) && (!is_big_endian || value_bytes == 1);
+}
+
+bool lies_within(std::string_view part, std::string_view whole) {
+  return part.data() >= whole.data() && part.data() + part.size() <= whole.data() + whole.size();
+}
+
+template <class T>
+void copy_numbers(std::string_view bytes, bool is_big_endian, const Channel& channel, size_t count,
+                  std::vector<T>& list) {
+  list.resize(count);
+  const size_t first = static_cast<size_t>(channel.chosen) * (channel.is_apart ? count : 1),
+               step = channel.is_apart ? 1 : static_cast<size_t>(channel.count);
+  const Numbers<T> numbers(bytes.data() + first * sizeof(T), 0);
+  if (step == 1)
+    std::memcpy(list.data(), numbers.bytes(), count * sizeof(T));
+  else
+    for (size_t n = 0; n < count; ++n) list[n] = numbers[n * step];
+  if (is_big_endian && sizeof(T) > 1)
+    for (T& value : list) swap_bytes(value);
+}
+
+}  // namespace
+
+void take_numbers(const VolumeFile& file, std::string_view bytes, bool is_big_endian, const Channel& channel,
+                  VoxelVolume& volume) {
+  const size_t value_bytes = bytes_per_value(volume.values);
+  const uint64_t size = voxel_bytes(file.path, volume.count, value_bytes);
+  if (bytes.size() / size < static_cast<uint64_t>(channel.count))
+    fail_volume(file.path, "is cut off: it has " + format_count(bytes.size()) + " of the " +
+                               format_count(size * static_cast<uint64_t>(channel.count)) + " bytes of its numbers");
+  volume.channels = channel.count;
+  const bool is_kept = lies_within(bytes, file.bytes) || (file.companion && lies_within(bytes, *file.companion)) ||
+                       volume.file != nullptr;
+  if (file.may_refer && is_kept && lie_as_used(channel, is_big_endian, value_bytes)) {
+    volume.in_file = bytes.substr(size * static_cast<uint64_t>(channel.chosen), size);
+  } else {
+    check_room(file.path, size);
+    std::visit([&](auto& list) { copy_numbers(bytes, is_big_endian, channel, size / value_bytes, list); },
+               volume.values);
+  }
+  check_finite(file.path, volume);
+}
+
+void take_own_numbers(const VolumeFile& file, std::string bytes, bool is_big_endian, const Channel& channel,
+                      VoxelVolume& volume) {
+  const auto kept = std::make_shared<const std::string>(std::move(bytes));
+  volume.file = kept;
+  take_numbers(file, *kept, is_big_endian, channel, volume);
+  if (volume.in_file.empty()) volume.file = nullptr;
+}
+
+void rescale_numbers(const std::string& path, double slope, double intercept, VoxelVolume& volume) {
   std::vector<float> scaled;
-  std::visit(
-      [&](const auto& list) {
-        scaled.reserve(list.size());
-        for (const auto value : list)
-          scaled.push_back(static_cast<float>(slope * static_cast<double>(value) + intercept));
-      },
-      volume.values);
+  visit_numbers(volume, [&](const auto& numbers) {
+    check_room(path, numbers.size() * sizeof(float));
+    scaled.reserve(numbers.size());
+    for (size_t n = 0; n < numbers.size(); ++n)
+      scaled.push_back(static_cast<float>(slope * static_cast<double>(numbers[n]) + intercept));
+  });
   volume.values = std::move(scaled);
+  volume.in_file = {};
+  volume.file = nullptr;
   volume.type = "float32";
+  volume.slope = slope;
+  volume.intercept = intercept;
 }
 
 void check_finite(const std::string& path, const VoxelVolume& volume) {
-  std::visit(
-      [&](const auto& list) {
-        for (size_t n = 0; n < list.size(); ++n)
-          if (!std::isfinite(static_cast<double>(list[n])))
-            fail_volume(path, "has a value that is not finite at voxel " + voxel_text(volume, n) +
-                                  "; put numbers in the place of NaN and infinity");
-      },
-      volume.values);
+  visit_numbers(volume, [&]<class T>(const Numbers<T>& numbers) {
+    if constexpr (std::is_floating_point_v<T>)
+      for (size_t n = 0; n < numbers.size(); ++n)
+        if (!std::isfinite(numbers[n]))
+          fail_volume(path, "has a value that is not finite at voxel " + voxel_text(volume, n) +
+                                "; put numbers in the place of NaN and infinity");
+  });
 }
 
 Affine placed_along_axes(const std::string& path, Vec3 spacing_mm, Vec3 origin_mm) {
@@ -155,26 +220,48 @@ void check_volume(const std::string& path, const VoxelVolume& volume) {
   check_finite(path, volume);
 }
 
+bool is_vti(std::string_view bytes) {
+  constexpr size_t sniffed = 4096;
+  const std::string_view begin = trim(bytes.substr(0, sniffed));
+  return begin.starts_with('<') && begin.find("<VTKFile") != std::string_view::npos &&
+         begin.find("ImageData") != std::string_view::npos;
+}
+
 std::string companion_of(const std::string& path, std::string_view bytes) {
   if (is_nrrd(bytes)) return nrrd_data_path(path, bytes);
   if (is_nifti(bytes)) return nifti_data_path(path, bytes);
   if (is_metaimage(bytes)) return metaimage_data_path(path, bytes);
+  if (is_vti(bytes)) return "";
   return path + ".json";
 }
 
-VoxelVolume read_volume(const std::string& path, std::string_view bytes, const std::string* companion) {
-  if (is_nrrd(bytes)) return read_nrrd(path, bytes, companion);
-  if (is_npy(bytes)) return read_npy(path, bytes, companion);
-  if (is_nifti(bytes)) return read_nifti(path, bytes, companion);
-  if (is_metaimage(bytes)) return read_metaimage(path, bytes, companion);
-  if (is_gzip(bytes)) {
-    const std::string all = unpacked_file(path, bytes, most_volume_bytes);
-    if (is_gzip(all)) fail_volume(path, "is packed twice by gzip; unpack it");
-    return read_volume(path, all, companion);
-  }
-  if (companion) return read_raw(path, bytes, *companion);
-  fail_volume(path, "is none of NRRD, NIfTI, MetaImage and NPY, and no " + path +
-                        ".json describes it; convert other formats, by 3D Slicer for example");
+namespace {
+
+VoxelVolume read_packed(const VolumeFile& file) {
+  // What the file's end states is right up to 4 GiB.
+  check_room(file.path, std::max(file.bytes.size(), stated_gzip_size(file.bytes)));
+  const auto all = std::make_shared<const std::string>(unpacked_file(file.path, file.bytes, most_unpacked_bytes));
+  if (is_gzip(*all)) fail_volume(file.path, "is packed twice by gzip; unpack it");
+  VolumeFile inner = file;
+  inner.bytes = *all;
+  VoxelVolume volume = read_volume(inner);
+  if (!volume.in_file.empty() && !volume.file) volume.file = all;
+  return volume;
+}
+
+}  // namespace
+
+VoxelVolume read_volume(const VolumeFile& file) {
+  const std::string_view bytes = file.bytes;
+  if (is_nrrd(bytes)) return read_nrrd(file);
+  if (is_npy(bytes)) return read_npy(file);
+  if (is_nifti(bytes)) return read_nifti(file);
+  if (is_metaimage(bytes)) return read_metaimage(file);
+  if (is_vti(bytes)) return read_vti(file);
+  if (is_gzip(bytes)) return read_packed(file);
+  if (file.companion) return read_raw(file);
+  fail_volume(file.path, "is none of NRRD, NIfTI, MetaImage, VTI and NPY, and no " + file.path +
+                             ".json describes it; convert other formats, by 3D Slicer for example");
 }
 
 }  // namespace ombre::formats

@@ -18,6 +18,9 @@ class DescriptionReader {
     if (data_.find("dimensions")) result.count = counts();
     result.is_big_endian = byte_order() == "big";
     result.header_bytes = static_cast<uint64_t>(whole("header_bytes", data_.find("header_bytes"), 0));
+    result.channels = whole("channels", data_.find("channels"), 1);
+    constexpr int64_t most_channels = 1000;
+    if (result.channels < 1 || result.channels > most_channels) fail("channels", "1 to 1000 values in each voxel");
     check_axes();
     if (const Data* space = data_.find("space")) {
       const auto known = space->string() ? space_called(to_lower(*space->string())) : std::nullopt;
@@ -101,8 +104,10 @@ VolumeDescription read_description(const std::string& path, const std::string& j
   return DescriptionReader(path, *data).read();
 }
 
-VoxelVolume read_raw(const std::string& path, std::string_view bytes, const std::string& json) {
-  const VolumeDescription description = read_description(path, json);
+VoxelVolume read_raw(const VolumeFile& file) {
+  const std::string& path = file.path;
+  std::string_view bytes = file.bytes;
+  const VolumeDescription description = read_description(path, std::string(*file.companion));
   if (description.type.empty() || !description.count)
     fail_volume(path, "has a description without \"data_type\" or \"dimensions\"");
   VoxelVolume volume;
@@ -111,12 +116,14 @@ VoxelVolume read_raw(const std::string& path, std::string_view bytes, const std:
   volume.count = *description.count;
   volume.space_from_index = description.space_from_index;
   volume.space = description.space;
-  const uint64_t size = voxel_bytes(path, volume.count, bytes_per_value(volume.values));
+  const uint64_t size =
+      voxel_bytes(path, volume.count, bytes_per_value(volume.values)) * static_cast<uint64_t>(description.channels);
   bytes.remove_prefix(std::min<uint64_t>(description.header_bytes, bytes.size()));
   if (bytes.size() > size)
     fail_volume(path, "has " + format_count(bytes.size()) + " bytes, where its description has numbers of " +
                           format_count(size));
-  take_numbers(path, bytes, description.is_big_endian, volume);
+  const Channel channel = chosen_channel(file, description.channels, false);
+  take_numbers(file, bytes, description.is_big_endian, channel, volume);
   return volume;
 }
 

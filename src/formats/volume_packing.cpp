@@ -17,15 +17,14 @@ using Unpacker = std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_f
 
 Unpacker make_unpacker() { return {libdeflate_alloc_decompressor(), libdeflate_free_decompressor}; }
 
-// The length that the end of a gzip file states, modulo 2^32.
-uint64_t stated_size(std::string_view bytes) {
+}  // namespace
+
+uint64_t stated_gzip_size(std::string_view bytes) {
   uint64_t size = 0;
   for (size_t n = 0; n < 4 && n < bytes.size(); ++n)
     size |= static_cast<uint64_t>(static_cast<unsigned char>(bytes[bytes.size() - 4 + n])) << 8 * n;
   return size;
 }
-
-}  // namespace
 
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B"); }
 
@@ -53,7 +52,7 @@ std::string unpacked_file(const std::string& path, std::string_view bytes, uint6
   const uint64_t possible = std::min(most, most_growth * bytes.size() + least_room);
   const Unpacker unpacker = make_unpacker();
   std::string result;
-  uint64_t room = std::clamp(stated_size(bytes), least_room, possible);
+  uint64_t room = std::clamp(stated_gzip_size(bytes), least_room, possible);
   while (!bytes.empty()) {
     const size_t done = result.size();
     result.resize(done + room);

@@ -15,5 +15,7 @@ std::string unpacked(const std::string& path, std::string_view bytes, Packing pa
 // Everything in a gzip file, however much that is. Throws Error where it is damaged or more than `most` bytes.
 std::string unpacked_file(const std::string& path, std::string_view bytes, uint64_t most);
 bool is_gzip(std::string_view bytes);
+// The length of what is packed, modulo 2^32, as the end of a gzip file states it.
+uint64_t stated_gzip_size(std::string_view bytes);
 
 }  // namespace ombre::formats

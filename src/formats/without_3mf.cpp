@@ -6,6 +6,7 @@
 #include "formats/mesh_writers.h"
 #include "formats/results_readers.h"
 #include "formats/text_scanner.h"
+#include "formats/volume_parts.h"
 #include "formats/zip_archive.h"
 
 namespace ombre::formats {
@@ -31,6 +32,10 @@ std::optional<Mesh> read_amf(const std::string& name, std::string_view, Diagnost
 
 Results read_vtu(const std::string& name, std::string_view, Diagnostics& diagnostics) {
   fail(diagnostics, name, std::string("VTU files cannot be read: ") + missing, remedy);
+}
+
+VoxelVolume read_vti(const VolumeFile& file) {
+  fail_volume(file.path, std::string("is VTK image data, and ") + missing + "; " + remedy);
 }
 
 bool can_write_3mf() { return false; }

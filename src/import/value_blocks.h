@@ -14,18 +14,18 @@ using VoxelCorner = std::array<int64_t, 3>;
 
 class ValueBlocks {
  public:
-  static constexpr int64_t edge = 4;  // voxels of the smallest blocks
-
-  // `value(i, j, k)` of each voxel.
-  template <class Value>
-  ValueBlocks(const VoxelCorner& count, const Value& value) {
-    Level& finest = levels_.emplace_back(blocks_of(count, edge));
+  // `row_range(j, k, first, end)` of the voxels of a row from `first` on, before `end`.
+  template <class RowRange>
+  ValueBlocks(const VoxelCorner& count, const RowRange& row_range) : edge_(edge_for(count)) {
+    Level& finest = levels_.emplace_back(blocks_of(count, edge_));
     for (int64_t k = 0; k < count[2]; ++k)
       for (int64_t j = 0; j < count[1]; ++j)
-        for (int64_t i = 0; i < count[0]; ++i) finest.add({i / edge, j / edge, k / edge}, value(i, j, k));
+        for (int64_t i = 0; i < count[0]; i += edge_)
+          finest.add({i / edge_, j / edge_, k / edge_}, row_range(j, k, i, std::min(i + edge_, count[0])));
     while (levels_.back().ranges.size() > 1) levels_.push_back(coarser(levels_.back()));
   }
 
+  int64_t edge() const { return edge_; }  // voxels of the smallest blocks
   const Interval& whole() const { return levels_.back().ranges[0]; }
 
   // Over voxels lo to hi, both included and in the grid.
@@ -37,7 +37,7 @@ class ValueBlocks {
         hi[axis] /= by;
       }
     };
-    halve(edge);
+    halve(edge_);
     size_t level = 0;
     for (; std::max({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]}) >= few; ++level) halve(2);
     Interval found = levels_[level].at(lo);
@@ -55,7 +55,7 @@ class ValueBlocks {
       for (int64_t j = 0; j < finest.count[1]; ++j)
         for (int64_t i = 0; i < finest.count[0]; ++i) {
           const Interval& range = finest.at({i, j, k});
-          if (range.lo <= values.hi && range.hi >= values.lo) visit(VoxelCorner{i * edge, j * edge, k * edge});
+          if (range.lo <= values.hi && range.hi >= values.lo) visit(VoxelCorner{i * edge_, j * edge_, k * edge_});
         }
   }
 
@@ -82,6 +82,14 @@ class ValueBlocks {
     }
   };
 
+  // Larger grids have larger blocks, so that these take little room beside the voxels.
+  static int64_t edge_for(const VoxelCorner& count) {
+    constexpr double many = 1e9;
+    constexpr int64_t small = 4, large = 16;
+    return static_cast<double>(count[0]) * static_cast<double>(count[1]) * static_cast<double>(count[2]) > many ? large
+                                                                                                                : small;
+  }
+
   static Interval nothing() {
     Interval none = Interval::everything();
     std::swap(none.lo, none.hi);
@@ -104,6 +112,7 @@ class ValueBlocks {
     return level;
   }
 
+  int64_t edge_;
   std::vector<Level> levels_;
 };
 

@@ -26,11 +26,11 @@ bool fail(const design::Reader& reader, const std::string& message, const std::s
 
 bool VolumePlace::read_volume(const design::Reader& reader) {
   if (!reader.loader) return fail(reader, "volumes cannot be read here", "");
-  design::VolumeRequest request{path, series};
+  design::VolumeRequest request{path, series, voxel_channel};
   grid = reader.loader->source(request, reader);
   if (!grid) return false;
   path = request.file;
-  if (!grid->space_from_index && !spacing)
+  if (!grid->space_from_index && !spacing && space != "index")
     return fail(reader, "the volume \"" + path.path + "\" does not say how large its voxels are",
                 "write spacing=(0.5, 0.5, 1), in mm along its axes");
   here_from_index = placed();
@@ -58,6 +58,12 @@ Affine VolumePlace::placed() const {
 }
 
 bool VolumePlace::turn(const design::Reader& reader) {
+  if (space == "index") {
+    if (spacing || origin)
+      return fail(reader, "space=\"index\" counts voxels, which have no spacing and no origin", "leave these out");
+    here_from_index = Affine{};
+    return true;
+  }
   const std::string file = "the volume \"" + path.path + '"';
   if (space == "file") {
     if (grid->space == PatientSpace::las || grid->space == PatientSpace::left_handed)

@@ -11,6 +11,7 @@ struct VolumePlace {
   std::optional<Vec3> spacing, origin;
   design::Choice space = "file";
   std::string series;
+  int voxel_channel = -1;
   std::shared_ptr<const design::VolumeGrid> grid;  // read when the node is made
   Affine here_from_index, index_from_here;
 
@@ -19,7 +20,7 @@ struct VolumePlace {
   bool read_volume(const design::Reader& reader);
   int channel(const char* name) const;
 
-  // The four parameters of T, which derives from this.
+  // The parameters of T, which derives from this.
   template <class T>
   static std::vector<design::Parameter<T>> with_place(std::vector<design::Parameter<T>> others) {
     const auto own = [](auto VolumePlace::*member) {
@@ -27,19 +28,26 @@ struct VolumePlace {
     };
     std::vector<design::Parameter<T>> all{
         {"path", own(&VolumePlace::path),
-         "The file, or a folder of DICOM files or PNG images; relative to the script, then to the working directory",
+         "The file, or a folder of DICOM files or of images; relative to the script, then to the working directory",
          design::required()}};
     for (auto& parameter : others) all.push_back(std::move(parameter));
     all.emplace_back("spacing", own(&VolumePlace::spacing), "Lengths of a voxel; none: those of the file",
                      design::unit::positive_mm);
     all.emplace_back("origin", own(&VolumePlace::origin), "Centre of the first voxel; none: that of the file",
                      design::unit::mm);
-    all.emplace_back("space", own(&VolumePlace::space),
-                     "Frame of the places: the file's own, or RAS or LPS, for which the file must say what it has",
-                     design::one_of({"file", "RAS", "LPS"}));
+    all.emplace_back(
+        "space", own(&VolumePlace::space),
+        "Frame of the places: the file's own, or RAS or LPS, for which the file must say what it has, or the "
+        "voxels' numbers, from 0 along each axis, as mm",
+        design::one_of({"file", "RAS", "LPS", "index"}));
     all.emplace_back(
         "series", own(&VolumePlace::series),
-        "Of several DICOM series in a folder, its number or UID; of several grids in a .vdb file, its name");
+        "Of several DICOM series in a folder, its number or UID; of several grids in a .vdb or .vti file, its name");
+    all.emplace_back(
+        "channel", own(&VolumePlace::voxel_channel),
+        "Of several values in each voxel, which one, counted from 0; -1: there is one, or the length of vectors "
+        "in a .vdb file",
+        design::from_to(-1, 100000));
     return all;
   }
 

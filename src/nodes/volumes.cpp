@@ -12,6 +12,10 @@ namespace {
 
 using namespace design;
 
+const char* channel_between(const Choice& between) {
+  return between == "nearest" ? "nearest" : between == "cubic" ? "cubic" : "value";
+}
+
 struct VolumeSolid : VolumePlace {
   MaterialName material;
   double level = 0.5;
@@ -30,7 +34,8 @@ struct VolumeSolid : VolumePlace {
                   "Inside are the voxels with this number, whole and not interpolated; -1: by level",
                   from_to(-1, greatest_label)},
                  {"above", &VolumeSolid::above, "Inside are values above the level; false: those below it"},
-                 {"between", &VolumeSolid::between, "Values between voxels' centres", one_of({"linear", "nearest"})},
+                 {"between", &VolumeSolid::between, "Values between voxels' centres",
+                  one_of({"linear", "nearest", "cubic"})},
                  {"by", &VolumeSolid::by, "Where the level comes from: it is given, or found by Otsu's method",
                   one_of({"level", "otsu"})}}),
             no_inputs,
@@ -65,7 +70,7 @@ struct VolumeSolid : VolumePlace {
  private:
   static constexpr int greatest_label = (1 << 24) - 1;  // that floats tell from its neighbours
 
-  int channel() const { return VolumePlace::channel(label >= 0 || between == "nearest" ? "nearest" : "value"); }
+  int channel() const { return VolumePlace::channel(label >= 0 ? "nearest" : channel_between(between)); }
 
   // Values where g is `margin` or less.
   Interval wanted(double margin) const {
@@ -77,6 +82,7 @@ struct VolumeSolid : VolumePlace {
 struct Volume : VolumePlace {
   double outside = 0;
   bool clamp = false;
+  Choice between = "linear";
 
   static Spec<Volume> spec() {
     return {
@@ -84,25 +90,35 @@ struct Volume : VolumePlace {
         "values",
         "Numbers of a grid from a file (a scan, say), at the place where they are used.",
         with_place<Volume>({{"outside", &Volume::outside, "The value beyond the grid"},
-                            {"clamp", &Volume::clamp, "Beyond the grid, values are those at its side, not `outside`"}}),
+                            {"clamp", &Volume::clamp, "Beyond the grid, values are those at its side, not `outside`"},
+                            {"between", &Volume::between, "`value` between the voxels' centres",
+                             one_of({"linear", "nearest", "cubic"})}}),
         no_inputs,
         "sphere(8, mix(\"red\", \"blue\", volume(\"models/two_lobes.nrrd\").value / 200));",
-        {{"value", &Volume::value, "Linear between the voxels' centres along each axis"},
+        {{"value", &Volume::value, "Between the voxels' centres as `between` says: linear along each axis, or cubic"},
          {"nearest", &Volume::nearest, "Of the voxel whose centre is nearest"},
          {"inside", &Volume::is_inside, "1 in the grid, 0 beyond it", {0, 1}},
          {"gradient", &Volume::gradient,
-          "How fast the value grows along x, y and z, per mm, from differences over a voxel each way"}}};
+          "How fast the value grows along x, y and z, per mm: of cubic values exactly, else from differences over a "
+          "voxel "
+          "each way"}}};
   }
 
   bool complete(const Reader& reader) { return read_volume(reader); }
 
-  Field value(const Ask& ask) const { return read(ask, "value"); }
+  Field value(const Ask& ask) const { return read(ask, channel_between(between)); }
   Field nearest(const Ask& ask) const { return read(ask, "nearest"); }
   Field is_inside(const Ask& ask) const { return is_in_grid(ask.p.mapped(index_from_here)); }
 
   VectorField gradient(const Ask& ask) const {
     const Point at = ask.p.mapped(index_from_here);
     const auto along = [&](double x, double y, double z) {
+      if (between == "cubic")
+        return ask.p.builder().source(grid->source,
+                                      channel(x > 0   ? "cubic_x"
+                                              : y > 0 ? "cubic_y"
+                                                      : "cubic_z"),
+                                      at.x, at.y, at.z);
       const auto sample = [&](double side) {
         return ask.p.builder().source(grid->source, channel("value"), at.x + side * x, at.y + side * y,
                                       at.z + side * z);

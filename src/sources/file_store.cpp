@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "formats/file.h"
+#include "formats/mapped_file.h"
 
 namespace ombre::sources {
 namespace {
@@ -27,6 +28,8 @@ bool FileStore::is_settled(const Stamp& stamp) {
   return std::chrono::system_clock::now().time_since_epoch() - modified > longest_tick;
 }
 
+bool FileStore::is_large(const Stamp& stamp) { return stamp[2] >= static_cast<int64_t>(large_file); }
+
 FileStore::Content FileStore::content(const std::string& path) {
   const Stamp stamp = stamp_of(path);
   {
@@ -35,7 +38,7 @@ FileStore::Content FileStore::content(const std::string& path) {
     if (known != known_.end() && known->second.stamp == stamp) return {known->second.hash, nullptr};
   }
   const bool may_be_kept = stamp != Stamp{} && is_settled(stamp);
-  Content content = read(path);
+  Content content = look_at(path);
   const std::scoped_lock lock(mutex_);
   if (may_be_kept && stamp_of(path) == stamp)
     known_[path] = {stamp, content.hash};
@@ -49,6 +52,24 @@ std::shared_ptr<const std::string> FileStore::bytes(const std::string& path, con
   const Content now = read(path);
   if (now.hash != content.hash) throw Error("cannot read " + path + ": it changes while it is read");
   return now.bytes;
+}
+
+FileView FileStore::view(const std::string& path, const Content& content) {
+  if (!content.bytes && is_large(stamp_of(path))) {
+    ++reads_;
+    const auto file = std::make_shared<const formats::MappedFile>(path);
+    if (hash_bytes(file->bytes()) != content.hash) throw Error("cannot read " + path + ": it changes while it is read");
+    return {file->bytes(), file, true};
+  }
+  auto all = bytes(path, content);
+  return {*all, all};
+}
+
+// Of large files only their hash.
+FileStore::Content FileStore::look_at(const std::string& path) {
+  if (!is_large(stamp_of(path))) return read(path);
+  ++reads_;
+  return {hash_bytes(formats::MappedFile(path).bytes()), nullptr};
 }
 
 FileStore::Content FileStore::read(const std::string& path) {

@@ -8,23 +8,35 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 
 #include "base/hash.h"
 
 namespace ombre::sources {
+
+// Bytes of a file, and what keeps them.
+struct FileView {
+  std::string_view bytes;
+  std::shared_ptr<const void> keeper;
+  bool is_mapped = false;  // does it stay on disk?
+};
 
 // Thread-safe.
 class FileStore {
  public:
   struct Content {
     Hash hash;
-    std::shared_ptr<const std::string> bytes;  // null where the file is as it was when it was read last
+    std::shared_ptr<const std::string> bytes;  // null where the file is as it was when it was read last, or is large
   };
+  // Files from this size on are mapped where that is enough.
+  static constexpr uint64_t large_file = uint64_t{256} << 20;
   // A file counts as unchanged if its device, inode, size and time of modification are those of the last reading, and
   // that time was not so recent that a later change could have the same. Throws Error.
   Content content(const std::string& path);
   // The bytes of a content that was found. Throws Error where the file has changed since.
   std::shared_ptr<const std::string> bytes(const std::string& path, const Content& content);
+  // The same; large files stay on disk.
+  FileView view(const std::string& path, const Content& content);
   // How often a file was read.
   size_t reads() const { return reads_; }
 
@@ -37,7 +49,9 @@ class FileStore {
   // Zeros for what is no regular file.
   static Stamp stamp_of(const std::string& path);
   static bool is_settled(const Stamp& stamp);
+  static bool is_large(const Stamp& stamp);
   Content read(const std::string& path);
+  Content look_at(const std::string& path);
 
   std::mutex mutex_;
   std::map<std::string, Known> known_;

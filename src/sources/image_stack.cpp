@@ -4,10 +4,9 @@
 #include <map>
 
 #include "base/error.h"
-#include "base/text.h"
-#include "formats/png.h"
 #include "import/volume_source.h"
 #include "sources/file_numbers.h"
+#include "sources/layer_images.h"
 #include "sources/loading.h"
 
 namespace ombre::design {
@@ -21,9 +20,10 @@ constexpr size_t most_colours = 65535;
 // The number of each voxel's colour; 0 is transparent.
 class StackBuilder {
  public:
-  explicit StackBuilder(size_t layers) : layers_(layers) {}
+  // At least so many layers will come.
+  explicit StackBuilder(size_t layers) : files_(layers) {}
 
-  void add(const formats::PngImage& image, const std::string& path) {
+  void add(const sources::LayerColours& image, const std::string& path) {
     if (volume_.empty()) start(image, path);
     if (image.width != width_ || image.height != height_)
       throw Error("the image \"" + path + "\" has " + size_text(image.width, image.height) +
@@ -31,8 +31,9 @@ class StackBuilder {
                   "; all images of a stack need the same size");
     // Rows of images go down, those of voxels along y.
     for (uint32_t row = image.height; row-- > 0;)
-      for (uint32_t column = 0; column < image.width; ++column)
-        volume_.push_back(number_of(image.colour(column, row), path));
+      for (size_t n = size_t{4} * row * image.width; n < size_t{4} * (row + 1) * image.width; n += 4)
+        volume_.push_back(number_of({image.rgba[n], image.rgba[n + 1], image.rgba[n + 2], image.rgba[n + 3]}, path));
+    ++layers_;
   }
 
   formats::VoxelVolume take() {
@@ -59,14 +60,14 @@ class StackBuilder {
     return std::to_string(width) + " x " + std::to_string(height);
   }
 
-  void start(const formats::PngImage& image, const std::string& path) {
+  void start(const sources::LayerColours& image, const std::string& path) {
     width_ = image.width;
     height_ = image.height;
     const uint64_t pixels = uint64_t{width_} * height_;
-    if (pixels > most_voxels / layers_)
+    if (pixels > most_voxels / files_)
       throw Error("the images beginning with \"" + path + "\" have more than " + std::to_string(most_voxels) +
                   " voxels together; cut them or make them coarser");
-    volume_.reserve(pixels * layers_);
+    volume_.reserve(pixels * files_);
   }
 
   uint16_t number_of(const Rgba& colour, const std::string& path) {
@@ -80,7 +81,7 @@ class StackBuilder {
     return last_ = it->second;
   }
 
-  size_t layers_;
+  size_t files_, layers_ = 0;
   uint32_t width_ = 0, height_ = 0;
   std::vector<uint16_t> volume_;
   std::vector<Rgba> colours_;
@@ -89,17 +90,15 @@ class StackBuilder {
   uint16_t last_ = 0;
 };
 
-bool is_png(const fs::path& path) { return to_lower(path.extension().string()) == ".png"; }
-
 // The image, or those in the folder, in the order of the numbers in their names. Throws Error.
 std::vector<std::string> images_at(const std::string& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return {path};
   std::vector<std::string> images;
   for (const auto& entry : fs::directory_iterator(path, error))
-    if (is_png(entry.path())) images.push_back(entry.path().string());
+    if (sources::has_image_name(entry.path().string())) images.push_back(entry.path().string());
   if (error) throw Error("the folder \"" + path + "\" cannot be read: " + error.message());
-  if (images.empty()) throw Error("the folder \"" + path + "\" has no .png files");
+  if (images.empty()) throw Error("the folder \"" + path + "\" has no images; .png, .tif and .bmp are read");
   std::ranges::sort(images, sources::is_numbered_before);
   return images;
 }
@@ -136,7 +135,9 @@ std::shared_ptr<const ColourGrid> ImageStackRequest::load(sources::Loading& load
     std::vector<std::string> names;
     for (const FilePath& image : images) {
       if (loading.stop() && loading.stop()->requested()) throw Cancelled();
-      stack.add(formats::decode_png(*loading.bytes(image), image.path), image.path);
+      for (const sources::LayerColours& layer :
+           sources::read_layer_colours(image.path, *loading.bytes(image), loading.stop()))
+        stack.add(layer, image.path);
       names.push_back(image.path);
     }
     tell_gaps(names, told);

@@ -50,6 +50,12 @@ std::shared_ptr<const std::string> Loading::bytes(const design::FilePath& file) 
   return loader_.cache().files().bytes(file.path, content->second);
 }
 
+FileView Loading::view(const design::FilePath& file) {
+  const auto content = looked_at_.find(file.path);
+  ASSERT(content != looked_at_.end());
+  return loader_.cache().files().view(file.path, content->second);
+}
+
 CacheEntryPtr Loading::entry_for(const Hash& key, const std::string& name, const MakeAny& make) {
   CacheEntryPtr known = loader_.cache().find(key);
   // Remarks that call it by another name are of no use here.

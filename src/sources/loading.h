@@ -68,6 +68,8 @@ class Loading {
   bool look_at(design::FilePath& file);
   // The bytes of a file that was looked at. Throws Error.
   std::shared_ptr<const std::string> bytes(const design::FilePath& file);
+  // The same; large files stay on disk. Throws Error.
+  FileView view(const design::FilePath& file);
 
   // What is made for a key, and the memory that it takes; null, and diagnostics, where that fails.
   template <class T>

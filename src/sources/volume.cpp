@@ -29,7 +29,7 @@ PatientSpace patient_space(formats::VolumeSpace space) {
 }
 
 sources::ReadFile reader_of(sources::Loading& loading) {
-  return [&loading](const std::string& path) { return loading.bytes({path, {}}); };
+  return [&loading](const std::string& path) { return loading.view({path, {}}); };
 }
 
 // What a file alone is made of; found once for the same content. Null, and diagnostics, where it is wrong.
@@ -55,9 +55,9 @@ std::shared_ptr<const VolumeParts> parts_of(FilePath& file, sources::Loading& lo
 }
 
 // What stands in all of its files.
-std::optional<Hash> content_of(const VolumeParts& parts, const std::string& series, sources::Loading& loading) {
+std::optional<Hash> content_of(const VolumeParts& parts, const VolumeRequest& request, sources::Loading& loading) {
   sources::Key key("volume");
-  key.add(series);
+  key.add(request.series).add(request.channel);
   for (const std::string& path : parts.files) {
     FilePath part{path, {}};
     if (!loading.look_at(part)) return std::nullopt;
@@ -71,19 +71,19 @@ std::optional<Hash> content_of(const VolumeParts& parts, const std::string& seri
 std::shared_ptr<const VolumeGrid> VolumeRequest::load(sources::Loading& loading) {
   if (!loading.find(file)) return nullptr;
   const auto parts = parts_of(file, loading);
-  const auto content = parts ? content_of(*parts, series, loading) : std::nullopt;
+  const auto content = parts ? content_of(*parts, *this, loading) : std::nullopt;
   if (!content) return nullptr;
   file.content = *content;
   using Made = sources::Loading::Made<VolumeGrid>;
   return loading.cached<VolumeGrid>(*content, file.path, [&](const Reader& reader) {
     std::vector<std::string> warnings;
     formats::VoxelVolume volume =
-        sources::read_volume_parts(file.path, *parts, series, reader_of(loading), loading.stop(), warnings);
+        sources::read_volume_parts(file.path, *parts, {series, channel}, reader_of(loading), loading.stop(), warnings);
     for (const std::string& warning : warnings) reader.diagnostics.warning(reader.where, warning);
     auto grid = std::make_shared<VolumeGrid>();
     grid->space_from_index = volume.space_from_index;
     grid->space = patient_space(volume.space);
-    grid->otsu_level = sources::otsu_level(volume.values);
+    grid->otsu_level = sources::otsu_level(volume);
     auto made = importing::make_volume_source(file.path, std::move(volume), file.content);
     grid->source = std::move(made.source);
     grid->places = std::move(made.places);

@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "base/interval.h"
 #include "base/progress.h"
 #include "formats/volume.h"
+#include "sources/file_store.h"
 
 namespace ombre::sources {
 
-// The contents of a file. Throws Error.
-using ReadFile = std::function<std::shared_ptr<const std::string>(const std::string& path)>;
+// The contents of a file, as long as their keeper lives. Throws Error.
+using ReadFile = std::function<FileView(const std::string& path)>;
 
 // The files that make a volume.
 struct VolumeParts {
@@ -22,16 +24,20 @@ struct VolumeParts {
   bool has_companion = false;      // the second file holds the rest of the first
 };
 
-// `path` is a file, or a folder of DICOM files or of PNG images in shades of grey. Throws Error.
+// `path` is a file, or a folder of DICOM files or of images. Throws Error.
 VolumeParts volume_parts(const std::string& path, const ReadFile& read);
 
-// `series` is the number or UID of one of several DICOM series, or the name of one of several grids. Throws Error,
-// naming the path; Cancelled once `stop`, which may be null, is set. Adds what a designer should know to `warnings`.
-formats::VoxelVolume read_volume_parts(const std::string& path, const VolumeParts& parts, const std::string& series,
-                                       const ReadFile& read, const StopFlag* stop, std::vector<std::string>& warnings);
+// The name of a choice is the number or UID of one of several DICOM series, or the name of one of several grids. Throws
+// Error, naming the path; Cancelled once `stop`, which may be null, is set. Adds what a designer should know to
+// `warnings`.
+formats::VoxelVolume read_volume_parts(const std::string& path, const VolumeParts& parts,
+                                       const formats::VolumeChoice& choice, const ReadFile& read, const StopFlag* stop,
+                                       std::vector<std::string>& warnings);
+
+Interval value_range(const formats::VoxelVolume& volume);
 
 // Above which Otsu's method finds the brighter class (N. Otsu, A threshold selection method from gray-level histograms,
 // 1979), by 256 equal parts of the range: a level for volume_solid.
-double otsu_level(const formats::VoxelValues& values);
+double otsu_level(const formats::VoxelVolume& volume);
 
 }  // namespace ombre::sources

@@ -33,10 +33,10 @@ bool is_vdb(std::string_view bytes) {
   return bytes.starts_with(" BDV\0\0\0\0"sv);
 }
 
-DenseGrid read_grid(const std::string& path, const std::string& name, const StopFlag* stop) {
+DenseGrid read_grid(const std::string& path, const std::string& name, int channel, const StopFlag* stop) {
   static const ReadGrid read = load_reader();
   DenseGrid grid;
-  read(&path, &name, stop, &grid);
+  read(&path, &name, channel, stop, &grid);
   return grid;
 }
 

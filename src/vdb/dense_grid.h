@@ -14,15 +14,17 @@ namespace ombre::vdb {
 struct DenseGrid {
   std::string name;
   std::array<int64_t, 3> count{};
-  std::vector<float> values;  // x fastest; marks are 0 and 1, vectors their lengths
+  std::vector<float> values;  // x fastest; marks are 0 and 1
+  int64_t channels = 1;       // of a voxel in the file; 3 of vectors
   Affine space_from_index;    // of voxels' centres, in the units of the file, which are taken as mm
 };
 
 // The active voxels of a grid and one around them; beyond, a grid is its background. An empty name: the only grid.
-// Throws Error, naming the path: when the file is broken, has no such grid, or several and none is named, when the grid
-// holds no numbers, or more than 16 GiB, and when this was built without the library; Cancelled once `stop`, which may
-// be null, is set.
-DenseGrid read_grid(const std::string& path, const std::string& name, const StopFlag* stop);
+// Of vectors the values are those of a channel, counted from 0, or of -1 their lengths. Throws Error, naming the path:
+// when the file is broken, has no such grid or channel, or several grids and none is named, when the grid holds no
+// numbers, or more than 16 GiB, and when this was built without the library; Cancelled once `stop`, which may be null,
+// is set.
+DenseGrid read_grid(const std::string& path, const std::string& name, int channel, const StopFlag* stop);
 bool is_vdb(std::string_view bytes);
 
 }  // namespace ombre::vdb

@@ -4,5 +4,5 @@
 #include "vdb/dense_grid.h"
 
 // What the module exports.
-extern "C" void ombre_read_vdb_grid(const std::string* path, const std::string* name, const ombre::StopFlag* stop,
-                                    ombre::vdb::DenseGrid* grid);
+extern "C" void ombre_read_vdb_grid(const std::string* path, const std::string* name, int channel,
+                                    const ombre::StopFlag* stop, ombre::vdb::DenseGrid* grid);

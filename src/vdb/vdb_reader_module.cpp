@@ -48,17 +48,30 @@ openvdb::CoordBBox voxels_of(const openvdb::GridBase& grid, const std::string& p
 }
 
 template <class Value>
-float number_of(const Value& value) {
-  if constexpr (requires { value.length(); })
-    return static_cast<float>(value.length());
+constexpr int channels_of() {
+  if constexpr (requires { Value::size; })
+    return static_cast<int>(Value::size);
   else
+    return 1;
+}
+
+template <class Value>
+float number_of(const Value& value, int channel) {
+  if constexpr (channels_of<Value>() == 1)
     return static_cast<float>(value);
+  else
+    return static_cast<float>(channel >= 0 ? static_cast<double>(value[channel])
+                                           : static_cast<double>(openvdb::Vec3d(value).length()));
 }
 
 template <class Grid>
-bool take(const openvdb::GridBase& base, const std::string& path, DenseGrid& dense) {
+bool take(const openvdb::GridBase& base, const std::string& path, int channel, DenseGrid& dense) {
   const auto* grid = dynamic_cast<const Grid*>(&base);
   if (!grid) return false;
+  dense.channels = channels_of<typename Grid::ValueType>();
+  if (channel >= dense.channels)
+    fail(path, "has no channel " + std::to_string(channel) + " in its grid \"" + base.getName() + "\", which has " +
+                   std::to_string(dense.channels));
   const openvdb::CoordBBox box = voxels_of(base, path);
   const auto dim = box.dim();
   dense.count = {dim.x(), dim.y(), dim.z()};
@@ -67,7 +80,7 @@ bool take(const openvdb::GridBase& base, const std::string& path, DenseGrid& den
   for (int k = box.min().z(); k <= box.max().z(); ++k)
     for (int j = box.min().y(); j <= box.max().y(); ++j)
       for (int i = box.min().x(); i <= box.max().x(); ++i)
-        dense.values.push_back(number_of(accessor.getValue({i, j, k})));
+        dense.values.push_back(number_of(accessor.getValue({i, j, k}), channel));
   const auto place = [&](int i, int j, int k) {
     const openvdb::Vec3d p =
         base.transform().indexToWorld(openvdb::Vec3d(box.min().x() + i, box.min().y() + j, box.min().z() + k));
@@ -81,7 +94,7 @@ bool take(const openvdb::GridBase& base, const std::string& path, DenseGrid& den
   return true;
 }
 
-DenseGrid read(const std::string& path, const std::string& name) {
+DenseGrid read(const std::string& path, const std::string& name, int channel) {
   openvdb::initialize();
   openvdb::io::File file(path);
   file.open(false);
@@ -89,18 +102,21 @@ DenseGrid read(const std::string& path, const std::string& name) {
   if (!grid->transform().isLinear()) fail(path, "has a grid in perspective; resample it");
   DenseGrid dense;
   dense.name = grid->getName();
-  const bool is_known = take<openvdb::FloatGrid>(*grid, path, dense) || take<openvdb::BoolGrid>(*grid, path, dense) ||
-                        take<openvdb::Int32Grid>(*grid, path, dense) || take<openvdb::DoubleGrid>(*grid, path, dense) ||
-                        take<openvdb::Vec3SGrid>(*grid, path, dense) || take<openvdb::MaskGrid>(*grid, path, dense);
-  if (!is_known)
-    fail(path, "has a grid of the type " + grid->valueType() + "; float, bool, int32, double and vec3s are read");
+  const auto is_taken = [&]<class... Grid>() { return (take<Grid>(*grid, path, channel, dense) || ...); };
+  using namespace openvdb;
+  if (!is_taken.
+       operator()<FloatGrid, DoubleGrid, Int32Grid, Int64Grid, BoolGrid, MaskGrid, Vec3SGrid, Vec3DGrid, Vec3IGrid>())
+    fail(path, "has a grid of the type " + grid->valueType() + "; numbers, marks and vectors are read");
   return dense;
 }
 
 std::string pack(const DenseGrid& grid) {
-  std::string bytes(sizeof grid.count + sizeof grid.space_from_index + grid.values.size() * sizeof(float), '\0');
+  std::string bytes(
+      sizeof grid.channels + sizeof grid.count + sizeof grid.space_from_index + grid.values.size() * sizeof(float),
+      '\0');
   char* to = bytes.data();
-  std::memcpy(to, &grid.count, sizeof grid.count);
+  std::memcpy(to, &grid.channels, sizeof grid.channels);
+  std::memcpy(to += sizeof grid.channels, &grid.count, sizeof grid.count);
   std::memcpy(to += sizeof grid.count, &grid.space_from_index, sizeof grid.space_from_index);
   std::memcpy(to + sizeof grid.space_from_index, grid.values.data(), grid.values.size() * sizeof(float));
   return bytes + grid.name;
@@ -109,7 +125,8 @@ std::string pack(const DenseGrid& grid) {
 DenseGrid unpack(const std::string& bytes) {
   DenseGrid grid;
   const char* from = bytes.data();
-  std::memcpy(&grid.count, from, sizeof grid.count);
+  std::memcpy(&grid.channels, from, sizeof grid.channels);
+  std::memcpy(&grid.count, from += sizeof grid.channels, sizeof grid.count);
   std::memcpy(&grid.space_from_index, from += sizeof grid.count, sizeof grid.space_from_index);
   from += sizeof grid.space_from_index;
   grid.values.resize(static_cast<size_t>(grid.count[0] * grid.count[1] * grid.count[2]));
@@ -122,7 +139,7 @@ DenseGrid unpack(const std::string& bytes) {
 }  // namespace ombre::vdb
 
 // In a helper process, since broken files make the library crash.
-void ombre_read_vdb_grid(const std::string* path, const std::string* name, const ombre::StopFlag* stop,
+void ombre_read_vdb_grid(const std::string* path, const std::string* name, int channel, const ombre::StopFlag* stop,
                          ombre::vdb::DenseGrid* grid) {
   using namespace ombre;
   using namespace ombre::vdb;
@@ -137,7 +154,7 @@ void ombre_read_vdb_grid(const std::string* path, const std::string* name, const
   };
   const auto work = [&] {
     try {
-      return pack(read(*path, *name));
+      return pack(read(*path, *name, channel));
     } catch (const openvdb::Exception& error) {
       throw Error("the grid file \"" + *path + "\" cannot be read: " + error.what());
     } catch (const std::bad_alloc&) {

@@ -9,15 +9,18 @@
 
 namespace {
 
-void exercise(const std::string& bytes, const std::string* companion) {
+void exercise(const std::string& bytes, const std::string* companion, bool may_refer) {
   try {
     ombre::formats::companion_of("fuzz.nrrd", bytes);
-    auto volume = ombre::formats::read_volume("fuzz.nrrd", bytes, companion);
+    const std::string path = "fuzz.nrrd";
+    const std::string_view rest = companion ? std::string_view(*companion) : std::string_view();
+    auto volume = ombre::formats::read_volume({path, bytes, companion ? &rest : nullptr, {}, may_refer});
     const auto made = ombre::importing::make_volume_source("fuzz", std::move(volume), {});
     const ombre::Box box = made.source->bounds();
-    for (const int channel : {0, 1}) {
+    for (const int channel : {0, 1, 2, 3, 4, 5}) {
       const double value = made.source->sample(channel, box.center());
-      if (!made.range.contains(value) || !made.source->range(channel, box).contains(value)) std::abort();
+      if ((channel < 2 && !made.range.contains(value)) || !made.source->range(channel, box).contains(value))
+        std::abort();
     }
   } catch (const ombre::Error&) {
     return;
@@ -28,12 +31,13 @@ void exercise(const std::string& bytes, const std::string* companion) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string bytes(reinterpret_cast<const char*>(data), size);
-  exercise(bytes, nullptr);
+  exercise(bytes, nullptr, false);
+  exercise(bytes, nullptr, true);
   // What follows an empty line is the companion, and the other way round.
   const size_t gap = bytes.find("\n\n");
   if (gap == std::string::npos) return 0;
   const std::string head = bytes.substr(0, gap + 1), rest = bytes.substr(gap + 2);
-  exercise(head, &rest);
-  exercise(rest, &head);
+  exercise(head, &rest, true);
+  exercise(rest, &head, false);
   return 0;
 }

@@ -21,6 +21,7 @@ from ._errors import CheckError, DesignError, DesignWarning, FunctionError, Mach
 from ._expressions import Expression, d, t, where
 from ._expressions import coordinates as _coordinates, functions as _functions
 from ._functions import pointwise
+from ._info import volume_info
 from ._materials import Materials
 from ._points import delaunay_edges, voronoi_edges
 from ._script import option
@@ -37,7 +38,7 @@ globals().update({**{n: f for n, f in _functions.items() if n != "if"},
 
 __all__ = ["Design", "Voxels", "load", "load_text", "source_memory",
            "CheckError", "DesignError", "DesignWarning", "FunctionError", "MachineError",
-           "Expression", "d", "t", "where", "pointwise", "Materials", "delaunay_edges", "voronoi_edges", "option", "Solid",
+           "Expression", "d", "t", "where", "pointwise", "Materials", "delaunay_edges", "voronoi_edges", "volume_info", "option", "Solid",
            "Value",
            *_coordinates, *_nodes,
            *(n for n in _functions if n != "if" and n not in _builtin_names)]

@@ -21,12 +21,14 @@ from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference,
 from ._outlines import PolygonExtrude, Text
 from ._results import PointMap, SimulationField
 from ._sampling import AttributeSamples, TreeSampler
-from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, Sphere, Torus
+from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, SignedDistanceField, Sphere, Torus
 from ._supports import SupportAnalyzer, SupportAnalyzerParallel
 from ._texts import parse_vcad_text, version
 from ._tree import Node
 from ._triangles import SurfaceMesh
 from ._vectors import Vec2, Vec3, Vec4
+from ._volumes import (DICOMLoader, FloatVolume, PNGColorMode, PNGLoader, Vec2sVolume, Vec3sVolume, Vec4sVolume,
+                       vdb_loader)
 
 __version__ = version()
 
@@ -41,7 +43,8 @@ __all__ = ["Attribute", "AttributeConverterBase", "AttributeModifier", "Attribut
            "SupportAnalyzer", "SupportAnalyzerParallel", "TetrahedralMesh", "Text", "Tile", "Voxels", "BBoxUnion",
            "Difference", "FGrade", "Intersection", "Rotate", "Scale", "Sum", "Translate", "Union", "Cylinder",
            "Function", "GraphLattice", "Mesh", "RectPrism", "Sphere", "Strut", "parse_vcad_text", "version", "Node",
-           "Vec2", "Vec3", "Vec4"]
+           "Vec2", "Vec3", "Vec4", "DICOMLoader", "FloatVolume", "PNGColorMode", "PNGLoader", "Vec2sVolume",
+           "Vec3sVolume", "Vec4sVolume", "vdb_loader", "SignedDistanceField"]
 
 
 def __getattr__(name: str) -> object:

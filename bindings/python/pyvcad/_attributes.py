@@ -10,6 +10,7 @@ import ombre
 from ._arguments import material
 from ._functions import expression
 from ._vectors import Vec3, Vec4
+from ._volumes import FloatVolume, Vec3sVolume, Vec4sVolume, Volume
 
 
 class DefaultAttributes:
@@ -41,6 +42,8 @@ def _formula(value: Any, what: str) -> ombre.Expression:
     """For arithmetic, which needs formulas and not functions."""
     if isinstance(value, FloatAttribute):
         value = value._value
+    if isinstance(value, FloatVolume):
+        value = value._component(0)
     if isinstance(value, ombre.Expression):
         return value
     if isinstance(value, str):
@@ -59,12 +62,19 @@ def _combined(name: str, reverse: bool = False) -> Any:
 
 
 class FloatAttribute(Attribute):
-    """A number, a formula or a function: FloatAttribute("0.2 + z/10"). Arithmetic of attributes gives new ones."""
+    """A number, a formula, a function or a FloatVolume: FloatAttribute("0.2 + z/10"). Arithmetic of attributes gives new
+    ones."""
 
     _value: Any
+    _volume: Volume | None = None
 
     def __init__(self, value: Any = 0.0) -> None:
-        self._value = expression(value._value if isinstance(value, FloatAttribute) else value)
+        self._set(value)
+
+    def _set(self, value: Any) -> None:
+        self._volume = value if isinstance(value, FloatVolume) else None
+        self._value = self._volume._component(0) if self._volume else expression(
+            value._value if isinstance(value, FloatAttribute) else value)
 
     __add__, __radd__ = _combined("add"), _combined("add", True)
     __sub__, __rsub__ = _combined("sub"), _combined("sub", True)
@@ -101,10 +111,17 @@ class FloatAttribute(Attribute):
     def return_type(self) -> str:
         return "dbl"
 
-    def set_value(self, value: float) -> None:
-        self._value = expression(value)
+    def set_value(self, value: Any) -> None:
+        self._set(value)
 
-    set_expression = set_function = set_value
+    set_expression = set_function = set_volume = set_value
+
+    def is_volume_backed(self) -> bool:
+        """Is it a volume, as it was given?"""
+        return self._volume is not None
+
+    def volume_type_name(self) -> str:
+        return self._volume.grid_type() if self._volume else ""
 
     def _given_to(self, solid: ombre.Solid, name: str) -> ombre.Solid:
         return ombre.attribute(solid, name, self._value)
@@ -126,7 +143,8 @@ class DerivedFloatAttribute(FloatAttribute):
     def __init__(self, formula: str, inputs: dict[str, Any]) -> None:
         if not isinstance(formula, str) or not isinstance(inputs, dict):
             raise TypeError("DerivedFloatAttribute: expected a formula and a dict of the attributes that it names")
-        texts = {name.lower(): f"({_formula(value, name)})" for name, value in inputs.items()}
+        formulas = {name.lower(): _formula(value, name) for name, value in inputs.items()}
+        texts = {name: f"({formula})" for name, formula in formulas.items()}
         functions: Any = ombre._functions
         known = {*texts, "pi", "e", "true", "false", "and", "or", "not", "nor", "nand", "xor", "if", *functions}
 
@@ -135,18 +153,27 @@ class DerivedFloatAttribute(FloatAttribute):
             if name not in known:
                 raise ValueError(f"DerivedFloatAttribute: the formula names {word[0]!r}, which is none of its inputs")
             return texts.get(name, word[0])
-        super().__init__(re.sub(r"(?<![\w.])[A-Za-z_]\w*", put, formula))
+        volumes: dict[str, Any] = {}
+        for part in formulas.values():
+            volumes.update(getattr(part, "_ombre_values_"))
+        whole = re.sub(r"(?<![\w.])[A-Za-z_]\w*", put, formula)
+        super().__init__(ombre.Expression(whole, "?", volumes))  # type: ignore[call-arg]
 
     def set_value(self, value: Any) -> None:
         raise RuntimeError("a DerivedFloatAttribute does not change")
 
-    set_expression = set_function = set_value
+    set_expression = set_function = set_volume = set_value
 
 
 class _VectorAttribute(Attribute):
     _size, _kind, _names = 3, "vec3", "xyz"
+    _volumes: type[Volume] = Vec3sVolume
+    _volume: Volume | None = None
 
     def __init__(self, *parts: Any) -> None:
+        if len(parts) == 1 and isinstance(parts[0], self._volumes):
+            self.set_volume(parts[0])
+            return
         if parts and len(parts) != self._size:
             raise TypeError(f"{type(self).__name__}: expected {self._size} numbers, formulas or functions, found "
                             f"{len(parts)}")
@@ -154,6 +181,19 @@ class _VectorAttribute(Attribute):
 
     def component(self, i: int) -> FloatAttribute:
         return FloatAttribute(self._parts[i])
+
+    def set_volume(self, volume: Volume) -> None:
+        """Takes its numbers from the volume's channels."""
+        if not isinstance(volume, self._volumes):
+            raise TypeError(f"{type(self).__name__}: expected a {self._volumes.__name__}, found {type(volume).__name__}")
+        self._volume = volume
+        self._parts = [FloatAttribute(volume._component(i)) for i in range(self._size)]
+
+    def is_volume_backed(self) -> bool:
+        return self._volume is not None
+
+    def volume_type_name(self) -> str:
+        return self._volume.grid_type() if self._volume else ""
 
     def sample(self, x: float, y: float, z: float, d: float = 0.0) -> Any:
         return [part.sample(x, y, z, d) for part in self._parts]
@@ -210,6 +250,7 @@ class Vec4Attribute(_VectorAttribute):
     """Red, green, blue and alpha from 0 to 1, each a number, a formula or a function."""
 
     _size, _kind, _names = 4, "vec4", "rgba"
+    _volumes = Vec4sVolume
 
     def sample(self, x: float, y: float, z: float, d: float = 0.0) -> Vec4:
         return Vec4(*super().sample(x, y, z, d))

@@ -16,14 +16,12 @@ _images = "ombre.relief reads images as heights"
 # Names that are missing, by the package that has them in pyvcad 3, each with what to use instead.
 MISSING: dict[str, dict[str, str]] = {
     "pyvcad": {
-        "SignedDistanceField": "", "TexturedMesh": "Mesh(path) reads the shape",
+        "TexturedMesh": "Mesh(path) reads the shape",
         "BeamLattice": "GraphLattice(edges, radius) joins struts", "ThreeMFBeamLattice": "GraphLattice(edges, radius)",
         "Beam": "", "Ball": "", "BallMode": "", "ClipMode": "", "read_3mf_beam_lattice": "",
         "SurfaceReliefVolume": _surfaces, "ImageHeightField": _images, "FunctionalHeightField": _surfaces,
         "Mix": "Union(True, [...]) mixes compositions",
-        "ColorMap": "", "FloatVolume": _grids, "Vec2sVolume": _grids, "Vec3sVolume": _grids,
-        "Vec4sVolume": _grids, "FloatGrid": _grids, "BoolGrid": _grids, "vdb_loader": _grids, "DICOMLoader": "",
-        "PNGLoader": _images, "PNGColorMode": _images, "CellMap": _surfaces, "CellMapCollection": _surfaces,
+        "ColorMap": "", "FloatGrid": _grids, "BoolGrid": _grids, "CellMap": _surfaces, "CellMapCollection": _surfaces,
         "MappedImplicitLattice": _lattices, "MappedGraphLattice": _lattices, "ImplicitUnitCell": _lattices,
         "GraphUnitCell": _lattices, "CADModel": "CAD(path) reads STEP and IGES files", "CADFace": "",
         "TriangleMeshSurface": _surfaces, "MeshSelection": "", "UnstructuredFieldDataset": "",

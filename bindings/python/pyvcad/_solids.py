@@ -4,12 +4,15 @@ from __future__ import annotations
 import os
 from typing import Any
 
+import numpy
+
 import ombre
 
 from ._arguments import Optional, Point, boolean, length, material, number, read, size, text, vector
 from ._enums import LatticeType
 from ._functions import expression
 from ._tree import Node, _call_place
+from ._volumes import FloatVolume
 
 _one = Optional(material, 1)
 
@@ -198,6 +201,59 @@ class CAD(_Leaf):
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return ombre.cad(self._path, self._material, mode="fast" if self._is_fast else "exact")
+
+
+class SignedDistanceField(_Leaf):
+    """Solid of a grid in a .vdb file, or of a FloatVolume: distances in mm, negative inside, or with the name "occupancy"
+    marks of voxels that are inside.
+
+    SignedDistanceField(vdb_path, grid_name="occupancy", half_width_voxels=3, closing_steps=0, dilation_voxels=0,
+    smoothing_steps=3); steps and voxels are for marks. `smoothing_steps` is the width of a Gaussian in voxels.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        steps = Optional(_steps, 0)
+        form = {"vdb_path": text, "grid_name": Optional(text, "occupancy"), "half_width_voxels": Optional(_steps, 3),
+                "closing_steps": steps, "dilation_voxels": steps, "smoothing_steps": Optional(_steps, 3),
+                "material": _one}
+        values = read("SignedDistanceField", (form, {"volume": _volume, "material": _one}), arguments, named)
+        self._material = values["material"]
+        self._closing, self._dilation = values.get("closing_steps", 0), values.get("dilation_voxels", 0)
+        self._smoothing, self._is_marks = values.get("smoothing_steps", 0), False
+        if "volume" in values:
+            self._grid: FloatVolume = values["volume"]
+            return
+        path = _find("SignedDistanceField", values["vdb_path"])
+        self._grid = FloatVolume(path, None, False, values["grid_name"], margin=1.0)
+        self._is_marks = self._grid._range[0] >= 0
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        grid = self._grid
+        options = {**grid._options, **({"series": grid._series} if grid._series else {})}
+        solid: ombre.Solid = ombre.volume_solid(grid._path, self._material, level=0.5 if self._is_marks else 0.0,
+                                                above=self._is_marks, **options)
+        if not self._is_marks:
+            return solid
+        pitch = tuple(float(numpy.linalg.norm(step)) for step in grid._steps)
+        if self._closing:
+            solid = ombre.closing(solid, self._closing * min(pitch), pitch=pitch)
+        if self._dilation:
+            solid = ombre.dilate(solid, self._dilation * min(pitch), pitch=pitch)
+        return ombre.smooth(solid, self._smoothing * min(pitch), pitch=pitch) if self._smoothing else solid
+
+
+def _steps(value: Any) -> float:
+    steps = number(value)
+    if steps < 0:
+        raise ValueError(f"expected 0 or more, found {steps:g}")
+    return steps
+
+
+def _volume(value: Any) -> FloatVolume:
+    if not isinstance(value, FloatVolume):
+        raise TypeError(f"expected a FloatVolume, found {type(value).__name__}")
+    return value
 
 
 def _find(node: str, path: str) -> str:

@@ -1,0 +1,167 @@
+#include "ombre/volume_info.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <type_traits>
+
+#include "base/json.h"
+#include "base/text.h"
+#include "export/output_file.h"
+#include "formats/png.h"
+#include "ombre/overwrite.h"
+#include "ombre/volume_planes.h"
+#include "sources/volume_parts.h"
+
+namespace ombre::cli {
+namespace {
+
+struct ValueCounts {
+  double least = 0, greatest = 0;
+  std::vector<double> counts;          // of as many equal parts of the range
+  std::map<int64_t, uint64_t> labels;  // how often each number stands there; empty where there are many
+};
+
+// Whole numbers that stand there, where they are few enough to be labels; else nothing.
+std::map<int64_t, uint64_t> count_labels(const formats::VoxelVolume& volume) {
+  constexpr size_t most_labels = 256;
+  return formats::visit_numbers(volume, [&]<class T>(const formats::Numbers<T>& numbers) {
+    std::map<int64_t, uint64_t> labels;
+    if constexpr (std::is_integral_v<T>)
+      for (size_t n = 0, end = 0; n < numbers.size(); n = end) {
+        const T value = numbers[n];
+        for (end = n + 1; end < numbers.size() && numbers[end] == value;) ++end;
+        labels[value] += end - n;
+        if (labels.size() > most_labels) return std::map<int64_t, uint64_t>();
+      }
+    return labels;
+  });
+}
+
+ValueCounts count_values(const formats::VoxelVolume& volume, size_t parts) {
+  const Interval range = sources::value_range(volume);
+  ValueCounts result{range.lo, range.hi, std::vector<double>(parts, 0), count_labels(volume)};
+  const double width = range.hi - range.lo;
+  formats::visit_numbers(volume, [&](const auto& numbers) {
+    for (size_t n = 0; n < numbers.size(); ++n) {
+      const double share = width > 0 ? (static_cast<double>(numbers[n]) - range.lo) / width : 0;
+      ++result.counts[std::min(static_cast<size_t>(share * static_cast<double>(parts)), parts - 1)];
+    }
+  });
+  return result;
+}
+
+DataList to_list(Vec3 v) { return {v.x, v.y, v.z}; }
+
+// The step from voxel to voxel along an axis of the grid.
+Vec3 step_of(const Affine& map, int axis) { return {map.rows[0][axis], map.rows[1][axis], map.rows[2][axis]}; }
+
+std::string vector_text(Vec3 v) {
+  return "(" + format_rounded(v.x, 6) + ", " + format_rounded(v.y, 6) + ", " + format_rounded(v.z, 6) + ")";
+}
+
+std::string placement_text(const formats::VoxelVolume& volume) {
+  if (!volume.space_from_index) return "  voxels    the file does not say how large they are\n";
+  const Affine& map = *volume.space_from_index;
+  std::string text = "  voxels    ";
+  for (int axis = 0; axis < 3; ++axis) text += (axis > 0 ? " x " : "") + format_rounded(length(step_of(map, axis)), 6);
+  text += " mm\n  origin    " + vector_text(map.offset) + " mm, the centre of the first voxel\n";
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 step = step_of(map, axis);
+    text += "  axis " + std::to_string(axis + 1) + "    along " + vector_text((1 / length(step)) * step) + "\n";
+  }
+  return text;
+}
+
+std::string histogram_text(const ValueCounts& values) {
+  constexpr double longest_bar = 40;
+  const double most = std::ranges::max(values.counts), parts = static_cast<double>(values.counts.size());
+  std::string text;
+  for (size_t n = 0; n < values.counts.size(); ++n) {
+    const double from = values.least + static_cast<double>(n) * (values.greatest - values.least) / parts;
+    std::string line = "  " + format_rounded(from, 5);
+    line.resize(std::max<size_t>(line.size() + 1, 14), ' ');
+    line += format_count(static_cast<unsigned long long>(values.counts[n]));
+    line.resize(std::max<size_t>(line.size() + 1, 30), ' ');
+    text += line + std::string(static_cast<size_t>(std::ceil(longest_bar * values.counts[n] / most)), '#') + "\n";
+  }
+  return text;
+}
+
+std::string labels_text(const std::map<int64_t, uint64_t>& labels) {
+  constexpr size_t most_shown = 32;
+  if (labels.empty() || labels.size() > most_shown) return "";
+  std::string text = "\n  label       voxels\n";
+  for (const auto& [label, count] : labels) {
+    std::string line = "  " + std::to_string(label);
+    line.resize(std::max<size_t>(line.size() + 1, 14), ' ');
+    text += line + format_count(count) + "\n";
+  }
+  return text;
+}
+
+std::string volume_text(const std::string& path, const formats::VoxelVolume& volume, const ValueCounts& values) {
+  const auto& [nx, ny, nz] = volume.count;
+  return path + ": a volume\n  size      " + std::to_string(nx) + " x " + std::to_string(ny) + " x " +
+         std::to_string(nz) + " voxels, " + volume.type +
+         (volume.channels > 1 ? ", one of " + std::to_string(volume.channels) + " channels" : "") + "\n" +
+         placement_text(volume) + "  space     " + std::string(formats::name(volume.space)) + "\n  values    " +
+         format_rounded(values.least, 9) + " to " + format_rounded(values.greatest, 9) + "\n  Otsu      " +
+         format_rounded(sources::otsu_level(volume), 9) +
+         ", a level between dark and bright\n\n  from        voxels\n" + histogram_text(values) +
+         labels_text(values.labels);
+}
+
+DataMembers volume_members(const std::string& path, const formats::VoxelVolume& volume, const ValueCounts& values) {
+  DataList counts, histogram, steps, labels;
+  for (const auto& [label, count] : values.labels)
+    labels.emplace_back(DataList{static_cast<double>(label), static_cast<double>(count)});
+  for (const int64_t count : volume.count) counts.emplace_back(static_cast<double>(count));
+  for (const double count : values.counts) histogram.emplace_back(count);
+  DataMembers members{{"file", path},
+                      {"size", std::move(counts)},
+                      {"data_type", volume.type},
+                      {"space", std::string(formats::name(volume.space))},
+                      {"least", values.least},
+                      {"greatest", values.greatest},
+                      {"otsu", sources::otsu_level(volume)},
+                      {"histogram", std::move(histogram)},
+                      {"labels", std::move(labels)},
+                      {"channels", static_cast<double>(volume.channels)},
+                      {"slope", volume.slope},
+                      {"intercept", volume.intercept}};
+  if (!volume.space_from_index) return members;
+  for (int axis = 0; axis < 3; ++axis) steps.emplace_back(to_list(step_of(*volume.space_from_index, axis)));
+  members.emplace_back("steps_mm", std::move(steps));
+  members.emplace_back("origin_mm", to_list(volume.space_from_index->offset));
+  return members;
+}
+
+void write_planes(const formats::VoxelVolume& volume, const VolumeArguments& arguments) {
+  refuse_to_overwrite(arguments.picture, arguments.force);
+  const PlanesPicture picture = draw_planes(volume);
+  exporting::write_file(arguments.picture, formats::encode_png(picture.width, picture.height, picture.rgba));
+}
+
+}  // namespace
+
+int show_volume(const std::string& path, const VolumeArguments& arguments, Session& session) {
+  sources::FileStore files;
+  const sources::ReadFile read = [&](const std::string& file) { return files.view(file, files.content(file)); };
+  std::vector<std::string> warnings;
+  const formats::VoxelVolume volume = sources::read_volume_parts(path, sources::volume_parts(path, read),
+                                                                 arguments.choice, read, &session.stop, warnings);
+  Diagnostics remarks;
+  for (const std::string& warning : warnings) remarks.warning({}, warning);
+  session.console.diagnose(remarks);
+  constexpr size_t parts = 16;
+  const ValueCounts values = count_values(volume, parts);
+  if (!arguments.picture.empty()) write_planes(volume, arguments);
+  if (session.console.voice() == Voice::programs)
+    session.console.event("volume", volume_members(path, volume, values));
+  else
+    session.console.print(volume_text(path, volume, values));
+  return done;
+}
+
+}  // namespace ombre::cli

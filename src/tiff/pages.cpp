@@ -1,0 +1,44 @@
+// Loads the module of TIFF files when the first is read.
+#include "tiff/pages.h"
+
+#include "base/error.h"
+#include "base/module_loader.h"
+#include "tiff/module.h"
+
+namespace ombre::tiff {
+namespace {
+
+using ReadTiff = decltype(&ombre_read_tiff);
+
+#ifdef OMBRE_LIBTIFF_MODULE
+
+ReadTiff load_tiff_module() {
+  return load_function<decltype(ombre_read_tiff)>(OMBRE_LIBTIFF_MODULE, "ombre_read_tiff", "TIFF images");
+}
+
+#else
+
+ReadTiff load_tiff_module() {
+  throw Error(
+      "this ombre was built without libtiff; install libtiff-dev, configure with -DOMBRE_TIFF=ON and build again, or "
+      "save the images as PNG");
+}
+
+#endif
+
+}  // namespace
+
+bool is_tiff(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  return bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv) || bytes.starts_with("II+\0"sv) ||
+         bytes.starts_with("MM\0+"sv);
+}
+
+std::vector<Page> read_pages(const std::string& name, std::string_view bytes, Wanted wanted, const StopFlag* stop) {
+  static const ReadTiff read = load_tiff_module();
+  std::vector<Page> pages;
+  read(&name, &bytes, wanted, stop, &pages);
+  return pages;
+}
+
+}  // namespace ombre::tiff

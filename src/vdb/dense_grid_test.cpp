@@ -1,0 +1,67 @@
+// Grids of every kind that OpenVDB writes, read as dense ones.
+#include "vdb/dense_grid.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+#ifdef OMBRE_OPENVDB
+#include <openvdb/openvdb.h>
+#include <openvdb/points/PointDataGrid.h>
+#endif
+
+namespace ombre::vdb {
+
+#ifdef OMBRE_OPENVDB
+
+namespace {
+
+// Voxels (2, 3, 4) and (3, 3, 4) have these values.
+template <class Grid>
+openvdb::GridBase::Ptr pair_of(const std::string& name, const typename Grid::ValueType& a,
+                               const typename Grid::ValueType& b) {
+  auto grid = Grid::create();
+  grid->setName(name);
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
+  grid->getAccessor().setValue({2, 3, 4}, a);
+  grid->getAccessor().setValue({3, 3, 4}, b);
+  return grid;
+}
+
+// The values of those two among the voxels around them.
+std::array<float, 2> pair_in(const std::string& path, const std::string& name, int channel = -1) {
+  const DenseGrid grid = read_grid(path, name, channel, nullptr);
+  EXPECT_EQ(grid.count, (std::array<int64_t, 3>{4, 3, 3}));
+  EXPECT_EQ(grid.space_from_index({1, 1, 1}), (Vec3{1, 1.5, 2}));
+  return {grid.values[(3 + 1) * 4 + 1], grid.values[(3 + 1) * 4 + 2]};
+}
+
+}  // namespace
+
+TEST(DenseGrid, NumbersMarksAndVectorsAreRead) {
+  openvdb::initialize();
+  const std::string path = testing::TempDir() + std::to_string(getpid()) + "_kinds.vdb";
+  using namespace openvdb;
+  io::File(path).write(
+      GridPtrVec{pair_of<FloatGrid>("float", 1.5f, -2), pair_of<DoubleGrid>("double", 0.25, 8),
+                 pair_of<Int32Grid>("int32", 7, -9), pair_of<BoolGrid>("bool", true, false),
+                 pair_of<Vec3SGrid>("vec3s", {3, 4, 0}, {0, -2, 1}), pair_of<Vec3DGrid>("vec3d", {1, 2, 2}, {0, 0, -5}),
+                 pair_of<Vec3IGrid>("vec3i", {6, 0, 8}, {1, 2, 3}), pair_of<points::PointDataGrid>("points", 1, 2)});
+  using Pair = std::array<float, 2>;
+  EXPECT_EQ(pair_in(path, "float"), (Pair{1.5f, -2}));
+  EXPECT_EQ(pair_in(path, "double"), (Pair{0.25f, 8}));
+  EXPECT_EQ(pair_in(path, "int32"), (Pair{7, -9}));
+  EXPECT_EQ(pair_in(path, "bool"), (Pair{1, 0}));
+  EXPECT_EQ(pair_in(path, "vec3s"), (Pair{5, std::sqrt(5.0f)}));
+  EXPECT_EQ(pair_in(path, "vec3s", 1), (Pair{4, -2}));
+  EXPECT_EQ(pair_in(path, "vec3d", 2), (Pair{2, -5}));
+  EXPECT_EQ(pair_in(path, "vec3i"), (Pair{10, std::sqrt(14.0f)}));
+  for (const auto& [name, channel] : {std::pair("points", -1), std::pair("vec3s", 3), std::pair("float", 1)})
+    EXPECT_THROW(read_grid(path, name, channel, nullptr), Error) << name;
+  std::remove(path.c_str());
+}
+
+#endif
+
+}  // namespace ombre::vdb
