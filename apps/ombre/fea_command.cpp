@@ -24,6 +24,7 @@
 #include "ombre/checks.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
+#include "ombre/fea_rounds.h"
 #include "ombre/job_arguments.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
@@ -36,8 +37,9 @@ struct FeaArguments {
   std::vector<std::string> outputs;
   std::string study, elements = "brick", cell, size_by, subdomains, assign = "draw", modulus, conductivity,
                      element = "C3D8", solver = "built-in", seed = "0", memory = "8G";
-  double size = 0, min_cell = 0, max_cell = 0, tolerance = 1e-8;
-  int threads = 0, sections = 64;
+  std::string follow;
+  double size = 0, min_cell = 0, max_cell = 0, tolerance = 1e-8, change = 1e-3;
+  int threads = 0, sections = 64, rounds = 0;
   bool solve = false, force = false;
 };
 
@@ -45,7 +47,10 @@ constexpr const char* fea_footer =
     "Lengths are millimetres, forces newtons, stresses MPa; heat is in watts, temperatures are degrees Celsius.\n\n"
     "FILE ends in\n"
     "  .inp   a deck for Abaqus and CalculiX, complete with supports and loads\n"
-    "  .vtu   a grid for ParaView and others with VTK: fractions, attributes, moduli; with --solve the results too\n\n"
+    "  .vtu   a grid for ParaView and others with VTK: fractions, attributes, moduli; with --solve the results too\n"
+    "  .csv   with --rounds: a line for each round\n\n"
+    "--rounds solves a design that reads its own results: the variable --follow gets the name of the .vtu file of the\n"
+    "round before, until nothing changes. Files get the number of their round: part_1.vtu, part_2.vtu.\n\n"
     "STUDY is a JSON file: properties of materials, what is held, what pulls.\n"
     "  {\"materials\": {\"red\": {\"modulus_mpa\": 2850, \"poissons_ratio\": 0.39, \"density_kg_m3\": 1180}},\n"
     "   \"supports\": [{\"on\": \"zmin\", \"fix\": \"xyz\"}],\n"
@@ -66,7 +71,8 @@ constexpr const char* fea_footer =
     "  ombre fea part.vcad --study pull.json --cell 0.5 --solve -o part.vtu\n"
     "  ombre fea part.vcad --study pull.json --elements tet10 --size 1.5 --solve -o part.vtu\n"
     "  ombre fea part.vcad --study pull.json --elements tet4 --size-by \"min_cell + h*(max_cell - min_cell)\" \\\n"
-    "            --min-cell 0.5 --max-cell 3 -o part.inp\n";
+    "            --min-cell 0.5 --max-cell 3 -o part.inp\n"
+    "  ombre fea seat.vcad --study rider.json --cell 4 --rounds 5 --follow moved -o seat.vtu -o seat.csv\n";
 
 void add_arguments(CLI::App& app, FeaArguments& a) {
   add_design_arguments(app, a.design);
@@ -97,7 +103,7 @@ void add_arguments(CLI::App& app, FeaArguments& a) {
                  "materials: borders between materials become faces of tetrahedra, each of one material")
       ->check(one_of({"materials"}))
       ->type_name("RULE");
-  app.add_option("-o,--output", a.outputs, "A file to write, .inp or .vtu; may be repeated")
+  app.add_option("-o,--output", a.outputs, "A file to write, .inp, .vtu or, of rounds, .csv; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   app.add_flag("--solve", a.solve, "Solve it: displacements, stresses, reactions");
@@ -105,6 +111,15 @@ void add_arguments(CLI::App& app, FeaArguments& a) {
                  "built-in (default), or calculix: the program ccx, where it is installed; with --solve")
       ->check(one_of({"built-in", "calculix"}))
       ->type_name("NAME");
+  app.add_option("--rounds", a.rounds, "Solve, hand the results to the design, and again: at most so many times")
+      ->check(whole_between(1, 1000))
+      ->type_name("N");
+  app.add_option("--follow", a.follow, "Of rounds: the variable of the design that names the file with the results")
+      ->type_name("NAME");
+  app.add_option("--change", a.change,
+                 "Of rounds: the greatest change of a fraction or an attribute that counts as none (default 0.001)")
+      ->check(between(0, 1))
+      ->type_name("X");
   app.add_option("--assign", a.assign,
                  "What an element of a mixture is made of: draw (default: one material, by the odds of its fractions)\n"
                  "or mix (mean properties)")
@@ -133,15 +148,35 @@ void add_arguments(CLI::App& app, FeaArguments& a) {
 
 std::string ending_of(const std::string& path) { return to_lower(std::filesystem::path(path).extension().string()); }
 
+void check_rounds(const FeaArguments& a) {
+  if (a.rounds == 0) {
+    if (!a.follow.empty()) throw WrongArgument("--follow is of rounds: add --rounds 5");
+    return;
+  }
+  if (a.follow.empty())
+    throw WrongArgument("--rounds needs the variable of the design that names the results: write --follow moved");
+  if (std::ranges::none_of(a.outputs, [](const std::string& path) { return ending_of(path) == ".vtu"; }))
+    throw WrongArgument("--rounds needs a file for the results that the design reads: write -o part.vtu");
+}
+
+// The names that an output has: with rounds one for each, but for their history.
+std::vector<std::string> names_of(const FeaArguments& a, const std::string& path) {
+  if (a.rounds == 0 || ending_of(path) == ".csv") return {path};
+  std::vector<std::string> names;
+  for (int round = 1; round <= a.rounds; ++round) names.push_back(path_of_round(path, round));
+  return names;
+}
+
 void check_outputs(const FeaArguments& a) {
   if (a.solver != "built-in" && !a.solve) throw WrongArgument("--solver calculix does nothing without --solve");
   if (a.outputs.empty() && !a.solve)
     throw WrongArgument("there is nothing to do: write -o part.inp or -o part.vtu, or --solve");
   for (const std::string& path : a.outputs) {
     const std::string ending = ending_of(path);
-    if (ending != ".inp" && ending != ".vtu")
+    if (ending == ".csv" && a.rounds == 0) throw WrongArgument("-o " + path + " is of rounds: add --rounds 5");
+    if (ending != ".inp" && ending != ".vtu" && ending != ".csv")
       throw WrongArgument("-o " + path + " does not say a format; let it end in .inp or .vtu");
-    refuse_to_overwrite(path, a.force);
+    for (const std::string& name : names_of(a, path)) refuse_to_overwrite(name, a.force);
   }
 }
 
@@ -180,7 +215,8 @@ struct Case {
   // Bricks have a solver of their own.
   double solve_bytes() const {
     const fea::ModelView model = view();
-    if (is_mechanics() && model.mesh.bricks()) return fea::solve_bytes(*model.mesh.bricks());
+    if (const fea::Bricks* bricks = model.mesh.bricks())
+      return is_mechanics() ? fea::solve_bytes(*bricks) : fea::conduct_bytes(*bricks);
     return fea::system_bytes(model.mesh, is_mechanics() ? 3 : 1);
   }
 };
@@ -458,28 +494,98 @@ void check_elements(const FeaArguments& a) {
     throw WrongArgument("--size-by needs --min-cell, and a --max-cell that is no less");
 }
 
-int run_fea(const FeaArguments& a, Session& session) {
+void check_memory(const FeaArguments& a, const Case& here) {
+  const auto allowed = static_cast<double>(parse_memory(a.memory));
+  if (const double bytes = here.solve_bytes(); a.solve && a.solver == "built-in" && bytes > allowed)
+    throw Error("solving takes about " + format_bytes(bytes) + " of memory, more than the " + format_bytes(allowed) +
+                " allowed; choose larger elements with " + (here.tetrahedra() ? "--size" : "--cell") +
+                ", or more --memory");
+}
+
+// The model of the design, said and found to fit; nothing, and diagnostics said, where something is wrong.
+std::optional<Case> next_case(const FeaArguments& a, Session& session) {
+  Diagnostics diagnostics;
+  auto made = make_case(a, session, diagnostics);
+  session.console.diagnose(diagnostics);
+  if (!made || diagnostics.has_errors()) return std::nullopt;
+  tell_model(session.console, *made);
+  check_memory(a, *made);
+  return made;
+}
+
+void write_outputs(const FeaArguments& a, Session& session, const Case& here, const compile::FeaResults& results,
+                   int round, DataList& files) {
+  for (const std::string& path : a.outputs) {
+    if (ending_of(path) == ".csv") continue;
+    const std::string name = round == 0 ? path : path_of_round(path, round);
+    write_output(a, name, here, results);
+    session.console.say(name + " written");
+    files.emplace_back(name);
+  }
+}
+
+// -D for the next round: the file with the results of this one.
+std::string definition_of(const FeaArguments& a, int round) {
+  const auto grid = std::ranges::find_if(a.outputs, [](const std::string& path) { return ending_of(path) == ".vtu"; });
+  return a.follow + "=" + std::filesystem::absolute(path_of_round(*grid, round)).string();
+}
+
+void write_history(const FeaArguments& a, const RoundHistory& history) {
+  for (const std::string& path : a.outputs)
+    if (ending_of(path) == ".csv") exporting::write_file(path, history.text());
+}
+
+void tell_change(const Console& console, int round, std::optional<double> change) {
+  if (round == 1) return;
+  console.say("round " + std::to_string(round) + ": " +
+              (change ? "the mixture changed by at most " + format_rounded(*change, 3) : "other elements"));
+}
+
+int run_rounds(FeaArguments a, Session& session) {
+  const Stopwatch watch;
+  const std::vector<std::string> definitions = a.design.definitions;
+  RoundHistory history;
+  RoundModel before;
+  DataList files;
+  for (int round = 1; round <= a.rounds; ++round) {
+    const auto made = next_case(a, session);
+    if (!made) return wrong_input;
+    RoundModel now = round_model_of(made->view());
+    const auto change = round == 1 ? std::nullopt : change_between(before, now);
+    tell_change(session.console, round, change);
+    if (change && *change <= a.change) {
+      session.console.say("nothing changes any more after " + counted(static_cast<size_t>(round - 1), "round"));
+      break;
+    }
+    const compile::FeaResults results = solve_case(a, *made, session);
+    write_outputs(a, session, *made, results, round, files);
+    history.add(round, now, change, made->conditions.physics, results);
+    write_history(a, history);
+    before = std::move(now);
+    a.design.definitions = definitions;
+    a.design.definitions.push_back(definition_of(a, round));
+  }
+  for (const std::string& path : a.outputs)
+    if (ending_of(path) == ".csv") files.emplace_back(path);
+  session.console.say("the design that follows: -D " + a.design.definitions.back());
+  session.console.event("done", {{"files", files}, {"seconds", watch.seconds()}});
+  return done;
+}
+
+int run_fea(FeaArguments a, Session& session) {
+  parse_memory(a.memory);
+  a.solve = a.solve || a.rounds > 0;
+  check_rounds(a);
   check_outputs(a);
   check_elements(a);
-  const auto allowed = static_cast<double>(parse_memory(a.memory));
+  if (a.rounds > 0) return run_rounds(a, session);
   const Stopwatch watch;
-  Diagnostics diagnostics;
-  const auto made = make_case(a, session, diagnostics);
-  session.console.diagnose(diagnostics);
-  if (!made || diagnostics.has_errors()) return wrong_input;
-  tell_model(session.console, *made);
-  if (const double bytes = made->solve_bytes(); a.solve && a.solver == "built-in" && bytes > allowed)
-    throw Error("solving takes about " + format_bytes(bytes) + " of memory, more than the " + format_bytes(allowed) +
-                " allowed; choose larger elements with " + (made->tetrahedra() ? "--size" : "--cell") +
-                ", or more --memory");
+  const auto made = next_case(a, session);
+  if (!made) return wrong_input;
   compile::FeaResults results;
   if (a.solve) results = solve_case(a, *made, session);
   DataList files;
-  for (const std::string& path : a.outputs) {
-    write_output(a, path, *made, results);
-    session.console.say(path + " written");
-    files.emplace_back(path);
-  }
+  write_outputs(a, session, *made, results, 0, files);
   session.console.event("done", {{"files", files}, {"seconds", watch.seconds()}});
   return done;
 }

@@ -36,39 +36,60 @@ double dot(const Vector& a, const Vector& b, int threads) {
   return sum;
 }
 
-BrickOperator::BrickOperator(Bricks bricks, std::vector<Moduli> moduli, std::vector<uint8_t> free, int threads)
+BrickOperator::BrickOperator(Bricks bricks, std::vector<Moduli> moduli, std::vector<uint8_t> free, int threads,
+                             Vector more_diagonal)
     : bricks_(std::move(bricks)),
       moduli_(std::move(moduli)),
       free_(std::move(free)),
       threads_(threads),
+      more_diagonal_(std::move(more_diagonal)),
+      unknowns_(free_.size() == bricks_.node_count() ? 1 : 3),
       stiffness_(brick_stiffness(bricks_.size_mm)),
-      inverse_diagonal_(free_.size()) {
+      conductance_(brick_conductance(bricks_.size_mm)),
+      inverse_diagonal_(more_diagonal_) {
+  inverse_diagonal_.resize(free_.size());
   for (uint32_t n = 0; n < bricks_.count(); ++n) {
-    const Cell& cell = bricks_.cells[n];
-    colours_[colour_of(cell, bricks_.period)].push_back(n);
-    for (size_t d = 0; d < 24; ++d)
-      inverse_diagonal_[3 * size_t{bricks_.nodes[n][d / 3]} + d % 3] +=
-          stiffness_.diagonal(moduli_[n].shear, moduli_[n].bulk, d);
+    colours_[colour_of(bricks_.cells[n], bricks_.period)].push_back(n);
+    for (size_t d = 0; d < 8 * unknowns_; ++d)
+      inverse_diagonal_[unknowns_ * bricks_.nodes[n][d / unknowns_] + d % unknowns_] += diagonal_of(n, d);
   }
   for (size_t n = 0; n < free_.size(); ++n)
     inverse_diagonal_[n] = free_[n] != 0 && inverse_diagonal_[n] > 0 ? 1 / inverse_diagonal_[n] : 0;
 }
 
+double BrickOperator::diagonal_of(uint32_t brick, size_t n) const {
+  const Moduli& moduli = moduli_[brick];
+  if (unknowns_ == 1) return moduli.shear * conductance_.diagonal;
+  return stiffness_.diagonal(moduli.shear, moduli.bulk, n);
+}
+
+void BrickOperator::add_forces_of(uint32_t brick, const Vector& displacements, Vector& forces) const {
+  const auto& nodes = bricks_.nodes[brick];
+  BrickVector u, f{};
+  for (size_t c = 0; c < 8; ++c)
+    for (size_t axis = 0; axis < 3; ++axis) u[3 * c + axis] = displacements[3 * size_t{nodes[c]} + axis];
+  stiffness_.add_forces(moduli_[brick].shear, moduli_[brick].bulk, u, f);
+  for (size_t c = 0; c < 8; ++c)
+    for (size_t axis = 0; axis < 3; ++axis) forces[3 * size_t{nodes[c]} + axis] += f[3 * c + axis];
+}
+
+void BrickOperator::add_flows_of(uint32_t brick, const Vector& values, Vector& flows) const {
+  const auto& nodes = bricks_.nodes[brick];
+  std::array<double, 8> v, f{};
+  for (size_t c = 0; c < 8; ++c) v[c] = values[nodes[c]];
+  conductance_.add_flows(moduli_[brick].shear, v, f);
+  for (size_t c = 0; c < 8; ++c) flows[nodes[c]] += f[c];
+}
+
 void BrickOperator::all_forces(const Vector& displacements, Vector& forces) const {
   forces.assign(displacements.size(), 0);
+  for (size_t n = 0; n < more_diagonal_.size(); ++n) forces[n] = more_diagonal_[n] * displacements[n];
   for (const std::vector<uint32_t>& colour : colours_) {
     const auto work = [&](size_t piece) {
       const size_t end = std::min(colour.size(), (piece + 1) * bricks_of_piece);
-      for (size_t n = piece * bricks_of_piece; n < end; ++n) {
-        const uint32_t brick = colour[n];
-        const auto& nodes = bricks_.nodes[brick];
-        BrickVector u, f{};
-        for (size_t c = 0; c < 8; ++c)
-          for (size_t axis = 0; axis < 3; ++axis) u[3 * c + axis] = displacements[3 * size_t{nodes[c]} + axis];
-        stiffness_.add_forces(moduli_[brick].shear, moduli_[brick].bulk, u, f);
-        for (size_t c = 0; c < 8; ++c)
-          for (size_t axis = 0; axis < 3; ++axis) forces[3 * size_t{nodes[c]} + axis] += f[3 * c + axis];
-      }
+      for (size_t n = piece * bricks_of_piece; n < end; ++n)
+        unknowns_ == 1 ? add_flows_of(colour[n], displacements, forces)
+                       : add_forces_of(colour[n], displacements, forces);
     };
     run_parallel((colour.size() + bricks_of_piece - 1) / bricks_of_piece, threads_, work);
   }

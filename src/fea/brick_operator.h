@@ -1,4 +1,4 @@
-// The stiffness of a mesh of bricks as an operator, without a matrix.
+// The stiffness or the conductance of a mesh of bricks as an operator, without a matrix.
 #pragma once
 
 #include <array>
@@ -22,18 +22,25 @@ inline Moduli moduli_of(double modulus_mpa, double poissons_ratio) {
           static_cast<float>(modulus_mpa / (3 * (1 - 2 * poissons_ratio)))};
 }
 
-// A number for each degree of freedom: x, y, z of node 0, and so on.
+// A number for each degree of freedom: x, y, z of node 0, and so on; of conduction one for each node.
 using Vector = std::vector<double>;
 
+// Of conduction read temperatures or potentials for displacements, flows for forces; a brick's shear modulus is its
+// conductivity in W/(mm K) or S/mm, and its bulk modulus means nothing.
 class BrickOperator {
  public:
-  // `free` is 1 for degrees of freedom that are solved for, else 0; the others count as held at zero.
-  BrickOperator(Bricks bricks, std::vector<Moduli> moduli, std::vector<uint8_t> free, int threads);
+  // `free` is 1 for degrees of freedom that are solved for, else 0; the others count as held at zero. It has three for
+  // each node, or one in conduction. `more_diagonal` is what comes to the diagonal, at all degrees of freedom; empty:
+  // 0.
+  BrickOperator(Bricks bricks, std::vector<Moduli> moduli, std::vector<uint8_t> free, int threads,
+                Vector more_diagonal = {});
 
   const Bricks& bricks() const { return bricks_; }
   const std::vector<Moduli>& moduli() const { return moduli_; }
   const std::vector<uint8_t>& free() const { return free_; }
+  const Vector& more_diagonal() const { return more_diagonal_; }
   size_t size() const { return free_.size(); }
+  size_t unknowns() const { return unknowns_; }  // of a node: 3 or 1
   int threads() const { return threads_; }
 
   // The forces of these displacements; at all degrees of freedom, of all displacements.
@@ -44,11 +51,18 @@ class BrickOperator {
   const Vector& inverse_diagonal() const { return inverse_diagonal_; }
 
  private:
+  void add_forces_of(uint32_t brick, const Vector& displacements, Vector& forces) const;
+  void add_flows_of(uint32_t brick, const Vector& values, Vector& flows) const;
+  double diagonal_of(uint32_t brick, size_t n) const;
+
   Bricks bricks_;
   std::vector<Moduli> moduli_;
   std::vector<uint8_t> free_;
   int threads_;
+  Vector more_diagonal_;
+  size_t unknowns_;
   BrickStiffness stiffness_;
+  BrickConductance conductance_;
   // Bricks of one colour share no node, so their forces can be added at the same time, in any order. Along an axis with
   // an odd period the last one needs a third colour.
   std::array<std::vector<uint32_t>, 27> colours_;

@@ -26,6 +26,59 @@ double product(const Strain& a, const Strain& b) {
   return 2 * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
 }
 
+constexpr std::array<size_t, 3> axis_bits{1, 2, 4};
+
+// A corner's place among patterns: a bit for each axis along which it is the upper one.
+constexpr size_t bits_of(size_t corner) {
+  const Cell& at = brick_corners[corner];
+  return static_cast<size_t>(at[0] + 2 * at[1] + 4 * at[2]);
+}
+
+// 1, or -1 where the pattern turns an odd number of times on the way to the corner.
+double sign_of(size_t pattern, size_t bits) {
+  const size_t both = pattern & bits;
+  return ((both ^ (both >> 1) ^ (both >> 2)) & 1) != 0 ? -1 : 1;
+}
+
+// From corners to eight times the patterns, and back to the corners from patterns.
+void transform(std::array<double, 8>& v) {
+  for (size_t n = 0; n < 8; n += 2) {
+    const double a = v[n], b = v[n + 1];
+    v[n] = a + b;
+    v[n + 1] = a - b;
+  }
+  for (const size_t n : {size_t{0}, size_t{1}, size_t{4}, size_t{5}}) {
+    const double a = v[n], b = v[n + 2];
+    v[n] = a + b;
+    v[n + 2] = a - b;
+  }
+  for (size_t n = 0; n < 4; ++n) {
+    const double a = v[n], b = v[n + 4];
+    v[n] = a + b;
+    v[n + 4] = a - b;
+  }
+}
+
+// The displacements along `axis` that belong to a block have this pattern.
+size_t pattern_of(size_t block, size_t axis) { return block ^ axis_bits[axis]; }
+
+void find_patterns(BrickStiffness& stiffness) {
+  for (size_t block = 0; block < 8; ++block)
+    for (size_t a = 0; a < 24; ++a)
+      for (size_t b = 0; b < 24; ++b)
+        stiffness.shear_patterns[block][a % 3][b % 3] += stiffness.shear[a][b] / 64 *
+                                                         sign_of(pattern_of(block, a % 3), bits_of(a / 3)) *
+                                                         sign_of(pattern_of(block, b % 3), bits_of(b / 3));
+  for (size_t a = 0; a < 24; ++a)
+    stiffness.dilation_pattern[a % 3] += stiffness.dilation[a] / 8 * sign_of(pattern_of(0, a % 3), bits_of(a / 3));
+}
+
+// Where the points of Gauss' rule lie along an axis, from 0 to 1.
+double gauss_point(const Cell& corner, size_t axis) {
+  const double offset = 0.5 / std::sqrt(3.0);  // from the middle
+  return 0.5 + (corner[axis] == 1 ? offset : -offset);
+}
+
 }  // namespace
 
 std::array<Vec3, 8> shape_gradients(Vec3 size_mm, Vec3 at) {
@@ -45,10 +98,9 @@ std::array<Vec3, 8> shape_gradients(Vec3 size_mm, Vec3 at) {
 BrickStiffness brick_stiffness(Vec3 size_mm) {
   BrickStiffness stiffness;
   stiffness.volume_mm3 = size_mm.x * size_mm.y * size_mm.z;
-  const double offset = 0.5 / std::sqrt(3.0);  // of Gauss' points from the middle
   for (const Cell& corner : brick_corners) {
-    const auto along = [&](size_t axis) { return 0.5 + (corner[axis] == 1 ? offset : -offset); };
-    const auto gradients = shape_gradients(size_mm, {along(0), along(1), along(2)});
+    const auto gradients =
+        shape_gradients(size_mm, {gauss_point(corner, 0), gauss_point(corner, 1), gauss_point(corner, 2)});
     const double weight = stiffness.volume_mm3 / 8;
     std::array<Strain, 24> strains;
     for (size_t n = 0; n < 24; ++n) {
@@ -58,17 +110,58 @@ BrickStiffness brick_stiffness(Vec3 size_mm) {
     for (size_t a = 0; a < 24; ++a)
       for (size_t b = 0; b < 24; ++b) stiffness.shear[a][b] += weight * product(strains[a], strains[b]);
   }
+  find_patterns(stiffness);
   return stiffness;
 }
 
 void BrickStiffness::add_forces(double shear_mpa, double bulk_mpa, const BrickVector& u, BrickVector& forces) const {
+  std::array<std::array<double, 8>, 3> moved, pushed;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    for (size_t c = 0; c < 8; ++c) moved[axis][bits_of(c)] = u[3 * c + axis];
+    transform(moved[axis]);
+  }
+  for (size_t block = 0; block < 8; ++block) {
+    const double x = moved[0][pattern_of(block, 0)], y = moved[1][pattern_of(block, 1)],
+                 z = moved[2][pattern_of(block, 2)];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto& row = shear_patterns[block][axis];
+      pushed[axis][pattern_of(block, axis)] = shear_mpa * (row[0] * x + row[1] * y + row[2] * z);
+    }
+  }
   double divergence = 0;
-  for (size_t n = 0; n < 24; ++n) divergence += dilation[n] * u[n];
-  const double pressure = bulk_mpa * volume_mm3 * divergence;
-  BrickVector sum{};
-  for (size_t a = 0; a < 24; ++a)
-    for (size_t b = 0; b < 24; ++b) sum[b] += shear[a][b] * u[a];
-  for (size_t n = 0; n < 24; ++n) forces[n] += shear_mpa * sum[n] + pressure * dilation[n];
+  for (size_t axis = 0; axis < 3; ++axis) divergence += dilation_pattern[axis] * moved[axis][axis_bits[axis]];
+  for (size_t axis = 0; axis < 3; ++axis)
+    pushed[axis][axis_bits[axis]] += bulk_mpa * volume_mm3 * divergence * dilation_pattern[axis];
+  for (size_t axis = 0; axis < 3; ++axis) {
+    transform(pushed[axis]);
+    for (size_t c = 0; c < 8; ++c) forces[3 * c + axis] += pushed[axis][bits_of(c)];
+  }
+}
+
+BrickConductance brick_conductance(Vec3 size_mm) {
+  BrickConductance conductance;
+  const double weight = size_mm.x * size_mm.y * size_mm.z / 8;
+  for (const Cell& corner : brick_corners) {
+    const auto gradients =
+        shape_gradients(size_mm, {gauss_point(corner, 0), gauss_point(corner, 1), gauss_point(corner, 2)});
+    conductance.diagonal += weight * dot(gradients[0], gradients[0]);
+    for (size_t pattern = 0; pattern < 8; ++pattern)
+      for (size_t a = 0; a < 8; ++a)
+        for (size_t b = 0; b < 8; ++b)
+          conductance.patterns[pattern] += weight / 64 * dot(gradients[a], gradients[b]) *
+                                           sign_of(pattern, bits_of(a)) * sign_of(pattern, bits_of(b));
+  }
+  return conductance;
+}
+
+void BrickConductance::add_flows(double conductivity, const std::array<double, 8>& values,
+                                 std::array<double, 8>& flows) const {
+  std::array<double, 8> v;
+  for (size_t c = 0; c < 8; ++c) v[bits_of(c)] = values[c];
+  transform(v);
+  for (size_t pattern = 0; pattern < 8; ++pattern) v[pattern] *= conductivity * patterns[pattern];
+  transform(v);
+  for (size_t c = 0; c < 8; ++c) flows[c] += v[bits_of(c)];
 }
 
 }  // namespace ombre::fea

@@ -11,11 +11,18 @@ namespace ombre::fea {
 // Three displacements for each of a brick's nodes: x, y, z of the first, and so on.
 using BrickVector = std::array<double, 24>;
 
+// A brick looks the same in its mirrors, so in sums and differences of its corners (Walsh's functions) its stiffness
+// falls apart into eight blocks, each between one pattern of the displacements along x, y and z. That takes a quarter
+// of the work.
+using PatternBlock = std::array<std::array<double, 3>, 3>;
+
 struct BrickStiffness {
   // Stiffness = shear modulus * shear + bulk modulus * volume * dilation dilation^T.
   std::array<BrickVector, 24> shear{};
   BrickVector dilation{};  // the mean divergence of the displacements, 1/mm
   double volume_mm3 = 0;
+  std::array<PatternBlock, 8> shear_patterns{};  // the same in patterns
+  std::array<double, 3> dilation_pattern{};      // of the first block; the others have no dilation
 
   // forces += the stiffness of these moduli (MPa) times `u`.
   void add_forces(double shear_mpa, double bulk_mpa, const BrickVector& u, BrickVector& forces) const;
@@ -26,6 +33,17 @@ struct BrickStiffness {
 };
 
 BrickStiffness brick_stiffness(Vec3 size_mm);
+
+// The conductance of a brick, for a conductivity of one: in patterns of its corners it is a number for each.
+struct BrickConductance {
+  std::array<double, 8> patterns{};
+  double diagonal = 0;
+
+  // flows += the conductance times `values`, for each of its nodes.
+  void add_flows(double conductivity, const std::array<double, 8>& values, std::array<double, 8>& flows) const;
+};
+
+BrickConductance brick_conductance(Vec3 size_mm);
 
 // The gradients of the eight shape functions, 1/mm, at a place in the brick; each coordinate goes from 0 to 1.
 std::array<Vec3, 8> shape_gradients(Vec3 size_mm, Vec3 at);

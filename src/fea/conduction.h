@@ -18,10 +18,14 @@ struct Conduction {
   double residual = 0;
 };
 
-// Fourier's or Ohm's law with the sections' conductivities, on bricks or any mesh, by an assembled matrix. Films act at
-// the nodes of their sides, by their shares of the area. The same bits with any number of threads. Throws Error when it
-// does not converge or an element is inside out, and Cancelled.
+// Fourier's or Ohm's law with the sections' conductivities: on bricks without a matrix, by conjugate gradients with
+// multigrid; on other meshes by an assembled matrix. Films act at the nodes of their sides, by their shares of the
+// area. The same bits with any number of threads. Throws Error when it does not converge or an element is inside out,
+// and Cancelled.
 Conduction conduct(const ModelView& model, const Conditions& conditions, const SolveOptions& options,
                    Progress* progress = nullptr, const StopFlag* stop = nullptr);
+
+// The memory that it takes on bricks, about.
+double conduct_bytes(const Bricks& bricks);
 
 }  // namespace ombre::fea

@@ -48,7 +48,7 @@ TEST(Conduction, LinearTemperaturesAreExact) {
 // A wall of 10 mm and 4 mm2 with 0.5 W/(m K) at its left and 2 at its right.
 TEST(Conduction, MaterialsInSeriesAndParallel) {
   for (const bool in_series : {true, false}) {
-    Model model = model_of(block({4, 4, 10}, {0.5, 0.5, 1}), {});
+    Model model = model_of(block({4, 4, 10}, {0.5, 0.5, 1}), {1e-12});
     model.sections = {{"one", {}, 0.5}, {"two", {}, 2}};
     for (size_t n = 0; n < model.bricks.count(); ++n)
       model.section_of[n] = (in_series ? model.bricks.cells[n][2] >= 5 : model.bricks.cells[n][0] >= 2) ? 1 : 0;
@@ -62,6 +62,38 @@ TEST(Conduction, MaterialsInSeriesAndParallel) {
     const double conductance = in_series ? 4e-3 / (5 / 0.5 + 5 / 2.0) : 2e-3 * (0.5 + 2.0) / 10;  // W/K
     EXPECT_NEAR(enters, 50 * conductance, 1e-9);
     EXPECT_NEAR(leaves, -50 * conductance, 1e-9);
+  }
+}
+
+// Bricks without a matrix and the same bricks as a mesh with one give the same, with films and two materials.
+TEST(Conduction, BricksGiveWhatAMatrixGives) {
+  Model model = model_of(block({7, 5, 9}, {1, 2, 0.5}), {});
+  model.sections = {{"one", {}, 0.2}, {"two", {}, 400}};
+  for (size_t n = 0; n < model.bricks.count(); ++n) model.section_of[n] = n % 3 == 0 ? 1 : 0;
+  MeshModel meshed{{ElementKind::c3d8, {}, {}}, model.sections, model.section_of, {}};
+  for (size_t n = 0; n < model.bricks.node_count(); ++n) meshed.mesh.points.push_back(model.bricks.node(n));
+  for (const auto& nodes : model.bricks.nodes)
+    meshed.mesh.nodes.insert(meshed.mesh.nodes.end(), nodes.begin(), nodes.end());
+  const std::string study = R"({"physics": "heat", "supports": [{"on": "zmin", "temperature_c": 20}], "loads": [
+      {"on": "xmax", "heat_w": 1.5}, {"on": {"facing": [0, 1, 0]}, "film_w_m2k": 500, "ambient_c": -5}]})";
+  const Conduction free = conduct(model, conditions_from(study, model), {1e-12});
+  const Conduction matrix = conduct(meshed, conditions_from(study, meshed), {1e-12});
+  ASSERT_EQ(free.value.size(), matrix.value.size());
+  for (size_t n = 0; n < free.value.size(); ++n) EXPECT_NEAR(free.value[n], matrix.value[n], 1e-4);
+  EXPECT_NEAR(free.lost_w, matrix.lost_w, 1e-6);
+  EXPECT_GT(free.lost_w, 0.1);
+}
+
+TEST(Conduction, MultigridKeepsIterationsFew) {
+  for (const int32_t count : {12, 24, 48}) {
+    Model model = model_of(block({count, count, count}, {1, 1, 1}), {});
+    model.sections = {{"one", {}, 1}};
+    const Conduction found = conduct(model,
+                                     conditions_from(R"({"physics": "heat", "supports": [
+        {"on": "zmin", "temperature_c": 20}], "loads": [{"on": "xmax", "heat_w": 1}]})",
+                                                     model),
+                                     {});
+    EXPECT_LE(found.iterations, 14U) << count;
   }
 }
 

@@ -9,10 +9,12 @@
 namespace ombre::fea {
 namespace {
 
-[[noreturn]] void fail_to_converge(const Convergence& solution) {
-  throw Error("the equations did not converge: after " + format_count(solution.iterations) +
-              " iterations the forces are still off by " + format_rounded(solution.residual, 2) +
-              " of the loads; parts that hang together at an edge or a corner may turn about it, or moduli differ " +
+[[noreturn]] void fail_to_converge(const Convergence& solution, bool is_conduction) {
+  const std::string message = "the equations did not converge: after " + format_count(solution.iterations) +
+                              " iterations the " + (is_conduction ? "flows" : "forces") + " are still off by " +
+                              format_rounded(solution.residual, 2) + " of the loads; ";
+  if (is_conduction) throw Error(message + "conductivities differ too much: choose smaller bricks");
+  throw Error(message + "parts that hang together at an edge or a corner may turn about it, or moduli differ " +
               "too much: choose smaller bricks, or support more of the part");
 }
 
@@ -41,7 +43,7 @@ Convergence Gradients::run(Vector residual, Vector& x) {
     tell(solution.residual);
     if (solution.residual <= options_.tolerance) return solution;
     if (!std::isfinite(solution.residual) || solution.iterations >= options_.most_iterations)
-      fail_to_converge(solution);
+      fail_to_converge(solution, stiffness_.unknowns() == 1);
     multigrid_.apply(residual, z);
     const double next = dot(residual, z, threads), beta = next / rz;
     rz = next;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "fea/brick_stiffness.h"
 #include "fea/test_models.h"
 
 namespace ombre::fea {
@@ -181,6 +182,22 @@ TEST(Elastic, TheSameBitsWithAnyThreads) {
 }
 
 // Iterations hardly grow with the number of bricks.
+// The sums and differences of a brick's corners and its matrix give the same forces.
+TEST(Elastic, PatternsGiveWhatTheMatrixGives) {
+  const BrickStiffness brick = brick_stiffness({1, 2, 0.5});
+  BrickVector u, found{};
+  for (size_t n = 0; n < u.size(); ++n) u[n] = std::sin(static_cast<double>(n * n + 1));
+  constexpr double shear = 3, bulk = 40;
+  brick.add_forces(shear, bulk, u, found);
+  double divergence = 0;
+  for (size_t n = 0; n < u.size(); ++n) divergence += brick.dilation[n] * u[n];
+  for (size_t n = 0; n < u.size(); ++n) {
+    double wanted = bulk * brick.volume_mm3 * divergence * brick.dilation[n];
+    for (size_t m = 0; m < u.size(); ++m) wanted += shear * brick.shear[n][m] * u[m];
+    EXPECT_NEAR(found[n], wanted, 1e-12) << n;
+  }
+}
+
 TEST(Elastic, MultigridKeepsIterationsFew) {
   std::vector<size_t> iterations;
   for (const int32_t count : {8, 16, 32}) {

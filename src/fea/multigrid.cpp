@@ -46,7 +46,22 @@ struct Coarse {
   std::vector<Moduli> moduli;
   std::vector<Parent> parents;
   std::vector<uint8_t> free;
+  Vector more_diagonal;
 };
+
+// What comes to the diagonal of a node's own comes to the coarse nodes around by their shares.
+void coarsen_diagonal(const BrickOperator& fine, Coarse& coarse) {
+  if (fine.more_diagonal().empty()) return;
+  const size_t unknowns = fine.unknowns();
+  coarse.more_diagonal.assign(unknowns * coarse.bricks.node_count(), 0);
+  for (size_t n = 0; n < fine.size(); ++n) {
+    const Parent& parent = coarse.parents[n / unknowns];
+    const auto weights = weights_at(parent.offset);
+    for (size_t c = 0; c < 8; ++c)
+      coarse.more_diagonal[unknowns * coarse.bricks.nodes[parent.brick][c] + n % unknowns] +=
+          weights[c] * fine.more_diagonal()[n];
+  }
+}
 
 Coarse coarsen(const BrickOperator& fine) {
   const Bricks& bricks = fine.bricks();
@@ -73,15 +88,17 @@ Coarse coarsen(const BrickOperator& fine) {
     }
   }
   // A coarse node is held as the fine node in its place.
-  coarse.free.assign(3 * coarse.bricks.node_count(), 1);
+  const size_t unknowns = fine.unknowns();
+  coarse.free.assign(unknowns * coarse.bricks.node_count(), 1);
   for (size_t node = 0; node < bricks.node_count(); ++node) {
     const Parent& parent = coarse.parents[node];
     const auto weights = weights_at(parent.offset);
     const auto same = std::ranges::find(weights, 1.0);
     if (same == weights.end()) continue;
     const size_t at = coarse.bricks.nodes[parent.brick][static_cast<size_t>(same - weights.begin())];
-    for (size_t axis = 0; axis < 3; ++axis) coarse.free[3 * at + axis] = fine.free()[3 * node + axis];
+    for (size_t n = 0; n < unknowns; ++n) coarse.free[unknowns * at + n] = fine.free()[unknowns * node + n];
   }
+  coarsen_diagonal(fine, coarse);
   return coarse;
 }
 
@@ -167,27 +184,29 @@ struct Multigrid::Level {
 
   void restrict_to(const BrickOperator& coarse) {
     coarse_forces.assign(coarse.size(), 0);
+    const size_t unknowns = coarse.unknowns();
     for (size_t node = 0; node < parents.size(); ++node) {
       const auto weights = weights_at(parents[node].offset);
       const auto& corners = coarse.bricks().nodes[parents[node].brick];
       for (size_t c = 0; c < 8; ++c)
-        for (size_t axis = 0; axis < 3 && weights[c] > 0; ++axis)
-          coarse_forces[3 * size_t{corners[c]} + axis] += weights[c] * residual[3 * node + axis];
+        for (size_t n = 0; n < unknowns && weights[c] > 0; ++n)
+          coarse_forces[unknowns * corners[c] + n] += weights[c] * residual[unknowns * node + n];
     }
     for (size_t n = 0; n < coarse_forces.size(); ++n)
       if (coarse.free()[n] == 0) coarse_forces[n] = 0;
   }
 
   void add_from(const BrickOperator& coarse, Vector& x) const {
+    const size_t unknowns = coarse.unknowns();
     for_pieces(parents.size(), fine->threads(), [&](size_t begin, size_t end) {
       for (size_t node = begin; node < end; ++node) {
         const auto weights = weights_at(parents[node].offset);
         const auto& corners = coarse.bricks().nodes[parents[node].brick];
-        for (size_t axis = 0; axis < 3; ++axis) {
-          if (fine->free()[3 * node + axis] == 0) continue;
+        for (size_t n = 0; n < unknowns; ++n) {
+          if (fine->free()[unknowns * node + n] == 0) continue;
           double sum = 0;
-          for (size_t c = 0; c < 8; ++c) sum += weights[c] * coarse_displacements[3 * size_t{corners[c]} + axis];
-          x[3 * node + axis] += sum;
+          for (size_t c = 0; c < 8; ++c) sum += weights[c] * coarse_displacements[unknowns * corners[c] + n];
+          x[unknowns * node + n] += sum;
         }
       }
     });
@@ -204,8 +223,9 @@ Multigrid::Multigrid(const BrickOperator& finest) {
     if (coarse.bricks.count() == fine.bricks().count()) break;  // single bricks far apart
     levels_.back()->parents = std::move(coarse.parents);
     auto next = std::make_unique<Level>();
-    next->own = std::make_unique<BrickOperator>(std::move(coarse.bricks), std::move(coarse.moduli),
-                                                std::move(coarse.free), fine.threads());
+    next->own =
+        std::make_unique<BrickOperator>(std::move(coarse.bricks), std::move(coarse.moduli), std::move(coarse.free),
+                                        fine.threads(), std::move(coarse.more_diagonal));
     next->fine = next->own.get();
     levels_.push_back(std::move(next));
   }
