@@ -137,6 +137,43 @@ def check_meshes(ombre):
     return "\n".join(problems)
 
 
+WORDS = """use <ombre>
+part("graded") difference() {
+  fgrade(["x/10", "1 - x/10"], ["white", "black"]) cube(10);
+  translate([2, 2, -1]) cube([4, 4, 12]);
+}
+part("ball") ombre_translate([0, 0, 20]) { ombre_sphere(4); }
+echo("done");"""
+
+
+def check_words(ombre):
+    """Scripts that say use <ombre>: their meshes by part, their .csg read again, their messages."""
+    problems = []
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
+        (folder / "words.scad").write_text(WORDS, encoding="utf-8")
+        outputs = [word for name in ("out-{part}.stl", "words.csg", "words.echo", "words.3mf") for word in ("-o", name)]
+        result = program.run([ombre, "scad", "words.scad", *outputs], cwd=folder)
+        if result.returncode != 0:
+            return result.stderr
+        for name, wanted in (("graded", 1000 - 4 * 4 * 10), ("ball", 4 / 3 * 3.14159265 * 4**3)):
+            found = volume_of_stl(folder / f"out-{name}.stl")
+            if abs(found - wanted) > 2e-3 * wanted:
+                problems.append(f"{name} has a volume of {found}, not {wanted}")
+        if (folder / "words.echo").read_text() != 'ECHO: "done"\n':
+            problems.append("words.echo: " + (folder / "words.echo").read_text())
+        program.run([ombre, "scad", "words.csg", "-o", "again.csg"], cwd=folder)
+        problems.append(difference((folder / "words.csg").read_text(), (folder / "again.csg").read_text(), "a .csg with words"))
+        with zipfile.ZipFile(folder / "words.3mf") as package:
+            model = package.read("3D/3dmodel.model").decode("utf-8")
+        problems += [f"no {word} in the .3mf" for word in ("graded", "ball") if word not in model]
+        (folder / "wrong.scad").write_text('use <ombre>\nfgrade(["x"], ["whiet"]) cube(1);', encoding="utf-8")
+        wrong = program.run([ombre, "scad", "wrong.scad", "-o", "wrong.stl"], cwd=folder)
+        if wrong.returncode != 1 or (folder / "wrong.stl").exists() or 'did you mean "white"' not in wrong.stderr:
+            problems.append("a wrong material: " + wrong.stderr)
+    return "\n".join(filter(None, problems))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("ombre")
@@ -151,7 +188,7 @@ def main():
     checks = [(script.stem, lambda script=script: check(ombre, script)) for script in scripts if script.stem != "parameters"]
     if not arguments.names:
         checks += [("a .csg file is a script", lambda: check_rounds(ombre)), ("options", lambda: check_options(ombre)),
-                   ("meshes", lambda: check_meshes(ombre))]
+                   ("meshes", lambda: check_meshes(ombre)), ("words", lambda: check_words(ombre))]
     return program.check_all(checks)
 
 

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "compile/scad_words_design.h"
 #include "export/output_file.h"
 #include "formats/file.h"
 #include "lang/openscad/csg_text.h"
@@ -25,7 +26,7 @@ namespace openscad = lang::openscad;
 struct ScadArguments {
   std::string file;
   std::vector<std::string> outputs, definitions, libraries;
-  std::string parameter_file, parameter_set, dependencies, format;
+  std::string parameter_file, parameter_set, dependencies, format, materials;
   bool is_quiet = false, stops_at_warnings = false, no_overlap = false;
 };
 
@@ -73,10 +74,12 @@ class ScadRun {
   int run() {
     for (const std::string& output : arguments_.outputs) check(output);
     if (!prepare()) return wrong_input;
-    const openscad::Outcome outcome = openscad::run_with_files(source_, options_, messages_);
-    session_.console.diagnose(messages_.syntax);
-    const bool is_good =
-        messages_.error_count() == 0 && !(arguments_.stops_at_warnings && messages_.warning_count() > 0);
+    Diagnostics found;
+    const openscad::Outcome outcome = run_script(found);
+    session_.console.diagnose(messages_.details);
+    session_.console.diagnose(found);
+    const bool is_good = messages_.error_count() == 0 && !found.has_errors() &&
+                         !(arguments_.stops_at_warnings && messages_.warning_count() > 0);
     for (const std::string& output : arguments_.outputs)
       if (is_good || format_of(output, arguments_) == "echo") write(output, outcome);
     if (is_good && !write_geometry(outcome)) return wrong_input;
@@ -122,6 +125,20 @@ class ScadRun {
     return true;
   }
 
+  // With Ombre's words the script is a design, whose surfaces are meshed where files ask for them.
+  openscad::Outcome run_script(Diagnostics& found) {
+    if (!openscad::uses_words(source_, options_)) return openscad::run_with_files(source_, options_, messages_);
+    compile::LoadOptions load;
+    load.materials = arguments_.materials;
+    load.stop = &session_.stop;
+    load.cache = &session_.cache;
+    compile::WordsRun made = compile::run_with_words(source_, options_, load, messages_, found);
+    if (made.design && !found.has_errors() && design::check_design(*made.design, found))
+      design_ =
+          std::make_shared<const compile::Loaded>(compile::Loaded{source_->name(), source_, std::move(*made.design)});
+    return std::move(made.outcome);
+  }
+
   void write(const std::string& output, const openscad::Outcome& outcome) {
     const std::string format = format_of(output, arguments_);
     if (format == "echo") return write_output(output, messages_.text(), session_);
@@ -140,6 +157,7 @@ class ScadRun {
     std::vector<std::string> paths;
     for (const std::string& output : arguments_.outputs)
       if (writes_solids(format_of(output, arguments_))) paths.push_back(output);
+    if (design_ && !paths.empty()) return write_design(design_, paths, arguments_.no_overlap, session_);
     return paths.empty() || !outcome.tree || write_solids(outcome.tree, paths, arguments_.no_overlap, session_);
   }
 
@@ -159,6 +177,7 @@ class ScadRun {
   SourcePtr source_;
   openscad::Messages messages_;
   openscad::Options options_;
+  compile::LoadedPtr design_;  // of a script with Ombre's words
 };
 
 }  // namespace
@@ -186,6 +205,8 @@ Command add_scad(CLI::App& program, OutputOptions& output) {
       ->type_name("FOLDER")
       ->expected(1)
       ->allow_extra_args(false);
+  app->add_option("--materials", arguments->materials, "A materials file, for scripts that say use <ombre>")
+      ->type_name("FILE");
   app->add_flag("--no-overlap", arguments->no_overlap, "Where solids overlap, the first one keeps the space");
   app->add_flag("--hardwarnings", arguments->stops_at_warnings, "Stop at the first warning");
   add_output_options(*app, output);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "compile/scad_job.h"
+#include "compile/scad_words_design.h"
 #include "ombre/command_line.h"
 #include "ombre/interrupt.h"
 
@@ -24,6 +25,40 @@ bool writes_solids(const std::string& format) {
   return std::ranges::find(solid_formats, format) != std::end(solid_formats);
 }
 
+namespace {
+
+void tell_files(const std::vector<std::string>& files, Session& session) {
+  for (const std::string& file : files) {
+    if (session.console.voice() == Voice::programs)
+      session.console.event("written", {{"file", file}});
+    else
+      session.console.say("written to " + file);
+  }
+}
+
+}  // namespace
+
+bool write_design(const compile::LoadedPtr& loaded, const std::vector<std::string>& paths, bool no_overlap,
+                  Session& session) {
+  Diagnostics messages;
+  std::optional<QuitAtOnce> quits(std::in_place);
+  auto pieces = compile::meshed_parts(loaded, messages, &session.stop);
+  const solids::EvaluateOptions options{0, false, &session.stop, nullptr};
+  if (pieces && no_overlap) pieces = compile::without_overlaps(*pieces, options);
+  quits.reset();
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    if (!pieces || messages.has_errors()) break;
+    compile::SolidsExport output;
+    output.path = path;
+    const std::vector<std::string> written = compile::write_pieces(*pieces, output, messages);
+    files.insert(files.end(), written.begin(), written.end());
+  }
+  session.console.diagnose(messages);
+  tell_files(files, session);
+  return pieces && !messages.has_errors();
+}
+
 bool write_solids(const solids::TreePtr& tree, const std::vector<std::string>& paths, bool no_overlap,
                   Session& session) {
   compile::ScadRequest request;
@@ -41,12 +76,7 @@ bool write_solids(const solids::TreePtr& tree, const std::vector<std::string>& p
   const compile::ScadResult result = compile::run_scad(request, messages);
   session.console.diagnose(messages);
   if (messages.has_errors()) return false;
-  for (const std::string& file : result.files) {
-    if (session.console.voice() == Voice::programs)
-      session.console.event("written", {{"file", file}});
-    else
-      session.console.say("written to " + file);
-  }
+  tell_files(result.files, session);
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "compile/load.h"
 #include "ombre/commands.h"
 #include "solids/tree.h"
 
@@ -16,6 +17,10 @@ bool writes_solids(const std::string& format);
 // Writes the tree's solids or areas to all paths, each in the format of its ending; "{part}" in a path makes a file for
 // each part. False, and diagnostics on the console, where they do not fit.
 bool write_solids(const solids::TreePtr& tree, const std::vector<std::string>& paths, bool no_overlap,
+                  Session& session);
+
+// The same of a script's design, whose surfaces are triangles within the tolerance of `ombre mesh`.
+bool write_design(const compile::LoadedPtr& loaded, const std::vector<std::string>& paths, bool no_overlap,
                   Session& session);
 
 }  // namespace ombre::cli

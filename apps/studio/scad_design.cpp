@@ -83,9 +83,11 @@ compile::LoadedPtr load_scad(const SourcePtr& script, const compile::LoadOptions
   run.definitions = options.definitions;
   run.libraries = openscad::library_folders();
   run.stop = options.stop;
+  if (openscad::uses_words(script, run))
+    return compile::load_text(std::string(script->text()), script->name(), options, diagnostics);
   openscad::Messages messages;
   const solids::TreePtr tree = openscad::run(script, run, messages);
-  diagnostics.add_all(messages.syntax);
+  diagnostics.add_all(messages.details);
   for (const openscad::Message& message : messages.list()) report(message, script, options, diagnostics);
   if (!tree || diagnostics.has_errors()) return nullptr;
 

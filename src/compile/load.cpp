@@ -8,13 +8,17 @@
 #include "base/text.h"
 #include "compile/data_folder.h"
 #include "compile/design_sources.h"
+#include "compile/scad_words_design.h"
 #include "lang/interpret.h"
+#include "lang/openscad/definitions.h"
+#include "lang/openscad/told.h"
 #include "lang/vocabulary/vcad.h"
 #include "nodes/all_nodes.h"
 
 namespace ombre::compile {
 namespace {
 
+namespace openscad = lang::openscad;
 using design::NodePtr;
 using design::Reader;
 
@@ -88,8 +92,38 @@ NodePtr scad_node(const SourcePtr& source, const std::string& part, const DataMe
   return design::make_node(type, arguments, {}, reader);
 }
 
+// How a design's job runs a script: definitions have the values that other designs give to variables.
+std::optional<openscad::Options> script_options(const LoadOptions& options, sources::SourceCache& cache,
+                                                Diagnostics& diagnostics) {
+  openscad::Options run;
+  run.libraries = openscad::library_folders();
+  run.stop = options.stop;
+  run.is_preview = false;
+  run.read_file = [&cache](const std::string& path) { return sources::read_included(path, cache); };
+  for (const auto& [name, value] : script_values(options.definitions, diagnostics)) {
+    auto definition = openscad::definition_of(name, value);
+    if (!definition) diagnostics.error(value.where, "a script cannot get " + describe(value) + " for \"" + name + '"');
+    if (definition) run.definitions.push_back(std::move(*definition));
+  }
+  return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(run));
+}
+
+std::optional<design::Design> run_script_with_words(const SourcePtr& source, const openscad::Options& run,
+                                                    const LoadOptions& options, sources::SourceCache& cache,
+                                                    Diagnostics& diagnostics) {
+  openscad::Messages messages;
+  LoadOptions with_cache = options;
+  with_cache.cache = &cache;
+  WordsRun made = run_with_words(source, run, with_cache, messages, diagnostics);
+  openscad::tell(messages, source, {source, 0, 0}, diagnostics);
+  return std::move(made.design);
+}
+
 std::optional<design::Design> run_scad_script(const SourcePtr& source, const LoadOptions& options,
                                               sources::SourceCache& cache, Diagnostics& diagnostics) {
+  const auto run = script_options(options, cache, diagnostics);
+  if (!run) return std::nullopt;
+  if (openscad::uses_words(source, *run)) return run_script_with_words(source, *run, options, cache, diagnostics);
   const auto materials = read_materials(options.materials, cache, diagnostics);
   const DataMembers values = script_values(options.definitions, diagnostics);
   if (!materials || diagnostics.has_errors()) return std::nullopt;

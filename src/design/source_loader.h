@@ -112,6 +112,7 @@ inline std::string part_word(const std::string& name) { return name.empty() ? "r
 struct ScadRequest {
   using Result = ScadSolids;
   FilePath file;
+  std::string script;         // the text, where it is not the file's; the file then says where its paths begin
   ScriptVariables variables;  // take the place of the script's own
   std::string part;           // the word for one part; empty: all of them
   Choice materials = "auto";  // or as in MeshUse; auto: names where the script has some, else colours, else one

@@ -65,6 +65,10 @@ class Loader {
   }
 
   void bring(const ast::Include& include, Unit& into) {
+    if (dialect_ == Dialect::openscad && include.is_use && include.path == "ombre") {
+      into.has_words = true;
+      return;
+    }
     SourcePtr source = find(include);
     if (!source) return;
     const std::string path = normal(source->name());

@@ -18,6 +18,7 @@ struct Unit {
   std::string path;
   ast::Plan plan;
   std::vector<const Unit*> uses;  // files whose functions and modules it may call
+  bool has_words = false;         // it says `use <ombre>` (OpenSCAD scripts)
 };
 
 struct Program {

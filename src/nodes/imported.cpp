@@ -180,6 +180,7 @@ struct Mesh : SolidOfParts {
 
 struct Scad : SolidOfParts {
   FilePath path;
+  std::string script;
   MaterialName material;
   std::string part;
   Choice materials = "auto";
@@ -205,7 +206,9 @@ struct Scad : SolidOfParts {
           one_of({"auto", "one", "names", "colours"})},
          {"material_map", &Scad::material_map,
           "Materials for names of the script, before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
-         {"variables", &Scad::variables, "Values for the script's variables: scad(\"box.scad\", width=20)"}},
+         {"variables", &Scad::variables, "Values for the script's variables: scad(\"box.scad\", width=20)"},
+         {"script", &Scad::script,
+          "The script's text, in the place of the file's: path then says where its files are"}},
         no_inputs,
         "scad(\"openscad/handle.scad\", thickness=6);"};
   }
@@ -217,9 +220,13 @@ struct Scad : SolidOfParts {
     }
     if (material.mixture && materials == "auto") materials = "one";
     if (!check_mixture(material, materials, reader)) return false;
-    ScadRequest request{path, variables, part, materials, told_material(material, reader), material_map};
+    ScadRequest request{path, script, variables, part, materials, told_material(material, reader), material_map};
     loaded = reader.loader->source(request, reader);
     if (!loaded) return false;
+    if (loaded->parts.empty()) {
+      reader.diagnostics.error(reader.where, "the script makes no solid");
+      return false;
+    }
     path.path = request.file.path;
     for (const MeshPart& one : loaded->parts)
       parts.push_back({material_of(one.material, material, reader), one.source});

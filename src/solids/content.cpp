@@ -87,6 +87,7 @@ struct Adder {
   void operator()(const SetColour& v) const { w.add(v.colour); }
   void operator()(const SetPart& v) const { w.add(v.name); }
   void operator()(const SetMaterial& v) const { w.add(v.name); }
+  void operator()(const Word& v) const { w.add(v.name, v.arguments); }
 };
 
 }  // namespace

@@ -104,6 +104,10 @@ class Applier {
   Pieces operator()(const SetMaterial& set) {
     return with([&](Attributes& attributes) { attributes.material = set.name; });
   }
+  Pieces operator()(const Word& word) {
+    context_.messages->error(tree_.where, word.name + "() makes a solid of a design, which is no polyhedron");
+    return {};
+  }
   template <class Leaf>
   Pieces operator()(const Leaf&) {
     return {};

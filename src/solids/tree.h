@@ -138,9 +138,15 @@ struct SetMaterial {
   std::string name;
 };
 
+// A solid that a word of another vocabulary made of the children. It is no polyhedron: whoever has the words reads it.
+struct Word {
+  std::string name, arguments;  // as .csg files write them
+  std::shared_ptr<const void> solid;
+};
+
 using Operation = std::variant<Group, Cube, Sphere, Cylinder, Polyhedron, Square, Circle, Polygon, Text, Import,
                                Surface, Union, Difference, Intersection, Hull, Minkowski, Fill, Transform, Resize,
-                               Offset, LinearExtrude, RotateExtrude, Projection, SetColour, SetPart, SetMaterial>;
+                               Offset, LinearExtrude, RotateExtrude, Projection, SetColour, SetPart, SetMaterial, Word>;
 
 // How solids of different parts or materials meet in an operator.
 enum class Semantics : uint8_t { standard, strict, permissive };

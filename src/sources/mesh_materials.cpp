@@ -6,6 +6,7 @@
 
 #include "base/json.h"
 #include "base/text.h"
+#include "design/nearest_material.h"
 #include "formats/mesh_objects.h"
 
 namespace ombre::sources {
@@ -14,22 +15,6 @@ namespace {
 using design::Material;
 using design::Rgba;
 using formats::MeshGroup;
-
-// Squared, of red, green, blue and opacity.
-int colour_distance(const Rgba& a, const Rgba& b) {
-  int sum = 0;
-  for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return sum;
-}
-
-// The first on ties; void has no colour.
-const Material* nearest(const Rgba& colour, const design::MaterialTable& table) {
-  const Material* best = &table.first();
-  for (const Material& material : table.all())
-    if (material.id != 0 && colour_distance(material.colour, colour) < colour_distance(best->colour, colour))
-      best = &material;
-  return best;
-}
 
 class MaterialFinder {
  public:
@@ -106,7 +91,7 @@ class MaterialFinder {
   const Material* find(const MeshGroup& group) {
     if (const Material* material = mapped(group.material)) return material;
     if (use_.materials == "colours")
-      return group.colour ? nearest(*group.colour, reader_.materials) : use_.material.material;
+      return group.colour ? &design::nearest_material(*group.colour, reader_.materials) : use_.material.material;
     if (group.material.empty()) return use_.material.material;
     const Material* material = reader_.materials.find(group.material);
     if (!material && unknown_.insert(group.material).second) report_unknown(group);

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "lang/openscad/definitions.h"
 #include "lang/openscad/run.h"
+#include "lang/openscad/told.h"
 #include "solids/content.h"
 #include "solids/evaluate.h"
 #include "solids/kernel.h"
@@ -18,6 +19,7 @@ using Loading = sources::Loading;
 
 // The script, which may be the text that the request stands in: one that is edited and not saved.
 SourcePtr script_of(const ScadRequest& request, Loading& loading) {
+  if (!request.script.empty()) return make_source(request.file.path, request.script);
   const SourcePtr& around = loading.reader().where.source;
   if (around && around->name() == request.file.path) return around;
   return make_source(request.file.path, *loading.bytes(request.file));
@@ -43,31 +45,11 @@ std::optional<std::vector<std::string>> definitions_of(const ScadRequest& reques
   return definitions;
 }
 
-// The line of a message about the script itself, else the call.
-SourceRange place_of(const openscad::Message& message, const SourcePtr& script, const SourceRange& call) {
-  if (message.line < 1 || message.file.empty()) return call;
-  const std::string& name = script->name();
-  if (message.file != name && !name.ends_with('/' + message.file)) return call;
-  const std::string_view text = script->text();
-  size_t begin = 0;
-  for (int line = 1; line < message.line && begin < text.size(); ++line)
-    begin = std::min(text.find('\n', begin), text.size() - 1) + 1;
-  const size_t end = std::min(text.find('\n', begin), text.size());
-  return {script, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)};
-}
-
-void tell(const openscad::Messages& messages, const SourcePtr& script, const Reader& reader) {
-  using Kind = openscad::Message::Kind;
-  reader.diagnostics.add_all(messages.syntax);
-  for (const openscad::Message& message : messages.list()) {
-    const SourceRange where = place_of(message, script, reader.where);
-    const std::string text = where == reader.where ? openscad::to_line(message) : message.text;
-    if (message.kind == Kind::error && !messages.syntax.has_errors())
-      reader.diagnostics.error(where, text);
-    else if (message.kind == Kind::warning || message.kind == Kind::deprecated)
-      reader.diagnostics.warning(where, text);
-    else if (message.kind == Kind::echo)
-      reader.diagnostics.note(where, openscad::to_line(message));
+// Of a text that no file holds, the call is the place of all that is wrong.
+void add_with_places(const Diagnostics& found, const ScadRequest& request, const Reader& reader) {
+  for (Diagnostic diagnostic : found.list()) {
+    if (!request.script.empty()) diagnostic.where = reader.where;
+    reader.diagnostics.add(std::move(diagnostic));
   }
 }
 
@@ -85,7 +67,9 @@ solids::TreePtr tree_of(const ScadRequest& request, Loading& loading) {
   options.is_preview = false;
   openscad::Messages messages;
   solids::TreePtr tree = openscad::run(script, options, messages);
-  tell(messages, script, reader);
+  Diagnostics told;
+  openscad::tell(messages, script, reader.where, told);
+  add_with_places(told, request, reader);
   return messages.error_count() > 0 ? nullptr : tree;
 }
 
@@ -114,13 +98,15 @@ size_t bytes_of(const solids::Pieces& pieces) {
   return bytes;
 }
 
-std::shared_ptr<const solids::Pieces> pieces_of(const solids::TreePtr& tree, const std::string& name,
+std::shared_ptr<const solids::Pieces> pieces_of(const solids::TreePtr& tree, const ScadRequest& request,
                                                 Loading& loading) {
   sources::Key key("scad");
   if (!add_tree(key, *tree, loading)) return nullptr;
   const solids::EvaluateOptions options{loading.threads(), false, loading.stop(), nullptr};
-  return loading.cached<solids::Pieces>(key.hash(), name, [&](const Reader& reader) {
-    auto pieces = std::make_shared<const solids::Pieces>(solids::evaluate(tree, options, reader.diagnostics));
+  return loading.cached<solids::Pieces>(key.hash(), request.file.path, [&](const Reader& reader) {
+    Diagnostics found;
+    auto pieces = std::make_shared<const solids::Pieces>(solids::evaluate(tree, options, found));
+    add_with_places(found, request, reader);
     const size_t bytes = bytes_of(*pieces);
     return Loading::Made<solids::Pieces>{std::move(pieces), bytes};
   });
@@ -134,7 +120,7 @@ std::vector<std::string> part_names(const solids::Pieces& pieces) {
   return names;
 }
 
-// False, and diagnostics, where there is nothing that a printer could make.
+// False, and diagnostics, where there is nothing that a printer could make. A text that no file holds may make nothing.
 bool check_pieces(const ScadRequest& request, const solids::Pieces& pieces, const Reader& reader) {
   const bool has_areas = std::ranges::any_of(pieces, [](const solids::Piece& piece) { return !piece.solid(); });
   const bool has_solids = std::ranges::any_of(pieces, [](const solids::Piece& piece) { return piece.solid(); });
@@ -144,9 +130,9 @@ bool check_pieces(const ScadRequest& request, const solids::Pieces& pieces, cons
   else if (has_areas)
     reader.diagnostics.warning(reader.where, name + " makes areas beside its solids; they are left out",
                                "give them a height by linear_extrude()");
-  else if (!has_solids)
+  else if (!has_solids && request.script.empty())
     reader.diagnostics.error(reader.where, name + " makes no solid");
-  return has_solids;
+  return has_solids || (!has_areas && !request.script.empty());
 }
 
 Choice materials_of(const ScadRequest& request, const solids::Pieces& pieces) {
@@ -179,10 +165,11 @@ std::shared_ptr<const ScadSolids> ScadRequest::load(sources::Loading& loading) {
     reader.diagnostics.error(reader.where, "OpenSCAD scripts cannot be used: this ombre was built without CGAL");
     return nullptr;
   }
-  if (!loading.find(file) || !loading.look_at(file)) return nullptr;
+  if (script.empty() && (!loading.find(file) || !loading.look_at(file))) return nullptr;
   const solids::TreePtr tree = tree_of(*this, loading);
-  const auto pieces = tree ? pieces_of(tree, file.path, loading) : nullptr;
+  const auto pieces = tree ? pieces_of(tree, *this, loading) : nullptr;
   if (!pieces || !check_pieces(*this, *pieces, reader)) return nullptr;
+  if (pieces->empty()) return std::make_shared<const ScadSolids>();
   const solids::Pieces own = of_part(*this, *pieces, reader);
   if (own.empty()) return nullptr;
   const MeshUse use{"", "nonzero", materials_of(*this, own), material, material_map};

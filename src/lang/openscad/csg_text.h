@@ -7,8 +7,13 @@
 
 namespace ombre::lang::openscad {
 
-// Paths of imported files are written as they lead from `folder`. Numbers have six digits, as OpenSCAD has them: for
-// exact geometry keep the tree itself. The root's group is left out unless it is marked or is not a group.
-std::string csg_text(const solids::Tree& root, const std::string& folder);
+enum class CsgForm : uint8_t {
+  openscad,  // as OpenSCAD prints it, with six digits
+  exact      // all digits, and what OpenSCAD leaves out or does not know: read again, it is the same tree
+};
+
+// Paths of imported files are written as they lead from `folder`. The root's group is left out unless it is marked or
+// is not a group. Solids of Ombre's words are calls, after `use <ombre>`.
+std::string csg_text(const solids::Tree& root, const std::string& folder, CsgForm form = CsgForm::openscad);
 
 }  // namespace ombre::lang::openscad

@@ -21,7 +21,9 @@ Evaluator::Evaluator(const Program& program, const Options& options, Messages& m
   fn_ = symbol("$fn"), fa_ = symbol("$fa"), fs_ = symbol("$fs"), semantics_ = symbol("$semantics");
   for (const auto& table : {math_functions(), value_functions(), drawing_functions()})
     for (const NamedFunction& function : table) functions_[symbol(function.name)] = function;
-  for (const auto& table : {shape_modules(), plane_modules(), transform_modules(), operation_modules(), file_modules()})
+  module_table_ = operation_modules();
+  for (Module& module : module_table_) module.is_operation = true;
+  for (const auto& table : {shape_modules(), plane_modules(), transform_modules(), file_modules()})
     module_table_.insert(module_table_.end(), table.begin(), table.end());
   for (const Module& module : module_table_) modules_[symbol(module.name)] = &module;
   constants_[symbol("PI")] = std::numbers::pi;
@@ -47,6 +49,7 @@ Evaluator::Evaluator(const Program& program, const Options& options, Messages& m
 
 solids::TreePtr Evaluator::run() {
   try {
+    check_words();
     auto result = std::make_shared<solids::Tree>();
     const ScopePtr& scope = unit_scope(program_.units.front());
     run_actions(program_.units.front().plan, scope, result->children);
@@ -157,12 +160,17 @@ std::shared_ptr<solids::Tree> Evaluator::tree(solids::Operation operation, const
   auto result = std::make_shared<solids::Tree>();
   result->operation = std::move(operation);
   result->where = where.range();
-  if (const Value* semantics = find_special(semantics_); semantics && semantics->text()) {
-    const std::string& name = semantics->text()->text;
-    if (name == "strict") result->semantics = solids::Semantics::strict;
-    if (name == "permissive") result->semantics = solids::Semantics::permissive;
-  }
+  if (const Value* semantics = find_special(semantics_)) result->semantics = semantics_of(*semantics, where);
   return result;
+}
+
+solids::Semantics Evaluator::semantics_of(const Value& value, const ast::Span& where) {
+  const std::string name = value.text() ? value.text()->text : "";
+  if (name == "strict") return solids::Semantics::strict;
+  if (name == "permissive") return solids::Semantics::permissive;
+  if (name != "default" && name != "standard" && !value.is_undef())
+    warn("semantics are \"default\", \"strict\" or \"permissive\", not " + value_text(value, true, meter_), where);
+  return solids::Semantics::standard;
 }
 
 solids::TreePtr Evaluator::run_builtin(const Module& module, const ast::CallStatement& statement,
@@ -203,6 +211,10 @@ void Evaluator::bind_builtin(const Module& module, const std::vector<ast::Argume
     Value value = eval(*argument.value, scope);
     if (name->front() == '$') {
       set_special(name, std::move(value), specials_from);
+      continue;
+    }
+    if (*name == "semantics" && module.is_operation) {
+      call.semantics_ = semantics_of(value, where);
       continue;
     }
     const auto is_declared = [&](const std::vector<std::string_view>& names) {
@@ -289,7 +301,9 @@ const Trees& ModuleCall::children() {
 }
 
 std::shared_ptr<solids::Tree> ModuleCall::node(solids::Operation operation) const {
-  return evaluator_.tree(std::move(operation), statement_.span);
+  auto result = evaluator_.tree(std::move(operation), statement_.span);
+  if (semantics_) result->semantics = *semantics_;
+  return result;
 }
 
 solids::TreePtr ModuleCall::with_children(solids::Operation operation) {

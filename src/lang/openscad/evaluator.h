@@ -57,6 +57,7 @@ class ModuleCall {
   const ScopePtr& scope_;
   std::vector<std::pair<std::string_view, Value>> values_;
   std::optional<Trees> children_;
+  std::optional<solids::Semantics> semantics_;  // of the argument `semantics`
 };
 
 // A module of the language: the parameters that may be given without a name, those that need one, and what it makes.
@@ -65,6 +66,7 @@ struct Module {
   std::vector<std::string_view> positional, named;
   solids::TreePtr (*make)(ModuleCall& call);
   bool takes_anything = false;  // arguments are not looked at
+  bool is_operation = false;    // on children, which `semantics` may be said of
 };
 
 std::vector<Module> shape_modules();
@@ -149,7 +151,22 @@ class Evaluator {
   void bind_builtin(const Module& module, const std::vector<ast::Argument>& arguments, const ScopePtr& scope,
                     ModuleCall& call, size_t specials_from);
   std::shared_ptr<solids::Tree> tree(solids::Operation operation, const ast::Span& where);
+  solids::Semantics semantics_of(const Value& value, const ast::Span& where);
   const solids::TreePtr* marked_root(const solids::TreePtr& tree) const;
+
+  // --- word_calls.cpp
+  void check_words();
+  bool has_words(const Scope& scope) const;
+  bool makes_solid(const ast::Name& name, const Scope& scope) const;
+  bool gives_value(const ast::Name& name, const Scope& scope) const;
+  solids::TreePtr run_word(const ast::CallStatement& statement, const ScopePtr& scope);
+  Value value_of_word(const ast::Call& call, const ScopePtr& scope);
+  Invocation word_call(const ast::Name& name, const ast::Span& whole, const std::vector<ast::Argument>& arguments,
+                       const ScopePtr& scope, std::string& written);
+  void tell_words(const Diagnostics& found, const ast::Span& where);
+  Data data_of(const Value& value, const SourceRange& where, const ast::Span& argument);
+  std::optional<Value> of_objects(std::string_view function, const std::vector<Value>& arguments);
+  Value choice(const ast::Conditional& conditional, size_t branch, const Value& condition, const ScopePtr& scope);
 
   // --- expressions.cpp
   Value eval(const ast::Expr& expr, const ScopePtr& scope);

@@ -30,8 +30,10 @@ Value Evaluator::eval_compound(const Expr& expr, const ScopePtr& scope) {
   at_ = expr.span;
   meter_.spend();
   switch (expr.kind) {
-    case Expr::Kind::string:
-      return make_text(static_cast<const ast::String&>(expr).value, meter_);
+    case Expr::Kind::string: {
+      const auto& string = static_cast<const ast::String&>(expr);
+      return TextPtr(std::make_shared<const Text>(string.value, &string, meter_));
+    }
     case Expr::Kind::range:
       return eval_range(static_cast<const ast::Range&>(expr), scope);
     case Expr::Kind::list:
@@ -39,6 +41,7 @@ Value Evaluator::eval_compound(const Expr& expr, const ScopePtr& scope) {
     case Expr::Kind::unary: {
       const auto& operation = static_cast<const ast::Unary&>(expr);
       const Value operand = eval(*operation.operand, scope);
+      if (auto made = of_objects(ast::spelling(operation.op), {operand})) return *made;
       Problems problems;
       Value result = unary(operation.op, operand, meter_, problems);
       warn_all(problems, expr.span);
@@ -106,7 +109,7 @@ Value Evaluator::eval_list(const ast::List& list, const ScopePtr& scope) {
     result.reserve(list.elements.size());
     for (const ast::ExprPtr& element : list.elements) result.push(eval(*element, scope));
   }
-  return result.finish();
+  return result.finish(list.has_generators ? nullptr : &list);
 }
 
 Value Evaluator::operate(ast::Operator op, const Value& left, const Value& right, const ast::Span& where) {
@@ -117,6 +120,8 @@ Value Evaluator::operate(ast::Operator op, const Value& left, const Value& right
     if (op == ast::Operator::multiply) return a * b;
   }
   at_ = where;
+  if (left.object() || right.object())
+    if (auto made = of_objects(ast::spelling(op), {left, right})) return *made;
   Problems problems;
   Value result = binary(op, left, right, meter_, problems);
   warn_all(problems, where);
@@ -128,10 +133,12 @@ Value Evaluator::eval_chain(const ast::Chain& chain, const ScopePtr& scope) {
   Value value = eval(*chain.first, scope);
   if (first == ast::Operator::logical_and || first == ast::Operator::logical_or) {
     const bool decisive = first == ast::Operator::logical_or;
-    if (truth(value) == decisive) return decisive;
-    for (const ast::Chain::Link& link : chain.links)
-      if (truth(eval(*link.operand, scope)) == decisive) return decisive;
-    return !decisive;
+    for (const ast::Chain::Link& link : chain.links) {
+      if (!value.object() && truth(value) == decisive) return decisive;
+      const Value next = eval(*link.operand, scope);
+      value = value.object() || next.object() ? operate(link.op, value, next, chain.span) : next;
+    }
+    return value.object() ? value : Value(truth(value));
   }
   for (const ast::Chain::Link& link : chain.links)
     value = operate(link.op, value, eval(*link.operand, scope), chain.span);
@@ -167,6 +174,11 @@ Value Evaluator::eval_index(const ast::Index& index, const ScopePtr& scope) {
 Value Evaluator::eval_member(const ast::Member& member, const ScopePtr& scope) {
   const Value base = eval(*member.base, scope);
   const std::string& name = member.member.text();
+  if (const Object* object = base.object()) {
+    std::string names;
+    if (auto part = object->part(name, names, meter_)) return *part;
+    stop("there is no ." + name + "; " + names, member.span);
+  }
   if (base.list() && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') return at_index(base, name[0] - 'x');
   const Range* range = base.range();
   if (range && name == "begin") return range->begin;

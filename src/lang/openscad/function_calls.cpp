@@ -32,9 +32,14 @@ Value Evaluator::eval_tail(const Expr& start, const ScopePtr& outer) {
       switch (expr->kind) {
         case Expr::Kind::conditional: {
           const auto& conditional = static_cast<const ast::Conditional&>(*expr);
-          const auto chosen = std::ranges::find_if(
-              conditional.branches, [&](const auto& branch) { return truth(eval(*branch.first, scope)); });
-          expr = chosen == conditional.branches.end() ? conditional.otherwise.get() : chosen->second.get();
+          size_t branch = 0;
+          for (; branch < conditional.branches.size(); ++branch) {
+            const Value condition = eval(*conditional.branches[branch].first, scope);
+            if (condition.object()) return choice(conditional, branch, condition, scope);
+            if (truth(condition)) break;
+          }
+          expr = branch == conditional.branches.size() ? conditional.otherwise.get()
+                                                       : conditional.branches[branch].second.get();
           break;
         }
         case Expr::Kind::prefix:
@@ -140,6 +145,7 @@ bool Evaluator::find_function(const ast::Call& call, const ScopePtr& scope, Call
 Value Evaluator::call_builtin(const ast::Call& call, const ScopePtr& scope) {
   const ast::Name& name = static_cast<const ast::Variable&>(*call.callee).name;
   const auto found = functions_.find(name.symbol);
+  if (found == functions_.end() && gives_value(name, *scope)) return value_of_word(call, scope);
   if (found == functions_.end()) {
     warn("Ignoring unknown function '" + name.text() + '\'', call.span);
     return {};
@@ -154,6 +160,7 @@ Value Evaluator::call_builtin(const ast::Call& call, const ScopePtr& scope) {
   arguments.reserve(call.arguments.size());
   for (const ast::Argument& argument : call.arguments) arguments.push_back(eval(*argument.value, scope));
   at_ = call.span;
+  if (auto made = of_objects(found->second.name, arguments)) return *made;
   Problems problems;
   const FunctionCall made{found->second.name, std::move(arguments), meter_, problems, module_names_, random_, call};
   Value result = found->second.call(made);

@@ -40,8 +40,8 @@ class Messages {
   // All lines, each with its end: what `-o file.echo` holds.
   std::string text() const;
 
-  // What is wrong in the text of the script, in more words than OpenSCAD has for it.
-  Diagnostics syntax;
+  // What is wrong in the text of the script, or in a call of Ombre's words, in more words than OpenSCAD has for it.
+  Diagnostics details;
 
  private:
   static constexpr size_t most = 1'000'000;  // messages kept; a script that says more is stopped by its limits

@@ -23,6 +23,45 @@ Said run_text(const std::string& text, Options options = {}) {
 
 std::string value_of(const std::string& expression) { return run_text("echo(" + expression + ");").lines; }
 
+// As the text of the tree is read again, it is the same tree: numbers, texts, semantics.
+TEST(Openscad, ExactTreesAreReadAgainAsTheyWere) {
+  const std::string script =
+      "$fn = 7.5; difference(semantics = \"strict\") { rotate([0.1, 20, 1/3]) sphere(1/3);"
+      "linear_extrude(2/3, twist = 40, slices = 3, segments = 5, v = [0, 1, -1]) text(\"a\\\"b\\\\\");"
+      "import(\"x.svg\", id = \"one\", dpi = 96); color(alpha = 0.5) resize([1, 0, 2], auto = [false, true]) "
+      "cube(1e-7); }";
+  const auto exact = [](const std::string& text) {
+    Options options;
+    options.read_file = [](const std::string&) { return std::nullopt; };
+    Messages messages;
+    const solids::TreePtr tree = run(make_source("t.scad", text), options, messages);
+    return csg_text(*tree, "", CsgForm::exact);
+  };
+  const std::string once = exact(script);
+  EXPECT_EQ(exact(once), once);
+  for (const char* part :
+       {"semantics = \"strict\"", "0.3333333333333333", "segments = 5", "a\\\"b\\\\", "id = \"one\""})
+    EXPECT_NE(once.find(part), std::string::npos) << part << " in\n" << once;
+}
+
+TEST(Openscad, AnOperationHasItsOwnSemantics) {
+  Messages messages;
+  const solids::TreePtr tree =
+      run(make_source("t.scad", "union(semantics = \"permissive\") hull() cube(); hull(semantics = \"loose\");"), {},
+          messages);
+  EXPECT_EQ(tree->children[0]->semantics, solids::Semantics::permissive);
+  EXPECT_EQ(tree->children[0]->children.at(0)->semantics, solids::Semantics::standard);
+  EXPECT_EQ(messages.text(),
+            "WARNING: semantics are \"default\", \"strict\" or \"permissive\", not \"loose\" in file t.scad, line 1\n");
+}
+
+TEST(Openscad, WordsOfOmbreNeedADesign) {
+  EXPECT_EQ(run_text("use <ombre>\ncube();").lines,
+            "ERROR: words of Ombre cannot be used here; give the script that says use <ombre> as the design itself\n");
+  EXPECT_TRUE(uses_words(make_source("t.scad", "use <ombre>\ncube();"), {}));
+  EXPECT_FALSE(uses_words(make_source("t.scad", "// use <ombre>\ncube();"), {}));
+}
+
 TEST(Openscad, PrintsSixDigits) {
   EXPECT_EQ(number_text(1.0 / 3), "0.333333");
   EXPECT_EQ(number_text(0.00001), "0.00001");
@@ -98,7 +137,7 @@ TEST(Openscad, MistakesInTheTextHaveTheLineOfOpenscadAndMoreWords) {
   Messages messages;
   EXPECT_FALSE(run(make_source("t.scad", "x = 1\ny = 2;\n"), {}, messages));
   EXPECT_EQ(to_line(messages.list().front()), "ERROR: Parser error: syntax error in file t.scad, line 2");
-  EXPECT_NE(to_text(messages.syntax).find("expected \";\""), std::string::npos);
+  EXPECT_NE(to_text(messages.details).find("expected \";\""), std::string::npos);
 }
 
 TEST(Openscad, CommentsDescribeParameters) {

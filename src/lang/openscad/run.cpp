@@ -71,7 +71,7 @@ void report_syntax(const Diagnostics& found, const std::string& main, Messages& 
   if (!found.has_errors()) return;
   for (const Diagnostic& diagnostic : found.list()) {
     if (diagnostic.severity != Severity::error) continue;
-    messages.syntax.add(diagnostic);
+    messages.details.add(diagnostic);
     if (!diagnostic.where.source || messages.error_count() > 0) continue;
     messages.add({Message::Kind::error, "Parser error: syntax error", shown_path(diagnostic.where.source->name(), ""),
                   line_of(diagnostic.where)});
@@ -141,6 +141,12 @@ Outcome run_with_files(const SourcePtr& source, const Options& options, Messages
 
 solids::TreePtr run(const SourcePtr& source, const Options& options, Messages& messages) {
   return run_with_files(source, options, messages).tree;
+}
+
+bool uses_words(const SourcePtr& source, const Options& options) {
+  Diagnostics ignored;
+  const Program program = load(source, engine_options(options), ignored);
+  return std::ranges::any_of(program.units, &Unit::has_words);
 }
 
 std::optional<std::string> syntax_tree(const SourcePtr& source, const Options& options, Messages& messages) {

@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "lang/limits.h"
 #include "lang/openscad/messages.h"
+#include "lang/openscad/words.h"
 #include "solids/tree.h"
 
 namespace ombre::lang::openscad {
@@ -34,6 +35,7 @@ struct Options {
   double time = 0;                 // $t
   bool is_preview = true;          // $preview: true, as OpenSCAD has it without `--render`
   bool stops_at_warnings = false;  // --hardwarnings
+  Words* words = nullptr;          // what `use <ombre>` brings; null: there `use <ombre>` is an error
 
   // Scripts may call functions inside each other some 10,000 times; the evaluation has a stack of its own for that.
   static Limits openscad_limits();
@@ -42,6 +44,9 @@ struct Options {
 // The group of all top-level nodes, or what "!" marks; null where the script could not be read or stopped at an error.
 // What the script says goes to `messages`. Paths in the tree are complete.
 solids::TreePtr run(const SourcePtr& source, const Options& options, Messages& messages);
+
+// Whether the script, or a file that it brings in, says `use <ombre>`.
+bool uses_words(const SourcePtr& source, const Options& options);
 
 // The script's statements as OpenSCAD prints them (`-o file.ast`); nothing where it cannot be read.
 std::optional<std::string> syntax_tree(const SourcePtr& source, const Options& options, Messages& messages);

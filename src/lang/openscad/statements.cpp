@@ -157,6 +157,7 @@ TreePtr Evaluator::run_call(const CallStatement& statement, const ScopePtr& scop
   }
   const auto builtin = modules_.find(name);
   if (builtin != modules_.end()) return run_builtin(*builtin->second, statement, scope);
+  if (makes_solid(statement.name, *scope)) return run_word(statement, scope);
   warn("Ignoring unknown module '" + statement.name.text() + '\'', statement.span);
   return nullptr;
 }

@@ -96,6 +96,8 @@ void append_value(std::string& text, const Value& value, bool quoted, Meter& met
     text += '[' + number_text(range->begin) + " : " + number_text(range->step) + " : " + number_text(range->end) + ']';
   } else if (const Closure* closure = value.closure()) {
     text += expression_text(*closure->function);
+  } else if (const Object* object = value.object()) {
+    text += object->text();
   } else {
     text += "undef";
   }
@@ -114,6 +116,7 @@ const char* type_name(const Value& value) {
   if (value.list()) return "vector";
   if (value.range()) return "range";
   if (value.closure()) return "function";
+  if (value.object()) return "value in space";
   return "undefined";
 }
 

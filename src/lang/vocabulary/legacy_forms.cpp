@@ -26,6 +26,7 @@ constexpr Alias aliases[] = {
     {"rotate", "deg", "degrees"},
     {"fgrade", "func", "functions"},
     {"fgrade", "function", "functions"},
+    {"fgrade", "probabilities", "functions"},
     {"function", "func", "expression"},
     {"function", "expr", "expression"},
     {"mesh", "file", "path"},

@@ -1,0 +1,60 @@
+#include "compile/scad_words_design.h"
+
+#include "base/tasks.h"
+#include "compile/build.h"
+#include "compile/design_sources.h"
+#include "compile/mesh_job.h"
+#include "lang/vocabulary/scad_words.h"
+#include "nodes/all_nodes.h"
+
+namespace ombre::compile {
+namespace {
+
+constexpr std::string_view unnamed_part = "part";  // of a design whose solids have no parts
+
+}  // namespace
+
+WordsRun run_with_words(const SourcePtr& script, lang::openscad::Options run, const LoadOptions& options,
+                        lang::openscad::Messages& messages, Diagnostics& diagnostics) {
+  sources::SourceCache own;
+  sources::SourceCache& cache = options.cache ? *options.cache : own;
+  const auto materials = load_materials(options.materials, diagnostics);
+  if (!materials) return {};
+  DesignSources loader(cache, options.stop, options.threads > 0 ? options.threads : core_count());
+  lang::ScadWords words(nodes::registry(), *materials, &loader, script->name());
+  run.words = &words;
+  WordsRun result;
+  result.outcome = lang::openscad::run_with_files(script, run, messages);
+  if (result.outcome.tree && messages.error_count() == 0)
+    result.design = words.finish(result.outcome.tree, {script, 0, 0}, diagnostics);
+  return result;
+}
+
+std::optional<solids::Pieces> meshed_parts(const LoadedPtr& loaded, Diagnostics& diagnostics, const StopFlag* stop) {
+  constexpr size_t memory = size_t{4} << 30;
+  MeshRequest request;
+  request.memory_bytes = memory;
+  // All parts are as fine as the whole would be.
+  const auto box = design_box(loaded->design, diagnostics);
+  const auto fineness = box ? choose_fineness(loaded->design, *box, request, diagnostics) : std::nullopt;
+  if (!fineness) return std::nullopt;
+  request.tolerance_mm = fineness->tolerance_mm;
+  request.cell_mm = fineness->cell.mm();
+  solids::Pieces pieces;
+  for (const design::Part& part : loaded->design.parts) {
+    Loaded alone = *loaded;
+    alone.design.parts = {part};
+    auto made = mesh_design(alone, request, diagnostics, nullptr, stop);
+    if (!made) return std::nullopt;
+    const bool has_name = loaded->design.parts.size() > 1 || part.name != unnamed_part;
+    for (RegionBody& body : made->bodies) {
+      solids::Attributes attributes{"", has_name ? part.name : "", solids::Colour{}};
+      for (size_t n = 0; n < body.colour.size(); ++n) (*attributes.colour)[n] = body.colour[n] / 255.0;
+      solids::TriangleMesh mesh{std::move(body.body.vertices), std::move(body.body.triangles)};
+      pieces.push_back({std::move(attributes), solids::Solid(std::move(mesh))});
+    }
+  }
+  return pieces;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,180 @@
+// Words of `use <ombre>`: their calls as statements and in expressions, and values that vary in space.
+#include <algorithm>
+
+#include "lang/openscad/loops.h"
+#include "lang/openscad/value_text.h"
+
+namespace ombre::lang::openscad {
+
+namespace {
+
+std::string word_of(const ast::Name& name) {
+  const std::string& text = name.text();
+  return text.starts_with(word_prefix) ? text.substr(word_prefix.size()) : text;
+}
+
+// A number or a value in space that the script calls by this name, as formulas may.
+std::optional<Data> value_called(const std::string& name, const Scope& scope) {
+  const Value* value = scope.find_text(name);
+  if (value && value->number()) return Data(*value->number());
+  return value && value->object() ? std::optional(value->object()->data()) : std::nullopt;
+}
+
+// What a literal string says stands at a place of its own, wherever the value went since.
+SourceRange literal_place(const Text& text, const SourceRange& otherwise) {
+  return text.origin && text.origin->is_plain ? text.origin->inside().range() : otherwise;
+}
+
+}  // namespace
+
+void Evaluator::check_words() {
+  if (options_.words || std::ranges::none_of(program_.units, &Unit::has_words)) return;
+  stop("words of Ombre cannot be used here; give the script that says use <ombre> as the design itself", {});
+}
+
+bool Evaluator::has_words(const Scope& scope) const {
+  if (!options_.words) return false;
+  const Scope* at = &scope;
+  while (!at->unit() && at->parent()) at = at->parent().get();
+  return at->unit() && at->unit()->has_words;
+}
+
+bool Evaluator::makes_solid(const ast::Name& name, const Scope& scope) const {
+  return has_words(scope) && options_.words->makes_solid(word_of(name));
+}
+
+bool Evaluator::gives_value(const ast::Name& name, const Scope& scope) const {
+  return has_words(scope) && options_.words->gives_value(word_of(name));
+}
+
+// Arguments as the vocabulary reads them; `written` gets them as .csg files write them.
+Invocation Evaluator::word_call(const ast::Name& name, const ast::Span& whole,
+                                const std::vector<ast::Argument>& arguments, const ScopePtr& scope,
+                                std::string& written) {
+  Invocation call;
+  call.name = word_of(name);
+  call.where = name.span.range();
+  call.whole = whole.range();
+  call.variable = [&scope](const std::string& variable) { return value_called(variable, *scope); };
+  const size_t specials_from = specials_.size();
+  for (const ast::Argument& argument : arguments) {
+    const Value value = eval(*argument.value, scope);
+    const std::string label = argument.name.symbol ? argument.name.text() + " = " : "";
+    written += (written.empty() ? "" : ", ") + label + value_text(value, true, meter_);
+    if (argument.name.symbol && argument.name.is_special()) {
+      set_special(argument.name.symbol, value, specials_from);
+      call.has_own_facets |= argument.name.symbol == fn_;
+      continue;
+    }
+    Argument& given = call.arguments.emplace_back();
+    if (argument.name.symbol) {
+      given.name = argument.name.text();
+      given.name_where = argument.name.span.range();
+    }
+    given.value = data_of(value, argument.value->span.range(), argument.value->span);
+  }
+  call.facets = special_number(fn_);
+  return call;
+}
+
+solids::TreePtr Evaluator::run_word(const ast::CallStatement& statement, const ScopePtr& scope) {
+  const SpecialsMark mark(*this);
+  solids::Word word{statement.name.text(), "", nullptr};
+  Invocation call = word_call(statement.name, statement.whole, statement.arguments, scope, word.arguments);
+  auto result = tree(solids::Group{}, statement.span);
+  run_block(statement.children, scope, result->children);
+  call.braces = !statement.children.statements.empty() ? Invocation::Braces::filled
+                : statement.children.has_braces        ? Invocation::Braces::empty
+                                                       : Invocation::Braces::none;
+  at_ = statement.span;
+  Diagnostics found;
+  word.solid = options_.words->make(std::move(call), result->children, found);
+  tell_words(found, statement.span);
+  if (!word.solid) return nullptr;
+  result->operation = std::move(word);
+  return result;
+}
+
+Value Evaluator::value_of_word(const ast::Call& call, const ScopePtr& scope) {
+  const SpecialsMark mark(*this);
+  std::string written;
+  const ast::Name& name = static_cast<const ast::Variable&>(*call.callee).name;
+  Invocation invocation = word_call(name, call.span, call.arguments, scope, written);
+  at_ = call.span;
+  meter_.count_instance();
+  Diagnostics found;
+  auto value = options_.words->value(std::move(invocation), found, meter_);
+  tell_words(found, call.span);
+  return value ? std::move(*value) : Value();
+}
+
+// An error ends the evaluation.
+void Evaluator::tell_words(const Diagnostics& found, const ast::Span& where) {
+  const auto place_of = [&](const Diagnostic& diagnostic) {
+    const bool is_here = where.source && diagnostic.where.source == *where.source;
+    return is_here ? ast::Span{where.source, diagnostic.where.begin, diagnostic.where.end} : where;
+  };
+  for (const Diagnostic& diagnostic : found.list()) {
+    const std::string text = diagnostic.message + (diagnostic.hint.empty() ? "" : "; " + diagnostic.hint);
+    if (diagnostic.severity == Severity::warning) warn(text, place_of(diagnostic));
+    if (diagnostic.severity == Severity::note) say(Message::Kind::note, text, place_of(diagnostic));
+  }
+  for (const Diagnostic& diagnostic : found.list())
+    if (diagnostic.severity == Severity::error) messages_.details.add(diagnostic);
+  for (const Diagnostic& diagnostic : found.list())
+    if (diagnostic.severity == Severity::error) stop(diagnostic.message, place_of(diagnostic));
+}
+
+// Values on their way to a word: plain data with the places where they were written.
+Data Evaluator::data_of(const Value& value, const SourceRange& where, const ast::Span& argument) {
+  meter_.spend();
+  if (const double* number = value.number()) return {*number, where};
+  if (const Text* text = value.text()) return {text->text, literal_place(*text, where)};
+  if (const bool* boolean = value.boolean()) return {*boolean, where};
+  if (value.closure()) stop("a function cannot be an argument of a word; call it, and give its result", argument);
+  if (const Object* object = value.object()) {
+    Data data = object->data();
+    data.where = where;
+    return data;
+  }
+  Data nothing;
+  nothing.where = where;
+  if (value.is_undef()) return nothing;
+  DataList items;
+  const List* list = value.list();
+  if (value.range()) for_each(value, argument, [&](const Value& item) { items.emplace_back(*item.number(), where); });
+  for (size_t i = 0; list && i < list->items.size(); ++i) {
+    const ast::Expr* written = list->origin ? list->origin->elements[i].get() : nullptr;
+    items.push_back(data_of(list->items[i], written ? written->span.range() : where, argument));
+  }
+  return {std::move(items), where};
+}
+
+// What an operator or a function makes of values that vary in space; nothing where none of them does.
+std::optional<Value> Evaluator::of_objects(std::string_view function, const std::vector<Value>& arguments) {
+  const List* list = arguments.size() == 1 ? arguments[0].list() : nullptr;
+  const bool takes_list = function == "min" || function == "max" || function == "norm";
+  if (list && !takes_list) return std::nullopt;
+  const std::span<const Value> operands = list ? std::span(list->items) : std::span(arguments);
+  const Object* object = first_object(operands);
+  return object ? object->apply(function, operands, meter_) : std::nullopt;
+}
+
+// One of the values of a conditional at each point, from its branch `branch` on.
+Value Evaluator::choice(const ast::Conditional& conditional, size_t branch, const Value& condition,
+                        const ScopePtr& scope) {
+  const auto otherwise = [&](size_t next) -> Value {
+    for (; next < conditional.branches.size(); ++next) {
+      const Value decision = eval(*conditional.branches[next].first, scope);
+      if (decision.object()) return choice(conditional, next, decision, scope);
+      if (truth(decision)) return eval(*conditional.branches[next].second, scope);
+    }
+    return eval(*conditional.otherwise, scope);
+  };
+  const std::vector<Value> operands{condition, eval(*conditional.branches[branch].second, scope),
+                                    otherwise(branch + 1)};
+  if (auto made = condition.object()->apply("?:", operands, meter_)) return *made;
+  stop("this condition varies in space, and chooses between numbers or materials only", conditional.span);
+}
+
+}  // namespace ombre::lang::openscad
