@@ -160,6 +160,47 @@ def image_data_holds_all_grids(grid):
            == arrays["fibre"][1][1::3], "dense files differ")
 
 
+def attributes_come_back(grid):
+    """Numbers, vectors, colours and mixtures, through files of grids and back as values of a design, are what they were."""
+    (grid.folder / "ball.vcad").write_text(TYPED, encoding="utf-8")
+    names = ["modulus", "fibre.x", "fibre.y", "fibre.z", "color_rgba.r", "color_rgba.a", "tissue.red", "tissue.blue"]
+    parts = {"x": 0, "y": 1, "z": 2, "r": 0, "a": 3, "red": 0, "blue": 1}
+    points = [(x, y, z) for x in (-3.25, 0.25, 2.75) for y in (-1.75, 1.25) for z in (-2.5, 0.5)]
+    at = ["--at=" + ",".join(map(repr, point)) for point in points]
+
+    def values_of(design):
+        told = program.run([grid.ombre, "probe", design, "--json", *at], cwd=grid.folder)
+        expect(told.returncode == 0, told.stdout + told.stderr)
+        found = [json.loads(line) for line in told.stdout.splitlines()]
+        return [event["attributes"] for event in found if event["event"] == "point"]
+
+    def source(ending, name):
+        whole, _, part = name.partition(".")
+        if ending == "vti":
+            channel = f", channel={parts[part]}" if part else ""
+            return f'volume("typed.vti", series="{whole}"{channel})'
+        if ending == "vdb":
+            return f'volume("typed.vdb", series="{name}")'
+        return f'volume("typed_{name.replace(".", "_")}.npy")'
+
+    direct = values_of("ball.vcad")
+    grid.voxels("typed.vti", "--voxel", "0.5,0.5,1", "--what", "attributes")
+    grid.voxels("typed.npy", "--voxel", "0.5,0.5,1", "--what", "attributes")
+    endings = ["vti", "npy"]
+    sparse = program.run(grid.command("voxels", "ball.vcad", "-o", "typed.vdb", "--voxel", "0.5,0.5,1", "--what",
+                                      "attributes"), cwd=grid.folder)
+    if "without OpenVDB" not in sparse.stderr:
+        expect(sparse.returncode == 0, sparse.stderr)
+        endings.append("vdb")
+    for ending in endings:
+        text = "".join(f'attribute("v{n}", {source(ending, name)}.nearest) ' for n, name in enumerate(names))
+        (grid.folder / "back.vcad").write_text(text + "cube(10);\n", encoding="utf-8")
+        for point, wanted, found in zip(points, direct, values_of("back.vcad")):
+            for n, name in enumerate(names):
+                expect(abs(found[f"v{n}"] - wanted[name]) < 1e-5,
+                       f".{ending}: {name} at {point}: {found[f'v{n}']}, expected {wanted[name]}")
+
+
 def vtk_reads_image_data(grid):
     """With VTK where there is one: pip install vtk. Its classes come from the package of its own names."""
     try:
@@ -271,7 +312,7 @@ def openvdb_prints_the_same(grid):
     return ""
 
 
-CHECKS = [materials_are_those_of_slices, distances_are_mathematics, numpy_reads_them, nrrd_is_in_millimetres, image_data_holds_all_grids, vtk_reads_image_data,
+CHECKS = [materials_are_those_of_slices, distances_are_mathematics, numpy_reads_them, nrrd_is_in_millimetres, image_data_holds_all_grids, attributes_come_back, vtk_reads_image_data,
           boxes_are_cut_out, slips_get_remedies, files_are_kept, interrupts_leave_nothing,
           sparse_files_are_the_same_on_any_threads, openvdb_prints_the_same]
 

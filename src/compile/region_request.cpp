@@ -71,13 +71,13 @@ std::optional<RegionRule> crossed_rule(const design::Design& design, const Box& 
 }
 
 // The name of a part that front ends made of all that is in none.
-constexpr std::string_view unnamed_part = "part";
+constexpr std::string_view nameless = "part";
 
 // Names that only the list of parts has become nodes.
 design::Design with_part_nodes(design::Design design) {
   const design::NodeType& type = *nodes::registry().find("part");
   for (design::Part& part : design.parts) {
-    if (part.name == unnamed_part || &part.solid->type() == &type) continue;
+    if (part.name == nameless || &part.solid->type() == &type) continue;
     Diagnostics none;
     const design::Reader reader{design.materials, none, nullptr, part.solid->where(), "part", ""};
     part.solid = design::make_node(type, {{type.parameters.data(), Data(part.name)}}, {part.solid}, reader);
