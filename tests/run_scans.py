@@ -187,6 +187,38 @@ def broken_files_are_errors(folder):
         fails(one, str(one))
 
 
+def wrong_volumes_are_errors(folder):
+    """What scanners and programs leave behind, each with a message and little memory."""
+    write_series(folder / "movie")
+    data = pydicom.dcmread(folder / "movie" / "7_0.dcm")
+    data.file_meta.TransferSyntaxUID = "1.2.840.10008.1.2.4.102"  # MPEG-4, of which the pixels are none
+    data.PixelData = pydicom.encaps.encapsulate([b"no video"])
+    data["PixelData"].is_undefined_length = True
+    data.save_as(folder / "movie" / "7_0.dcm", write_like_original=False)
+    fails(folder / "movie", "cannot be read", "7_0.dcm")
+    header = ("NRRD0004\ntype: {kind}\ndimension: 3\nsizes: {sizes}\nendian: little\nencoding: {encoding}\n"
+              "spacings: {spacings}\n\n")
+    whole = {"kind": "int16", "sizes": "2 2 2", "encoding": "raw", "spacings": "1 1 1"}
+    for change, words in (({"spacings": "1 -1 1"}, "must be positive"), ({"spacings": "1 1e9 1"}, "are possible"),
+                          ({"spacings": "1 0 1"}, "are possible"), ({"sizes": "0 2 2"}, "an axis of 0 voxels"),
+                          ({"sizes": "10000 10000 1000", "encoding": "gzip"}, "GiB of memory, and"),
+                          ({"sizes": "2000000 2000000 2000"}, "more than 1 TiB"),
+                          ({"sizes": "10000 10000 1000"}, "is cut off")):
+        (folder / "wrong.nrrd").write_bytes(header.format(**{**whole, **change}).encode() + bytes(16))
+        fails(folder / "wrong.nrrd", words)
+    numbers = np.ones((2, 2, 2), "<f4")
+    numbers[1, 0, 1] = np.nan
+    np.save(folder / "nan.npy", numbers)
+    fails(folder / "nan.npy", "not finite at voxel (1, 0, 1)", options=", spacing=(1, 1, 1)")
+    for kernel, words in (("[[[0]]]", "kernel"), ("[for (i=[1:300]) [for (j=[1:300]) [for (k=[1:300]) i*j+k]]]", "")):
+        try:
+            ombre.load_text(f"convolve({kernel}) cube(2);").voxels(voxel=0.5)
+        except (ombre.DesignError, ombre.MachineError) as error:
+            expect(words in str(error) and len(str(error)) < 2000, str(error))
+        else:
+            raise AssertionError(f"the kernel {kernel} was taken")
+
+
 def nifti_affines_are_honoured(folder):
     rng = np.random.default_rng(3)
     turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
@@ -473,7 +505,7 @@ def sparse_grids_are_read(folder):
 def main():
     checks = [series_are_read_in_their_places, packed_series_are_the_same, scales_are_applied, oblique_series_are_read,
               of_several_series_one_is_chosen, missing_slices_are_an_error, slices_that_come_twice_are_left_out,
-              what_is_no_image_is_passed_over, broken_files_are_errors, nifti_affines_are_honoured,
+              what_is_no_image_is_passed_over, broken_files_are_errors, wrong_volumes_are_errors, nifti_affines_are_honoured,
               meta_images_are_read, arrays_are_volumes, files_of_many_frames_are_read, stacks_of_images_are_read,
               vtk_images_are_read, image_data_of_ours_are_read_back, voxels_may_be_counted,
               facts_and_pictures_name_nobody, large_files_stay_on_disk, sparse_grids_are_read]
