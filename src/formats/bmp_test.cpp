@@ -49,7 +49,7 @@ TEST(Bmp, PixelsOfAllKindsAreRead) {
   using namespace std::string_literals;
   // Palettes and pixels have blue first.
   const std::string palette = "\xFF\0\0\0\xFF\xFF\xFF\0\0\0\xFF\0\0\xFF\0\0"s;  // blue, white, red, green
-  const std::string wide = palette + std::string(4 * (16 - 4), '\0'), widest = palette + std::string(4 * 252, '\0');
+  const std::string wide = palette + std::string(48, '\0'), widest = palette + std::string(1008, '\0');
   EXPECT_EQ(decode_bmp(small_bmp(4, wide, "\x01\0\0\0\x23\0\0\0"s), "a").rgba, four_colours);
   EXPECT_EQ(decode_bmp(small_bmp(8, widest, "\0\x01\0\0\x02\x03\0\0"s), "a").rgba, four_colours);
   const std::string low = "\xFF\0\0\xFF\xFF\xFF\0\0"s, high = "\0\0\xFF\0\xFF\0\0\0"s;
