@@ -123,8 +123,7 @@ def table_3(data):
         Job("F-rep", lambda: gyroid, (-23, -5, -1), (23, 5, 3), TABLE_3, (584, 248), "materials"),
         Job("grade", lambda: f"fgrade({GRADE}) sphere(10);", *cube, TABLE_3, (1147, 223), "inside"),
         Job("halves", lambda: HALVES, *cube, TABLE_3, published=False),
-        Job("convolve", lambda: f"convolve(kernel, pitch=(20/2048, 20/2048, 20/4096)) {{ {HALVES} }}".replace(
-            "kernel", KERNEL), *cube, TABLE_3, (62, 250), published=False),
+        Job("convolve", lambda: f"convolve({KERNEL}) {{ {HALVES} }}", *cube, TABLE_3, (62, 250), published=False),
     ]
 
 

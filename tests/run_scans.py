@@ -6,6 +6,7 @@
 import base64
 import gzip
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -187,6 +188,38 @@ def broken_files_are_errors(folder):
         fails(one, str(one))
 
 
+def wrong_volumes_are_errors(folder):
+    """What scanners and programs leave behind, each with a message and little memory."""
+    write_series(folder / "movie")
+    data = pydicom.dcmread(folder / "movie" / "7_0.dcm")
+    data.file_meta.TransferSyntaxUID = "1.2.840.10008.1.2.4.102"  # MPEG-4, of which the pixels are none
+    data.PixelData = pydicom.encaps.encapsulate([b"no video"])
+    data["PixelData"].is_undefined_length = True
+    data.save_as(folder / "movie" / "7_0.dcm", write_like_original=False)
+    fails(folder / "movie", "cannot be read", "7_0.dcm")
+    header = ("NRRD0004\ntype: {kind}\ndimension: 3\nsizes: {sizes}\nendian: little\nencoding: {encoding}\n"
+              "spacings: {spacings}\n\n")
+    whole = {"kind": "int16", "sizes": "2 2 2", "encoding": "raw", "spacings": "1 1 1"}
+    for change, words in (({"spacings": "1 -1 1"}, "must be positive"), ({"spacings": "1 1e9 1"}, "are possible"),
+                          ({"spacings": "1 0 1"}, "are possible"), ({"sizes": "0 2 2"}, "an axis of 0 voxels"),
+                          ({"sizes": "10000 10000 1000", "encoding": "gzip"}, "GiB of memory, and"),
+                          ({"sizes": "2000000 2000000 2000"}, "more than 1 TiB"),
+                          ({"sizes": "10000 10000 1000"}, "is cut off")):
+        (folder / "wrong.nrrd").write_bytes(header.format(**{**whole, **change}).encode() + bytes(16))
+        fails(folder / "wrong.nrrd", words)
+    numbers = np.ones((2, 2, 2), "<f4")
+    numbers[1, 0, 1] = np.nan
+    np.save(folder / "nan.npy", numbers)
+    fails(folder / "nan.npy", "not finite at voxel (1, 0, 1)", options=", spacing=(1, 1, 1)")
+    for kernel, words in (("[[[0]]]", "kernel"), ("[for (i=[1:300]) [for (j=[1:300]) [for (k=[1:300]) i*j+k]]]", "")):
+        try:
+            ombre.load_text(f"convolve({kernel}) cube(2);").voxels(voxel=0.5)
+        except (ombre.DesignError, ombre.MachineError) as error:
+            expect(words in str(error) and len(str(error)) < 2000, str(error))
+        else:
+            raise AssertionError(f"the kernel {kernel} was taken")
+
+
 def nifti_affines_are_honoured(folder):
     rng = np.random.default_rng(3)
     turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
@@ -305,6 +338,58 @@ def files_of_many_frames_are_read(folder):
 def stack_affine():
     """Of images with the spacing given: rows count from the top, the first voxel's centre is at the origin."""
     return np.diag([*SPACING, 1.0])
+
+
+def tiff_by_parts(channels, tile=None):
+    """An image of TIFF 6.0 without compression, low byte first: each channel by itself, in strips of a row or in tiles."""
+    height, width = channels[0].shape
+    parts = []
+    for channel in channels:
+        if tile is None:
+            parts += [row.astype("<u2").tobytes() for row in channel]
+            continue
+        for top in range(0, height, tile):
+            for left in range(0, width, tile):
+                whole = np.zeros((tile, tile), "<u2")
+                piece = channel[top:top + tile, left:left + tile]
+                whole[:piece.shape[0], :piece.shape[1]] = piece
+                parts.append(whole.tobytes())
+    data, offsets = b"", []
+    for part in parts:
+        offsets.append(8 + len(data))
+        data += part
+    lists = {"offsets": struct.pack(f"<{len(parts)}I", *offsets), "sizes": struct.pack(f"<{len(parts)}I", *map(len, parts)),
+             "bits": struct.pack(f"<{len(channels)}H", *[16] * len(channels))}
+    places = {}
+    for name, text in lists.items():
+        places[name] = 8 + len(data)
+        data += text + b"\0" * (len(text) % 2)
+    def entry(tag, kind, count, value):
+        return struct.pack("<HHII", tag, kind, count, value)
+    entries = [entry(256, 4, 1, width), entry(257, 4, 1, height), entry(258, 3, len(channels), places["bits"]),
+               entry(259, 3, 1, 1), entry(262, 3, 1, 2), entry(277, 3, 1, len(channels)), entry(284, 3, 1, 2)]
+    if tile is None:
+        entries += [entry(273, 4, len(parts), places["offsets"]), entry(278, 4, 1, 1),
+                    entry(279, 4, len(parts), places["sizes"])]
+    else:
+        entries += [entry(322, 4, 1, tile), entry(323, 4, 1, tile), entry(324, 4, len(parts), places["offsets"]),
+                    entry(325, 4, len(parts), places["sizes"])]
+    entries.sort(key=lambda e: struct.unpack_from("<H", e))
+    return (b"II*\0" + struct.pack("<I", 8 + len(data)) + data + struct.pack("<H", len(entries)) + b"".join(entries) +
+            bytes(4))
+
+
+def tiles_and_planes_are_read(folder):
+    numbers = np.random.default_rng(9).integers(0, 65536, (3, 37, 53))
+    affine = np.diag([0.5, 0.75, 3, 1.0])
+    for tile in (None, 16):
+        (folder / "parts.tif").write_bytes(tiff_by_parts(numbers, tile))
+        for c in range(3):
+            wanted = np.flipud(numbers[c]).T[:, :, None]
+            i, j, k = np.indices(wanted.shape)
+            points = (np.stack([i, j, k, np.ones(wanted.shape)], axis=-1).reshape(-1, 4) @ affine.T)[:, :3]
+            found = values_at(folder / "parts.tif", points, f", spacing={SPACING}, channel={c}")
+            expect((found == wanted.ravel()).all(), f"channel {c} in tiles of {tile}")
 
 
 def stacks_of_images_are_read(folder):
@@ -473,8 +558,8 @@ def sparse_grids_are_read(folder):
 def main():
     checks = [series_are_read_in_their_places, packed_series_are_the_same, scales_are_applied, oblique_series_are_read,
               of_several_series_one_is_chosen, missing_slices_are_an_error, slices_that_come_twice_are_left_out,
-              what_is_no_image_is_passed_over, broken_files_are_errors, nifti_affines_are_honoured,
-              meta_images_are_read, arrays_are_volumes, files_of_many_frames_are_read, stacks_of_images_are_read,
+              what_is_no_image_is_passed_over, broken_files_are_errors, wrong_volumes_are_errors, nifti_affines_are_honoured,
+              meta_images_are_read, arrays_are_volumes, files_of_many_frames_are_read, tiles_and_planes_are_read, stacks_of_images_are_read,
               vtk_images_are_read, image_data_of_ours_are_read_back, voxels_may_be_counted,
               facts_and_pictures_name_nobody, large_files_stay_on_disk, sparse_grids_are_read]
     for check in checks:

@@ -10,7 +10,8 @@ namespace ombre::formats {
 namespace {
 
 // One tetrahedron with numbers of its nodes and of itself, as text.
-std::string tetrahedron(const std::string& header, const std::string& point_array, const std::string& type = "10") {
+std::string vtu_of_tetrahedron(const std::string& header, const std::string& point_array,
+                               const std::string& type = "10") {
   return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" " + header +
          "><UnstructuredGrid><Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">\n<Points>" + point_array +
          "</Points><Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 3</DataArray>"
@@ -28,7 +29,7 @@ std::string binary_points(const std::string& type, const std::string& bytes) {
   return "<DataArray type=\"" + type + "\" NumberOfComponents=\"3\" format=\"binary\">" + bytes + "</DataArray>";
 }
 
-Results read(const std::string& file) {
+Results read_good(const std::string& file) {
   Diagnostics diagnostics;
   auto results = read_results("a.vtu", file, {}, diagnostics);
   EXPECT_TRUE(results) << to_text(diagnostics);
@@ -44,7 +45,7 @@ const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
 }  // namespace
 
 TEST(Results, VtuAsText) {
-  const Results results = read(tetrahedron("", text_points));
+  const Results results = read_good(vtu_of_tetrahedron("", text_points));
   EXPECT_EQ(results.points, corners);
   EXPECT_EQ(results.nodes, (std::vector<uint32_t>{0, 1, 2, 3}));
   ASSERT_EQ(results.fields.size(), 3U);
@@ -59,7 +60,7 @@ TEST(Results, VtuAsText) {
 
 // A pull of 10 MPa along x has a von Mises stress of 10 MPa.
 TEST(Results, VonMisesIsAddedToStresses) {
-  const Results results = read(tetrahedron("", text_points));
+  const Results results = read_good(vtu_of_tetrahedron("", text_points));
   ASSERT_TRUE(find_field(results, "von_mises"));
   EXPECT_EQ(find_field(results, "von_mises")->values, std::vector<double>{10});
   const std::array<double, 6> shear{0, 0, 0, 2, 0, 0};
@@ -69,20 +70,23 @@ TEST(Results, VonMisesIsAddedToStresses) {
 // Arrays as Python's struct, zlib and base64 write them.
 TEST(Results, VtuInBase64) {
   const std::string floats = "MAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAAAAAAAAABAQA==";
-  EXPECT_EQ(read(tetrahedron("", binary_points("Float32", floats))).points, corners);
+  EXPECT_EQ(read_good(vtu_of_tetrahedron("", binary_points("Float32", floats))).points, corners);
   const std::string big = "AAAAAAAAADAAAAAAAAAAAAAAAAA/gAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAAEBAAAA=";
-  EXPECT_EQ(read(tetrahedron("byte_order=\"BigEndian\" header_type=\"UInt64\"", binary_points("Float32", big))).points,
-            corners);
+  EXPECT_EQ(
+      read_good(vtu_of_tetrahedron("byte_order=\"BigEndian\" header_type=\"UInt64\"", binary_points("Float32", big)))
+          .points,
+      corners);
 }
 
 TEST(Results, VtuPackedInBlocks) {
   const std::string packed = "AgAAACAAAAAQAAAAEQAAAA0AAAA=eJxjYEAGDfYMqMABAA2PAQB4nGNgQAYODgAA0ACB";
-  EXPECT_EQ(read(tetrahedron("compressor=\"vtkZLibDataCompressor\"", binary_points("Float32", packed))).points,
-            corners);
+  EXPECT_EQ(
+      read_good(vtu_of_tetrahedron("compressor=\"vtkZLibDataCompressor\"", binary_points("Float32", packed))).points,
+      corners);
   const std::string cut = packed.substr(0, packed.size() - 8);
-  EXPECT_NE(
-      error_of(tetrahedron("compressor=\"vtkZLibDataCompressor\"", binary_points("Float32", cut))).find("cut off"),
-      std::string::npos);
+  EXPECT_NE(error_of(vtu_of_tetrahedron("compressor=\"vtkZLibDataCompressor\"", binary_points("Float32", cut)))
+                .find("cut off"),
+            std::string::npos);
 }
 
 TEST(Results, Base64) {
@@ -95,7 +99,7 @@ TEST(Results, WhatIsWrongIsSaid) {
   const auto says = [](const std::string& file, const std::string& what) {
     EXPECT_NE(error_of(file).find(what), std::string::npos) << error_of(file);
   };
-  const std::string good = tetrahedron("", text_points);
+  const std::string good = vtu_of_tetrahedron("", text_points);
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string changed = good;
     changed.replace(changed.find(from), from.size(), to);

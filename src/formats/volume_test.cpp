@@ -21,14 +21,14 @@ std::string nrrd_with(const std::string& type, const std::string& more, const st
   return "NRRD0004\ntype: " + type + "\ndimension: 3\nsizes: 2 3 1\n" + more + "\n\n" + data;
 }
 
-VoxelVolume read(std::string_view bytes, const std::string* companion = nullptr, int channel = -1) {
+VoxelVolume read_whole(std::string_view bytes, const std::string* companion = nullptr, int channel = -1) {
   const std::string_view rest = companion ? std::string_view(*companion) : std::string_view();
   return read_volume({"v", bytes, companion ? &rest : nullptr, {"", channel}});
 }
 
-std::string problem_of(const std::string& bytes, const std::string* companion = nullptr) {
+std::string volume_problem(const std::string& bytes, const std::string* companion = nullptr) {
   try {
-    read(bytes, companion);
+    read_whole(bytes, companion);
     return "none";
   } catch (const Error& error) {
     return error.what();
@@ -48,7 +48,7 @@ TEST(Volume, ReadsWhatNrrdHeadersOfOursSay) {
   header.spacing_mm = {0.5, 0.25, 3};
   header.origin_mm = {-1, 2, 7};
   const std::vector<float> numbers{0, 1.5f, -2, 3, 4, 5};
-  const VoxelVolume volume = read(nrrd_header(header) + bytes_of_numbers(numbers));
+  const VoxelVolume volume = read_whole(nrrd_header(header) + bytes_of_numbers(numbers));
   EXPECT_EQ(volume.count, (std::array<int64_t, 3>{2, 3, 1}));
   EXPECT_EQ(std::get<std::vector<float>>(volume.values), numbers);
   ASSERT_TRUE(volume.space_from_index);
@@ -68,7 +68,7 @@ TEST(Volume, ByteOrdersAndEncodingsGiveTheSameNumbers) {
        {nrrd_with("short", "endian: little\nencoding: raw", raw),
         nrrd_with("int16", "endian: big\nencoding: raw", swapped), nrrd_with("signed short", "encoding: ascii", text),
         nrrd_with("short", "endian: little\nencoding: gzip", packer.take())}) {
-    const VoxelVolume volume = read(file);
+    const VoxelVolume volume = read_whole(file);
     EXPECT_EQ(std::get<std::vector<int16_t>>(volume.values), six);
     EXPECT_FALSE(volume.space_from_index);
   }
@@ -78,7 +78,7 @@ TEST(Volume, SpacesAndUnitsAreThoseOfTheFile) {
   const std::string header =
       "encoding: ascii\nspace: left-posterior-superior\nspace units: \"cm\" \"cm\" \"cm\"\n"
       "space directions: (0,-2,0) (1,0,0) (0,0,0.5)\nspace origin: (1,2,3)";
-  const VoxelVolume volume = read(nrrd_with("float", header, "1 2 3 4 5 6"));
+  const VoxelVolume volume = read_whole(nrrd_with("float", header, "1 2 3 4 5 6"));
   EXPECT_EQ(volume.space, VolumeSpace::lps);
   EXPECT_EQ((*volume.space_from_index)({1, 0, 0}), (Vec3{10, 0, 30}));
   EXPECT_EQ((*volume.space_from_index)({0, 1, 2}), (Vec3{20, 20, 40}));
@@ -88,66 +88,67 @@ TEST(Volume, NumbersMayLieBesideTheHeader) {
   const std::string header = nrrd_with("uint8", "encoding: raw\nbyte skip: -1\ndata file: numbers.raw", "");
   EXPECT_EQ(companion_of("folder/v.nhdr", header), "folder/numbers.raw");
   const std::string data = "xxx123456";
-  EXPECT_EQ(std::get<std::vector<uint8_t>>(read(header, &data).values)[0], '1');
-  EXPECT_TRUE(is_about(problem_of(header), "numbers.raw, which is not there"));
+  EXPECT_EQ(std::get<std::vector<uint8_t>>(read_whole(header, &data).values)[0], '1');
+  EXPECT_TRUE(is_about(volume_problem(header), "numbers.raw, which is not there"));
 }
 
 // a[k, j, i] is voxel (i, j, k) in both orders.
 TEST(Volume, NpyArraysHaveTheShapeZyx) {
   const std::string header = npy_header("<i2", {1, 3, 2});
-  const VoxelVolume c = read(header + bytes_of_numbers(six));
+  const VoxelVolume c = read_whole(header + bytes_of_numbers(six));
   EXPECT_EQ(c.count, (std::array<int64_t, 3>{2, 3, 1}));
   EXPECT_EQ(std::get<std::vector<int16_t>>(c.values), six);
   std::string fortran = header;
   fortran.replace(fortran.find("False"), 5, "True ");
   const std::vector<int16_t> by_columns{-2, 300, 5, 0, 4, 32767};
-  EXPECT_EQ(std::get<std::vector<int16_t>>(read(fortran + bytes_of_numbers(by_columns)).values), six);
+  EXPECT_EQ(std::get<std::vector<int16_t>>(read_whole(fortran + bytes_of_numbers(by_columns)).values), six);
 }
 
 TEST(Volume, DescriptionsSayWhatNumbersAre) {
   const std::string json = R"({"data_type": "int16", "byte_order": "little", "header_bytes": 3, "dimensions": [2, 3, 1],
                                "spacing_mm": [1, 2, 3], "origin_mm": [4, 5, 6], "space": "RAS"})";
-  const VoxelVolume volume = read("abc" + bytes_of_numbers(six), &json);
+  const VoxelVolume volume = read_whole("abc" + bytes_of_numbers(six), &json);
   EXPECT_EQ(std::get<std::vector<int16_t>>(volume.values), six);
   EXPECT_EQ((*volume.space_from_index)({1, 1, 1}), (Vec3{5, 7, 9}));
   EXPECT_EQ(volume.space, VolumeSpace::ras);
   EXPECT_EQ(companion_of("v.raw", "abc"), "v.raw.json");
-  EXPECT_TRUE(is_about(problem_of("abcd", &json), "cut off"));
-  EXPECT_TRUE(is_about(problem_of(std::string(99, 'a'), &json), "99 bytes") ||
-              is_about(problem_of(std::string(99, 'a'), &json), "96 bytes"));
+  EXPECT_TRUE(is_about(volume_problem("abcd", &json), "cut off"));
+  EXPECT_TRUE(is_about(volume_problem(std::string(99, 'a'), &json), "99 bytes") ||
+              is_about(volume_problem(std::string(99, 'a'), &json), "96 bytes"));
 }
 
 TEST(Volume, WrongFilesSayWhatIsWrong) {
-  EXPECT_TRUE(is_about(problem_of("hello"), "none of NRRD, NIfTI, MetaImage, VTI and NPY"));
-  EXPECT_TRUE(is_about(problem_of(nrrd_with("short", "endian: little\nencoding: raw", "abc")), "cut off"));
-  EXPECT_TRUE(is_about(problem_of(nrrd_with("short", "encoding: raw", "abc")), "without \"endian\""));
+  EXPECT_TRUE(is_about(volume_problem("hello"), "none of NRRD, NIfTI, MetaImage, VTI and NPY"));
+  EXPECT_TRUE(is_about(volume_problem(nrrd_with("short", "endian: little\nencoding: raw", "abc")), "cut off"));
+  EXPECT_TRUE(is_about(volume_problem(nrrd_with("short", "encoding: raw", "abc")), "without \"endian\""));
+  EXPECT_TRUE(is_about(volume_problem(nrrd_with("float", "encoding: ascii", "1 2 nan 4 5 6")),
+                       "not finite at voxel (0, 1, 0)"));
+  EXPECT_TRUE(is_about(volume_problem(nrrd_with("uint8", "encoding: ascii", "1 2 3 4 5 256")), "cannot hold"));
+  EXPECT_TRUE(is_about(volume_problem(nrrd_with("uint8", "encoding: bzip2", "")), "raw, gzip or ascii"));
+  EXPECT_TRUE(is_about(volume_problem(nrrd_with("int64", "encoding: raw", "")), "type \"int64\""));
   EXPECT_TRUE(
-      is_about(problem_of(nrrd_with("float", "encoding: ascii", "1 2 nan 4 5 6")), "not finite at voxel (0, 1, 0)"));
-  EXPECT_TRUE(is_about(problem_of(nrrd_with("uint8", "encoding: ascii", "1 2 3 4 5 256")), "cannot hold"));
-  EXPECT_TRUE(is_about(problem_of(nrrd_with("uint8", "encoding: bzip2", "")), "raw, gzip or ascii"));
-  EXPECT_TRUE(is_about(problem_of(nrrd_with("int64", "encoding: raw", "")), "type \"int64\""));
+      is_about(volume_problem(nrrd_with("uint8", "encoding: raw\nspacings: 1 -1 1", "abcdef")), "must be positive"));
   EXPECT_TRUE(
-      is_about(problem_of(nrrd_with("uint8", "encoding: raw\nspacings: 1 -1 1", "abcdef")), "must be positive"));
-  EXPECT_TRUE(is_about(problem_of(nrrd_with("uint8", "encoding: raw\nspacings: 1 1e300 1", "abcdef")), "voxels of"));
+      is_about(volume_problem(nrrd_with("uint8", "encoding: raw\nspacings: 1 1e300 1", "abcdef")), "voxels of"));
   EXPECT_TRUE(
-      is_about(problem_of(nrrd_with("uint8", "encoding: raw\nspace directions: (1,0,0) (1,0,0) (0,0,1)", "abcdef")),
+      is_about(volume_problem(nrrd_with("uint8", "encoding: raw\nspace directions: (1,0,0) (1,0,0) (0,0,1)", "abcdef")),
                "one plane"));
-  EXPECT_TRUE(is_about(problem_of(nrrd_with("uint8",
-                                            "encoding: raw\nspace units: \"foot\"\nspace directions: (1,0,0) "
-                                            "(0,1,0) (0,0,1)",
-                                            "abcdef")),
+  EXPECT_TRUE(is_about(volume_problem(nrrd_with("uint8",
+                                                "encoding: raw\nspace units: \"foot\"\nspace directions: (1,0,0) "
+                                                "(0,1,0) (0,0,1)",
+                                                "abcdef")),
                        "foot"));
-  EXPECT_TRUE(is_about(problem_of(npy_header("<i8", {1, 3, 2})), "astype"));
-  EXPECT_TRUE(is_about(problem_of(npy_header("<i2", {3, 2})), "2 axes"));
+  EXPECT_TRUE(is_about(volume_problem(npy_header("<i8", {1, 3, 2})), "astype"));
+  EXPECT_TRUE(is_about(volume_problem(npy_header("<i2", {3, 2})), "2 axes"));
 }
 
 // Before memory is taken for them.
 TEST(Volume, SizesThatCannotBeAreErrors) {
-  EXPECT_TRUE(is_about(problem_of(npy_header("<f8", {1 << 20, 1 << 20, 1 << 20})), "more than 1 TiB"));
-  EXPECT_TRUE(is_about(problem_of(npy_header("<f8", {1 << 10, 1 << 10, 1 << 10})), "cut off"));
+  EXPECT_TRUE(is_about(volume_problem(npy_header("<f8", {1 << 20, 1 << 20, 1 << 20})), "more than 1 TiB"));
+  EXPECT_TRUE(is_about(volume_problem(npy_header("<f8", {1 << 10, 1 << 10, 1 << 10})), "cut off"));
   const std::string huge = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2000 2000 2000\nencoding: gzip\n\n";
-  EXPECT_TRUE(is_about(problem_of(huge + "abc"), "too short"));
-  EXPECT_TRUE(is_about(problem_of(npy_header("|u1", {0, 2, 2})), "axis of 0"));
+  EXPECT_TRUE(is_about(volume_problem(huge + "abc"), "too short"));
+  EXPECT_TRUE(is_about(volume_problem(npy_header("|u1", {0, 2, 2})), "axis of 0"));
 }
 
 }  // namespace ombre::formats

@@ -154,8 +154,10 @@ class Reading {
     value_bytes_ = field<uint16_t>(TIFFTAG_BITSPERSAMPLE) / 8U;
     is_apart_ = page.channels > 1 && field<uint16_t>(TIFFTAG_PLANARCONFIG) == PLANARCONFIG_SEPARATE;
     page.bytes.resize(uint64_t{page.width} * page.height * page.channels * value_bytes_);
-    for (uint16_t plane = 0; plane < (is_apart_ ? page.channels : 1); ++plane)
+    for (uint32_t n = 0; n < (is_apart_ ? page.channels : 1); ++n) {
+      const auto plane = static_cast<uint16_t>(n);
       TIFFIsTiled(tiff_.get()) != 0 ? read_tiles(page, plane) : read_rows(page, plane);
+    }
     if (is_white_least && page.type.starts_with("uint"))
       for (char& byte : page.bytes) byte = static_cast<char>(~byte);
     return page;
