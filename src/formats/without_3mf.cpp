@@ -33,6 +33,11 @@ Results read_vtu(const std::string& name, std::string_view, Diagnostics& diagnos
   fail(diagnostics, name, std::string("VTU files cannot be read: ") + missing, remedy);
 }
 
+Results read_xdmf(const std::string& name, std::string_view, const std::optional<ResultsFile>&,
+                  Diagnostics& diagnostics) {
+  fail(diagnostics, name, std::string("XDMF files cannot be read: ") + missing, remedy);
+}
+
 bool can_write_3mf() { return false; }
 
 void write_zip(const std::string& path, const std::vector<ZipEntry>&) {
