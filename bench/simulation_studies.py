@@ -4,14 +4,18 @@
     python3 bench/simulation_studies.py lattice build/release/apps/ombre/ombre      Section 3.3.1 and Fig. 8
     python3 bench/simulation_studies.py lattice ... --calculix                      rule 2 by CalculiX, too
     python3 bench/simulation_studies.py bar build/release/apps/ombre/ombre          Fig. 7
+    python3 bench/simulation_studies.py block build/release/apps/ombre/ombre        a rigid ball in a soft block, and queries
 
-Tables go to the standard output; --chart FILE.svg draws the lattices' displacement by height. --cell 2 is a small run.
+Tables go to the standard output; --chart FILE.svg draws the lattices' displacement by height. --cell 2 is a small run;
+--bricks 216 says how many the block has along each axis.
 """
 import argparse
 import json
+import math
 import os
 import pathlib
 import re
+import statistics
 import struct
 import subprocess
 import tempfile
@@ -27,10 +31,12 @@ LAYERS = 50
 BAR = """
 fgrade(["0.5 - x/40", "0.5 + x/40"], [red, blue]) { rectprism((40, 6, 6), red); }
 """
-PULL = {"materials": {"red": {"modulus_mpa": 100, "poissons_ratio": 0.3},
-                      "blue": {"modulus_mpa": 1000, "poissons_ratio": 0.3}},
+# Without a Poisson's ratio the bar of mean moduli stretches by the integral of 1 / E, here F L ln(10) / (A 900 MPa).
+PULL = {"materials": {"red": {"modulus_mpa": 100, "poissons_ratio": 0}, "blue": {"modulus_mpa": 1000, "poissons_ratio": 0}},
         "supports": [{"on": "xmin", "fix": "xyz"}],
-        "loads": [{"on": "xmax", "force_n": [0, 0, -1]}]}
+        "loads": [{"on": "xmax", "force_n": [10, 0, 0]}]}
+EXACT_MJ = 0.5 * 10 * 10 * 40 * math.log(10) / (36 * 900)
+SEEDS = 5
 
 
 def run(command, folder):
@@ -130,23 +136,64 @@ def bars(arguments, folder):
              "medium": ["--size", "1.5"], "fine": ["--size", "0.8"]}
     if arguments.cell != "0.5":
         del sizes["fine"]
-    rows = {}
+    print("| mesh | tetrahedra C3D10 | degrees of freedom | stretch of mean moduli | stretch of draws | their spread | time |\n"
+          "| --- | --- | --- | --- | --- | --- | --- |")
+
+    def solve(*options):
+        events, seconds, _ = run([arguments.ombre, "fea", "bar.vcad", "--study", "pull.json", "--elements", "tet10", *options,
+                                  "--sections", "1000", "--solve", "--json"], folder)
+        return events["model"], events["solution"]["strain_energy_mj"] / EXACT_MJ, seconds
+
     for name, size in sizes.items():
-        events, seconds, _ = run([arguments.ombre, "fea", "bar.vcad", "--study", "pull.json", "--elements", "tet10", *size,
-                                  "--assign", "mix", "--sections", "1000", "--solve", "--json"], folder)
-        rows[name] = events["model"]["tetrahedra"], 3 * events["model"]["nodes"], events["solution"]["strain_energy_mj"], seconds
-    finest = rows[list(sizes)[-1]][2]
-    print("| mesh | tetrahedra C3D10 | degrees of freedom | strain energy | against the finest | time |\n"
-          "| --- | --- | --- | --- | --- | --- |")
-    for name, (count, unknowns, energy, seconds) in rows.items():
-        print(f"| {name} | {count:,.0f} | {unknowns:,.0f} | {energy:.5g} mJ | {100 * (energy / finest - 1):+.2f} % | {seconds:.1f} s |")
+        model, mean, seconds = solve(*size, "--assign", "mix")
+        draws = [solve(*size, "--seed", seed)[1] for seed in range(SEEDS)]
+        print(f"| {name} | {model['tetrahedra']:,.0f} | {3 * model['nodes']:,.0f} | {100 * (mean - 1):+.2f} % | "
+              f"{100 * (statistics.mean(draws) - 1):+.1f} % | {100 * statistics.stdev(draws):.1f} % | {seconds:.1f} s |", flush=True)
+
+
+BALL = """
+size = 50;
+difference() { rectprism((size, size, size), magenta); sphere(15, magenta); }
+sphere(15, gray);
+"""
+CRUSH = {"materials": {"magenta": {"modulus_mpa": 1, "poissons_ratio": 0.3}, "gray": {"modulus_mpa": 10000, "poissons_ratio": 0.3}},
+         "supports": [{"on": "zmin", "fix": "xyz"}, {"on": "zmax", "displacement_mm": [0, 0, -1]}]}
+HEAT = {"physics": "heat", "materials": {"magenta": {"conductivity_w_mk": 0.1}, "gray": {"conductivity_w_mk": 1000}},
+        "supports": [{"on": "zmin", "temperature_c": 0}, {"on": "zmax", "temperature_c": 100}]}
+ASKING = """
+t = results("block.vtu", "von_mises", outside="nearest").value / 10;
+fgrade([1 - t, t], [magenta, gray]) rectprism((50, 50, 50), magenta);
+"""
+PLAIN = """
+fgrade(["0.5 - x / 50", "0.5 + x / 50"], [magenta, gray]) rectprism((50, 50, 50), magenta);
+"""
+
+
+def block(arguments, folder):
+    for name, text in (("ball.vcad", BALL), ("crush.json", json.dumps(CRUSH)), ("heat.json", json.dumps(HEAT)),
+                       ("asking.vcad", ASKING), ("plain.vcad", PLAIN)):
+        (folder / name).write_text(text)
+    print("| problem | bricks | iterations | solving | whole command | memory |\n| --- | --- | --- | --- | --- | --- |")
+    for name, study in (("elasticity", "crush.json"), ("heat", "heat.json")):
+        events, seconds, memory = run([arguments.ombre, "fea", "ball.vcad", "--study", study, "--cell", f"50/{arguments.bricks}",
+                                       "--solve", "--tolerance", "1e-6", "--memory", "9G", "--json"], folder)
+        print(f"| {name} | {events['model']['bricks']:,.0f} | {events['solution']['iterations']:.0f} | "
+              f"{events['solution']['seconds']:.0f} s | {seconds:.0f} s | {memory / 1e9:.2f} GB |", flush=True)
+    few = min(100, arguments.bricks)
+    run([arguments.ombre, "fea", "ball.vcad", "--study", "crush.json", "--cell", f"50/{few}", "--solve", "--tolerance", "1e-3",
+         "--json", "-o", "block.vtu"], folder)
+    took = {name: run([arguments.ombre, "slice", f"{name}.vcad", "--voxel", "0.2", "-o", name, "--json"], folder)[1]
+            for name in ("asking", "plain")}
+    print(f"{250**3:,} queries of {few**3:,} elements while slicing: {took['asking']:.1f} s, without them {took['plain']:.1f} s: "
+          f"{250**3 / (took['asking'] - took['plain']) / 1e6:.1f} million a second")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("study", choices=["lattice", "bar"])
+    parser.add_argument("study", choices=["lattice", "bar", "block"])
     parser.add_argument("ombre", type=pathlib.Path)
     parser.add_argument("--cell", default="0.5", help="size of the lattices' bricks, mm")
+    parser.add_argument("--bricks", type=int, default=216, help="of the block along each axis")
     parser.add_argument("--chart", type=pathlib.Path)
     parser.add_argument("--calculix", action="store_true")
     arguments = parser.parse_args()
@@ -154,7 +201,7 @@ def main():
     if arguments.chart:
         arguments.chart = arguments.chart.resolve()
     with tempfile.TemporaryDirectory() as folder:
-        (lattices if arguments.study == "lattice" else bars)(arguments, pathlib.Path(folder))
+        {"lattice": lattices, "bar": bars, "block": block}[arguments.study](arguments, pathlib.Path(folder))
 
 
 if __name__ == "__main__":

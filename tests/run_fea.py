@@ -299,13 +299,115 @@ def materials_that_are_nowhere_need_no_properties(folder):
     near(solution["greatest_displacement_mm"][2], 4 * 100 / 2850, 1e-6, "the stretch")
 
 
+def results_are_in_xdmf(folder):
+    """The same numbers as in the .vtu, and in the design, through a file of HDF5."""
+    folder.write("bend.json", json.dumps({**PULL, "supports": [{"on": "xmin", "fix": "xyz"}],
+                                          "loads": [{"on": "xmax", "force_n": [3, 5, -7]}]}))
+    result = program.run([folder.ombre, "fea", "mix.vcad", "--study", "bend.json", "--cell", "2.5", "--solve", "-o", "bend.vtu",
+                          "-o", "bend.xdmf"], cwd=folder.path)
+    if "OMBRE_HDF5" in result.stderr:
+        return "skipped: built without HDF5"
+    expect(result.returncode == 0, result.stderr[-1000:])
+    text, before = folder.read("bend.xdmf"), (folder.path / "bend.h5").read_bytes()
+    expect('TopologyType="Hexahedron"' in text and "bend.h5:/Mesh/geometry" in text, text[:500])
+    folder.run("mix.vcad", "--study", "bend.json", "--cell", "2.5", "--solve", "-o", "bend.xdmf", "--force", "--threads", "1")
+    expect((folder.path / "bend.h5").read_bytes() == before, "another run makes other bytes")
+
+    def fields(name):
+        events = program.run([folder.ombre, "info", name, "--json"], cwd=folder.path).stdout.splitlines()
+        return {f["name"]: f for f in json.loads(events[0])["fields"]}
+
+    grid, xdmf = fields("bend.vtu"), fields("bend.xdmf")
+    expect(grid == xdmf and "stress" in grid, f"{grid}\n{xdmf}")
+    places = ["--at", "1,2,3", "--at", "-4,0.5,2"]
+    answers = []
+    for name in ("bend.vtu", "bend.xdmf"):
+        folder.write("asks.vcad", f'attribute("zx", results("{name}", "stress", component="zx").value)'
+                                  f'attribute("move", results("{name}", "displacement").vector) cube(10, red);')
+        asked = program.run([folder.ombre, "probe", "asks.vcad", *places, "--json"], cwd=folder.path)
+        expect(asked.returncode == 0, asked.stderr[-1000:])
+        answers.append([json.loads(line)["attributes"] for line in asked.stdout.splitlines() if '"point"' in line])
+    expect(answers[0] == answers[1] and len(answers[0]) == 2, str(answers))
+    (folder.path / "bend.h5").write_bytes(before[:1000])
+    message = program.run([folder.ombre, "probe", "asks.vcad", *places], cwd=folder.path).stderr
+    expect("bend.h5" in message and "HDF5" in message, message)
+    (folder.path / "bend.h5").unlink()
+    message = program.run([folder.ombre, "probe", "asks.vcad", *places], cwd=folder.path).stderr
+    expect('"bend.h5"' in message and "values=" in message, message)
+    return xdmf_by_h5py(folder, before)
+
+
+def xdmf_by_h5py(folder, numbers):
+    """Another reader of HDF5 finds the shapes and numbers, the tensors in XDMF's order."""
+    try:
+        import h5py
+    except ImportError:
+        return ""
+    (folder.path / "again.h5").write_bytes(numbers)
+    with h5py.File(folder.path / "again.h5") as file:
+        expect(file["Mesh/geometry"].shape == (125, 3) and file["Mesh/topology"].shape == (64, 8), "shapes")
+        moves = folder.array("bend.vtu", "displacement [mm]")
+        expect(list(file["NodeData/displacement"][:].flatten()) == list(moves), "displacements")
+        stress, ours = file["CellData/stress"][:][5], folder.array("bend.vtu", "stress [MPa]")[30:36]
+        expect(list(stress) == [ours[n] for n in (0, 3, 5, 1, 4, 2)], f"{stress} and {ours}")
+    return ""
+
+
+FOLLOWING = """
+moved = "";
+share = moved == "" ? 0.1 : clamp(0, results(moved, "displacement", outside="nearest").value * 20, 0.9);
+fgrade([1 - share, share], [red, blue]) rectprism((10, 10, 10), red);
+"""
+
+
+def rounds_follow_their_results(folder):
+    """A soft block of red and blue whose share of blue is what its own displacement asks for."""
+    folder.write("follow.vcad", FOLLOWING)
+    folder.write("soft.json", json.dumps({**PULL, "loads": [{"on": "zmax", "pressure_mpa": -20}],
+                                          "materials": {"red": {**RED, "modulus_mpa": 4000},
+                                                        "blue": {**RED, "modulus_mpa": 8000}}}))
+    options = ("--study", "soft.json", "--cell", "2.5", "--assign", "mix", "--tolerance", "1e-10")
+    result = folder.run("follow.vcad", *options, "--rounds", "30", "--change", "1e-5", "--follow", "moved", "-o", "follow.vtu",
+                        "-o", "follow.csv")
+    expect("nothing changes any more" in result.stderr, result.stderr[-500:])
+    rows = [line.split(",") for line in folder.read("follow.csv").splitlines()]
+    expect(rows[0][:3] == ["round", "elements", "change"] and "share of blue" in rows[0], str(rows[0]))
+    expect(3 <= len(rows) - 1 < 30, f"{len(rows) - 1} rounds")
+    changes = [float(row[2]) for row in rows[2:]]
+    expect(all(b < a for a, b in zip(changes, changes[1:])), f"the changes do not shrink: {changes}")
+    expect((folder.path / f"follow_{len(rows) - 1}.vtu").exists(), "the last round's file is missing")
+    expect(not (folder.path / f"follow_{len(rows)}.vtu").exists(), "a file of a round that was not solved")
+    # A round is what -D says with the file of the round before.
+    folder.run("follow.vcad", *options, "--solve", "-D", "moved=follow_1.vtu", "-o", "second.vtu")
+    expect((folder.path / "second.vtu").read_bytes() == (folder.path / "follow_2.vtu").read_bytes(), "the second round")
+    # Where it ends, the share of blue is what the displacement of the same round asks for.
+    last = f"follow_{len(rows) - 1}.vtu"
+    wanted = [min(20 * math.hypot(*u), 0.9) for u in zip(*[iter(folder.array(last, "displacement [mm]"))] * 3)]
+    shares = folder.array(last, "fraction of blue")
+    expect(min(wanted) <= min(shares) and max(shares) <= max(wanted) and max(shares) > 0.3, f"{min(shares)} to {max(shares)}")
+
+
+def wrong_use_of_rounds_is_told(folder):
+    def error(*arguments):
+        return folder.run("cube.vcad", "--study", "pull.json", "--cell", "2.5", *arguments, status=1).stderr
+
+    expect("--follow moved" in error("--rounds", "3", "-o", "x.vtu"), "no variable")
+    expect("-o part.vtu" in error("--rounds", "3", "--follow", "moved", "-o", "x.csv"), "no results")
+    expect("--rounds 5" in error("--follow", "moved", "-o", "x.vtu"), "no rounds")
+    expect("--rounds 5" in error("-o", "x.csv", "--solve"), "a history of one")
+    result = folder.run("cube.vcad", "--study", "pull.json", "--cell", "2.5", "--rounds", "3", "--follow", "moved", "-o", "x.vtu")
+    expect('no variable "moved"' in result.stderr and "nothing changes any more after 1 round" in result.stdout + result.stderr,
+           result.stderr)
+    expect((folder.path / "x_1.vtu").exists() and not (folder.path / "x_2.vtu").exists(), "files")
+
+
 def wrong_use_is_told(folder):
     def error(*arguments, status=1):
         return folder.run(*arguments, status=status).stderr
 
     cube = ("cube.vcad", "--cell", "2.5")
     expect("nothing to do" in error(*cube, "--study", "pull.json"), "nothing to do")
-    expect(".inp or .vtu" in error(*cube, "--study", "pull.json", "-o", "x.stl"), "ending")
+    expect(".inp, .vtu or .xdmf" in error(*cube, "--study", "pull.json", "-o", "x.stl"), "ending")
     folder.write("bare.json", json.dumps({"supports": PULL["supports"]}))
     expect('no elastic properties of "red"' in error(*cube, "--study", "bare.json", "--solve"), "properties")
     folder.write("loose.json", json.dumps({"materials": PULL["materials"], "loads": PULL["loads"]}))
@@ -360,12 +462,13 @@ def main():
 
     def check(function):
         with tempfile.TemporaryDirectory() as scratch:
-            function(Folder(ombre, scratch))
+            return function(Folder(ombre, scratch))
 
     checks = [bars_stretch_by_hookes_law, results_are_in_the_grid, mixtures_are_drawn_or_mixed,
               moduli_come_from_attributes, decks_are_complete, tetrahedra_reach_the_surface,
               adaptive_meshes_cost_less, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix,
-              a_hook_holds_its_coat, a_mug_cools, materials_that_are_nowhere_need_no_properties, wrong_use_is_told,
+              a_hook_holds_its_coat, a_mug_cools, materials_that_are_nowhere_need_no_properties, results_are_in_xdmf, rounds_follow_their_results,
+              wrong_use_of_rounds_is_told, wrong_use_is_told,
               ctrl_c_ends_it]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
 

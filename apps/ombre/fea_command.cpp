@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "compile/fea_job.h"
 #include "compile/fea_selection.h"
+#include "compile/fea_xdmf.h"
 #include "compile/find_printer.h"
 #include "compile/tetra_job.h"
 #include "export/output_file.h"
@@ -48,6 +49,7 @@ constexpr const char* fea_footer =
     "FILE ends in\n"
     "  .inp   a deck for Abaqus and CalculiX, complete with supports and loads\n"
     "  .vtu   a grid for ParaView and others with VTK: fractions, attributes, moduli; with --solve the results too\n"
+    "  .xdmf  the same for ParaView and FEniCSx, its numbers in a file of HDF5 beside it, part.h5\n"
     "  .csv   with --rounds: a line for each round\n\n"
     "--rounds solves a design that reads its own results: the variable --follow gets the name of the .vtu file of the\n"
     "round before, until nothing changes. Files get the number of their round: part_1.vtu, part_2.vtu.\n\n"
@@ -103,7 +105,7 @@ void add_arguments(CLI::App& app, FeaArguments& a) {
                  "materials: borders between materials become faces of tetrahedra, each of one material")
       ->check(one_of({"materials"}))
       ->type_name("RULE");
-  app.add_option("-o,--output", a.outputs, "A file to write, .inp, .vtu or, of rounds, .csv; may be repeated")
+  app.add_option("-o,--output", a.outputs, "A file to write, .inp, .vtu, .xdmf or, of rounds, .csv; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   app.add_flag("--solve", a.solve, "Solve it: displacements, stresses, reactions");
@@ -167,6 +169,11 @@ std::vector<std::string> names_of(const FeaArguments& a, const std::string& path
   return names;
 }
 
+// The file of HDF5 beside an .xdmf file.
+std::string numbers_path(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".h5").string();
+}
+
 void check_outputs(const FeaArguments& a) {
   if (a.solver != "built-in" && !a.solve) throw WrongArgument("--solver calculix does nothing without --solve");
   if (a.outputs.empty() && !a.solve)
@@ -174,9 +181,12 @@ void check_outputs(const FeaArguments& a) {
   for (const std::string& path : a.outputs) {
     const std::string ending = ending_of(path);
     if (ending == ".csv" && a.rounds == 0) throw WrongArgument("-o " + path + " is of rounds: add --rounds 5");
-    if (ending != ".inp" && ending != ".vtu" && ending != ".csv")
-      throw WrongArgument("-o " + path + " does not say a format; let it end in .inp or .vtu");
-    for (const std::string& name : names_of(a, path)) refuse_to_overwrite(name, a.force);
+    if (ending != ".inp" && ending != ".vtu" && ending != ".xdmf" && ending != ".csv")
+      throw WrongArgument("-o " + path + " does not say a format; let it end in .inp, .vtu or .xdmf");
+    for (const std::string& name : names_of(a, path)) {
+      refuse_to_overwrite(name, a.force);
+      if (ending == ".xdmf") refuse_to_overwrite(numbers_path(name), a.force);
+    }
   }
 }
 
@@ -332,8 +342,20 @@ void tell_conduction(const FeaArguments& a, const Console& console, const Case& 
                              {is_heat ? "leaves_w" : "leaves_a", leaves}});
 }
 
+// The grid has its name last, so what has it is whole.
+void write_xdmf(const std::string& path, const Case& here, const compile::FeaResults& results) {
+  const fea::ModelView model = here.view();
+  const std::string beside = numbers_path(path);
+  const compile::XdmfFiles files = compile::fea_xdmf(
+      model.mesh, compile::fea_element_fields(model, here.conditions.physics, results),
+      compile::fea_node_fields(here.conditions.physics, results), std::filesystem::path(beside).filename().string());
+  exporting::write_file(beside, files.numbers);
+  exporting::write_file(path, files.xdmf);
+}
+
 void write_output(const FeaArguments& a, const std::string& path, const Case& here,
                   const compile::FeaResults& results) {
+  if (ending_of(path) == ".xdmf") return write_xdmf(path, here, results);
   exporting::NewFile file(path);
   const fea::Sink sink = [&](std::string_view bytes) { file.append(bytes); };
   const fea::ModelView model = here.view();

@@ -117,7 +117,7 @@ int show_script(const std::string& path, Session& session) {
 
 int show_file(const std::string& path, const VolumeArguments& volume, Session& session) {
   if (path.ends_with(".scad")) return show_script(path, session);
-  if (is_results(path)) return show_results(path, session);
+  if (is_results(path) || is_xdmf(path)) return show_results(path, session);
   return is_design(path) ? show_design(path, session) : show_volume(path, volume, session);
 }
 

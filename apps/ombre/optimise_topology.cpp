@@ -73,10 +73,11 @@ void write_density(const std::string& path, const fea::Bricks& bricks, const std
 }
 
 std::string history_of(const optimise::Topology& topology) {
-  std::string text = "step,compliance [N mm],volume fraction,change\n";
+  std::string text = "step,compliance [N mm],volume fraction,change,greyness\n";
   for (const optimise::TopologyStep& step : topology.steps)
     text += std::to_string(step.number) + "," + format_number(step.compliance) + "," +
-            format_number(step.volume_fraction) + "," + format_number(step.change) + "\n";
+            format_number(step.volume_fraction) + "," + format_number(step.change) + "," +
+            format_rounded(step.greyness, 6) + "\n";
   return text;
 }
 
@@ -136,7 +137,8 @@ int optimise_topology(const TopologyArguments& a, const Data& data, Session& ses
   const optimise::TopologyStep &first = topology.steps.front(), &last = topology.steps.back();
   session.console.say(format_count(topology.steps.size()) + " steps: the compliance fell from " +
                       format_rounded(first.compliance, 5) + " to " + format_rounded(last.compliance, 5) +
-                      " N mm with " + format_rounded(100 * last.volume_fraction, 3) + " % of the volume" +
+                      " N mm with " + format_rounded(100 * last.volume_fraction, 3) + " % of the volume, " +
+                      format_rounded(100 * last.greyness, 3) + " % grey" +
                       (last.change > options.change ? ", and would fall further with more steps" : ""));
   session.console.say("densities in " + files[0] + ", a solid of them in " + files[1]);
   session.console.event("topology", {{"bricks", static_cast<double>(made->model.bricks.count())},
@@ -144,6 +146,7 @@ int optimise_topology(const TopologyArguments& a, const Data& data, Session& ses
                                      {"compliance_n_mm", last.compliance},
                                      {"volume_fraction", last.volume_fraction},
                                      {"change", last.change},
+                                     {"greyness", last.greyness},
                                      {"files", DataList(files.begin(), files.end())}});
   return done;
 }

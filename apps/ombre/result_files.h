@@ -9,7 +9,9 @@ namespace ombre::cli {
 
 // Does the name end like one of those files that hold a mesh: .vtu, .frd, .inp?
 bool is_results(const std::string& path);
-// Prints what such a file holds; an exit code.
+// Does it end like a grid whose numbers are in a file of HDF5 beside it?
+bool is_xdmf(const std::string& path);
+// Prints what one of these files holds; an exit code.
 int show_results(const std::string& path, Session& session);
 // A design that is the mesh of such a file, moved by its displacement times `deform`, with the field called `by` as an
 // attribute of that name; empty: without one.

@@ -9,14 +9,15 @@ namespace {
 
 void read_topology(const Data& data, optimise::TopologyOptions& options, Diagnostics& diagnostics) {
   constexpr double longest_mm = 1e6;
-  StudyMembers members(data, "a topology", {"volume_fraction", "radius", "penalty", "steps", "move", "change"},
-                       diagnostics);
+  StudyMembers members(data, "a topology",
+                       {"volume_fraction", "radius", "penalty", "steps", "move", "change", "projection"}, diagnostics);
   if (!data.members()) return;
   options.volume_fraction = members.number("volume_fraction", std::nullopt, 0.01, 1);
   options.radius_mm = members.number("radius", 0, 0, longest_mm);
   options.penalty = members.number("penalty", options.penalty, 1, 10);
   options.steps = static_cast<size_t>(members.number("steps", static_cast<double>(options.steps), 1, 100'000));
   options.move = members.number("move", options.move, 0.001, 1);
+  options.projection = members.number("projection", 0, 0, 1000);
   options.change = members.number("change", options.change, 1e-6, 1);
 }
 

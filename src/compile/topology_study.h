@@ -16,7 +16,8 @@ struct TopologyStudy {
 };
 
 // {"topology": {"volume_fraction": 0.5, "radius": 2.4, "penalty": 3, "steps": 200, "move": 0.2,
-//  "change": 0.01}, "fea": "pull.json", "cell": 1}. Nothing, and diagnostics with places, when it is wrong.
+//  "change": 0.01, "projection": 16}, "fea": "pull.json", "cell": 1}. Nothing, and diagnostics with places, when it is
+//  wrong.
 std::optional<TopologyStudy> read_topology_study(const Data& data, Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

@@ -73,6 +73,24 @@ void BrickOperator::add_forces_of(uint32_t brick, const Vector& displacements, V
     for (size_t axis = 0; axis < 3; ++axis) forces[3 * size_t{nodes[c]} + axis] += f[3 * c + axis];
 }
 
+void BrickOperator::add_forces_of_four(const uint32_t* bricks, const Vector& displacements, Vector& forces) const {
+  FourVector u, f{};
+  Four shear, bulk;
+  for (int lane = 0; lane < 4; ++lane) {
+    const uint32_t brick = bricks[lane];
+    shear[lane] = moduli_[brick].shear;
+    bulk[lane] = moduli_[brick].bulk;
+    for (size_t c = 0; c < 8; ++c)
+      for (size_t axis = 0; axis < 3; ++axis)
+        u[3 * c + axis][lane] = displacements[3 * size_t{bricks_.nodes[brick][c]} + axis];
+  }
+  stiffness_.add_four(shear, bulk, u, f);
+  for (int lane = 0; lane < 4; ++lane)
+    for (size_t c = 0; c < 8; ++c)
+      for (size_t axis = 0; axis < 3; ++axis)
+        forces[3 * size_t{bricks_.nodes[bricks[lane]][c]} + axis] += f[3 * c + axis][lane];
+}
+
 void BrickOperator::add_flows_of(uint32_t brick, const Vector& values, Vector& flows) const {
   const auto& nodes = bricks_.nodes[brick];
   std::array<double, 8> v, f{};
@@ -81,15 +99,24 @@ void BrickOperator::add_flows_of(uint32_t brick, const Vector& values, Vector& f
   for (size_t c = 0; c < 8; ++c) flows[nodes[c]] += f[c];
 }
 
+// Bricks of one colour.
+void BrickOperator::add_of(const uint32_t* begin, const uint32_t* end, const Vector& displacements,
+                           Vector& forces) const {
+  if (unknowns_ == 1) {
+    for (; begin != end; ++begin) add_flows_of(*begin, displacements, forces);
+    return;
+  }
+  for (; end - begin >= 4; begin += 4) add_forces_of_four(begin, displacements, forces);
+  for (; begin != end; ++begin) add_forces_of(*begin, displacements, forces);
+}
+
 void BrickOperator::all_forces(const Vector& displacements, Vector& forces) const {
   forces.assign(displacements.size(), 0);
   for (size_t n = 0; n < more_diagonal_.size(); ++n) forces[n] = more_diagonal_[n] * displacements[n];
   for (const std::vector<uint32_t>& colour : colours_) {
     const auto work = [&](size_t piece) {
-      const size_t end = std::min(colour.size(), (piece + 1) * bricks_of_piece);
-      for (size_t n = piece * bricks_of_piece; n < end; ++n)
-        unknowns_ == 1 ? add_flows_of(colour[n], displacements, forces)
-                       : add_forces_of(colour[n], displacements, forces);
+      const size_t begin = piece * bricks_of_piece, end = std::min(colour.size(), begin + bricks_of_piece);
+      add_of(colour.data() + begin, colour.data() + end, displacements, forces);
     };
     run_parallel((colour.size() + bricks_of_piece - 1) / bricks_of_piece, threads_, work);
   }

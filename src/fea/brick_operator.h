@@ -13,13 +13,12 @@ namespace ombre::fea {
 
 // Shear and bulk modulus of a brick, MPa.
 struct Moduli {
-  float shear = 0, bulk = 0;
+  double shear = 0, bulk = 0;
 };
 
 // Converts Young's modulus and Poisson's ratio.
 inline Moduli moduli_of(double modulus_mpa, double poissons_ratio) {
-  return {static_cast<float>(modulus_mpa / (2 * (1 + poissons_ratio))),
-          static_cast<float>(modulus_mpa / (3 * (1 - 2 * poissons_ratio)))};
+  return {modulus_mpa / (2 * (1 + poissons_ratio)), modulus_mpa / (3 * (1 - 2 * poissons_ratio))};
 }
 
 // A number for each degree of freedom: x, y, z of node 0, and so on; of conduction one for each node.
@@ -51,7 +50,9 @@ class BrickOperator {
   const Vector& inverse_diagonal() const { return inverse_diagonal_; }
 
  private:
+  void add_of(const uint32_t* begin, const uint32_t* end, const Vector& displacements, Vector& forces) const;
   void add_forces_of(uint32_t brick, const Vector& displacements, Vector& forces) const;
+  void add_forces_of_four(const uint32_t* bricks, const Vector& displacements, Vector& forces) const;
   void add_flows_of(uint32_t brick, const Vector& values, Vector& flows) const;
   double diagonal_of(uint32_t brick, size_t n) const;
 

@@ -41,19 +41,20 @@ double sign_of(size_t pattern, size_t bits) {
 }
 
 // From corners to eight times the patterns, and back to the corners from patterns.
-void transform(std::array<double, 8>& v) {
+template <class T>
+inline void transform(std::array<T, 8>& v) {
   for (size_t n = 0; n < 8; n += 2) {
-    const double a = v[n], b = v[n + 1];
+    const T a = v[n], b = v[n + 1];
     v[n] = a + b;
     v[n + 1] = a - b;
   }
   for (const size_t n : {size_t{0}, size_t{1}, size_t{4}, size_t{5}}) {
-    const double a = v[n], b = v[n + 2];
+    const T a = v[n], b = v[n + 2];
     v[n] = a + b;
     v[n + 2] = a - b;
   }
   for (size_t n = 0; n < 4; ++n) {
-    const double a = v[n], b = v[n + 4];
+    const T a = v[n], b = v[n + 4];
     v[n] = a + b;
     v[n + 4] = a - b;
   }
@@ -77,6 +78,32 @@ void find_patterns(BrickStiffness& stiffness) {
 double gauss_point(const Cell& corner, size_t axis) {
   const double offset = 0.5 / std::sqrt(3.0);  // from the middle
   return 0.5 + (corner[axis] == 1 ? offset : -offset);
+}
+
+// For double, or for four of them.
+template <class T>
+inline void add_forces_of(const BrickStiffness& brick, const T& shear_mpa, const T& bulk_mpa,
+                          const std::array<T, 24>& u, std::array<T, 24>& forces) {
+  std::array<std::array<T, 8>, 3> moved, pushed;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    for (size_t c = 0; c < 8; ++c) moved[axis][bits_of(c)] = u[3 * c + axis];
+    transform(moved[axis]);
+  }
+  for (size_t block = 0; block < 8; ++block) {
+    const T x = moved[0][pattern_of(block, 0)], y = moved[1][pattern_of(block, 1)], z = moved[2][pattern_of(block, 2)];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto& row = brick.shear_patterns[block][axis];
+      pushed[axis][pattern_of(block, axis)] = shear_mpa * (row[0] * x + row[1] * y + row[2] * z);
+    }
+  }
+  T divergence{};
+  for (size_t axis = 0; axis < 3; ++axis) divergence += brick.dilation_pattern[axis] * moved[axis][axis_bits[axis]];
+  for (size_t axis = 0; axis < 3; ++axis)
+    pushed[axis][axis_bits[axis]] += bulk_mpa * brick.volume_mm3 * divergence * brick.dilation_pattern[axis];
+  for (size_t axis = 0; axis < 3; ++axis) {
+    transform(pushed[axis]);
+    for (size_t c = 0; c < 8; ++c) forces[3 * c + axis] += pushed[axis][bits_of(c)];
+  }
 }
 
 }  // namespace
@@ -115,27 +142,12 @@ BrickStiffness brick_stiffness(Vec3 size_mm) {
 }
 
 void BrickStiffness::add_forces(double shear_mpa, double bulk_mpa, const BrickVector& u, BrickVector& forces) const {
-  std::array<std::array<double, 8>, 3> moved, pushed;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    for (size_t c = 0; c < 8; ++c) moved[axis][bits_of(c)] = u[3 * c + axis];
-    transform(moved[axis]);
-  }
-  for (size_t block = 0; block < 8; ++block) {
-    const double x = moved[0][pattern_of(block, 0)], y = moved[1][pattern_of(block, 1)],
-                 z = moved[2][pattern_of(block, 2)];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const auto& row = shear_patterns[block][axis];
-      pushed[axis][pattern_of(block, axis)] = shear_mpa * (row[0] * x + row[1] * y + row[2] * z);
-    }
-  }
-  double divergence = 0;
-  for (size_t axis = 0; axis < 3; ++axis) divergence += dilation_pattern[axis] * moved[axis][axis_bits[axis]];
-  for (size_t axis = 0; axis < 3; ++axis)
-    pushed[axis][axis_bits[axis]] += bulk_mpa * volume_mm3 * divergence * dilation_pattern[axis];
-  for (size_t axis = 0; axis < 3; ++axis) {
-    transform(pushed[axis]);
-    for (size_t c = 0; c < 8; ++c) forces[3 * c + axis] += pushed[axis][bits_of(c)];
-  }
+  add_forces_of<double>(*this, shear_mpa, bulk_mpa, u, forces);
+}
+
+void BrickStiffness::add_four(const Four& shear_mpa, const Four& bulk_mpa, const FourVector& u,
+                              FourVector& forces) const {
+  add_forces_of<Four>(*this, shear_mpa, bulk_mpa, u, forces);
 }
 
 BrickConductance brick_conductance(Vec3 size_mm) {

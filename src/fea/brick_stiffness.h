@@ -11,6 +11,10 @@ namespace ombre::fea {
 // Three displacements for each of a brick's nodes: x, y, z of the first, and so on.
 using BrickVector = std::array<double, 24>;
 
+// Four numbers that are worked on together.
+using Four = double __attribute__((vector_size(32)));
+using FourVector = std::array<Four, 24>;
+
 // A brick looks the same in its mirrors, so in sums and differences of its corners (Walsh's functions) its stiffness
 // falls apart into eight blocks, each between one pattern of the displacements along x, y and z. That takes a quarter
 // of the work.
@@ -26,6 +30,8 @@ struct BrickStiffness {
 
   // forces += the stiffness of these moduli (MPa) times `u`.
   void add_forces(double shear_mpa, double bulk_mpa, const BrickVector& u, BrickVector& forces) const;
+  // The same of four bricks at once, each number of the four beside each other; the same bits.
+  void add_four(const Four& shear_mpa, const Four& bulk_mpa, const FourVector& u, FourVector& forces) const;
   // The diagonal of the stiffness.
   double diagonal(double shear_mpa, double bulk_mpa, size_t n) const {
     return shear_mpa * shear[n][n] + bulk_mpa * volume_mm3 * dilation[n] * dilation[n];

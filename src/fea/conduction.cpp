@@ -109,7 +109,7 @@ BrickOperator conductance_of(const ModelView& model, const Setup& setup, int thr
   std::vector<Moduli> conductivities;
   conductivities.reserve(model.mesh.count());
   for (size_t brick = 0; brick < model.mesh.count(); ++brick)
-    conductivities.push_back({static_cast<float>(model.section(brick).conductivity * per_mm_of_per_m), 0});
+    conductivities.push_back({model.section(brick).conductivity * per_mm_of_per_m, 0});
   return {*model.mesh.bricks(), std::move(conductivities), setup.free, threads, setup.film_diagonal};
 }
 

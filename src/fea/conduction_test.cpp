@@ -48,7 +48,7 @@ TEST(Conduction, LinearTemperaturesAreExact) {
 // A wall of 10 mm and 4 mm2 with 0.5 W/(m K) at its left and 2 at its right.
 TEST(Conduction, MaterialsInSeriesAndParallel) {
   for (const bool in_series : {true, false}) {
-    Model model = model_of(block({4, 4, 10}, {0.5, 0.5, 1}), {1e-12});
+    Model model = model_of(block({4, 4, 10}, {0.5, 0.5, 1}), {});
     model.sections = {{"one", {}, 0.5}, {"two", {}, 2}};
     for (size_t n = 0; n < model.bricks.count(); ++n)
       model.section_of[n] = (in_series ? model.bricks.cells[n][2] >= 5 : model.bricks.cells[n][0] >= 2) ? 1 : 0;
@@ -56,7 +56,7 @@ TEST(Conduction, MaterialsInSeriesAndParallel) {
                                      conditions_from(R"({"physics": "heat", "supports": [
         {"on": "zmin", "temperature_c": 20}, {"on": "zmax", "temperature_c": 70}]})",
                                                      model),
-                                     {});
+                                     {1e-12});
     double enters = 0, leaves = 0;
     for (const Prescribed& flow : found.flows) (flow.value > 0 ? enters : leaves) += flow.value;
     const double conductance = in_series ? 4e-3 / (5 / 0.5 + 5 / 2.0) : 2e-3 * (0.5 + 2.0) / 10;  // W/K
@@ -85,7 +85,7 @@ TEST(Conduction, BricksGiveWhatAMatrixGives) {
 }
 
 TEST(Conduction, MultigridKeepsIterationsFew) {
-  for (const int32_t count : {12, 24, 48}) {
+  for (const int32_t count : {10, 20, 40}) {
     Model model = model_of(block({count, count, count}, {1, 1, 1}), {});
     model.sections = {{"one", {}, 1}};
     const Conduction found = conduct(model,

@@ -102,6 +102,14 @@ Coarse coarsen(const BrickOperator& fine) {
   return coarse;
 }
 
+// Numbers from -0.5 to 0.5 with all frequencies, by the last step of splitmix64 (Steele, Lea and Flood, 2014).
+double noise(uint64_t n) {
+  n = (n + 1) * 0x9e3779b97f4a7c15U;
+  n = (n ^ (n >> 30)) * 0xbf58476d1ce4e5b9U;
+  n = (n ^ (n >> 27)) * 0x94d049bb133111ebU;
+  return static_cast<double>((n ^ (n >> 31)) >> 11) * 0x1p-53 - 0.5;
+}
+
 using Factor = Eigen::LDLT<Eigen::MatrixXd>;
 
 // Unknowns that are held, or that nothing decides, have pivots of 0, and become 0.
@@ -133,8 +141,7 @@ struct Multigrid::Level {
   void find_spectrum() {
     const Vector& inverse = fine->inverse_diagonal();
     Vector vector(fine->size());
-    for (size_t n = 0; n < vector.size(); ++n)
-      vector[n] = inverse[n] > 0 ? 1 + 0.5 * std::sin(static_cast<double>(n % 1024) * 12.9898) : 0;
+    for (size_t n = 0; n < vector.size(); ++n) vector[n] = inverse[n] > 0 ? noise(n) : 0;
     for (int round = 0; round < power_rounds; ++round) {
       const double norm = std::sqrt(dot(vector, vector, fine->threads()));
       if (!(norm > 0)) break;

@@ -43,6 +43,8 @@ Results read_any(const std::string& name, std::string_view bytes, const std::opt
                  Diagnostics& diagnostics) {
   const std::string_view text = trim(bytes.substr(0, std::min<size_t>(bytes.size(), 4096)));
   const bool is_deck = text.starts_with('*');
+  if (text.starts_with('<') && text.find("<Xdmf") != std::string_view::npos)
+    return read_xdmf(name, bytes, values, diagnostics);
   if (values && !is_deck)
     fail(diagnostics, name, "a table of values belongs to a mesh in an .inp file", "leave \"values\" out");
   if (text.starts_with('<')) return read_vtu(name, bytes, diagnostics);

@@ -11,6 +11,10 @@ namespace ombre::formats {
 // Unstructured grids of VTK: text, base64 or raw, packed by zlib or not.
 Results read_vtu(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
+// Uniform grids of XDMF 3. `numbers` is the file of HDF5 beside it, if there is one.
+Results read_xdmf(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& numbers,
+                  Diagnostics& diagnostics);
+
 // Results of CalculiX, as text. Of several steps the last one's.
 Results read_frd(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 

@@ -38,6 +38,11 @@ VoxelVolume read_vti(const VolumeFile& file) {
   fail_volume(file.path, std::string("is VTK image data, and ") + missing + "; " + remedy);
 }
 
+Results read_xdmf(const std::string& name, std::string_view, const std::optional<ResultsFile>&,
+                  Diagnostics& diagnostics) {
+  fail(diagnostics, name, std::string("XDMF files cannot be read: ") + missing, remedy);
+}
+
 bool can_write_3mf() { return false; }
 
 void write_zip(const std::string& path, const std::vector<ZipEntry>&) {

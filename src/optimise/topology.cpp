@@ -15,6 +15,7 @@ namespace {
 using fea::Vector;
 
 constexpr size_t most_iterations = 20'000;
+constexpr double least_cost = 1e-30;  // of a density that no step moves
 
 // Displacements under loads that stay the same, for moduli that change a little from one solution to the next.
 class Equilibrium {
@@ -38,7 +39,7 @@ class Equilibrium {
     std::vector<fea::Moduli> moduli(shares.size());
     for (size_t n = 0; n < shares.size(); ++n) {
       const fea::Moduli full = full_moduli(n);
-      moduli[n] = {static_cast<float>(full.shear * shares[n]), static_cast<float>(full.bulk * shares[n])};
+      moduli[n] = {full.shear * shares[n], full.bulk * shares[n]};
     }
     const fea::BrickOperator stiffness(model_.bricks, std::move(moduli), free_, options_.threads);
     run_gradients(stiffness);
@@ -57,8 +58,7 @@ class Equilibrium {
  private:
   fea::Moduli full_moduli(size_t brick) const {
     const fea::Elastic& elastic = model_.elastic(brick);
-    const double e = elastic.modulus_mpa, nu = elastic.poissons_ratio;
-    return {static_cast<float>(e / (2 * (1 + nu))), static_cast<float>(e / (3 * (1 - 2 * nu)))};
+    return fea::moduli_of(elastic.modulus_mpa, elastic.poissons_ratio);
   }
 
   double energy(size_t brick) const {
@@ -116,6 +116,22 @@ class Equilibrium {
   fea::BrickStiffness stiffness_;
 };
 
+// Draws densities towards 0 and 1: tanh about a half, from 0 to 1. Steepness 0 leaves them.
+struct Projection {
+  double steepness = 0;
+
+  double operator()(double density) const {
+    if (steepness == 0) return density;
+    const double edge = std::tanh(steepness / 2);
+    return (edge + std::tanh(steepness * (density - 0.5))) / (2 * edge);
+  }
+  double slope(double density) const {
+    if (steepness == 0) return 1;
+    const double at = std::tanh(steepness * (density - 0.5));
+    return steepness * (1 - at * at) / (2 * std::tanh(steepness / 2));
+  }
+};
+
 class TopologySearch {
  public:
   TopologySearch(const fea::Model& model, const fea::Conditions& conditions, const TopologyOptions& options,
@@ -124,17 +140,24 @@ class TopologySearch {
         count_(model.bricks.count()),
         filter_(model.bricks, options.radius_mm, options.threads),
         equilibrium_(model, conditions, options, stop),
-        design_(count_, options.volume_fraction) {}
+        design_(count_, options.volume_fraction),
+        projection_{std::min(1.0, options.projection)} {}
 
   Topology run(const std::function<void(const TopologyStep&)>& told) {
     Topology topology;
-    density_ = filter_.apply(design_);
+    find_density(design_);
+    size_t since = 0;  // steps with this projection
     for (size_t number = 1; number <= options_.steps; ++number) {
-      TopologyStep step{number, equilibrium_.solve(shares()), mean(density_), 0};
+      TopologyStep step{number, equilibrium_.solve(shares()), mean(density_), 0, greyness()};
       step.change = move();
       topology.steps.push_back(step);
       if (told) told(step);
-      if (step.change <= options_.change) break;
+      const bool is_last = projection_.steepness >= options_.projection, is_still = step.change <= options_.change;
+      if (is_last && is_still) break;
+      if (is_last || (!is_still && ++since < options_.projection_steps)) continue;
+      projection_.steepness = std::min(2 * projection_.steepness, options_.projection);
+      since = 0;
+      find_density(design_);
     }
     topology.density.assign(density_.begin(), density_.end());
     return topology;
@@ -147,6 +170,18 @@ class TopologySearch {
     return sum / static_cast<double>(values.size());
   }
 
+  double greyness() const {
+    double sum = 0;
+    for (const double density : density_) sum += 4 * density * (1 - density);
+    return sum / static_cast<double>(count_);
+  }
+
+  void find_density(const Vector& design) {
+    filtered_ = filter_.apply(design);
+    density_ = filtered_;
+    for (double& density : density_) density = projection_(density);
+  }
+
   Vector shares() const {
     Vector result(count_);
     for (size_t n = 0; n < count_; ++n)
@@ -157,11 +192,15 @@ class TopologySearch {
   // A step by optimality criteria, with the multiplier that keeps the volume. Returns the greatest change.
   double move() {
     const Vector energies = equilibrium_.energies();
-    Vector gain(count_);
-    for (size_t n = 0; n < count_; ++n)
-      gain[n] = options_.penalty * std::pow(density_[n], options_.penalty - 1) * (1 - options_.least) * energies[n];
+    Vector gain(count_), cost(count_);
+    for (size_t n = 0; n < count_; ++n) {
+      cost[n] = projection_.slope(filtered_[n]);
+      gain[n] =
+          options_.penalty * std::pow(density_[n], options_.penalty - 1) * (1 - options_.least) * energies[n] * cost[n];
+    }
     gain = filter_.apply_transposed(gain);
-    const Vector cost = filter_.apply_transposed(Vector(count_, 1));
+    cost = filter_.apply_transposed(cost);
+    for (double& here : cost) here = std::max(here, least_cost);
     Vector next(count_);
     double low = 0, high = 1e9;
     for (size_t n = 0; n < count_; ++n) high = std::max(high, 1e9 * gain[n] / cost[n]);
@@ -172,7 +211,7 @@ class TopologySearch {
         next[n] =
             std::clamp(wanted, std::max(0.0, design_[n] - options_.move), std::min(1.0, design_[n] + options_.move));
       }
-      density_ = filter_.apply(next);
+      find_density(next);
       (mean(density_) > options_.volume_fraction ? low : high) = multiplier;
     }
     double change = 0;
@@ -185,7 +224,8 @@ class TopologySearch {
   size_t count_;
   DensityFilter filter_;
   Equilibrium equilibrium_;
-  Vector design_, density_;
+  Vector design_, filtered_, density_;
+  Projection projection_;
 };
 
 }  // namespace

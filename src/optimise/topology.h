@@ -18,6 +18,10 @@ struct TopologyOptions {
   double change = 0.01;          // of all densities, at which it ends
   double tolerance = 1e-6;       // of the forces, in the norm of the loads
   size_t steps = 200;            // at most
+  // How steep the projection becomes that makes densities 0 or 1; 0: none. It begins with 1 and doubles every
+  // `projection_steps` steps, or when densities hardly change (Wang, Lazarov and Sigmund, 2011, about a half).
+  double projection = 0;
+  size_t projection_steps = 30;
   int threads = 0;
 };
 
@@ -25,6 +29,7 @@ struct TopologyStep {
   size_t number = 1;
   double compliance = 0;  // N mm, of the densities before the step
   double volume_fraction = 0, change = 0;
+  double greyness = 0;  // the mean of 4 density (1 - density): 0 where all are 0 or 1
 };
 
 struct Topology {

@@ -50,6 +50,19 @@ TEST(Topology, IsStifferThanTheSameVolumeEverywhere) {
   EXPECT_LT(topology.steps.back().compliance, 0.4 * topology.steps.front().compliance);
 }
 
+// Projected densities are nearly all 0 or 1, with the same volume.
+TEST(Topology, ProjectionLeavesLittleGrey) {
+  TopologyOptions options;
+  options.steps = 150;
+  const Topology plain = Bracket().find(options);
+  options.projection = 16;
+  options.projection_steps = 20;
+  const Topology sharp = Bracket().find(options);
+  EXPECT_NEAR(mean_of(sharp.density), 0.5, 2e-3);
+  EXPECT_LT(sharp.steps.back().greyness, 0.3 * plain.steps.back().greyness);
+  EXPECT_LT(sharp.steps.back().compliance, 0.5 * sharp.steps.front().compliance);
+}
+
 // Where all material is to be used, there is nothing to find: each density is 1.
 TEST(Topology, OfAllTheMaterialIsTheSolid) {
   TopologyOptions options;
