@@ -158,7 +158,8 @@ class ScadRun {
     for (const std::string& output : arguments_.outputs)
       if (writes_solids(format_of(output, arguments_))) paths.push_back(output);
     if (design_ && !paths.empty()) return write_design(design_, paths, arguments_.no_overlap, session_);
-    return paths.empty() || !outcome.tree || write_solids(outcome.tree, paths, arguments_.no_overlap, session_);
+    return paths.empty() || !outcome.tree ||
+           write_solids(outcome.tree, paths, arguments_.no_overlap, messages_, session_);
   }
 
   void show(const openscad::Message& message) const {

@@ -1,6 +1,7 @@
 #include "ombre/scad_files.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "compile/scad_job.h"
@@ -59,8 +60,29 @@ bool write_design(const compile::LoadedPtr& loaded, const std::vector<std::strin
   return pieces && !messages.has_errors();
 }
 
+namespace {
+
+// Warnings as the script's own; returns what else there is.
+Diagnostics without_warnings(const Diagnostics& found, lang::openscad::Messages& said) {
+  Diagnostics others;
+  for (const Diagnostic& diagnostic : found.list()) {
+    if (diagnostic.severity != Severity::warning) {
+      others.add(diagnostic);
+      continue;
+    }
+    const SourceRange& where = diagnostic.where;
+    const std::string text = diagnostic.message + (diagnostic.hint.empty() ? "" : "; " + diagnostic.hint);
+    using Kind = lang::openscad::Message::Kind;
+    said.add({Kind::warning, text, where.source ? std::filesystem::path(where.source->name()).filename().string() : "",
+              where.source ? where.source->place(where.begin).line : 0});
+  }
+  return others;
+}
+
+}  // namespace
+
 bool write_solids(const solids::TreePtr& tree, const std::vector<std::string>& paths, bool no_overlap,
-                  Session& session) {
+                  lang::openscad::Messages& said, Session& session) {
   compile::ScadRequest request;
   request.tree = tree;
   for (const std::string& path : paths) {
@@ -74,7 +96,7 @@ bool write_solids(const solids::TreePtr& tree, const std::vector<std::string>& p
   std::optional<QuitAtOnce> quits(std::in_place);
   request.before_writing = [&] { quits.reset(); };
   const compile::ScadResult result = compile::run_scad(request, messages);
-  session.console.diagnose(messages);
+  session.console.diagnose(without_warnings(messages, said));
   if (messages.has_errors()) return false;
   tell_files(result.files, session);
   return true;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compile/load.h"
+#include "lang/openscad/messages.h"
 #include "ombre/commands.h"
 #include "solids/tree.h"
 
@@ -15,9 +16,9 @@ std::vector<std::string> scad_formats();
 // Whether the format is one of solids or areas: a mesh, or a drawing.
 bool writes_solids(const std::string& format);
 // Writes the tree's solids or areas to all paths, each in the format of its ending; "{part}" in a path makes a file for
-// each part. False, and diagnostics on the console, where they do not fit.
+// each part. False, and diagnostics on the console, where they do not fit. Warnings of the geometry are `said`.
 bool write_solids(const solids::TreePtr& tree, const std::vector<std::string>& paths, bool no_overlap,
-                  Session& session);
+                  lang::openscad::Messages& said, Session& session);
 
 // The same of a script's design, whose surfaces are triangles within the tolerance of `ombre mesh`.
 bool write_design(const compile::LoadedPtr& loaded, const std::vector<std::string>& paths, bool no_overlap,

@@ -47,6 +47,8 @@ class CgalBody : public Body {
 inline const CgalBody& cgal(const Body& body) { return static_cast<const CgalBody&>(body); }
 
 Box box_of(const ExactMesh& mesh);
+// Whether vertices coincide.
+bool touches_itself(const ExactMesh& mesh);
 // The result's surfaces, by Nef polyhedra: slow, but where they touch themselves that is no obstacle.
 Parts combine_nef(Boolean operation, const Part& a, const Part& b);
 std::vector<TriangleMesh> convex_parts_nef(const Part& part);

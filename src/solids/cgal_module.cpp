@@ -11,6 +11,7 @@
 #include <CGAL/boost/graph/helpers.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "base/error.h"
 #include "solids/cgal_body.h"
@@ -69,17 +70,31 @@ bool corefined(Boolean operation, const ExactMesh& a, const ExactMesh& b, ExactM
 
 using Meshes = std::vector<ExactMesh>;
 
-bool corefined(Boolean operation, const Part& a, const Part& b, ExactMesh& result) {
-  return !a.nef && !b.nef && corefined(operation, a.surface, b.surface, result);
+// Nothing where corefinement could not do it, or left a shell that touches itself: it leaves two where surfaces meet in
+// a corner.
+std::optional<Parts> corefined_parts(Boolean operation, const Part& a, const Part& b) {
+  ExactMesh result;
+  if (a.nef || b.nef || !corefined(operation, a.surface, b.surface, result)) return std::nullopt;
+  if (result.number_of_faces() == 0) return Parts();
+  Parts parts;
+  if (!touches_itself(result)) {
+    parts.emplace_back(std::move(result));
+    return parts;
+  }
+  for (ExactMesh& shell : apart(result)) {
+    if (touches_itself(shell)) return std::nullopt;
+    parts.emplace_back(std::move(shell));
+  }
+  return parts;
+}
+
+Parts combined(Boolean operation, const Part& a, const Part& b) {
+  auto parts = corefined_parts(operation, a, b);
+  return parts ? std::move(*parts) : combine_nef(operation, a, b);
 }
 
 void add_combined(Boolean operation, const Part& a, const Part& b, Parts& results) {
-  ExactMesh result;
-  if (!corefined(operation, a, b, result)) {
-    for (Part& part : combine_nef(operation, a, b)) results.push_back(std::move(part));
-  } else if (result.number_of_faces() > 0) {
-    results.emplace_back(std::move(result));
-  }
+  for (Part& part : combined(operation, a, b)) results.push_back(std::move(part));
 }
 
 Exact::FT volume_of(const Part& part) { return processing::volume(part.surface); }
@@ -110,13 +125,7 @@ Parts intersected(const Parts& some, const Parts& others) {
 
 // Unites two that meet. False where they only touch, and stay two.
 bool join(const Part& a, const Part& b, Parts& joined) {
-  ExactMesh result;
-  if (corefined(Boolean::unite, a, b, result)) {
-    joined.clear();
-    joined.emplace_back(std::move(result));
-    return true;
-  }
-  joined = combine_nef(Boolean::unite, a, b);
+  joined = combined(Boolean::unite, a, b);
   Exact::FT volume = 0;
   for (const Part& part : joined) volume += volume_of(part);
   return joined.size() < 2 || volume != volume_of(a) + volume_of(b);
@@ -157,14 +166,33 @@ Parts of_shells(const ExactMesh& mesh) {
 
 BodyPtr body_of(Parts parts) { return std::make_shared<CgalBody>(std::move(parts)); }
 
-// A closed connected surface without a reflex edge is convex.
+// How far the point lies above the plane of the triangle.
+double height_above(const std::array<Vec3, 3>& triangle, Vec3 point) {
+  const Vec3 normal = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+  const double size = length(normal);
+  return size > 0 ? dot(normal, point - triangle[0]) / size : 0;
+}
+
+// A closed connected surface without a reflex edge is convex. Faces with more than three corners, such as those of
+// balls, are flat but for the rounding of their corners, which does not count.
 bool has_reflex_edge(const ExactMesh& mesh) {
+  constexpr double rounding = 1e-12;  // of the size of the solid
+  Box box;
+  std::vector<Vec3> points(mesh.num_vertices());
+  for (const auto vertex : mesh.vertices()) {
+    const Exact::Point_3& p = mesh.point(vertex);
+    points[vertex] = {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+    box = hull(box, {points[vertex], points[vertex]});
+  }
+  const double tolerated = rounding * length(box.size());
   for (const auto edge : mesh.edges()) {
     const auto side = mesh.halfedge(edge);
-    const auto across = mesh.opposite(side);
-    if (CGAL::orientation(mesh.point(mesh.source(side)), mesh.point(mesh.target(side)),
-                          mesh.point(mesh.target(mesh.next(side))),
-                          mesh.point(mesh.target(mesh.next(across)))) == CGAL::POSITIVE)
+    const std::array corners{mesh.source(side), mesh.target(side), mesh.target(mesh.next(side))};
+    const auto beyond = mesh.target(mesh.next(mesh.opposite(side)));
+    if (CGAL::orientation(mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2]), mesh.point(beyond)) !=
+        CGAL::POSITIVE)
+      continue;
+    if (height_above({points[corners[0]], points[corners[1]], points[corners[2]]}, points[beyond]) > tolerated)
       return true;
   }
   return false;

@@ -27,12 +27,6 @@ namespace {
 
 Nef solid_of(const Part& part) { return part.nef ? part.nef->solid() : Nef(ExactMesh(part.surface)); }
 
-bool touches_itself(const ExactMesh& mesh) {
-  std::vector<Exact::Point_3> points(mesh.points().begin(), mesh.points().end());
-  std::ranges::sort(points, [](const auto& a, const auto& b) { return CGAL::lexicographically_xyz_smaller(a, b); });
-  return std::adjacent_find(points.begin(), points.end()) != points.end();
-}
-
 // The library goes through a Nef polyhedron in an order that may depend on addresses.
 void put_in_order(std::vector<Exact::Point_3>& points, std::vector<std::vector<std::size_t>>& polygons) {
   std::vector<size_t> order(points.size()), place(points.size());
@@ -75,6 +69,12 @@ Parts parts_of(const Nef& nef) {
 }
 
 }  // namespace
+
+bool touches_itself(const ExactMesh& mesh) {
+  std::vector<Exact::Point_3> points(mesh.points().begin(), mesh.points().end());
+  std::ranges::sort(points, [](const auto& a, const auto& b) { return CGAL::lexicographically_xyz_smaller(a, b); });
+  return std::adjacent_find(points.begin(), points.end()) != points.end();
+}
 
 Parts combine_nef(Boolean operation, const Part& a, const Part& b) {
   try {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "solids/attributes.h"
@@ -134,27 +135,33 @@ class Applier {
     return pieces;
   }
 
-  // Those of one dimension, empty in the place of others, with a warning.
-  void keep_dimension(int dimension, bool warns) {
-    bool has_other = false;
-    for (Pieces& child : children_)
-      for (Piece& piece : child) {
+  // The place of a child, of which background ones are not counted.
+  const SourceRange& place_of_child(size_t number) const {
+    for (const TreePtr& child : tree_.children)
+      if (child && !child->background && number-- == 0) return child->where;
+    return tree_.where;
+  }
+
+  // Those of one dimension, empty in the place of others, with a warning for each child that has others.
+  void keep_dimension(int dimension, bool warns, bool is_mixture = false) {
+    for (size_t n = 0; n < children_.size(); ++n) {
+      bool has_other = false;
+      for (Piece& piece : children_[n]) {
         if (piece.dimension() == 0 || piece.dimension() == dimension) continue;
         has_other = true;
         piece.shape = std::monostate{};
       }
-    if (has_other && warns)
-      warn(dimension == 3 ? "Ignoring 2D child object for 3D operation" : "Ignoring 3D child object for 2D operation");
+      if (!has_other || !warns) continue;
+      if (std::exchange(is_mixture, false))
+        context_.messages->warning(place_of_child(n), "Mixing 2D and 3D objects is not supported");
+      context_.messages->warning(place_of_child(n), dimension == 3 ? "Ignoring 2D child object for 3D operation"
+                                                                   : "Ignoring 3D child object for 2D operation");
+    }
   }
 
   // All pieces of the first one's dimension.
   Pieces of_any_dimension() {
-    const int dimension = dimension_of(all());
-    const Pieces pieces = all();
-    if (std::any_of(pieces.begin(), pieces.end(),
-                    [&](const Piece& piece) { return piece.dimension() != 0 && piece.dimension() != dimension; }))
-      warn("Mixing 2D and 3D objects is not supported");
-    keep_dimension(dimension, true);
+    keep_dimension(dimension_of(all()), true, true);
     return all();
   }
 

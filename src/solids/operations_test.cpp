@@ -151,6 +151,32 @@ TEST_F(Operations, MirroredSolidsStayOutward) {
   EXPECT_DOUBLE_EQ(size_of(node(Transform{Affine::scaling({-1, 1, 1})}, {cube(2)})), 8);
 }
 
+// Three solids with a common corner, two of which overlap: 8 + 1 and what stands out of the greater block. The prism of
+// 1 x 1 x 1 was turned about z by 30 degrees, so a triangle of legs 1 and tan 30 stands out.
+TEST_F(Operations, SolidsThatMeetInACornerAreUnited) {
+  Transform turn;
+  turn.parent_from_child = Affine::rotation({0, 0, 1}, 30);
+  const TreePtr prism = node(turn, {cube(1)}), below = moved(-1, -1, -1, {cube(1)});
+  const double outside = 0.5 * std::tan(pi / 6);
+  for (const auto& children :
+       {Children{prism, below, cube(2)}, Children{cube(2), below, prism}, Children{below, cube(2), prism}}) {
+    double volume = 0;
+    for (const Piece& piece : evaluated(node(Union{}, children))) volume += size_of(piece);
+    EXPECT_NEAR(volume, 9 + outside, 1e-9);
+  }
+}
+
+// The faces of balls have four corners, which rounding lifts out of a plane.
+TEST_F(Operations, BallsAreConvexWhateverTheirCornersRoundTo) {
+  for (const double edges : {5, 16, 30, 40, 100})
+    for (const double away : {0.0, 1e3}) {
+      const Pieces ball = evaluated(moved(away, away / 3, 0, {node(Sphere{2, {edges}})}));
+      EXPECT_TRUE(kernel().is_convex(*ball.at(0).solid()->body())) << edges << " edges, moved by " << away;
+    }
+  const Pieces dented = evaluated(difference({cube(10), moved(5, 5, 10 - 1e-6, {cube(1)})}));
+  EXPECT_FALSE(kernel().is_convex(*dented.at(0).solid()->body()));
+}
+
 TEST_F(Operations, HullAndMinkowski) {
   EXPECT_NEAR(size_of(hull({cube(1), moved(2, 0, 0, {cube(1)})})), 3, 1e-12);
   EXPECT_NEAR(size_of(hull({square(1, 1), node(Transform{Affine::translation({2, 0, 0})}, {square(1, 1)})})), 3, 1e-8);

@@ -25,6 +25,8 @@ Evaluator::Evaluator(const Program& program, const Options& options, Messages& m
   for (Module& module : module_table_) module.is_operation = true;
   for (const auto& table : {shape_modules(), plane_modules(), transform_modules(), file_modules()})
     module_table_.insert(module_table_.end(), table.begin(), table.end());
+  for (const char* name : {"cube", "sphere", "cylinder", "polyhedron", "square", "circle", "polygon"})
+    std::ranges::find(module_table_, std::string_view(name), &Module::name)->warns_of_children = true;
   for (const Module& module : module_table_) modules_[symbol(module.name)] = &module;
   constants_[symbol("PI")] = std::numbers::pi;
 
@@ -54,9 +56,10 @@ solids::TreePtr Evaluator::run() {
     const ScopePtr& scope = unit_scope(program_.units.front());
     run_actions(program_.units.front().plan, scope, result->children);
     if (roots_.empty()) return result;
-    const solids::TreePtr whole = result;
-    const solids::TreePtr* marked = marked_root(whole);
-    return marked ? *marked : whole;
+    std::vector<solids::TreePtr> marked;
+    find_roots(result, marked);
+    if (marked.size() > 1) warn_of_roots(*marked[1]);
+    return marked.empty() ? result : marked.front();
   } catch (const Stopped&) {
   } catch (const LimitReached& limit) {
     say(Message::Kind::error, limit.message + (limit.hint.empty() ? "" : "; " + limit.hint), at_);
@@ -64,12 +67,15 @@ solids::TreePtr Evaluator::run() {
   return nullptr;
 }
 
-// The first one in the order of the text's nesting: a parent before its children.
-const solids::TreePtr* Evaluator::marked_root(const solids::TreePtr& tree) const {
-  if (std::ranges::find(roots_, tree.get()) != roots_.end()) return &tree;
-  for (const solids::TreePtr& child : tree->children)
-    if (const solids::TreePtr* found = marked_root(child)) return found;
-  return nullptr;
+// In the order of the text's nesting: a parent before its children. The first one counts.
+void Evaluator::find_roots(const solids::TreePtr& tree, std::vector<solids::TreePtr>& found) const {
+  if (std::ranges::find(roots_, tree.get()) != roots_.end()) found.push_back(tree);
+  for (const solids::TreePtr& child : tree->children) find_roots(child, found);
+}
+
+void Evaluator::warn_of_roots(const solids::Tree& second) {
+  const SourceRange& where = second.where;
+  warn("More than one Root Modifier (!)", {where.source ? &where.source : nullptr, where.begin, where.end});
 }
 
 // --- messages
@@ -179,6 +185,8 @@ solids::TreePtr Evaluator::run_builtin(const Module& module, const ast::CallStat
   const SpecialsMark mark(*this);
   bind_builtin(module, statement.arguments, scope, call, mark.size());
   at_ = statement.span;
+  if (module.warns_of_children && !statement.children.statements.empty())
+    warn("module " + statement.name.text() + "() does not support child modules", statement.span);
   return module.make(call);
 }
 

@@ -67,6 +67,7 @@ struct Module {
   solids::TreePtr (*make)(ModuleCall& call);
   bool takes_anything = false;  // arguments are not looked at
   bool is_operation = false;    // on children, which `semantics` may be said of
+  bool warns_of_children = false;
 };
 
 std::vector<Module> shape_modules();
@@ -145,14 +146,15 @@ class Evaluator {
                              const ast::CallStatement& statement, const ScopePtr& scope);
   solids::TreePtr run_builtin(const Module& module, const ast::CallStatement& statement, const ScopePtr& scope);
   solids::TreePtr run_children(const ast::CallStatement& statement, const ScopePtr& scope);
-  void choose_child(const Value& index, size_t count, std::vector<size_t>& chosen);
+  std::optional<size_t> chosen_child(const Value& index, size_t count);
   solids::TreePtr run_let(const ast::CallStatement& statement, const ScopePtr& scope);
   solids::TreePtr group(const ast::CallStatement& statement, const ScopePtr& scope, bool is_null_without);
   void bind_builtin(const Module& module, const std::vector<ast::Argument>& arguments, const ScopePtr& scope,
                     ModuleCall& call, size_t specials_from);
   std::shared_ptr<solids::Tree> tree(solids::Operation operation, const ast::Span& where);
   solids::Semantics semantics_of(const Value& value, const ast::Span& where);
-  const solids::TreePtr* marked_root(const solids::TreePtr& tree) const;
+  void find_roots(const solids::TreePtr& tree, std::vector<solids::TreePtr>& found) const;
+  void warn_of_roots(const solids::Tree& second);
 
   // --- word_calls.cpp
   void check_words();

@@ -93,10 +93,18 @@ const Expr* Evaluator::enter_prefix(const ast::Prefix& prefix, ScopePtr& scope, 
   return prefix.value.get();
 }
 
-// One after the other, so that each sees those before it.
+// One after the other, so that each sees those before it. A second one of the same name does not count.
 void Evaluator::bind_let(const std::vector<ast::Argument>& arguments, const ScopePtr& scope, size_t specials_from) {
-  for (const ast::Argument& argument : arguments)
-    set_variable(argument.name, eval(*argument.value, scope), *scope, specials_from);
+  for (size_t n = 0; n < arguments.size(); ++n) {
+    const ast::Name& name = arguments[n].name;
+    Value value = eval(*arguments[n].value, scope);
+    const auto is_it = [&](const ast::Argument& before) { return name.symbol && before.name.symbol == name.symbol; };
+    if (std::any_of(arguments.begin(), arguments.begin() + static_cast<std::ptrdiff_t>(n), is_it))
+      warn("Ignoring duplicate variable assignment " + name.text() + " = " + value_text(value, true, meter_),
+           arguments[n].value->span);
+    else
+      set_variable(name, std::move(value), *scope, specials_from);
+  }
 }
 
 bool Evaluator::find_named_function(Symbol name, const ScopePtr& scope, Callee& callee) {
@@ -208,13 +216,19 @@ void Evaluator::bind(const std::vector<ast::Parameter>& parameters, const std::v
 void Evaluator::assert_true(const std::vector<ast::Argument>& arguments, const ast::Span& where,
                             const ScopePtr& scope) {
   const ast::Expr *condition = nullptr, *message = nullptr;
+  size_t position = 0;
   for (const ast::Argument& argument : arguments) {
-    const bool is_message = argument.name.symbol ? argument.name.text() == "message" : condition != nullptr;
-    (is_message ? message : condition) = argument.value.get();
+    const bool is_named = argument.name.symbol != nullptr;
+    if (is_named ? argument.name.text() == "condition" : position == 0) condition = argument.value.get();
+    if (is_named ? argument.name.text() == "message" : position == 1) message = argument.value.get();
+    if (!is_named && position == 2) warn("Too many unnamed arguments supplied", where);
+    position += is_named ? 0 : 1;
   }
+  if (!condition) warn("Ignoring unknown variable 'condition'", where);
   if (condition && truth(eval(*condition, scope))) return;
-  std::string text = "Assertion '" + (condition ? expression_text(*condition) : std::string()) + "' failed";
-  if (message) text += ": " + value_text(eval(*message, scope), true, meter_);
+  std::string text = condition ? "Assertion '" + expression_text(*condition) + "' failed" : "Assertion failed";
+  const Value told = message ? eval(*message, scope) : Value();
+  if (!told.is_undef()) text += ": " + value_text(told, true, meter_);
   stop(std::move(text), where);
 }
 

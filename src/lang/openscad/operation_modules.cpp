@@ -51,7 +51,8 @@ TreePtr projection(ModuleCall& call) {
 
 // Older scripts name a file instead of a child: its area is extruded.
 TreePtr extruded_file(ModuleCall& call, solids::Operation operation) {
-  call.deprecate("Support for reading files in " + call.name() +
+  const std::string name = call.name().starts_with("dxf_") ? call.name().substr(4) : call.name();
+  call.deprecate("Support for reading files in " + name +
                  " will be removed in future releases. Use a child import() instead.");
   solids::Import file;
   file.path = call.complete_path(call.text("file"));
@@ -98,9 +99,28 @@ TreePtr rotate_extrude(ModuleCall& call) {
   return call.with_children(result);
 }
 
+// Names of old scripts.
+TreePtr dxf_linear_extrude(ModuleCall& call) {
+  call.deprecate_here(
+      "The dxf_linear_extrude() module will be removed in future releases. Use linear_extrude() instead.");
+  return linear_extrude(call);
+}
+
+TreePtr dxf_rotate_extrude(ModuleCall& call) {
+  call.deprecate_here(
+      "The dxf_rotate_extrude() module will be removed in future releases. Use rotate_extrude() instead.");
+  return rotate_extrude(call);
+}
+
 }  // namespace
 
 std::vector<Module> operation_modules() {
+  const Module linear{"linear_extrude",
+                      {"file", "layer", "height", "origin", "scale", "center", "twist", "slices"},
+                      {"convexity", "v", "segments"},
+                      linear_extrude};
+  const Module turned{
+      "rotate_extrude", {"file", "layer", "origin", "scale"}, {"convexity", "angle", "start"}, rotate_extrude};
   return {{"group", {}, {}, plain<solids::Group>, true},
           {"union", {}, {}, plain<solids::Union>, true},
           {"difference", {}, {}, plain<solids::Difference>, true},
@@ -112,11 +132,10 @@ std::vector<Module> operation_modules() {
           {"resize", {"newsize", "auto", "convexity"}, {}, resize},
           {"offset", {"r"}, {"delta", "chamfer"}, offset},
           {"projection", {"cut"}, {"convexity"}, projection},
-          {"linear_extrude",
-           {"file", "layer", "height", "origin", "scale", "center", "twist", "slices"},
-           {"convexity", "v", "segments"},
-           linear_extrude},
-          {"rotate_extrude", {"file", "layer", "origin", "scale"}, {"convexity", "angle", "start"}, rotate_extrude}};
+          linear,
+          {"dxf_linear_extrude", linear.positional, linear.named, dxf_linear_extrude},
+          turned,
+          {"dxf_rotate_extrude", turned.positional, turned.named, dxf_rotate_extrude}};
 }
 
 }  // namespace ombre::lang::openscad

@@ -64,6 +64,7 @@ class Finder {
     const bool was_main = before.name() == main_, is_main = after.name() == main_;
     if (is_main && (!was_main || later.span.begin >= definitions_from_)) return;
     if (!was_main && before.name() != after.name()) return;
+    if (before.name() == after.name() && earlier.span.begin == later.span.begin) return;  // a file included twice
     const std::string of = is_main ? "" : " of \"" + shown_path(before.name(), folder_of(main_)) + '"';
     messages_.push_back({Message::Kind::warning,
                          later.name.text() + " was assigned on line " +

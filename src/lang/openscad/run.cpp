@@ -56,11 +56,23 @@ SourcePtr with_definitions(const SourcePtr& source, const std::vector<std::strin
   return make_source(source->name(), std::move(text));
 }
 
-// The line of the token that a mistake was found at: what is missing before it is missed there.
-int line_of(const SourceRange& where) {
+bool is_unterminated(const Diagnostic& diagnostic) {
+  return diagnostic.message.starts_with("the string is not closed") ||
+         diagnostic.message.starts_with("the comment is not closed");
+}
+
+// The line of the token that a mistake was found at: what is missing before it is missed there. OpenSCAD ends a script
+// with a line of its own, and an empty one; what is open beyond a statement is missed on the last of them.
+int line_of(const Diagnostic& diagnostic) {
+  const SourceRange& where = diagnostic.where;
+  const std::string_view text = where.source->text();
+  const int last = static_cast<int>(std::ranges::count(text, '\n')) + 3;
+  if (is_unterminated(diagnostic)) return last;
   Diagnostics ignored;
   Lexer lexer(where.source, where.begin, Dialect::openscad, ignored);
-  return where.source->place(lexer.next().begin).line;
+  const Token token = lexer.next();
+  if (token.kind == TokenKind::end) return diagnostic.message.starts_with("expected \"}\"") ? last : last - 1;
+  return where.source->place(token.begin).line;
 }
 
 void report_syntax(const Diagnostics& found, const std::string& main, Messages& messages) {
@@ -73,8 +85,14 @@ void report_syntax(const Diagnostics& found, const std::string& main, Messages& 
     if (diagnostic.severity != Severity::error) continue;
     messages.details.add(diagnostic);
     if (!diagnostic.where.source || messages.error_count() > 0) continue;
-    messages.add({Message::Kind::error, "Parser error: syntax error", shown_path(diagnostic.where.source->name(), ""),
-                  line_of(diagnostic.where)});
+    const std::string file = shown_path(diagnostic.where.source->name(), "");
+    const int line = line_of(diagnostic);
+    if (is_unterminated(diagnostic)) {
+      const bool is_string = diagnostic.message.starts_with("the string");
+      messages.add({Message::Kind::error,
+                    std::string("Parser error: Unterminated ") + (is_string ? "string" : "comment"), file, line});
+    }
+    messages.add({Message::Kind::error, "Parser error: syntax error", file, line});
   }
   messages.add({Message::Kind::note, "Can't parse file '" + main + "'!\n", "", 0});
 }

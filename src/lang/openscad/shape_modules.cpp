@@ -1,4 +1,6 @@
 // Solids without children.
+#include <cctype>
+
 #include "lang/openscad/evaluator.h"
 #include "lang/openscad/vectors.h"
 
@@ -118,6 +120,13 @@ TreePtr polygon(ModuleCall& call) {
   return call.node(std::move(result));
 }
 
+// The first letter decides.
+std::string direction_of(const std::string& name) {
+  for (const char* direction : {"ltr", "rtl", "ttb", "btt"})
+    if (!name.empty() && std::tolower(static_cast<unsigned char>(name[0])) == direction[0]) return direction;
+  return "ltr";
+}
+
 TreePtr text(ModuleCall& call) {
   solids::Text result;
   result.text = call.text("text");
@@ -125,7 +134,7 @@ TreePtr text(ModuleCall& call) {
   result.font = call.text("font");
   result.horizontal = call.text("halign", "left");
   result.vertical = call.text("valign", "baseline");
-  result.direction = call.text("direction", "ltr");
+  result.direction = direction_of(call.text("direction", "ltr"));
   result.language = call.text("language", "en");
   result.script = call.text("script", "Latn");
   result.spacing = call.number("spacing", 1);

@@ -190,9 +190,10 @@ TreePtr Evaluator::run_module(const ast::ModuleDef& module, const ScopePtr& home
   return result;
 }
 
-void Evaluator::choose_child(const Value& index, size_t count, std::vector<size_t>& chosen) {
+// Nothing, and a warning, for what is no number of a child.
+std::optional<size_t> Evaluator::chosen_child(const Value& index, size_t count) {
   const double* number = index.number();
-  if (!number) return;
+  if (!number) return std::nullopt;
   const double place = std::trunc(*number);
   const std::string shown = number_text(place);
   if (place < 0)
@@ -201,7 +202,8 @@ void Evaluator::choose_child(const Value& index, size_t count, std::vector<size_
     messages_.add({Message::Kind::warning,
                    "Children index (" + shown + ") out of bounds (" + std::to_string(count) + " children)", "", 0});
   else if (!std::isnan(place))
-    chosen.push_back(static_cast<size_t>(place));
+    return static_cast<size_t>(place);
+  return std::nullopt;
 }
 
 // children() is a group of all, children(i) that child itself, children([...]) a group of several.
@@ -221,22 +223,26 @@ TreePtr Evaluator::run_children(const CallStatement& statement, const ScopePtr& 
   }
   const Value index = statement.arguments.empty() ? Value(0.0) : eval(*statement.arguments[0].value, scope);
   if (!index.number() && !index.list() && !index.range()) {
-    if (!index.is_undef())
-      warn("Bad parameter type (" + value_text(index, true, meter_) +
-               ") for children, only accept: empty, number, vector, range",
-           statement.span);
+    warn("Bad parameter type (" + value_text(index, true, meter_) +
+             ") for children, only accept: empty, number, vector, range",
+         statement.span);
     return nullptr;
   }
-  std::vector<size_t> chosen;
-  if (index.number())
-    choose_child(index, plan.actions.size(), chosen);
-  else
-    for_each(index, statement.span, [&](const Value& each) { choose_child(each, plan.actions.size(), chosen); });
-  const ScopePtr inner = make_scope(children->scope, &plan);
   const SpecialsMark mark(*this);
-  if (!chosen.empty()) assign(plan, inner);
-  for (const size_t n : chosen)
-    if (TreePtr child = run_statement(*plan.actions[n], inner)) result->children.push_back(std::move(child));
+  ScopePtr inner;  // with the variables of the children, which are computed once
+  const auto run_child = [&](const Value& each) {
+    const auto chosen = chosen_child(each, plan.actions.size());
+    if (!chosen) return;
+    if (!inner) {
+      inner = make_scope(children->scope, &plan);
+      assign(plan, inner);
+    }
+    if (TreePtr child = run_statement(*plan.actions[*chosen], inner)) result->children.push_back(std::move(child));
+  };
+  if (index.number())
+    run_child(index);
+  else
+    for_each(index, statement.span, run_child);
   if (!index.number()) return result;
   return result->children.empty() ? nullptr : result->children.front();
 }

@@ -16,7 +16,8 @@ using solids::TreePtr;
 TreePtr transformed(ModuleCall& call, const Affine& map) { return call.with_children(solids::Transform{map}); }
 
 TreePtr translate(ModuleCall& call) {
-  const auto by = vector3(call["v"], 0);
+  auto by = vector3(call["v"], 0);
+  if (by && !(std::isfinite(by->x) && std::isfinite(by->y) && std::isfinite(by->z))) by = std::nullopt;
   if (!by && !is_wrong_pair(call["v"]))
     call.warn("Unable to convert translate(" + call.shown("v") + ") parameter to a vec3 or vec2 of numbers");
   return transformed(call, Affine::translation(by.value_or(Vec3{})));
@@ -88,7 +89,7 @@ Affine turned_by_vector(const ModuleCall& call) {
   for (size_t i = 0; i < std::min<size_t>(3, items.size()); ++i) {
     const double* angle = items[i].number();
     is_good &= angle && std::isfinite(*angle);
-    by[static_cast<int>(i)] = angle && std::isfinite(*angle) ? *angle : 0;
+    if (angle) by[static_cast<int>(i)] = std::isfinite(*angle) ? *angle : std::nan("");
   }
   if (call.has("v"))
     call.warn("When parameter a is supplied as vector, v is ignored rotate(a=" + call.shown("a") +
