@@ -3,8 +3,9 @@
 
     python3 bench/openscad_programs.py build/release/apps/ombre/ombre [--corefinement build/bench/bench/bench_corefinement]
 
-The scripts are those of bench/openscad. Times are the least of several runs, of whole programs; memory is the most
-that a run held. CGAL's times, which bench_corefinement prints, are of the boolean alone, without a script and a file.
+The scripts are those of bench/openscad. Times are those of the processor, of all threads together, since other programs
+do not lengthen them; the least of several runs of whole programs. Memory is the most that a run held. CGAL's times,
+which bench_corefinement prints, are of the boolean alone, without a script and a file.
 """
 import argparse
 import os
@@ -13,7 +14,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 
 SCRIPTS = pathlib.Path(__file__).resolve().parent / "openscad"
 ALONE = {"ball_less_ten_40": "$fn=40", "ball_less_ten_100": "$fn=100", "plate_300_holes": "plate"}
@@ -21,10 +21,9 @@ ALONE = {"ball_less_ten_40": "$fn=40", "ball_less_ten_100": "$fn=100", "plate_30
 
 def run(command):
     """Seconds and most memory in MB; nothing where it failed."""
-    begin = time.monotonic()
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
-    return None if status else (time.monotonic() - begin, usage.ru_maxrss / 1024)
+    return None if status else (usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
 
 
 def least(command, runs):

@@ -12,6 +12,7 @@ import argparse
 import difflib
 import pathlib
 import re
+import shutil
 import struct
 import subprocess
 import tempfile
@@ -174,6 +175,42 @@ def check_words(ombre):
     return "\n".join(filter(None, problems))
 
 
+# Listing 4.3 of the thesis of 2023: a vase with stripes in a second colour.
+VASE = """module vase() {
+  translate([0, 0, 4]) linear_extrude(height = 30, convexity = 10, twist = 360, $fn = 50)
+    translate([1.5, 0, 0]) difference() { circle(r = 16); circle(r = 14); }
+  translate([1.5, 0, 0]) linear_extrude(height = 4, convexity = 10, $fn = 50) { circle(r = 16); }
+}
+module vase_color1() {
+  difference() {
+    vase();
+    for (i = [1 : 1 : 8]) translate([-40, -20, -40 + 10 * i]) rotate([45, 0, 0]) cube([80, 80, 3]);
+  }
+}
+color("green") vase_color1();
+color("white") difference() { vase(); vase_color1(); }
+"""
+
+
+def check_vase(ombre):
+    """The slicer prints the colours with two tools."""
+    if not shutil.which("prusa-slicer"):
+        return "skipped: no prusa-slicer"
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
+        (folder / "vase.scad").write_text(VASE, encoding="utf-8")
+        made = program.run([ombre, "scad", "vase.scad", "-o", "vase.3mf"], cwd=folder, timeout=100)
+        if made.returncode != 0:
+            return made.stderr
+        sliced = program.run(["prusa-slicer", "--export-gcode", "vase.3mf", "-o", "vase.gcode", "--nozzle-diameter", "0.4,0.4",
+                              "--skirts", "0", "--fill-density", "100%", "--fill-pattern", "rectilinear"], cwd=folder, timeout=100)
+        if sliced.returncode != 0:
+            return sliced.stderr
+        code = (folder / "vase.gcode").read_text(encoding="utf-8")
+        tools = set(re.findall(r"^T(\d)", code, re.MULTILINE))
+        return "" if tools == {"0", "1"} else f"the slicer uses the tools {tools}"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("ombre")
@@ -188,7 +225,8 @@ def main():
     checks = [(script.stem, lambda script=script: check(ombre, script)) for script in scripts if script.stem != "parameters"]
     if not arguments.names:
         checks += [("a .csg file is a script", lambda: check_rounds(ombre)), ("options", lambda: check_options(ombre)),
-                   ("meshes", lambda: check_meshes(ombre)), ("words", lambda: check_words(ombre))]
+                   ("meshes", lambda: check_meshes(ombre)), ("words", lambda: check_words(ombre)),
+                   ("vase", lambda: check_vase(ombre))]
     return program.check_all(checks)
 
 

@@ -126,9 +126,10 @@ Parts intersected(const Parts& some, const Parts& others) {
 // Unites two that meet. False where they only touch, and stay two.
 bool join(const Part& a, const Part& b, Parts& joined) {
   joined = combined(Boolean::unite, a, b);
+  if (joined.size() < 2) return true;
   Exact::FT volume = 0;
   for (const Part& part : joined) volume += volume_of(part);
-  return joined.size() < 2 || volume != volume_of(a) + volume_of(b);
+  return volume != volume_of(a) + volume_of(b);
 }
 
 Parts united(Parts some, Parts waiting) {
