@@ -23,7 +23,8 @@ namespace {
 
 struct RenderArguments {
   DesignArguments design;
-  std::string output, size = "800x600", view = "iso", from, slice, box, background = "white", font, by, range, palette;
+  std::string output, size = "800x600", view = "iso", from, slice, box, background = "white", font, by, range, palette,
+                      outlines, names;
   std::vector<std::string> cuts, opacity;
   double perspective = 0, zoom = 1, deform = 0;
   int samples = 2, frames = 1, threads = 0;
@@ -72,8 +73,9 @@ void add_arguments(CLI::App& app, RenderArguments& a) {
           ->allow_extra_args(false)
           ->type_name("MATERIAL=N");
   CLI::Option* by = app.add_option("--by,--colour-by,--color-by", a.by,
-                                   "Colour by a material's fraction or an attribute, from dark blue (least) to yellow")
-                        ->type_name("NAME");
+                                   "Colour by a material's fraction or an attribute, from dark blue (least) to yellow, "
+                                   "or\nby parts, each in a colour of its own")
+                        ->type_name("NAME|parts");
   app.add_option("--range", a.range, "The values from the first colour to the last (default: those of the design)")
       ->needs(by)
       ->type_name("LO,HI");
@@ -101,9 +103,20 @@ void add_arguments(CLI::App& app, RenderArguments& a) {
   app.add_flag("--scale-bar", a.scale_bar, "Draw a length in mm; in perspective it holds at the part's middle");
   app.add_flag("--legend", a.legend, "List the materials and their colours");
   app.add_flag("--annotate", a.annotate, "Axes, scale bar and legend");
+  app.add_option("--outlines", a.outlines, "Draw the borders between parts or materials, as they are seen")
+      ->check(one_of({"parts", "materials"}))
+      ->type_name("parts|materials");
+  app.add_option("--names", a.names, "Write the names of parts or materials upon them")
+      ->check(one_of({"parts", "materials"}))
+      ->type_name("parts|materials");
   app.add_option("--font", a.font, "Of what is written (default: DejaVu Sans, or another of the system's)")
       ->type_name("FILE");
   app.add_flag("--force", a.force, "Replace pictures that are there");
+}
+
+std::optional<compile::Divided> divided_by(const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  return word == "parts" ? compile::Divided::parts : compile::Divided::materials;
 }
 
 void set_size(const std::string& text, compile::PictureRequest& request) {
@@ -189,6 +202,7 @@ compile::PictureRequest picture_request(const RenderArguments& a) {
   request.palette = a.palette;
   if (!a.range.empty()) request.range = parse_range(a.range);
   request.annotations = {a.axes || a.annotate, a.scale_bar || a.annotate, a.legend || a.annotate, a.font};
+  request.marks = {divided_by(a.outlines), divided_by(a.names)};
   request.samples = a.samples;
   request.frames = a.frames;
   request.threads = a.threads;

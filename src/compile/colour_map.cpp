@@ -66,6 +66,18 @@ const Palette* palette_called(std::string_view name) {
   return found == all_palettes.end() ? nullptr : &*found;
 }
 
+std::span<const design::Rgba> label_colours() {
+  static constexpr design::Rgba colours[] = {{205, 205, 205, 255}, {0, 114, 178, 255},   {230, 159, 0, 255},
+                                             {0, 158, 115, 255},   {204, 121, 167, 255}, {86, 180, 233, 255},
+                                             {213, 94, 0, 255},    {240, 228, 66, 255},  {90, 90, 90, 255}};
+  return colours;
+}
+
+design::Rgba label_colour(size_t label) {
+  const auto colours = label_colours();
+  return label == 0 ? colours[0] : colours[1 + (label - 1) % (colours.size() - 1)];
+}
+
 design::Rgba map_colour(double share, const Palette& palette) {
   const double place = std::clamp(share, 0.0, 1.0) * steps;
   const auto below = std::min(static_cast<size_t>(place), steps - 1);

@@ -23,6 +23,11 @@ std::span<const Palette> palettes();
 std::vector<std::string> palette_names();
 const Palette* palette_called(std::string_view name);  // null: there is none
 
+// Colours that are told apart easily, also by people who see few: those of Okabe and Ito (2008), behind a light gray
+// for no label. Labels take them in turn.
+std::span<const design::Rgba> label_colours();
+design::Rgba label_colour(size_t label);  // 0: none
+
 // `share` goes from 0 to 1.
 design::Rgba map_colour(double share, const Palette& palette = palettes().front());
 

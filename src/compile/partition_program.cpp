@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "compile/part_labels.h"
 #include "compile/question.h"
 
 namespace ombre::compile {
@@ -40,8 +41,6 @@ Field number_of_band(Field score, const std::vector<double>& borders) {
   for (const double border : borders) number = number + less_equal(score.builder->constant(border), score);
   return number;
 }
-
-constexpr const char* part_label = "part";
 
 std::string list_names(const std::vector<std::string>& names) {
   return names.empty() ? "there is none" : "there are " + join(names, ", ");
@@ -108,8 +107,7 @@ class RegionBuilder {
   bool add_parts() {
     const design::AttributeDeclaration* declared = question_.declaration(part_label);
     if (!declared) {
-      diagnostics_.error(question_.solid()->where(), "no part of the design has a name",
-                         "name some: part(\"handle\") { ... }");
+      report_nameless_parts(design_, diagnostics_);
       return false;
     }
     const auto label = question_.attribute(part_label, diagnostics_);

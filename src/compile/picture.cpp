@@ -1,12 +1,16 @@
 #include "compile/picture.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "base/steady_pace.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "compile/build.h"
+#include "compile/part_labels.h"
 #include "compile/picture_labels.h"
+#include "compile/picture_marks.h"
 #include "compile/question.h"
 #include "compile/region_survey.h"
 
@@ -68,6 +72,7 @@ class Studio {
       stages_of(loaded_.design)->prepare(loan_);
       is_empty_ = true;
       Picture picture{expose(*shot), shot->film.pixel_mm * static_cast<double>(request_.samples)};
+      if (!mark(picture, frame)) return false;
       if (labels_) labels_->add_to(picture, shot->camera);
       take(frame, picture);
       if (is_empty_ && frame == 0)
@@ -96,6 +101,7 @@ class Studio {
 
   bool choose_range() {
     options_.value = ValueColours{request_.by, {0, 1}, request_.palette};
+    if (request_.by == part_label && !part_names(loaded_.design).empty()) return true;
     if (request_.range) {
       options_.value->range = *request_.range;
       return true;
@@ -117,6 +123,61 @@ class Studio {
     width_ = labels_->layout().width;
     height_ = labels_->layout().height;
     return true;
+  }
+
+  bool mark(Picture& picture, int frame) {
+    const MarkRequest& wanted = request_.marks;
+    for (const Divided by : {Divided::parts, Divided::materials}) {
+      const bool outlines = wanted.outlines == by, names = wanted.names == by;
+      if (!outlines && !names) continue;
+      const auto numbers = numbers_of(by, frame);
+      if (!numbers) return false;
+      if (outlines) draw_outlines(picture.rgba, *numbers);
+      if (!names) continue;
+      draw::Pen pen(request_.annotations.font_file);
+      draw_names(picture.rgba, *numbers, names_of(by), pen);
+    }
+    return true;
+  }
+
+  // By one ray for each pixel.
+  std::optional<PictureNumbers> numbers_of(Divided by, int frame) {
+    if (by == Divided::parts && part_names(loaded_.design).empty()) {
+      report_nameless_parts(loaded_.design, diagnostics_);
+      return std::nullopt;
+    }
+    options_.numbers = by;
+    samples_ = 1;
+    const auto shot = request_.slice ? section() : turned_solid(frame);
+    options_.numbers.reset();
+    samples_ = request_.samples;
+    if (!shot) return std::nullopt;
+    PictureNumbers made{width_, height_, {}};
+    made.numbers.reserve(static_cast<size_t>(width_ * height_));
+    const int64_t rows = rows_at_once(1);
+    for (int64_t begin = 0; begin < height_; begin += rows) {
+      const int64_t end = std::min(begin + rows, height_);
+      const auto band = shot->cast(begin, end);
+      if (stop_.requested()) throw Cancelled();
+      for (int64_t row = begin; row < end; ++row)
+        for (int64_t column = 0; column < width_; ++column) {
+          const render::RayHit& hit = band.at(column, row);
+          const bool is_there = hit.surface != render::RayHit::none;
+          made.numbers.push_back(
+              is_there ? static_cast<int16_t>(std::lround(hit.at_end.red * static_cast<float>(most_numbers)))
+                       : int16_t{-1});
+        }
+    }
+    return made;
+  }
+
+  std::map<int, std::string> names_of(Divided by) const {
+    std::map<int, std::string> names;
+    if (by == Divided::materials)
+      for (const design::Material& material : loaded_.design.materials.all()) names[material.id] = material.name;
+    else
+      for (const std::string& name : part_names(loaded_.design)) names[static_cast<int>(names.size()) + 1] = name;
+    return names;
   }
 
   double aspect() const { return static_cast<double>(width_) / static_cast<double>(height_); }
@@ -161,13 +222,13 @@ class Studio {
   }
 
   render::Film film_of(const render::Camera& camera) const {
-    const int64_t height = height_ * request_.samples;
-    return {width_ * request_.samples, height, camera.height_mm / static_cast<double>(height), request_.samples};
+    const int64_t height = height_ * samples_;
+    return {width_ * samples_, height, camera.height_mm / static_cast<double>(height), samples_};
   }
 
   // As fine as the picture's pixels.
   design::Design design_for(const render::Film& film) const {
-    const double pixel = film.pixel_mm * static_cast<double>(request_.samples);
+    const double pixel = film.pixel_mm * static_cast<double>(film.samples);
     return design::for_job(loaded_.design, Vec3{pixel, pixel, pixel});
   }
 
@@ -216,10 +277,8 @@ class Studio {
     return shot;
   }
 
-  // Some rows after the other, so that large pictures fit into memory.
   std::vector<uint8_t> expose(const Shot& shot) {
-    constexpr int64_t most_rays = 2'000'000;
-    const int64_t samples = request_.samples, rows = std::max<int64_t>(1, most_rays / (shot.film.width * samples));
+    const int64_t samples = request_.samples, rows = rows_at_once(samples);
     std::vector<uint8_t> pixels;
     pixels.reserve(static_cast<size_t>(width_ * height_ * 4));
     for (int64_t begin = 0; begin < height_; begin += rows) {
@@ -237,6 +296,12 @@ class Studio {
     return pixels;
   }
 
+  // Rows of pixels, so that large pictures fit into memory.
+  int64_t rows_at_once(int64_t samples) const {
+    constexpr int64_t most_rays = 2'000'000;
+    return std::max<int64_t>(1, most_rays / (width_ * samples * samples));
+  }
+
   uint64_t rows_in_all() const { return static_cast<uint64_t>(request_.frames) * static_cast<uint64_t>(height_); }
 
   const Loaded& loaded_;
@@ -247,6 +312,7 @@ class Studio {
   Box whole_;
   SceneOptions options_;
   int64_t width_ = 0, height_ = 0;  // of what is shown, pixels
+  int64_t samples_ = request_.samples;
   std::optional<PictureLabels> labels_;
   bool is_empty_ = true;  // the frame at work
   Progress* progress_;
@@ -277,8 +343,18 @@ bool take_pictures(const Loaded& loaded, const PictureRequest& request, const St
   loan.threads = request.threads;
   loan.progress = progress;
   loan.stop = &stop;
-  const Loaded own{loaded.path, loaded.source, with_stages(loaded.design, loan)};
-  return Studio(own, request, loan, diagnostics).take_all(take);
+  PictureRequest effective = request;
+  const std::vector<std::string> attributes = attribute_names(loaded.design);
+  const bool by_parts = request.by == "parts" && std::ranges::find(attributes, request.by) == attributes.end();
+  if (by_parts) effective.by = part_label;
+  const bool has_parts = by_parts || request.marks.outlines == Divided::parts || request.marks.names == Divided::parts;
+  const Loaded own{loaded.path, loaded.source,
+                   with_stages(has_parts ? with_part_nodes(loaded.design) : loaded.design, loan)};
+  if (by_parts && part_names(own.design).empty()) {
+    report_nameless_parts(own.design, diagnostics);
+    return false;
+  }
+  return Studio(own, effective, loan, diagnostics).take_all(take);
 }
 
 }  // namespace ombre::compile

@@ -38,6 +38,11 @@ struct AnnotationRequest {
   std::string font_file;  // empty: one of the system's
 };
 
+// What is drawn on the part: the borders of its parts or materials as seen, and their names.
+struct MarkRequest {
+  std::optional<Divided> outlines, names;
+};
+
 struct PictureRequest {
   int64_t width = 800, height = 600;  // pixels
   int64_t samples = 2;                // rays for each pixel: samples x samples
@@ -46,12 +51,14 @@ struct PictureRequest {
   std::vector<CutRequest> cuts;
   std::optional<Box> box;
   std::vector<std::pair<std::string, double>> opacity;  // by the name of the material
-  std::string by;       // colours by this material's fraction or this attribute; empty: the materials' own
+  // Colours by this material's fraction, this attribute, or "parts"; empty: the materials' own.
+  std::string by;
   std::string palette;  // one of palettes(); empty: the usual one
   std::optional<Interval>
       range;  // that they span; nothing: from the least to the greatest value inside, of a fraction 0 to 1
   render::Background background;
   AnnotationRequest annotations;
+  MarkRequest marks;
   int frames = 1;  // around the part
   int threads = 0;
 };

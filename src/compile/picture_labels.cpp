@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "compile/colour_map.h"
+#include "compile/part_labels.h"
 #include "compile/question.h"
 
 namespace ombre::compile {
@@ -69,7 +70,11 @@ std::optional<PictureLabels> PictureLabels::make(const Loaded& loaded, const Pic
   PictureLabels labels(request, draw::Pen(wanted.font_file));
   labels.annotations_.axes = wanted.axes;
   labels.annotations_.scale_bar = wanted.scale_bar;
-  if (wanted.legend && value) labels.annotations_.colour_bar = colour_bar(loaded.design, *value);
+  const std::vector<std::string> parts =
+      value && value->of == part_label ? part_names(loaded.design) : std::vector<std::string>();
+  for (size_t n = 0; wanted.legend && n < parts.size(); ++n)
+    labels.annotations_.legend.push_back({parts[n], label_colour(n + 1)});
+  if (wanted.legend && value && parts.empty()) labels.annotations_.colour_bar = colour_bar(loaded.design, *value);
   if (wanted.legend && !value) {
     const auto materials = materials_within(loaded.design, box, request.threads, diagnostics);
     if (!materials) return std::nullopt;

@@ -139,6 +139,45 @@ TEST_F(Labels, ValuesHaveABarOfTheirColours) {
   }
 }
 
+// Three balls in a row, seen from the front: each in its own colour, with a name in its middle and dark rims.
+TEST_F(Labels, PartsHaveColoursOutlinesAndNames) {
+  PictureRequest request;
+  request.view = *render::named_view("front");
+  request.by = "parts";
+  request.marks.outlines = Divided::parts;
+  const std::string row =
+      "part(\"one\") sphere(5); union() { translate(12, 0, 0) part(\"two\") sphere(5); translate(24, 0, 0) sphere(5); "
+      "}";
+  const auto plain = take(row, request);
+  request.marks.names = Divided::parts;
+  const auto named = take(row, request);
+  ASSERT_TRUE(plain && named) << to_text(diagnostics);
+  const auto column_of = [&](double x) { return width / 2 + std::lround((x - 12) / plain->pixel_mm); };
+  // What stands in no named part at the top level comes first, so "two" is 1.
+  const Pixel two = at(*plain, column_of(12), height / 2), one = at(*plain, column_of(0), height / 2);
+  const Pixel rest = at(*plain, column_of(24), height / 2);
+  EXPECT_GT(two.blue, two.red + 60);
+  EXPECT_GT(one.red, one.blue + 60);
+  EXPECT_LT(std::abs(rest.red - rest.blue), 10);
+  for (const double x : {-5.0, 7.0, 19.0}) EXPECT_TRUE(at(*plain, column_of(x), height / 2).is_ink()) << x;
+  const auto ink_near = [&](const Picture& picture, double x) {
+    int count = 0;
+    for (int64_t row_of = height / 2 - 8; row_of < height / 2 + 8; ++row_of)
+      for (int64_t column = column_of(x) - 12; column < column_of(x) + 12; ++column)
+        count += at(picture, column, row_of).is_ink();
+    return count;
+  };
+  for (const double x : {0.0, 12.0}) EXPECT_GT(ink_near(*named, x), ink_near(*plain, x) + 10) << x;
+  EXPECT_EQ(ink_near(*named, 24), ink_near(*plain, 24));
+}
+
+TEST_F(Labels, PartsWithoutNamesAreAnError) {
+  PictureRequest request;
+  request.marks.names = Divided::parts;
+  EXPECT_FALSE(take("sphere(5);", request));
+  EXPECT_NE(to_text(diagnostics).find("no part of the design has a name"), std::string::npos) << to_text(diagnostics);
+}
+
 TEST_F(Labels, MakeRoomForThemselves) {
   PictureRequest request;
   const auto plain = take(balls(3), request);

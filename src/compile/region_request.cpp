@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "compile/part_labels.h"
 #include "compile/region_survey.h"
-#include "nodes/all_nodes.h"
 
 namespace ombre::compile {
 namespace {
@@ -68,21 +68,6 @@ std::optional<RegionRule> crossed_rule(const design::Design& design, const Box& 
     rule.crossed.push_back(std::move(*one));
   }
   return rule;
-}
-
-// The name of a part that front ends made of all that is in none.
-constexpr std::string_view nameless = "part";
-
-// Names that only the list of parts has become nodes.
-design::Design with_part_nodes(design::Design design) {
-  const design::NodeType& type = *nodes::registry().find("part");
-  for (design::Part& part : design.parts) {
-    if (part.name == nameless || &part.solid->type() == &type) continue;
-    Diagnostics none;
-    const design::Reader reader{design.materials, none, nullptr, part.solid->where(), "part", ""};
-    part.solid = design::make_node(type, {{type.parameters.data(), Data(part.name)}}, {part.solid}, reader);
-  }
-  return design;
 }
 
 std::optional<RegionRule> region_rule(const design::Design& design, const Box& box, const RegionRequest& request,

@@ -5,6 +5,7 @@
 
 #include "compile/build.h"
 #include "compile/colour_map.h"
+#include "compile/part_labels.h"
 #include "compile/question.h"
 #include "render/shade.h"
 
@@ -38,7 +39,7 @@ Field within_cuts(Field inside, const Point& p, const SceneOptions& options) {
 double opacity_of(const design::Material& material, const SceneOptions& options) {
   const auto given = options.opacity.find(material.id);
   if (given != options.opacity.end()) return given->second;
-  return options.value ? 1 : material.colour[3] / 255.0;
+  return options.value || options.numbers ? 1 : material.colour[3] / 255.0;
 }
 
 // The sum of something over the materials, by their fractions.
@@ -90,14 +91,56 @@ std::optional<std::array<Field, 3>> own_colour(Question& question, const std::st
   return colour;
 }
 
+// The number of a part, 0 in none, or the id of the material of which there is most.
+std::optional<Field> number_at(Question& question, const design::Composition& composition, Divided by,
+                               Diagnostics& diagnostics) {
+  if (by == Divided::parts) return question.attribute(part_label, diagnostics);
+  const Point& p = question.point();
+  Field most = p.constant(-1), number = p.constant(0);
+  for (const auto& [id, fraction] : composition.fractions) {
+    number = select(less(most, fraction), p.constant(id), number);
+    most = max(most, fraction);
+  }
+  return number;
+}
+
+// One of a few colours that are told apart easily, in turn.
+std::array<Field, 3> label_colour(Field label) {
+  const auto few = static_cast<double>(label_colours().size()) - 1;  // the first is that of no label
+  const Field place = label - few * (ceil(label * (1 / few)) - 1);
+  std::array<Field, 3> colour;
+  for (size_t channel = 0; channel < 3; ++channel) {
+    const auto light = [&](size_t n) {
+      const render::Colour c = render::linear(label_colours()[n]);
+      return label.builder->constant(channel == 0 ? c.red : channel == 1 ? c.green : c.blue);
+    };
+    colour[channel] = light(0);
+    for (size_t n = 1; n < label_colours().size(); ++n) {
+      const Field is_this =
+          logical_and(less(label.builder->constant(0), label),
+                      label.builder->apply(program::Op::equal, place, label.builder->constant(static_cast<double>(n))));
+      colour[channel] = select(is_this, light(n), colour[channel]);
+    }
+  }
+  return colour;
+}
+
 // Linear red, green and blue.
 std::optional<std::array<Field, 3>> colour_at(Question& question, const design::Composition& composition,
                                               const SceneOptions& options, Diagnostics& diagnostics) {
+  if (options.numbers) {
+    const auto number = number_at(question, composition, *options.numbers, diagnostics);
+    if (!number) return std::nullopt;
+    const Field zero = question.builder().constant(0);
+    return std::array{*number * (1.0 / most_numbers), zero, zero};
+  }
   if (options.value) {
     const std::string& of = options.value->of;
     if (is_colour(question, of)) return own_colour(question, of, diagnostics);
     const auto value = question.value(of, diagnostics);
     if (!value) return std::nullopt;
+    const design::AttributeDeclaration* declared = question.declaration(of);
+    if (declared && declared->type == design::ValueType::label) return label_colour(*value);
     const Palette* palette = palette_called(options.value->palette);
     return mapped_colour(*value, options.value->range, palette ? *palette : palettes().front());
   }

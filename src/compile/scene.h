@@ -29,13 +29,20 @@ struct ValueColours {
   std::string palette = {};  // one of palettes(); empty: the usual one
 };
 
+// What pictures are divided by, for outlines and names: the parts of a design with its nodes of parts, or the
+// materials.
+enum class Divided : uint8_t { parts, materials };
+
 struct SceneOptions {
   std::vector<CutPlane> cuts;
   std::optional<Box> box;                // only what is within
   std::map<MaterialId, double> opacity;  // 0 to 1, in place of the materials' own
   std::optional<ValueColours> value;     // then materials without an opacity here are opaque
+  std::optional<Divided> numbers;        // then red is the part's or material's number over most_numbers, all is opaque
   int threads = 1;                       // that make tables of many parts; 0: all cores
 };
+
+inline constexpr int most_numbers = 4096;
 
 // The box that the picture should hold: the design's, cut.
 Box scene_box(const Box& design_box, const SceneOptions& options);
