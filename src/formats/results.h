@@ -58,7 +58,8 @@ struct ResultsFile {
 };
 
 // Reads .vtu, .xdmf, .frd, .inp and .csv files by their content. `values` is the .csv file with the fields of an .inp
-// mesh, or the file of HDF5 with the numbers of an .xdmf one; nothing: there are none. Nothing, and diagnostics, where a file is wrong.
+// mesh, or the file of HDF5 with the numbers of an .xdmf one; nothing: there are none. Nothing, and diagnostics, where
+// a file is wrong.
 std::optional<Results> read_results(const std::string& name, std::string_view bytes,
                                     const std::optional<ResultsFile>& values, Diagnostics& diagnostics);
 
