@@ -108,7 +108,7 @@ def lattices(arguments, folder):
         output = folder / f"{n}.vtu"
         events, seconds, memory = run(
             [arguments.ombre, "fea", LATTICE, "-D", f"rule={n}", "--study", PRESS, "--cell", arguments.cell, "--solve",
-             "--tolerance", "1e-6", "--json", "-o", output], folder)
+             "--tolerance", "1e-6", "--threads", arguments.threads, "--json", "-o", output], folder)
         profiles.append((name, profile(output)))
         print(f"| {name} | {events['model']['bricks']:,.0f} | {top_force(events, output):.4g} N | "
               f"{events['solution']['iterations']:.0f} | {seconds:.1f} s | {memory / 1e6:,.0f} MB |", flush=True)
@@ -176,7 +176,7 @@ def block(arguments, folder):
     print("| problem | bricks | iterations | solving | whole command | memory |\n| --- | --- | --- | --- | --- | --- |")
     for name, study in (("elasticity", "crush.json"), ("heat", "heat.json")):
         events, seconds, memory = run([arguments.ombre, "fea", "ball.vcad", "--study", study, "--cell", f"50/{arguments.bricks}",
-                                       "--solve", "--tolerance", "1e-6", "--memory", "9G", "--json"], folder)
+                                       "--solve", "--tolerance", "1e-6", "--memory", "9G", "--threads", arguments.threads, "--json"], folder)
         print(f"| {name} | {events['model']['bricks']:,.0f} | {events['solution']['iterations']:.0f} | "
               f"{events['solution']['seconds']:.0f} s | {seconds:.0f} s | {memory / 1e9:.2f} GB |", flush=True)
     few = min(100, arguments.bricks)
@@ -194,6 +194,7 @@ def main():
     parser.add_argument("ombre", type=pathlib.Path)
     parser.add_argument("--cell", default="0.5", help="size of the lattices' bricks, mm")
     parser.add_argument("--bricks", type=int, default=216, help="of the block along each axis")
+    parser.add_argument("--threads", default="0", help="0: all cores")
     parser.add_argument("--chart", type=pathlib.Path)
     parser.add_argument("--calculix", action="store_true")
     arguments = parser.parse_args()

@@ -5,7 +5,7 @@
 namespace ombre::fea {
 namespace {
 
-constexpr size_t piece_size = size_t{1} << 14, bricks_of_piece = 1024;
+constexpr size_t piece_size = size_t{1} << 14, bricks_of_piece = 4096;
 
 size_t colour_of(const Cell& cell, const Cell& period) {
   size_t colour = 0;
@@ -118,7 +118,8 @@ void BrickOperator::all_forces(const Vector& displacements, Vector& forces) cons
       const size_t begin = piece * bricks_of_piece, end = std::min(colour.size(), begin + bricks_of_piece);
       add_of(colour.data() + begin, colour.data() + end, displacements, forces);
     };
-    run_parallel((colour.size() + bricks_of_piece - 1) / bricks_of_piece, threads_, work);
+    const size_t pieces = (colour.size() + bricks_of_piece - 1) / bricks_of_piece;
+    pieces <= 1 ? work(0) : run_parallel(pieces, threads_, work);
   }
 }
 
