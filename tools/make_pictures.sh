@@ -102,6 +102,7 @@ if [[ $# -eq 0 || " $* " == *" docs "* ]]; then
   echo docs/examples.md
   render graded_wing docs/hero.png 1000x360 --from -20,35 --aa 3
   render gear docs/picture_labels.png 480x320 --annotate
+  render traffic_light docs/picture_names.png 480x360 --by parts --outlines parts --names parts --legend
   render knob docs/picture_slice.png 480x320 --slice x=0 --annotate
   render mug docs/picture_perspective.png 480x320 --perspective 70 --from 40,35
   render knob docs/picture_translucent.png 480x320 --opacity magenta=0.1
