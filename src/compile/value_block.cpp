@@ -6,11 +6,11 @@ namespace ombre::compile {
 
 ValueBlock::ValueBlock(const IndexBox& box, size_t channels) : box_(box), channels_(channels, {0.0f}) { find_ranges(); }
 
-ValueBlock::ValueBlock(const design::StageValues& values) : box_(values.box()) {
+ValueBlock::ValueBlock(design::StageValues values) : box_(values.box()) {
   for (size_t n = 0; n < values.channels(); ++n) {
-    const std::vector<float>& channel = values.channel(n);
+    std::vector<float>& channel = values.channel(n);
     const bool is_same = std::all_of(channel.begin(), channel.end(), [&](float v) { return v == channel[0]; });
-    channels_.push_back(is_same ? std::vector<float>{channel[0]} : channel);
+    channels_.push_back(is_same ? std::vector<float>{channel[0]} : std::move(channel));
   }
   find_ranges();
 }

@@ -13,7 +13,7 @@ class ValueBlock {
  public:
   // All values are 0.
   ValueBlock(const IndexBox& box, size_t channels);
-  explicit ValueBlock(const design::StageValues& values);
+  explicit ValueBlock(design::StageValues values);
   // Each channel has one value.
   ValueBlock(const IndexBox& box, std::span<const float> values);
 

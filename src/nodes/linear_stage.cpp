@@ -25,14 +25,21 @@ class LinearStage final : public FilterStage {
   void compute(const StageValues& read, StageValues& made, Vec3 cell_mm) const override {
     const LinearFilter filter = filter_(cell_mm);
     const std::vector<float>& inside = read.channel(FilterStage::inside(read));
-    for (size_t c = 0; c < fractions(read); ++c)
-      add(
-          filter, read, [&](size_t n) { return read.channel(c)[n]; }, made.channel(c));
+    std::vector<float>& share = made.channel(made_share(made));
+    add(
+        filter, read, [&](size_t n) { return inside[n]; }, share);
+    for (size_t c = 0; c < fractions(read); ++c) {
+      const std::vector<float>& fraction = read.channel(c);
+      // Where there is one material alone its sums are those of "inside".
+      if (fraction == inside)
+        made.channel(c) = share;
+      else
+        add(
+            filter, read, [&](size_t n) { return fraction[n]; }, made.channel(c));
+    }
     if (use().count_void)
       add(
           filter, read, [&](size_t n) { return 1 - inside[n]; }, made.channel(made_void(read, made)));
-    add(
-        filter, read, [&](size_t n) { return inside[n]; }, made.channel(made_share(made)));
     for (size_t a = 0; a < use().attributes.size(); ++a) {
       const std::vector<float>& values = read.channel(attribute(read, a));
       add(
@@ -52,15 +59,30 @@ class LinearStage final : public FilterStage {
     const IndexBox& box = read.box();
     NumberGrid grid{{box.size(0), box.size(1), box.size(2)}, {}};
     grid.values.resize(static_cast<size_t>(box.voxels()));
-    bool has_values = false;
+    const auto first = static_cast<double>(value_at(0));
+    bool is_same = true;
     for (size_t n = 0; n < grid.values.size(); ++n) {
       grid.values[n] = static_cast<double>(value_at(n));
-      has_values |= grid.values[n] != 0;
+      is_same &= grid.values[n] == first;
     }
-    if (!has_values) return;
+    if (is_same) return add_same(filter, first, made);
     const NumberGrid sums = filter.apply(grid);
     for (size_t n = 0; n < made.size(); ++n)
       made[n] = static_cast<float>(static_cast<double>(made[n]) + sums.values[n]);
+  }
+
+  // The sum of one voxel stands for all of them where all that is read is alike.
+  static void add_same(const LinearFilter& filter, double value, std::vector<float>& made) {
+    if (value == 0) return;
+    NumberGrid grid;
+    size_t voxels = 1;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      grid.size[axis] = filter.below()[axis] + filter.above()[axis] + 1;
+      voxels *= static_cast<size_t>(grid.size[axis]);
+    }
+    grid.values.assign(voxels, value);
+    const double sum = filter.apply(grid).values[0];
+    for (float& number : made) number = static_cast<float>(static_cast<double>(number) + sum);
   }
 
   std::string key_;

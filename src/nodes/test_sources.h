@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -146,11 +147,17 @@ class HillSource : public program::FieldSource {
   Hash content() const override { return {9, 10}; }
   Box bounds() const override { return {{-0.5, -0.5, -0.5}, {8.5, 8.5, 8.5}}; }
   int channel(std::string_view channel_name) const override {
-    return channel_name == "value" ? 0 : channel_name == "nearest" ? 1 : -1;
+    constexpr std::array<std::string_view, 6> names{"value", "nearest", "cubic", "cubic_x", "cubic_y", "cubic_z"};
+    const auto found = std::find(names.begin(), names.end(), channel_name);
+    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
   }
   double sample(int channel, Vec3 p) const override {
-    if (channel == 1) p = {std::floor(p.x + 0.5), std::floor(p.y + 0.5), std::floor(p.z + 0.5)};
-    return 110 - 10 * length(p - Vec3{4, 4, 4});
+    constexpr int nearest = 1, first_slope = 3;
+    if (channel == nearest) p = {std::floor(p.x + 0.5), std::floor(p.y + 0.5), std::floor(p.z + 0.5)};
+    const Vec3 from_top = p - Vec3{4, 4, 4};
+    const double away = length(from_top);
+    if (channel >= first_slope) return away > 0 ? -10 * from_top[channel - first_slope] / away : 0;
+    return 110 - 10 * away;
   }
 };
 
