@@ -200,6 +200,24 @@ TEST_F(StudioTest, PicturesStayWhereTheirCameraIs) {
             "request");
 }
 
+TEST_F(StudioTest, PicturesAreCutByWedgesAndBoxes) {
+  const std::string design = load("sphere(1, red);");
+  const auto alpha = [&](const std::string& how, uint32_t column, uint32_t row) {
+    const std::string request = R"("design": ")" + design + R"(", "width": 40, "height": 40, "azimuth": 0, )" +
+                                R"("elevation": 0, "height_mm": 2.4, "target": [0, 0, 0], )" + how;
+    return static_cast<int>(formats::decode_png(ask("render", request).second, "cut").colour(column, row)[3]);
+  };
+  const std::string quarter = R"("cuts": ["x>0,z>0"])", box = R"("box": [-1, -1, -1, 0, 1, 0])";
+  EXPECT_EQ(alpha(quarter, 27, 12), 0);
+  EXPECT_EQ(alpha(quarter, 12, 12), 255);
+  EXPECT_EQ(alpha(quarter, 27, 27), 255);
+  EXPECT_EQ(alpha(box, 12, 27), 255);
+  EXPECT_EQ(alpha(box, 27, 27), 0);
+  EXPECT_EQ(alpha(box, 12, 12), 0);
+  const std::string wrong = R"("design": ")" + design + R"(", "width": 40, "height": 40, "box": [0, 0, 0, 1, 1, -1])";
+  EXPECT_EQ(text(ask("render", wrong).first, "error"), "request");
+}
+
 // What tiles and probes show is what the job writes.
 TEST_F(StudioTest, TilesAndProbesAreTheJobsPixels) {
   const std::string design = load(ball), job = R"("design": ")" + design + R"(", "printer": "j750")";

@@ -33,6 +33,13 @@ void read_camera(const Request& request, render::ViewOptions& view) {
   if (!(*view.height_mm > 0)) throw RequestError("request", "\"height_mm\" of a picture is greater than 0");
 }
 
+Box box_of(const Request& request) {
+  const std::vector<double> v = request.numbers("box", 6);
+  if (!(v[0] < v[3] && v[1] < v[4] && v[2] < v[5]))
+    throw RequestError("request", "\"box\" is [x0, y0, z0, x1, y1, z1], each at its end greater than at its beginning");
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
 void read_opacity(const Request& request, compile::PictureRequest& picture) {
   const Data* opacity = request.body.find("opacity");
   if (!opacity || opacity->is_null()) return;
@@ -54,9 +61,11 @@ compile::PictureRequest picture_request(const Request& request) {
   read_opacity(request, picture);
   for (const std::string& text : request.texts("cuts")) {
     const auto cut = compile::parse_cut(text);
-    if (!cut) throw RequestError("request", "\"" + text + "\" is no plane; write for example x=0 or z>3.5");
+    if (!cut)
+      throw RequestError("request", "\"" + text + "\" is no cut; write for example x=0, or x>0,y<0 for a wedge");
     picture.cuts.push_back(*cut);
   }
+  if (request.body.find("box")) picture.box = box_of(request);
   picture.by = request.text("by", "");
   picture.palette = request.text("palette", "");
   if (!picture.palette.empty() && !compile::palette_called(picture.palette))

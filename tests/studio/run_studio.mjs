@@ -182,9 +182,30 @@ const checks = {
   },
 
   async "cuts open"() {
-    await page.selectOption(".surface .viewbar select >> nth=1", "y<");
+    const whole = await alphaInMiddle("surface");
+    await page.selectOption(".surface .cut", "y<");
     await isReady("surface");
-    await page.selectOption(".surface .viewbar select >> nth=1", "");
+    await page.selectOption(".surface .cut", "box"); // the lower quarter: its corner is in the middle
+    await isReady("surface");
+    await page.focus("[aria-label='Box, z to']");
+    for (let n = 0; n < 40; ++n) await page.keyboard.press("ArrowLeft");
+    await isReady("surface");
+    assert.equal((await alphaInMiddle("surface"))[3], 0);
+    await page.selectOption(".surface .cut", "wedge"); // towards the eye: a face of the inside is seen
+    await isReady("surface");
+    assert.notDeepEqual(await alphaInMiddle("surface"), whole);
+    await picture("wedge");
+    await page.check("text=Perspective");
+    await isReady("surface");
+    assert.equal((await alphaInMiddle("surface"))[3], 255);
+    await page.click("#tab-volume");
+    await isReady("volume");
+    await page.selectOption(".volume .cut", "box");
+    assert.ok((await alphaInMiddle("volume"))[3] < 255);
+    await page.selectOption(".volume .cut", "");
+    await page.click("#tab-surface");
+    await page.uncheck("text=Perspective");
+    await isReady("surface");
   },
 
   async "shows the inside by rays"() {

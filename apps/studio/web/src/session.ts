@@ -69,7 +69,7 @@ export async function openFile(file: string) {
     version = disk.version;
     savedText = fromDisk(disk.text);
     sentText = undefined;
-    set({ file, values: {}, conflict: undefined, design: undefined, camera: undefined, diagnostics: [], variables: [], plan: undefined,
+    set({ file, values: {}, conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], variables: [], plan: undefined,
           probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", problem: "", z: NaN, isOld: false });
     localStorage.setItem(`ombre:file:${state.hello?.folder}`, file);
     let text = savedText;

@@ -120,6 +120,12 @@ export interface Camera {
   height: number; // mm, of what the view shows
 }
 
+// What lies on all sides is left away (one plane, or the planes of a wedge); or what lies outside of a box.
+export interface Cut {
+  sides: { axis: number; side: "<" | ">"; mm: number }[];
+  box?: [number[], number[]];
+}
+
 export type ViewName = "surface" | "slices" | "volume" | "graph";
 
 export interface State {
@@ -139,7 +145,8 @@ export interface State {
   variables: Variable[];
   values: Record<string, Value>; // set by sliders, in place of the text's
   camera?: Camera;
-  cut?: { axis: "x" | "y" | "z"; side: "<" | ">"; mm: number };
+  cut?: Cut;
+  perspective: boolean;
   by: string;
   palette: string;
   opacity: Record<string, number>;
@@ -158,7 +165,7 @@ export interface State {
 }
 
 // What a person chose of the page, which stays when it is loaded again.
-const kept = ["printer", "dither", "view", "panel", "theme"] as const;
+const kept = ["perspective", "printer", "dither", "view", "panel", "theme"] as const;
 const known: Partial<State> = JSON.parse(localStorage.getItem("ombre:choices") ?? "{}");
 
 const listeners = new Set<() => void>();
@@ -175,6 +182,7 @@ export let state: State = {
   echo: [],
   variables: [],
   values: {},
+  perspective: false,
   by: "",
   palette: "",
   opacity: {},
