@@ -257,6 +257,35 @@ TEST_F(StudioTest, TilesAndProbesAreTheJobsPixels) {
   }
 }
 
+TEST_F(StudioTest, JobsCoverTheDesignOrTheTray) {
+  const std::string job = R"("design": ")" + load(ball) + R"(", "printer": "j750", "place": )";
+  const Data middle = ask("plan", job + R"("center")").first;
+  // 490 x 390 mm, at 600 and 300 dpi; above the ball are no layers.
+  EXPECT_EQ(*middle.find("count"), Data(DataList{number(11575), number(4606), number(223)}));
+  EXPECT_NEAR(*middle.find("origin_mm")->list()->front().number(), -245, 0.05);
+  // The ball stands around the tray's corner.
+  EXPECT_EQ(text(ask("plan", job + R"("tray")").first, "error"), "design");
+  EXPECT_EQ(*ask("plan", job + R"("design")").first.find("count")->list()->front().number(), 142);
+  EXPECT_EQ(text(ask("plan", job + R"("moon")").first, "error"), "request");
+}
+
+TEST_F(StudioTest, EstimatesWhatAJobTakes) {
+  const std::string job = R"("printer": "j750", "design": ")" + load(ball) + '"';
+  const Data estimate = ask("estimate", job).first;
+  ASSERT_FALSE(estimate.find("error")) << print_json(estimate);
+  ask("export", job + R"(, "folder": "a_slices")");
+  ASSERT_FALSE(job_in("done").is_null());
+  double bytes = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder.path / "a_slices"))
+    if (file.path().extension() == ".png") bytes += static_cast<double>(file.file_size());
+  EXPECT_EQ(*estimate.find("is_least"), Data(false));
+  EXPECT_GT(number_in(estimate, "bytes"), 0.5 * bytes);
+  EXPECT_LT(number_in(estimate, "bytes"), 2 * bytes);
+  EXPECT_GT(number_in(estimate, "seconds"), 0);
+  EXPECT_GT(number_in(estimate, "memory_bytes"), 0);
+  EXPECT_GT(number_in(estimate, "free_bytes"), 0);
+}
+
 TEST_F(StudioTest, VolumesHoldFractions) {
   const auto [header, bytes] = ask("volume", R"("side": 16, "design": ")" + load("rectprism((4, 4, 4), red);") + '"');
   ASSERT_TRUE(header.find("count")) << print_json(header);

@@ -10,6 +10,7 @@
 #include "compile/layer.h"
 #include "compile/picture.h"
 #include "compile/probe.h"
+#include "compile/slice.h"
 #include "formats/png.h"
 #include "studio/design_answer.h"
 
@@ -121,7 +122,11 @@ DataMembers voxel_at(OpenDesign& design, const Request& request, Vec3 point, con
 }  // namespace
 
 Cutting cutting_of(const Request& request) {
-  Cutting cutting{request.text("printer", "generic"), request.text("dither", "stochastic"), 0};
+  Cutting cutting{request.text("printer", "generic"), request.text("dither", "stochastic"), request.text("place", ""),
+                  0};
+  if (constexpr std::array places{"", "design", "center", "tray"};
+      std::ranges::find(places, cutting.place) == places.end())
+    throw RequestError("request", "\"place\" is design, center or tray");
   if (cutting.printer.find('/') != std::string::npos || cutting.printer.ends_with(".json"))
     throw RequestError("name", "\"printer\" is the name of a profile that comes with Ombre");
   if (request.body.find("level")) cutting.level = static_cast<int>(request.whole("level", 0, coarsest_level));
@@ -194,6 +199,22 @@ Answer probe_answer(OpenDesign& design, const Request& request, const StopFlag& 
            {"attributes", members_of(result.attributes)},
            {"parts", std::move(parts)},
            {"voxel", voxel_at(design, request, point, stop)}},
+          {}};
+}
+
+Answer estimate_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
+  const CutDesignPtr cut = design.cut(cutting_of(request));
+  compile::SliceOptions options;
+  options.stages = cut->plan.stages;
+  const compile::SliceEstimate estimate =
+      compile::estimate_slice(cut->plan.request, cut->plan.producer, options, &stop);
+  DataList checks;
+  for (const compile::CheckReport& check : estimate.checks) checks.emplace_back(check.text);
+  return {{{"seconds", estimate.seconds},
+           {"bytes", number(estimate.bytes)},
+           {"is_least", estimate.is_least},
+           {"memory_bytes", number(estimate.memory_bytes)},
+           {"checks", std::move(checks)}},
           {}};
 }
 

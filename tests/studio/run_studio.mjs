@@ -253,6 +253,18 @@ const checks = {
     await picture("slices");
   },
 
+  async "estimates jobs, also in the middle of the tray"() {
+    await page.click("#tab-export");
+    await page.selectOption(".place", "center");
+    await page.waitForSelector(".panel:has-text('926 layers of 11575 × 4606 pixels')");
+    await page.selectOption(".place", "");
+    await page.waitForSelector(".panel:has-text('926 layers of 591')"); // 25 mm
+    await page.click("text=Estimate");
+    await page.waitForSelector(".estimate");
+    assert.match(await page.innerText(".estimate"), /^About .* s, .* of images, at most .* of memory$/);
+    await picture("estimate");
+  },
+
   async "slices for a printer, pauses and goes on"() {
     await page.click("#tab-export");
     await page.click("button.main");

@@ -96,6 +96,7 @@ export interface Job {
   file: string;
   printer: string;
   dither: string;
+  place?: Place;
   layers: number;
   done: number;
   total: number;
@@ -126,6 +127,19 @@ export interface Cut {
   box?: [number[], number[]];
 }
 
+export type Place = "" | "design" | "center" | "tray";
+
+// Of a job that is not begun; `of` says of which.
+export interface Estimate {
+  of: string;
+  seconds: number;
+  bytes: number;
+  is_least: boolean;
+  memory_bytes: number;
+  free_bytes?: number;
+  checks: string[];
+}
+
 export type ViewName = "surface" | "slices" | "volume" | "graph";
 
 export interface State {
@@ -152,6 +166,8 @@ export interface State {
   opacity: Record<string, number>;
   printer: string;
   dither: string;
+  place: Place;
+  estimate?: Estimate;
   plan?: Plan;
   planProblem: string;
   z: number; // mm
@@ -165,7 +181,7 @@ export interface State {
 }
 
 // What a person chose of the page, which stays when it is loaded again.
-const kept = ["perspective", "printer", "dither", "view", "panel", "theme"] as const;
+const kept = ["perspective", "printer", "dither", "place", "view", "panel", "theme"] as const;
 const known: Partial<State> = JSON.parse(localStorage.getItem("ombre:choices") ?? "{}");
 
 const listeners = new Set<() => void>();
@@ -188,6 +204,7 @@ export let state: State = {
   opacity: {},
   printer: "generic",
   dither: "stochastic",
+  place: "",
   planProblem: "",
   z: NaN,
   jobs: [],
