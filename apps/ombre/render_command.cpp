@@ -36,6 +36,7 @@ constexpr const char* render_footer =
     "Examples:\n"
     "  ombre render part.vcad -o part.png\n"
     "  ombre render part.vcad --cut x=0 --view right        cut open, seen from the right\n"
+    "  ombre render part.vcad --cut \"x>0,y<0\"              a quarter taken out\n"
     "  ombre render part.vcad --opacity clear=0.1           what the clear material hides\n"
     "  ombre render part.vcad --slice z=3.2 --annotate      the materials in a plane, with scale bar and legend\n"
     "  ombre render part.vcad --by density --cut y=0 --legend    an attribute, cut open\n"
@@ -64,7 +65,8 @@ void add_arguments(CLI::App& app, RenderArguments& a) {
           ->type_name("DEG");
   app.add_option("--zoom", a.zoom, "Enlarge the middle of the picture")->check(between(0.01, 1000.0))->type_name("X");
   app.add_option("--cut", a.cuts,
-                 "Cut along a plane: x=0 takes away the side of the eye, x>0 or x<0 that side; may be repeated")
+                 "Cut along a plane: x=0 takes away the side of the eye, x>0 or x<0 that side; x>0,y<0 takes a wedge "
+                 "out; may be repeated")
       ->allow_extra_args(false)
       ->type_name("PLANE");
   app.add_option("--box", a.box, "Show only what is within this box; mm")->type_name("X0,Y0,Z0,X1,Y1,Z1");

@@ -41,6 +41,9 @@ CutDesignPtr OpenDesign::make(const Cutting& cutting) const {
   const auto dither = voxel::dither(cutting.dither);
   if (!dither) throw RequestError("request", "there is no way of dithering called \"" + cutting.dither + "\"");
   options.dither = *dither;
+  options.whole_tray = cutting.place == "tray";
+  if (cutting.place == "design") options.place = voxel::Placement::design;
+  if (cutting.place == "center") options.place = voxel::Placement::center;
   if (cutting.level > 0) {
     const bool own = loaded->design.sampling && !options.printer_given;
     const auto& pitch = own ? loaded->design.sampling->pitch : printer->pitch;

@@ -18,10 +18,11 @@ namespace ombre::studio {
 struct Cutting {
   std::string printer;  // a profile's name
   std::string dither;
-  int level = 0;  // voxels are 2^level times as long along x and y: 0 are the job's own
+  std::string place;  // "design", "center" or "tray", as on the command line; empty: as the printer has it
+  int level = 0;      // voxels are 2^level times as long along x and y: 0 are the job's own
 
   bool operator<(const Cutting& other) const {
-    return std::tie(printer, dither, level) < std::tie(other.printer, other.dither, other.level);
+    return std::tie(printer, dither, place, level) < std::tie(other.printer, other.dither, other.place, other.level);
   }
 };
 

@@ -65,6 +65,7 @@ DataMembers Exports::describe(const Job& job) {
           {"file", job.request.file},
           {"printer", job.request.cutting.printer},
           {"dither", job.request.cutting.dither},
+          {"place", job.request.cutting.place},
           {"layers", number(job.layers)},
           {"done", number(job.how_far.done)},
           {"total", number(job.how_far.total)},

@@ -72,6 +72,7 @@ const std::vector<Studio::Kind>& Studio::kinds() {
                                       {"probe", &Studio::show<probe_answer>},
                                       {"volume", &Studio::show<volume_answer>},
                                       {"measure", &Studio::show<measure_answer>},
+                                      {"estimate", &Studio::estimate},
                                       {"export", &Studio::start_export},
                                       {"change_export", &Studio::change_export},
                                       {"jobs", &Studio::jobs}};
@@ -235,6 +236,14 @@ Answer Studio::load(const Request& request, const StopFlag& stop) {
     answer.members.insert(answer.members.end(), design.begin(), design.end());
   }
   answer.members.emplace_back("diagnostics", describe(diagnostics, source));
+  return answer;
+}
+
+Answer Studio::estimate(const Request& request, const StopFlag& stop) {
+  Answer answer = estimate_answer(*design_of(request), request, stop);
+  std::error_code error;
+  const std::filesystem::space_info disk = std::filesystem::space(workspace_.root(), error);
+  if (!error) answer.members.emplace_back("free_bytes", number(disk.available));
   return answer;
 }
 

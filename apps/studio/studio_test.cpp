@@ -200,6 +200,24 @@ TEST_F(StudioTest, PicturesStayWhereTheirCameraIs) {
             "request");
 }
 
+TEST_F(StudioTest, PicturesAreCutByWedgesAndBoxes) {
+  const std::string design = load("sphere(1, red);");
+  const auto alpha = [&](const std::string& how, uint32_t column, uint32_t row) {
+    const std::string request = R"("design": ")" + design + R"(", "width": 40, "height": 40, "azimuth": 0, )" +
+                                R"("elevation": 0, "height_mm": 2.4, "target": [0, 0, 0], )" + how;
+    return static_cast<int>(formats::decode_png(ask("render", request).second, "cut").colour(column, row)[3]);
+  };
+  const std::string quarter = R"("cuts": ["x>0,z>0"])", box = R"("box": [-1, -1, -1, 0, 1, 0])";
+  EXPECT_EQ(alpha(quarter, 27, 12), 0);
+  EXPECT_EQ(alpha(quarter, 12, 12), 255);
+  EXPECT_EQ(alpha(quarter, 27, 27), 255);
+  EXPECT_EQ(alpha(box, 12, 27), 255);
+  EXPECT_EQ(alpha(box, 27, 27), 0);
+  EXPECT_EQ(alpha(box, 12, 12), 0);
+  const std::string wrong = R"("design": ")" + design + R"(", "width": 40, "height": 40, "box": [0, 0, 0, 1, 1, -1])";
+  EXPECT_EQ(text(ask("render", wrong).first, "error"), "request");
+}
+
 // What tiles and probes show is what the job writes.
 TEST_F(StudioTest, TilesAndProbesAreTheJobsPixels) {
   const std::string design = load(ball), job = R"("design": ")" + design + R"(", "printer": "j750")";
@@ -237,6 +255,35 @@ TEST_F(StudioTest, TilesAndProbesAreTheJobsPixels) {
     EXPECT_EQ(colours.at(text(voxel, "material")),
               written.colour(static_cast<uint32_t>(i), static_cast<uint32_t>(count(1) - 1 - j)));
   }
+}
+
+TEST_F(StudioTest, JobsCoverTheDesignOrTheTray) {
+  const std::string job = R"("design": ")" + load(ball) + R"(", "printer": "j750", "place": )";
+  const Data middle = ask("plan", job + R"("center")").first;
+  // 490 x 390 mm, at 600 and 300 dpi; above the ball are no layers.
+  EXPECT_EQ(*middle.find("count"), Data(DataList{number(11575), number(4606), number(223)}));
+  EXPECT_NEAR(*middle.find("origin_mm")->list()->front().number(), -245, 0.05);
+  // The ball stands around the tray's corner.
+  EXPECT_EQ(text(ask("plan", job + R"("tray")").first, "error"), "design");
+  EXPECT_EQ(*ask("plan", job + R"("design")").first.find("count")->list()->front().number(), 142);
+  EXPECT_EQ(text(ask("plan", job + R"("moon")").first, "error"), "request");
+}
+
+TEST_F(StudioTest, EstimatesWhatAJobTakes) {
+  const std::string job = R"("printer": "j750", "design": ")" + load(ball) + '"';
+  const Data estimate = ask("estimate", job).first;
+  ASSERT_FALSE(estimate.find("error")) << print_json(estimate);
+  ask("export", job + R"(, "folder": "a_slices")");
+  ASSERT_FALSE(job_in("done").is_null());
+  double bytes = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder.path / "a_slices"))
+    if (file.path().extension() == ".png") bytes += static_cast<double>(file.file_size());
+  EXPECT_EQ(*estimate.find("is_least"), Data(false));
+  EXPECT_GT(number_in(estimate, "bytes"), 0.5 * bytes);
+  EXPECT_LT(number_in(estimate, "bytes"), 2 * bytes);
+  EXPECT_GT(number_in(estimate, "seconds"), 0);
+  EXPECT_GT(number_in(estimate, "memory_bytes"), 0);
+  EXPECT_GT(number_in(estimate, "free_bytes"), 0);
 }
 
 TEST_F(StudioTest, VolumesHoldFractions) {

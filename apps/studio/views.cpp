@@ -10,6 +10,7 @@
 #include "compile/layer.h"
 #include "compile/picture.h"
 #include "compile/probe.h"
+#include "compile/slice.h"
 #include "formats/png.h"
 #include "studio/design_answer.h"
 
@@ -33,6 +34,13 @@ void read_camera(const Request& request, render::ViewOptions& view) {
   if (!(*view.height_mm > 0)) throw RequestError("request", "\"height_mm\" of a picture is greater than 0");
 }
 
+Box box_of(const Request& request) {
+  const std::vector<double> v = request.numbers("box", 6);
+  if (!(v[0] < v[3] && v[1] < v[4] && v[2] < v[5]))
+    throw RequestError("request", "\"box\" is [x0, y0, z0, x1, y1, z1], each at its end greater than at its beginning");
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
 void read_opacity(const Request& request, compile::PictureRequest& picture) {
   const Data* opacity = request.body.find("opacity");
   if (!opacity || opacity->is_null()) return;
@@ -54,9 +62,11 @@ compile::PictureRequest picture_request(const Request& request) {
   read_opacity(request, picture);
   for (const std::string& text : request.texts("cuts")) {
     const auto cut = compile::parse_cut(text);
-    if (!cut) throw RequestError("request", "\"" + text + "\" is no plane; write for example x=0 or z>3.5");
+    if (!cut)
+      throw RequestError("request", "\"" + text + "\" is no cut; write for example x=0, or x>0,y<0 for a wedge");
     picture.cuts.push_back(*cut);
   }
+  if (request.body.find("box")) picture.box = box_of(request);
   picture.by = request.text("by", "");
   picture.palette = request.text("palette", "");
   if (!picture.palette.empty() && !compile::palette_called(picture.palette))
@@ -112,7 +122,11 @@ DataMembers voxel_at(OpenDesign& design, const Request& request, Vec3 point, con
 }  // namespace
 
 Cutting cutting_of(const Request& request) {
-  Cutting cutting{request.text("printer", "generic"), request.text("dither", "stochastic"), 0};
+  Cutting cutting{request.text("printer", "generic"), request.text("dither", "stochastic"), request.text("place", ""),
+                  0};
+  if (constexpr std::array places{"", "design", "center", "tray"};
+      std::ranges::find(places, cutting.place) == places.end())
+    throw RequestError("request", "\"place\" is design, center or tray");
   if (cutting.printer.find('/') != std::string::npos || cutting.printer.ends_with(".json"))
     throw RequestError("name", "\"printer\" is the name of a profile that comes with Ombre");
   if (request.body.find("level")) cutting.level = static_cast<int>(request.whole("level", 0, coarsest_level));
@@ -185,6 +199,22 @@ Answer probe_answer(OpenDesign& design, const Request& request, const StopFlag& 
            {"attributes", members_of(result.attributes)},
            {"parts", std::move(parts)},
            {"voxel", voxel_at(design, request, point, stop)}},
+          {}};
+}
+
+Answer estimate_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
+  const CutDesignPtr cut = design.cut(cutting_of(request));
+  compile::SliceOptions options;
+  options.stages = cut->plan.stages;
+  const compile::SliceEstimate estimate =
+      compile::estimate_slice(cut->plan.request, cut->plan.producer, options, &stop);
+  DataList checks;
+  for (const compile::CheckReport& check : estimate.checks) checks.emplace_back(check.text);
+  return {{{"seconds", estimate.seconds},
+           {"bytes", number(estimate.bytes)},
+           {"is_least", estimate.is_least},
+           {"memory_bytes", number(estimate.memory_bytes)},
+           {"checks", std::move(checks)}},
           {}};
 }
 

@@ -22,7 +22,10 @@ Answer volume_answer(OpenDesign& design, const Request& request, const StopFlag&
 // "measure": volume and mass of each material.
 Answer measure_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
 
-// Reads "printer", "dither" and "level" of a request.
+// "estimate": what a job would take, from a few of its layers.
+Answer estimate_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
+
+// Reads "printer", "dither", "place" and "level" of a request.
 Cutting cutting_of(const Request& request);
 
 }  // namespace ombre::studio

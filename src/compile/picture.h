@@ -15,13 +15,15 @@
 
 namespace ombre::compile {
 
-// A plane x, y or z = mm. `removed`: '>' or '<' for what is left away, '=' for the side of the eye.
-struct CutRequest {
+// A plane x, y or z = mm. `removed`: '>' or '<' for the side that is left away, '=' for that of the eye.
+struct CutSide {
   int axis = 2;
   char removed = '=';
   double mm = 0;
 };
-// "x=0", "z>3.5", "y < -2".
+// What lies on all these sides is left away: one plane cuts, two or three take a wedge out.
+using CutRequest = std::vector<CutSide>;
+// "x=0", "z>3.5", "x>0, y < -2". At most one plane for each axis.
 std::optional<CutRequest> parse_cut(std::string_view text);
 
 // A plane x, y or z = mm, seen flat: from the right, from the front or from above.

@@ -125,13 +125,25 @@ TEST(Pictures, TheEyeMayStandWithinAMesh) {
 
 TEST(Pictures, CutsShowTheInside) {
   SceneOptions options;
-  options.cuts = {{1, 0, -1}};  // what lies at y < 0 is left away
+  options.cuts = {{{1, 0, -1}}};  // what lies at y < 0 is left away
   const Shot shot =
       shoot("union(materials=\"last\") { sphere(10, \"red\"); sphere(5, \"blue\"); }", view("front"), options);
   // The camera aims at the middle of what is left, y = 5.
   EXPECT_NEAR(shot.at(100, 100).surface, -5, shot.film.pixel_mm / 100);
   EXPECT_GT(shot.at(100, 100).at_end.blue, 2 * shot.at(100, 100).at_end.red);
   EXPECT_GT(shot.at(30, 100).at_end.red, 2 * shot.at(30, 100).at_end.blue);
+}
+
+TEST(Pictures, WedgesTakeAQuarterOut) {
+  SceneOptions options;
+  options.cuts = {{{1, 0, -1}, {0, 0, 1}}};  // what lies at y < 0 and x > 0 is left away
+  const Shot shot = shoot("sphere(10, \"red\");", view("front"), options);
+  for (const int64_t column : {130, 150, 170})
+    EXPECT_NEAR(shot.at(column, 100).surface, 0, shot.film.pixel_mm / 100) << column;
+  for (const int64_t column : {30, 50, 70}) {
+    const double x = shot.film.right_of(column), z = shot.film.down_of(100);
+    EXPECT_NEAR(shot.at(column, 100).surface, -std::sqrt(100 - x * x - z * z), shot.film.pixel_mm / 100) << column;
+  }
 }
 
 TEST(Pictures, LightFadesInTranslucentMaterial) {
@@ -237,10 +249,11 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::get<0>(test.param) + (std::get<1>(test.param) > 0 ? "_in_perspective" : ""); });
 
 TEST(Pictures, PlanesAreReadAsPeopleWriteThem) {
-  EXPECT_EQ(parse_cut("x=0")->axis, 0);
-  EXPECT_EQ(parse_cut("z > 3.5")->removed, '>');
-  EXPECT_EQ(parse_cut("z > 3.5")->mm, 3.5);
-  for (const char* wrong : {"", "x", "w=1", "x=", "x=a", "xy=1", "=1", "x=nan"})
+  EXPECT_EQ(parse_cut("x=0")->front().axis, 0);
+  EXPECT_EQ(parse_cut("z > 3.5")->front().removed, '>');
+  EXPECT_EQ(parse_cut("z > 3.5")->front().mm, 3.5);
+  EXPECT_EQ(parse_cut("x>0, y < -2")->at(1).mm, -2);
+  for (const char* wrong : {"", "x", "w=1", "x=", "x=a", "xy=1", "=1", "x=nan", "x=1,", "x>1,x<2"})
     EXPECT_FALSE(parse_cut(wrong)) << wrong;
 }
 
@@ -259,7 +272,7 @@ TEST(Pictures, WhatIsWrongIsSaid) {
   EXPECT_FALSE(take_pictures(*loaded, request, stop, ignore, diagnostics));
   EXPECT_NE(to_text(diagnostics).find("the slice does not meet the design"), std::string::npos);
   request.slice.reset();
-  request.cuts = {{0, '>', -11}};
+  request.cuts = {{{0, '>', -11}}};
   EXPECT_FALSE(take_pictures(*loaded, request, stop, ignore, diagnostics));
   EXPECT_NE(to_text(diagnostics).find("nothing of the design is left by the cuts"), std::string::npos);
 }

@@ -24,9 +24,14 @@ Point in_perspective(program::Builder& builder, const render::Camera& camera) {
 
 Field within_cuts(Field inside, const Point& p, const SceneOptions& options) {
   const Field coordinates[] = {p.x, p.y, p.z};
-  for (const CutPlane& cut : options.cuts) {
-    const Field at = coordinates[cut.axis], face = p.constant(cut.mm);
-    inside = logical_and(inside, cut.sign > 0 ? less_equal(at, face) : less_equal(face, at));
+  for (const Cut& cut : options.cuts) {
+    std::optional<Field> before;  // one of the planes
+    for (const CutPlane& plane : cut) {
+      const Field at = coordinates[plane.axis], face = p.constant(plane.mm);
+      const Field is_before = plane.sign > 0 ? less_equal(at, face) : less_equal(face, at);
+      before = before ? logical_or(*before, is_before) : is_before;
+    }
+    if (before) inside = logical_and(inside, *before);
   }
   if (!options.box) return inside;
   for (int axis = 0; axis < 3; ++axis) {
@@ -180,11 +185,13 @@ std::optional<Shown> lower(Question& question, const SceneOptions& options, cons
 
 Box scene_box(const Box& design_box, const SceneOptions& options) {
   Box box = options.box ? intersect(design_box, *options.box) : design_box;
-  for (const CutPlane& cut : options.cuts) {
-    if (cut.sign > 0)
-      box.hi[cut.axis] = std::min(box.hi[cut.axis], cut.mm);
+  for (const Cut& cut : options.cuts) {
+    if (cut.size() != 1) continue;  // the box of what wedges leave may be the whole
+    const CutPlane& plane = cut.front();
+    if (plane.sign > 0)
+      box.hi[plane.axis] = std::min(box.hi[plane.axis], plane.mm);
     else
-      box.lo[cut.axis] = std::max(box.lo[cut.axis], cut.mm);
+      box.lo[plane.axis] = std::max(box.lo[plane.axis], plane.mm);
   }
   return box.is_empty() ? Box::empty() : box;
 }

@@ -15,12 +15,13 @@
 
 namespace ombre::compile {
 
-// What lies behind it is left away: where sign * (coordinate - mm) is greater than 0.
+// What lies behind all planes of a cut is left away: where sign * (coordinate - mm) is greater than 0.
 struct CutPlane {
   int axis = 2;
   double mm = 0;
   int sign = 1;
 };
+using Cut = std::vector<CutPlane>;
 
 // Colours by a value in place of those of the materials.
 struct ValueColours {
@@ -34,7 +35,7 @@ struct ValueColours {
 enum class Divided : uint8_t { parts, materials };
 
 struct SceneOptions {
-  std::vector<CutPlane> cuts;
+  std::vector<Cut> cuts;
   std::optional<Box> box;                // only what is within
   std::map<MaterialId, double> opacity;  // 0 to 1, in place of the materials' own
   std::optional<ValueColours> value;     // then materials without an opacity here are opaque

@@ -95,7 +95,7 @@ TEST(Sections, OfMeshesAndOfWhatIsCut) {
   const double whole = covered(one);
   EXPECT_NEAR(covered(slice(gear, {2, 3}, request)) / whole, 1, 1e-3);
   // Cuts leave the half of a disc, and move it to the middle of the picture.
-  request.cuts = {{0, '>', 0}};
+  request.cuts = {{{0, '>', 0}}};
   const Picture half = slice("sphere(10, \"red\");", {2, 0}, request);
   EXPECT_NEAR(covered(half) / (50 * 3.14159265358979), 1, 0.004);
   EXPECT_EQ(dot(half, 140, 100)[3], 255);  // x from -10 to 0: 0 lies 5 mm right of the middle

@@ -182,9 +182,30 @@ const checks = {
   },
 
   async "cuts open"() {
-    await page.selectOption(".surface .viewbar select >> nth=1", "y<");
+    const whole = await alphaInMiddle("surface");
+    await page.selectOption(".surface .cut", "y<");
     await isReady("surface");
-    await page.selectOption(".surface .viewbar select >> nth=1", "");
+    await page.selectOption(".surface .cut", "box"); // the lower quarter: its corner is in the middle
+    await isReady("surface");
+    await page.focus("[aria-label='Box, z to']");
+    for (let n = 0; n < 40; ++n) await page.keyboard.press("ArrowLeft");
+    await isReady("surface");
+    assert.equal((await alphaInMiddle("surface"))[3], 0);
+    await page.selectOption(".surface .cut", "wedge"); // towards the eye: a face of the inside is seen
+    await isReady("surface");
+    assert.notDeepEqual(await alphaInMiddle("surface"), whole);
+    await picture("wedge");
+    await page.check("text=Perspective");
+    await isReady("surface");
+    assert.equal((await alphaInMiddle("surface"))[3], 255);
+    await page.click("#tab-volume");
+    await isReady("volume");
+    await page.selectOption(".volume .cut", "box");
+    assert.ok((await alphaInMiddle("volume"))[3] < 255);
+    await page.selectOption(".volume .cut", "");
+    await page.click("#tab-surface");
+    await page.uncheck("text=Perspective");
+    await isReady("surface");
   },
 
   async "shows the inside by rays"() {
@@ -230,6 +251,18 @@ const checks = {
       probed.push({ voxel, material, shown });
     }
     await picture("slices");
+  },
+
+  async "estimates jobs, also in the middle of the tray"() {
+    await page.click("#tab-export");
+    await page.selectOption(".place", "center");
+    await page.waitForSelector(".panel:has-text('926 layers of 11575 × 4606 pixels')");
+    await page.selectOption(".place", "");
+    await page.waitForSelector(".panel:has-text('926 layers of 591')"); // 25 mm
+    await page.click("text=Estimate");
+    await page.waitForSelector(".estimate");
+    assert.match(await page.innerText(".estimate"), /^About .* s, .* of images, at most .* of memory$/);
+    await picture("estimate");
   },
 
   async "slices for a printer, pauses and goes on"() {

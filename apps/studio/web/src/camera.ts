@@ -1,5 +1,5 @@
 // From where the design is seen. Angles are degrees: azimuth 0 is in front (at -y), 90 at +x.
-import { Camera, Design } from "./store";
+import { Camera, Design, state } from "./store";
 
 const radians = Math.PI / 180;
 
@@ -26,6 +26,14 @@ export function fitted(design: Design, aspect: number, from: { azimuth: number; 
     height = Math.max(height, 2 * Math.abs(dot(p, down)), (2 * Math.abs(dot(p, right))) / aspect);
   }
   return { ...camera, height: 1.1 * (height || 1) };
+}
+
+// Vertical, in degrees; 0: rays are parallel.
+export const fieldOfView = () => (state.perspective ? 35 : 0);
+
+// Of the eye from the target, mm; 0: infinite.
+export function eyeDistance(camera: Camera): number {
+  return state.perspective ? camera.height / 2 / Math.tan((fieldOfView() / 2) * radians) : 0;
 }
 
 export function panned(camera: Camera, dx: number, dy: number): Camera {

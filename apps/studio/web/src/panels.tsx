@@ -1,9 +1,9 @@
 // Beside the views: variables, materials, slicing, the reference of nodes.
 import { useState } from "preact/hooks";
 import { page } from "./language";
-import { changeJob, insert, measure, resetVariables, setVariable, startExport, writeVariables } from "./session";
+import { changeJob, choosePlace, estimate, insert, jobKey, measure, resetVariables, setVariable, startExport, writeVariables } from "./session";
 import { PrinterChoice } from "./slices";
-import { Job, NodeType, State, Value, Variable, set, state, useStore } from "./store";
+import { Job, NodeType, Place, State, Value, Variable, set, state, useStore } from "./store";
 
 function numberRange(v: Variable): { min: number; max: number; step: number | "any" } {
   const value = v.value as number;
@@ -140,8 +140,50 @@ function commandLine(folder: string): string {
   const words = ["ombre", "slice", state.file];
   if (state.printer !== "generic") words.push("--printer", state.printer);
   if (state.dither !== "stochastic") words.push("--dither", state.dither);
+  if (state.place === "tray") words.push("--tray");
+  else if (state.place) words.push("--place", state.place);
   for (const [name, value] of Object.entries(state.values)) words.push("-D", `'${name}=${JSON.stringify(value)}'`);
   return [...words, "-o", folder].join(" ");
+}
+
+function bytesText(bytes: number): string {
+  const power = Math.min(4, Math.floor(Math.log(Math.max(bytes, 1)) / Math.log(1024)));
+  return `${+(bytes / 1024 ** power).toPrecision(3)} ${["B", "KiB", "MiB", "GiB", "TiB"][power]}`;
+}
+
+function durationText(seconds: number): string {
+  if (seconds < 90) return `${seconds < 10 ? seconds.toPrecision(2) : Math.round(seconds)} s`;
+  return seconds < 5400 ? `${Math.round(seconds / 60)} min` : `${(seconds / 3600).toPrecision(2)} h`;
+}
+
+function EstimateText() {
+  const { estimate: known } = useStore();
+  if (!known || known.of !== jobKey()) return null;
+  return (
+    <div class="estimate" role="status">
+      <p class="hint">
+        {known.is_least ? `More than ${durationText(known.seconds)}` : `About ${durationText(known.seconds)}, ${bytesText(known.bytes)} of images`}, at most{" "}
+        {bytesText(known.memory_bytes)} of memory
+      </p>
+      {known.free_bytes !== undefined && known.bytes > known.free_bytes && <p class="error">The disk has {bytesText(known.free_bytes)} left.</p>}
+      {known.checks.map((text) => <p class="warning">{text}</p>)}
+    </div>
+  );
+}
+
+function PlaceChoice() {
+  const { place } = useStore();
+  return (
+    <label>
+      Place
+      <select class="place" value={place} onChange={(e) => choosePlace(e.currentTarget.value as Place)}>
+        <option value="">as the printer has it</option>
+        <option value="design">the design alone</option>
+        <option value="center">middle of the tray</option>
+        <option value="tray">whole tray, as designed</option>
+      </select>
+    </label>
+  );
 }
 
 function Export() {
@@ -154,6 +196,7 @@ function Export() {
   return (
     <div class="panelbody">
       <p class="controls"><PrinterChoice /></p>
+      <p class="controls"><PlaceChoice /></p>
       {plan && (
         <p class="hint">
           {plan.title}: {plan.count[2]} layers of {plan.count[0]} × {plan.count[1]} pixels, {voxels.toLocaleString("en")} voxels
@@ -171,7 +214,9 @@ function Export() {
       </label>
       <p class="controls">
         <button class="main" disabled={!plan || !design || isOld || planProblem !== ""} onClick={async () => setProblem(await startExport(folder, replace))}>Slice</button>
+        <button disabled={!plan || !design || isOld || planProblem !== ""} onClick={async () => setProblem(await estimate())}>Estimate</button>
       </p>
+      <EstimateText />
       {problem && <p class="error" role="alert">{problem}</p>}
       <ul class="jobs" aria-label="Jobs">{jobs.map((job) => <JobRow job={job} />)}</ul>
       {plan && (

@@ -1,6 +1,6 @@
 // What the page does: opens, saves, evaluates, slices. Components call it; answers go into the store.
 import { Connection, Refused, Reply } from "./connection";
-import { Job, Plan, Value, set, state } from "./store";
+import { Job, Place, Plan, Value, set, state } from "./store";
 
 // What the session needs of the editor.
 export interface Editor {
@@ -69,7 +69,7 @@ export async function openFile(file: string) {
     version = disk.version;
     savedText = fromDisk(disk.text);
     sentText = undefined;
-    set({ file, values: {}, conflict: undefined, design: undefined, camera: undefined, diagnostics: [], variables: [], plan: undefined,
+    set({ file, values: {}, conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], variables: [], plan: undefined,
           probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", problem: "", z: NaN, isOld: false });
     localStorage.setItem(`ombre:file:${state.hello?.folder}`, file);
     let text = savedText;
@@ -251,7 +251,10 @@ export async function about(what: string, members: Record<string, unknown>, lane
   }
 }
 
-export const cutting = () => ({ printer: state.printer, dither: state.dither });
+export const cutting = () => ({ printer: state.printer, dither: state.dither, place: state.place });
+
+// Changes when another job is meant.
+export const jobKey = () => JSON.stringify([state.design?.design, cutting()]);
 
 export async function plan() {
   if (!state.design) return;
@@ -267,6 +270,21 @@ export async function plan() {
 export function choosePrinter(printer: string, dither: string) {
   set({ printer, dither });
   plan();
+}
+
+export function choosePlace(place: Place) {
+  set({ place });
+  plan();
+}
+
+export async function estimate(): Promise<string> {
+  const of = jobKey();
+  try {
+    set({ estimate: { of, ...((await about("estimate", cutting(), "estimate")) as any) } });
+    return "";
+  } catch (error) {
+    return (error as Refused).isCancelled ? "" : (error as Error).message;
+  }
 }
 
 export async function measure() {
@@ -321,7 +339,7 @@ export async function changeJob(job: Job, to: "pause" | "resume" | "cancel") {
   if (job.state === "interrupted") {
     if (to === "cancel") return setJobs(state.jobs.filter((known) => known !== job));
     if (job.file && job.file !== state.file) return set({ problem: `open ${job.file} to go on with its layers` });
-    set({ printer: job.printer, dither: job.dither });
+    set({ printer: job.printer, dither: job.dither, place: job.place ?? "" });
     await plan();
     return startExport(job.folder, false);
   }

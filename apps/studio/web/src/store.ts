@@ -96,6 +96,7 @@ export interface Job {
   file: string;
   printer: string;
   dither: string;
+  place?: Place;
   layers: number;
   done: number;
   total: number;
@@ -120,6 +121,25 @@ export interface Camera {
   height: number; // mm, of what the view shows
 }
 
+// What lies on all sides is left away (one plane, or the planes of a wedge); or what lies outside of a box.
+export interface Cut {
+  sides: { axis: number; side: "<" | ">"; mm: number }[];
+  box?: [number[], number[]];
+}
+
+export type Place = "" | "design" | "center" | "tray";
+
+// Of a job that is not begun; `of` says of which.
+export interface Estimate {
+  of: string;
+  seconds: number;
+  bytes: number;
+  is_least: boolean;
+  memory_bytes: number;
+  free_bytes?: number;
+  checks: string[];
+}
+
 export type ViewName = "surface" | "slices" | "volume" | "graph";
 
 export interface State {
@@ -139,12 +159,15 @@ export interface State {
   variables: Variable[];
   values: Record<string, Value>; // set by sliders, in place of the text's
   camera?: Camera;
-  cut?: { axis: "x" | "y" | "z"; side: "<" | ">"; mm: number };
+  cut?: Cut;
+  perspective: boolean;
   by: string;
   palette: string;
   opacity: Record<string, number>;
   printer: string;
   dither: string;
+  place: Place;
+  estimate?: Estimate;
   plan?: Plan;
   planProblem: string;
   z: number; // mm
@@ -158,7 +181,7 @@ export interface State {
 }
 
 // What a person chose of the page, which stays when it is loaded again.
-const kept = ["printer", "dither", "view", "panel", "theme"] as const;
+const kept = ["perspective", "printer", "dither", "place", "view", "panel", "theme"] as const;
 const known: Partial<State> = JSON.parse(localStorage.getItem("ombre:choices") ?? "{}");
 
 const listeners = new Set<() => void>();
@@ -175,11 +198,13 @@ export let state: State = {
   echo: [],
   variables: [],
   values: {},
+  perspective: false,
   by: "",
   palette: "",
   opacity: {},
   printer: "generic",
   dither: "stochastic",
+  place: "",
   planProblem: "",
   z: NaN,
   jobs: [],

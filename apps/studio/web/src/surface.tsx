@@ -1,7 +1,8 @@
 // The design from outside, drawn by the server: small first, then as fine as the screen.
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { barLength, fitted, length, views } from "./camera";
+import { barLength, fieldOfView, fitted, length, views } from "./camera";
 import { Refused } from "./connection";
+import { CutControls, cutMembers } from "./cuts";
 import { moveByKeys, moveByPointer } from "./navigation";
 import { about, connection } from "./session";
 import { set, state, useStore } from "./store";
@@ -14,8 +15,8 @@ const steps = [
 
 // Pictures of equal keys differ in size alone.
 function pictureKey(): string {
-  const { design, camera, cut, by, palette, opacity } = state;
-  return JSON.stringify([design?.design, camera, cut, by, palette, opacity]);
+  const { design, camera, cut, perspective, by, palette, opacity } = state;
+  return JSON.stringify([design?.design, camera, cut, perspective, by, palette, opacity]);
 }
 
 async function drawOne(canvas: HTMLCanvasElement, step: (typeof steps)[0]) {
@@ -35,7 +36,8 @@ async function drawOne(canvas: HTMLCanvasElement, step: (typeof steps)[0]) {
       elevation: camera.elevation,
       target: camera.target,
       height_mm: camera.height,
-      cuts: cut ? [`${cut.axis}${cut.side}${cut.mm}`] : [],
+      perspective: fieldOfView(),
+      ...cutMembers(cut),
       ...(by ? { by, palette } : {}),
       opacity,
     },
@@ -129,39 +131,8 @@ export function Legend() {
   );
 }
 
-function CutControls() {
-  const { cut, design } = useStore();
-  const axis = cut?.axis ?? "x";
-  const n = "xyz".indexOf(axis);
-  const [lo, hi] = design ? [design.bounds_mm[0][n], design.bounds_mm[1][n]] : [0, 1];
-  const choose = (name: string) => {
-    if (!name || !design) return set({ cut: undefined });
-    const at = "xyz".indexOf(name[0]);
-    set({ cut: { axis: name[0] as "x", side: name[1] as "<", mm: (design.bounds_mm[0][at] + design.bounds_mm[1][at]) / 2 } });
-  };
-  return (
-    <span class="controls">
-      <label>
-        Cut
-        <select value={cut ? cut.axis + cut.side : ""} onChange={(e) => choose(e.currentTarget.value)}>
-          <option value="">none</option>
-          {["x<", "x>", "y<", "y>", "z<", "z>"].map((name) => (
-            <option value={name}>
-              {name[0]} {name[1]}
-            </option>
-          ))}
-        </select>
-      </label>
-      {cut && (
-        <input type="range" aria-label="Place of the cut" min={lo} max={hi} step={(hi - lo) / 200} value={cut.mm}
-               onInput={(e) => set({ cut: { ...cut, mm: +e.currentTarget.value } })} />
-      )}
-    </span>
-  );
-}
-
 export function ViewButtons() {
-  const { design } = useStore();
+  const { design, perspective } = useStore();
   const look = (from: { azimuth: number; elevation: number }, fit: boolean) => {
     if (!design) return;
     const view = document.querySelector<HTMLElement>(".surface canvas, .volume canvas");
@@ -178,6 +149,10 @@ export function ViewButtons() {
         </select>
       </label>
       <button onClick={() => look(state.camera ?? views.iso, true)}>fit</button>
+      <label>
+        <input type="checkbox" checked={perspective} onChange={(e) => set({ perspective: e.currentTarget.checked })} />
+        Perspective
+      </label>
     </span>
   );
 }

@@ -44,7 +44,7 @@ export class Tiles {
   }
 
   private key(level: number) {
-    return `${state.design?.design} ${state.printer} ${state.dither} ${level}`;
+    return `${state.design?.design} ${state.printer} ${state.dither} ${state.place} ${level}`;
   }
 
   // The tiles of these numbers; those that are missing are asked for, and what else was asked for is not.

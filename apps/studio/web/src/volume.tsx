@@ -1,7 +1,8 @@
 // The inside, by rays through a texture of the materials' fractions.
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { axes } from "./camera";
+import { axes, eyeDistance } from "./camera";
 import { Refused } from "./connection";
+import { CutControls } from "./cuts";
 import { moveByKeys, moveByPointer } from "./navigation";
 import { about } from "./session";
 import { state, useStore } from "./store";
@@ -23,6 +24,10 @@ out vec4 colour;
 uniform sampler3D fractions0, fractions1;
 uniform vec3 origin, size, target, right, down, forward;
 uniform float height, aspect, unit;
+uniform float distance_to_eye;  // from the target; 0: rays are parallel
+uniform vec3 box_lo, box_hi;    // only what is within
+uniform vec3 wedge, wedge_at;   // what lies on all sides is left away; 1 and -1 are sides, 0 any
+uniform bool has_wedge;
 uniform int steps;
 uniform vec4 materials[${most}];  // colours, and opacities in w
 
@@ -36,18 +41,29 @@ float density(vec3 p) {
   return sum;
 }
 
+bool is_cut(vec3 p) {
+  if (any(lessThan(p, box_lo)) || any(greaterThan(p, box_hi))) return true;
+  if (!has_wedge) return false;
+  return all(greaterThan(wedge * (p - wedge_at) + vec3(equal(wedge, vec3(0.0))), vec3(0.0)));
+}
+
 void main() {
   vec3 from = target + right * at.x * 0.5 * height * aspect - down * at.y * 0.5 * height;
-  vec3 inverse = 1.0 / (forward + vec3(equal(forward, vec3(0.0))) * 1e-6);
+  vec3 eye = target - forward * distance_to_eye;
+  vec3 along = distance_to_eye > 0.0 ? normalize(from - eye) : forward;
+  vec3 inverse = 1.0 / (along + vec3(equal(along, vec3(0.0))) * 1e-6);
   vec3 a = (origin - from) * inverse, b = (origin + size - from) * inverse;
   vec3 near = min(a, b), far = max(a, b);
   float begin = max(near.x, max(near.y, near.z)), end = min(far.x, min(far.y, far.z));
+  if (distance_to_eye > 0.0) begin = max(begin, -length(from - eye));
   colour = vec4(0.0);
   if (begin >= end) return;
   float step = length(size) / float(steps);
   vec3 cell = 2.0 / vec3(textureSize(fractions0, 0));
   for (float t = begin + 0.5 * step; t < end; t += step) {
-    vec3 p = (from + forward * t - origin) / size;
+    vec3 place = from + along * t;
+    if (is_cut(place)) continue;
+    vec3 p = (place - origin) / size;
     float f[${most}] = fractions(p), sum = 0.0;
     vec3 mixed = vec3(0.0);
     for (int m = 0; m < ${most}; ++m) {
@@ -74,6 +90,18 @@ interface Grid {
   pitch_mm: number;
   materials: { name: string; colour: number[] }[];
   left_out: number;
+}
+
+function cutUniforms() {
+  const { cut } = state;
+  const wedge = [0, 0, 0],
+    wedgeAt = [0, 0, 0];
+  for (const side of cut?.sides ?? []) {
+    wedge[side.axis] = side.side === ">" ? 1 : -1;
+    wedgeAt[side.axis] = side.mm;
+  }
+  const [lo, hi] = cut?.box ?? [[-1e9, -1e9, -1e9], [1e9, 1e9, 1e9]];
+  return { lo, hi, wedge, wedgeAt };
 }
 
 class VolumePainter {
@@ -139,7 +167,10 @@ class VolumePainter {
     gl.clear(gl.COLOR_BUFFER_BIT);
     const { right, down, forward } = axes(camera);
     const size = grid.count.map((n) => n * grid.pitch_mm);
-    for (const [name, value] of Object.entries({ origin: grid.origin_mm, size, target: camera.target, right, down, forward })) gl.uniform3fv(this.at(name), value);
+    const { lo, hi, wedge, wedgeAt } = cutUniforms();
+    for (const [name, value] of Object.entries({ box_lo: lo, box_hi: hi, wedge, wedge_at: wedgeAt, origin: grid.origin_mm, size, target: camera.target, right, down, forward })) gl.uniform3fv(this.at(name), value);
+    gl.uniform1i(this.at("has_wedge"), wedge.some((side) => side !== 0) ? 1 : 0);
+    gl.uniform1f(this.at("distance_to_eye"), eyeDistance(camera));
     gl.uniform1f(this.at("height"), camera.height);
     gl.uniform1f(this.at("aspect"), canvas.width / canvas.height);
     gl.uniform1f(this.at("unit"), Math.hypot(...size) / 30);
@@ -154,7 +185,7 @@ class VolumePainter {
 }
 
 export function VolumeView() {
-  const { design, camera, opacity } = useStore();
+  const { design, camera, cut, perspective, opacity } = useStore();
   const canvas = useRef<HTMLCanvasElement>(null);
   const painter = useRef<VolumePainter>();
   const [side, setSide] = useState(64);
@@ -182,11 +213,12 @@ export function VolumeView() {
       })
       .catch((error: Refused) => error.isCancelled || setProblem(error.message));
   }, [design, side]);
-  useEffect(() => painter.current?.paint(), [camera, opacity]);
+  useEffect(() => painter.current?.paint(), [camera, cut, perspective, opacity]);
   return (
     <section class="view volume" aria-label="Volume">
       <div class="viewbar">
         <ViewButtons />
+        <CutControls />
         <label>
           Detail
           <select value={side} onChange={(e) => setSide(+e.currentTarget.value)}>

@@ -1,0 +1,112 @@
+// What of the design is left away, so that its inside is seen: behind a plane, in a wedge, outside of a box.
+import { axes } from "./camera";
+import { Cut, Design, set, state, useStore } from "./store";
+
+const axisNames = ["x", "y", "z"];
+
+// As the server takes it.
+export function cutMembers(cut: Cut | undefined): Record<string, unknown> {
+  if (cut?.box) return { box: cut.box.flat() };
+  return { cuts: cut ? [cut.sides.map((s) => `${axisNames[s.axis]}${s.side}${s.mm}`).join()] : [] };
+}
+
+const middle = (design: Design, axis: number) => (design.bounds_mm[0][axis] + design.bounds_mm[1][axis]) / 2;
+
+const sideOfEye = (axis: number) => (state.camera && axes(state.camera).forward[axis] < 0 ? ">" : "<");
+
+function chosen(cut: Cut | undefined): string {
+  if (!cut) return "";
+  if (cut.box) return "box";
+  return cut.sides.length > 1 ? "wedge" : axisNames[cut.sides[0].axis] + cut.sides[0].side;
+}
+
+function choose(name: string, design: Design) {
+  if (name === "") return set({ cut: undefined });
+  if (name === "box") return set({ cut: { sides: [], box: [[...design.bounds_mm[0]], design.bounds_mm[1].map((_, n) => middle(design, n))] } });
+  if (name === "wedge") return set({ cut: { sides: [0, 1].map((axis) => ({ axis, side: sideOfEye(axis), mm: middle(design, axis) })) } });
+  const axis = axisNames.indexOf(name[0]);
+  set({ cut: { sides: [{ axis, side: name[1] as "<", mm: middle(design, axis) }] } });
+}
+
+function Place({ label, axis, value, take }: { label: string; axis: number; value: number; take: (mm: number) => void }) {
+  const { design } = useStore();
+  const [lo, hi] = design!.bounds_mm.map((corner) => corner[axis]);
+  return <input type="range" aria-label={label} title={label} min={lo} max={hi} step={(hi - lo) / 200} value={value} onInput={(e) => take(+e.currentTarget.value)} />;
+}
+
+function Wedge({ cut }: { cut: Cut }) {
+  const { design } = useStore();
+  const change = (axis: number, side: string, mm: number) => {
+    const others = cut.sides.filter((s) => s.axis !== axis);
+    const sides = side ? [...others, { axis, side: side as "<", mm }] : others;
+    if (sides.length > 0) set({ cut: { sides: sides.sort((a, b) => a.axis - b.axis) } });
+  };
+  return (
+    <>
+      {axisNames.map((name, axis) => {
+        const own = cut.sides.find((s) => s.axis === axis);
+        return (
+          <span class="controls">
+            <label>
+              {name}
+              <select value={own?.side ?? ""} onChange={(e) => change(axis, e.currentTarget.value, own?.mm ?? middle(design!, axis))}>
+                <option value="">any</option>
+                <option value="<">&lt;</option>
+                <option value=">">&gt;</option>
+              </select>
+            </label>
+            {own && <Place label={`Place of the wedge, ${name}`} axis={axis} value={own.mm} take={(mm) => change(axis, own.side, mm)} />}
+          </span>
+        );
+      })}
+    </>
+  );
+}
+
+// Its ends do not pass each other.
+function BoxEnds({ box }: { box: [number[], number[]] }) {
+  const { design } = useStore();
+  const change = (end: number, axis: number, mm: number) => {
+    const least = (design!.bounds_mm[1][axis] - design!.bounds_mm[0][axis]) / 200;
+    const made = box.map((corner) => [...corner]) as [number[], number[]];
+    made[end][axis] = end === 0 ? Math.min(mm, box[1][axis] - least) : Math.max(mm, box[0][axis] + least);
+    set({ cut: { sides: [], box: made } });
+  };
+  return (
+    <>
+      {axisNames.map((name, axis) => (
+        <span class="controls">
+          {name}
+          {["from", "to"].map((word, end) => <Place label={`Box, ${name} ${word}`} axis={axis} value={box[end][axis]} take={(mm) => change(end, axis, mm)} />)}
+        </span>
+      ))}
+    </>
+  );
+}
+
+export function CutControls() {
+  const { cut, design } = useStore();
+  const name = chosen(cut);
+  return (
+    <span class="controls">
+      <label>
+        Cut
+        <select class="cut" value={name} onChange={(e) => design && choose(e.currentTarget.value, design)}>
+          <option value="">none</option>
+          {["x<", "x>", "y<", "y>", "z<", "z>"].map((plane) => (
+            <option value={plane}>
+              {plane[0]} {plane[1]}
+            </option>
+          ))}
+          <option value="wedge">wedge</option>
+          <option value="box">box</option>
+        </select>
+      </label>
+      {cut && design && cut.box && <BoxEnds box={cut.box} />}
+      {cut && design && name === "wedge" && <Wedge cut={cut} />}
+      {cut && design && !cut.box && name !== "wedge" && (
+        <Place label="Place of the cut" axis={cut.sides[0].axis} value={cut.sides[0].mm} take={(mm) => set({ cut: { sides: [{ ...cut.sides[0], mm }] } })} />
+      )}
+    </span>
+  );
+}
