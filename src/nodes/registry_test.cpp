@@ -175,7 +175,8 @@ class RandomDesign {
       return one_number(domain, true);
     }
     if (kind == "file") return Data("ball.stl");
-    if (kind == "text") return Data("density");
+    // A standard name would be of one type.
+    if (kind == "text") return Data(type.name == "attribute" ? "own_density" : "density");
     if (kind == "true or false") return Data(index(2) == 0);
     if (kind == "matrix") {
       DataList rows;
