@@ -9,6 +9,7 @@
 #include "design/lowering.h"
 #include "nodes/all_nodes.h"
 #include "nodes/test_sources.h"
+#include "program/gradient.h"
 #include "program/passes/passes.h"
 
 namespace ombre::nodes {
@@ -288,6 +289,29 @@ program::Program lower_outputs(const NodePtr& node, const MaterialTable& materia
   return program::inline_bodies(builder.finish(outputs));
 }
 
+// The numbers of a value node for which there are rules, each with its derivatives.
+program::Program lower_derivatives(const NodePtr& node, const MaterialTable& materials) {
+  LoweringContext context(materials, {node});
+  program::Builder builder;
+  Lowering lowering(context, builder);
+  const Point p = Point::origin_frame(builder);
+  program::Outputs outputs;
+  const auto add = [&](const Field& value) {
+    const auto by_rule = program::gradient(value, p);
+    if (!by_rule) return;
+    outputs.emplace_back("value", value);
+    for (const Field& derivative : *by_rule) outputs.emplace_back("derivative", derivative);
+  };
+  for (size_t n = 0; n < node->type().outputs.size(); ++n) {
+    const ValueType type = node->type().outputs[n].type;
+    if (!node->gives(n)) continue;
+    if (type == ValueType::number) add(lowering.number({node, n}, p));
+    for (int axis = 0; type == ValueType::vector && axis < 3; ++axis) add(lowering.number({node, n, axis}, p));
+  }
+  context.finish_bodies();
+  return outputs.empty() ? program::Program() : program::inline_bodies(builder.finish(outputs));
+}
+
 class EveryNode : public testing::TestWithParam<std::string> {
  protected:
   const NodeType& type() const { return *registry().find(GetParam()); }
@@ -525,6 +549,34 @@ TEST_P(EveryValue, IntervalsHoldPoints) {
         evaluate_point(program, p, values);
         for (size_t v = 0; v < values.size(); ++v)
           ASSERT_TRUE(ranges[v].contains(values[v])) << program::to_text(program) << "v" << v << " = " << values[v];
+      }
+    }
+  }
+}
+
+// Where there is a rule, and where differences to both sides agree: elsewhere the value bends or jumps.
+TEST_P(EveryValue, DerivativesMatchDifferences) {
+  constexpr double step = 1e-5;
+  for (unsigned seed = 0; seed < rounds; ++seed) {
+    RandomDesign random(seed);
+    const NodePtr node = random.node(type(), 1);
+    ASSERT_TRUE(node) << random.last_message;
+    const program::Program program = lower_derivatives(node, random.materials);
+    for (int i = 0; i < 20 && !program.outputs.empty(); ++i) {
+      const Vec3 p{random.number(-9, 9), random.number(-9, 9), random.number(-9, 9)};
+      const auto here = at(program, p);
+      for (int axis = 0; axis < 3; ++axis) {
+        Vec3 low = p, high = p;
+        low[axis] -= step;
+        high[axis] += step;
+        const auto below = at(program, low), above = at(program, high);
+        for (size_t v = 0; v < here.size(); v += 4) {
+          const double up = (above[v] - here[v]) / step, down = (here[v] - below[v]) / step;
+          const double scale = 1 + std::abs(here[v]) + std::abs(up);
+          if (!(std::abs(up - down) < 1e-3 * scale)) continue;
+          EXPECT_NEAR(here[v + 1 + static_cast<size_t>(axis)], (up + down) / 2, 2e-3 * scale)
+              << "number " << v / 4 << ", axis " << axis;
+        }
       }
     }
   }
