@@ -13,6 +13,8 @@ from ._converters import (AttributeConverterBase, AttributeModifier, ExpressionC
                           Vec3ToScalarsConverter, Vec4Mode, VolumeFractionsExpressionConverter, resolvers)
 from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
 from ._errors import MissingFeature
+from ._field_datasets import (CoverageFailure, FieldAssociation, FieldCoverage, FieldDomain, FieldMetadata,
+                              UnstructuredFieldDataset)
 from ._filters import Blend, BoxKernel, Convolution, Convolve, CustomKernel, Voxels
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
 from ._missing import HexahedralMesh, Map, TetrahedralMesh, attribute_of
@@ -44,7 +46,8 @@ __all__ = ["Attribute", "AttributeConverterBase", "AttributeModifier", "Attribut
            "Difference", "FGrade", "Intersection", "Rotate", "Scale", "Sum", "Translate", "Union", "Cylinder",
            "Function", "GraphLattice", "Mesh", "RectPrism", "Sphere", "Strut", "parse_vcad_text", "version", "Node",
            "Vec2", "Vec3", "Vec4", "DICOMLoader", "FloatVolume", "PNGColorMode", "PNGLoader", "Vec2sVolume",
-           "Vec3sVolume", "Vec4sVolume", "vdb_loader", "SignedDistanceField"]
+           "Vec3sVolume", "Vec4sVolume", "vdb_loader", "SignedDistanceField", "CoverageFailure",
+           "FieldAssociation", "FieldCoverage", "FieldDomain", "FieldMetadata", "UnstructuredFieldDataset"]
 
 
 def __getattr__(name: str) -> object:

@@ -1,0 +1,117 @@
+"""Meshes for simulations and their results in pyvcad: fields on tetrahedra, meshes of elements, compilers."""
+import numpy
+import pytest
+
+import pyvcad as pv
+
+# A cube of 2 mm in five tetrahedra.
+POINTS = numpy.array([[x, y, z] for z in (0, 2) for y in (0, 2) for x in (0, 2)], dtype=float)
+CELLS = numpy.array([[0, 3, 5, 6], [1, 0, 3, 5], [2, 0, 3, 6], [4, 0, 5, 6], [7, 3, 5, 6]])
+
+
+def dataset():
+    """A linear field, which interpolation meets exactly, a field of vectors, and the numbers of the cells."""
+    fields = pv.UnstructuredFieldDataset.from_tetrahedra(POINTS, CELLS)
+    fields.add_point_scalar("heat", 1 + POINTS @ [1, 2, 4], units="W", step_identifier="3", description="made up")
+    fields.add_point_vector("move", POINTS * [1, -1, 0.5], units="mm")
+    fields.add_cell_scalar("cell", numpy.arange(5))
+    fields.add_cell_vector("flow", [[n, 0, 2] for n in range(5)])
+    return fields
+
+
+# Fields on tetrahedra.
+
+def test_fields_say_what_they_are():
+    fields = dataset()
+    assert (fields.domain.point_count, fields.domain.cell_count) == (8, 5)
+    assert fields.field_names == ["heat", "move", "cell", "flow"]
+    heat, flow = fields.field_metadata("heat"), fields.field_metadata("flow")
+    assert (heat.association, heat.component_count, heat.value_count) == (pv.FieldAssociation.POINT, 1, 8)
+    assert (heat.minimum, heat.maximum, heat.units, heat.step_identifier) == (1, 15, "W", "3")
+    assert (flow.association, flow.component_count, flow.value_count) == (pv.FieldAssociation.CELL, 3, 5)
+    assert (flow.minimum, flow.maximum) == pytest.approx((2, 20 ** 0.5))
+
+
+def test_linear_fields_are_met_exactly():
+    heat, move = dataset().float_attribute("heat"), dataset().vec3_attribute("move")
+    for point in ((1, 1, 1), (0.3, 1.7, 0.2), (2, 2, 2), (0, 0, 0)):
+        assert heat.sample(*point) == pytest.approx(1 + numpy.dot(point, [1, 2, 4]), rel=1e-6)
+        assert tuple(move.sample(*point)) == pytest.approx(tuple(numpy.multiply(point, [1, -1, 0.5])), rel=1e-6)
+    assert (2 * heat + 1).sample(1, 1, 1) == pytest.approx(17)
+
+
+def test_fields_of_cells_are_constant_in_each():
+    cell, flow = dataset().float_attribute("cell"), dataset().vec3_attribute("flow")
+    corners = [(1, 1, 1), (1.8, 0.1, 0.1), (0.1, 1.8, 0.1), (0.1, 0.1, 1.8), (1.8, 1.9, 1.9)]
+    assert [cell.sample(*point) for point in corners] == [0, 1, 2, 3, 4]
+    assert tuple(flow.sample(*corners[3])) == (3, 0, 2)
+
+
+def test_outside_is_an_error_unless_it_is_clamped():
+    fields = dataset()
+    with pytest.raises(RuntimeError, match=r"no finite value at \(3, 1, 1\)"):
+        fields.float_attribute("heat").sample(3, 1, 1)
+    clamped = fields.float_attribute("heat", outside="boundary_clamp", max_distance=1.5)
+    assert clamped.sample(3, 1, 1) == pytest.approx(1 + 2 + 2 + 4)  # at (2, 1, 1)
+    with pytest.raises(RuntimeError, match="no finite value"):
+        clamped.sample(4, 1, 1)
+    assert fields.float_attribute("heat", "boundary_clamp").sample(40, 1, 1) == pytest.approx(9)
+    assert tuple(fields.vec3_attribute("move", "boundary_clamp").sample(3, 1, 1)) == pytest.approx((2, -1, 0.5))
+
+
+def test_coverage_counts():
+    points = [[1, 1, 1], [2 + 1e-8, 1, 1], [2.5, 1, 1], [5, 1, 1], [-7, 1, 1]]
+    strict = dataset().coverage(points)
+    assert (strict.total_queries, strict.inside_count, strict.tolerance_adjusted_count) == (5, 1, 1)
+    assert (strict.boundary_clamped_count, strict.outside_count, strict.maximum_clamp_distance) == (0, 3, 0)
+    clamped = dataset().coverage(points, outside="boundary_clamp", max_distance=3)
+    assert (clamped.boundary_clamped_count, clamped.outside_count) == (2, 1)
+    assert clamped.maximum_clamp_distance == pytest.approx(3)
+    failure, = clamped.representative_failures
+    assert tuple(failure.position) == (-7, 1, 1) and failure.boundary_distance == pytest.approx(7)
+    assert dataset().float_attribute("heat").sample(*points[1]) == pytest.approx(9)  # adjusted
+
+
+def test_positions_and_vectors_are_transformed_apart():
+    turn = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+    moved = [[0, -1, 0, 10], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+    fields = dataset().transformed(moved, turn)
+    assert fields.float_attribute("heat").sample(10 - 1.5, 0.5, 0.25) == pytest.approx(1 + 0.5 + 3 + 1)
+    assert tuple(fields.vec3_attribute("move").sample(10 - 1.5, 0.5, 0.25)) == pytest.approx((1.5, 0.5, 0.125))
+    assert fields.field_metadata("heat").units == "W"
+    doubled = dataset().transformed(lambda points: 2 * points)
+    assert doubled.float_attribute("heat").sample(2, 2, 2) == pytest.approx(8)
+    assert tuple(doubled.vec3_attribute("move").sample(2, 2, 2)) == pytest.approx((1, -1, 0.5))
+
+
+def test_fields_are_attributes_of_designs():
+    part = pv.RectPrism(pv.Vec3(1, 1, 1), pv.Vec3(2, 2, 2))
+    part.set_attribute("modulus", dataset().float_attribute("heat"))
+    distance, samples = part.sample(0.5, 0.5, 0.5)
+    assert distance == pytest.approx(-0.5)
+    assert samples.get_sample("modulus") == pytest.approx(1 + 3.5)
+
+
+@pytest.mark.parametrize("points, cells, said", [
+    (POINTS, [[0, 1, 2]], r"expected the shape \(m, 4\)"), (POINTS, [[0, 1, 2, 8]], "cell 0 names a point"),
+    (POINTS, [[0, 1, 2, 3]], "cell 0 is flat"), (POINTS[:, :2], CELLS, r"expected the shape \(n, 3\)"),
+    (POINTS * numpy.nan, CELLS, "finite"), (POINTS, CELLS.astype(float), "whole numbers")])
+def test_wrong_meshes_say_so(points, cells, said):
+    with pytest.raises(ValueError, match=said):
+        pv.UnstructuredFieldDataset.from_tetrahedra(points, cells)
+
+
+def test_wrong_fields_say_so():
+    fields = dataset()
+    with pytest.raises(ValueError, match=r"'x': expected numbers of the shape \(8,\), found \(7,\)"):
+        fields.add_point_scalar("x", numpy.zeros(7))
+    with pytest.raises(ValueError, match="already"):
+        fields.add_cell_scalar("heat", numpy.zeros(5))
+    with pytest.raises(KeyError, match="there are heat, move"):
+        fields.float_attribute("cold")
+    with pytest.raises(TypeError, match="ask vec3_attribute"):
+        fields.float_attribute("move")
+    with pytest.raises(ValueError, match="expected 'error' or 'boundary_clamp'"):
+        fields.float_attribute("heat", outside="nearest")
+    with pytest.raises(ValueError, match="goes with outside"):
+        fields.float_attribute("heat", max_distance=1)
