@@ -115,3 +115,58 @@ def test_wrong_fields_say_so():
         fields.float_attribute("heat", outside="nearest")
     with pytest.raises(ValueError, match="goes with outside"):
         fields.float_attribute("heat", max_distance=1)
+
+
+# XDMF.
+
+GRID = """<Xdmf Version="3.0"><Domain><Grid Name="mesh" GridType="Uniform">
+<Topology TopologyType="Tetrahedron"><DataItem Dimensions="5 4" Format="HDF">part.h5:/mesh/cells</DataItem></Topology>
+<Geometry GeometryType="XYZ"><DataItem Dimensions="8 3" Format="HDF">part.h5:/mesh/points</DataItem></Geometry>
+<Attribute Name="heat" AttributeType="Scalar" Center="Node"><DataItem Dimensions="8 1" Format="HDF">part.h5:/heat</DataItem></Attribute>
+<Attribute Name="flow" AttributeType="Vector" Center="Cell"><DataItem Dimensions="5 3" Format="HDF">part.h5:/flow</DataItem></Attribute>
+</Grid></Domain></Xdmf>
+"""
+
+
+@pytest.fixture
+def grid_file(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "part.h5", "w") as file:
+        file["mesh/points"], file["mesh/cells"] = POINTS, CELLS
+        file["heat"], file["flow"] = (1 + POINTS @ [1, 2, 4]).reshape(-1, 1), [[n, 0, 2] for n in range(5)]
+    path = tmp_path / "part.xdmf"
+    path.write_text(GRID, encoding="utf-8")
+    return path
+
+
+def test_xdmf_is_loaded(grid_file):
+    fields = pv.XDMFFieldLoader.load(str(grid_file), grid_name="mesh")
+    assert fields.field_names == ["heat", "flow"] and fields.domain.cell_count == 5
+    assert fields.field_metadata("flow").association is pv.FieldAssociation.CELL
+    assert fields.float_attribute("heat").sample(1, 0.5, 0.25) == pytest.approx(4)
+    assert tuple(fields.vec3_attribute("flow").sample(0.1, 0.1, 1.8)) == (3, 0, 2)
+    assert pv.XDMFFieldLoader.load(grid_file).field_names == ["heat", "flow"]
+
+
+@pytest.mark.parametrize("old, new, said", [
+    ('"Tetrahedron"', '"Hexahedron"', "TopologyType is 'Hexahedron'; read is Tetrahedron"),
+    ('"Tetrahedron"', '"Mixed"', "TopologyType is 'Mixed'"), ('"XYZ"', '"XY"', "GeometryType is 'XY'"),
+    ('"Uniform"', '"Collection"', "GridType is 'Collection'"), ('"Vector"', '"Tensor6"', "read is Scalar or Vector"),
+    ('"8 1" Format="HDF"', '"8 1" Format="XML"', "Format is 'XML'; read is HDF"), ('"Cell"', '"Face"', "Center is 'Face'"),
+    ("part.h5:/heat", "part.h5:/cold", "part.h5 has no numbers at /cold"), ("part.h5:/heat", "part.h5", "found 'part.h5'"),
+    ('"8 1"', '"7 1"', "expected 7 x 1 numbers, found 8"), ("</Domain>", "", "mismatched tag"),
+    ("<Topology", '<Time Value="1"/><Topology', "steps in time"), ('Center="Node"', 'Center="Cell"', r"\(5,\), found \(8,\)")])
+def test_other_xdmf_is_an_error(grid_file, old, new, said):
+    grid_file.write_text(GRID.replace(old, new), encoding="utf-8")
+    with pytest.raises(ValueError, match=said):
+        pv.XDMFFieldLoader.load(grid_file)
+
+
+def test_missing_grids_and_files_say_so(grid_file):
+    with pytest.raises(ValueError, match="no grid 'other'; there are 'mesh'"):
+        pv.XDMFFieldLoader.load(grid_file, grid_name="other")
+    grid_file.write_text(GRID.replace("part.h5:/heat", "gone.h5:/heat"), encoding="utf-8")
+    with pytest.raises(FileNotFoundError, match="there is no file .*gone.h5"):
+        pv.XDMFFieldLoader.load(grid_file)
+    with pytest.raises(FileNotFoundError, match="nowhere.xdmf"):
+        pv.XDMFFieldLoader.load("nowhere.xdmf")

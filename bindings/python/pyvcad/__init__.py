@@ -31,6 +31,7 @@ from ._triangles import SurfaceMesh
 from ._vectors import Vec2, Vec3, Vec4
 from ._volumes import (DICOMLoader, FloatVolume, PNGColorMode, PNGLoader, Vec2sVolume, Vec3sVolume, Vec4sVolume,
                        vdb_loader)
+from ._xdmf_loader import XDMFFieldLoader
 
 __version__ = version()
 
@@ -47,7 +48,7 @@ __all__ = ["Attribute", "AttributeConverterBase", "AttributeModifier", "Attribut
            "Function", "GraphLattice", "Mesh", "RectPrism", "Sphere", "Strut", "parse_vcad_text", "version", "Node",
            "Vec2", "Vec3", "Vec4", "DICOMLoader", "FloatVolume", "PNGColorMode", "PNGLoader", "Vec2sVolume",
            "Vec3sVolume", "Vec4sVolume", "vdb_loader", "SignedDistanceField", "CoverageFailure",
-           "FieldAssociation", "FieldCoverage", "FieldDomain", "FieldMetadata", "UnstructuredFieldDataset"]
+           "FieldAssociation", "FieldCoverage", "FieldDomain", "FieldMetadata", "UnstructuredFieldDataset", "XDMFFieldLoader"]
 
 
 def __getattr__(name: str) -> object:

@@ -24,8 +24,7 @@ MISSING: dict[str, dict[str, str]] = {
         "ColorMap": "", "FloatGrid": _grids, "BoolGrid": _grids, "CellMap": _surfaces, "CellMapCollection": _surfaces,
         "MappedImplicitLattice": _lattices, "MappedGraphLattice": _lattices, "ImplicitUnitCell": _lattices,
         "GraphUnitCell": _lattices, "CADModel": "CAD(path) reads STEP and IGES files", "CADFace": "",
-        "TriangleMeshSurface": _surfaces, "MeshSelection": "",
-        "XDMFFieldLoader": "", "SimulationModel": "", "probe_point": "node.snap(point)",
+        "TriangleMeshSurface": _surfaces, "MeshSelection": "", "SimulationModel": "", "probe_point": "node.snap(point)",
         "probe_ray": "node.snap(point)", "surface_normal": "node.gradient(point)", "alignment_angles": "",
         "Point2": "Vec2", "Segment2": "", "Polygon2": "", "Polyline2": "", "Arrangement2": ""},
     "pyvcad_compilers": dict.fromkeys(
