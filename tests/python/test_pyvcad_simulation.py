@@ -3,6 +3,7 @@ import numpy
 import pytest
 
 import pyvcad as pv
+from pyvcad_parts import blue, green, red
 
 # A cube of 2 mm in five tetrahedra.
 POINTS = numpy.array([[x, y, z] for z in (0, 2) for y in (0, 2) for x in (0, 2)], dtype=float)
@@ -170,3 +171,88 @@ def test_missing_grids_and_files_say_so(grid_file):
         pv.XDMFFieldLoader.load(grid_file)
     with pytest.raises(FileNotFoundError, match="nowhere.xdmf"):
         pv.XDMFFieldLoader.load("nowhere.xdmf")
+
+
+# Meshes of elements.
+
+def graded():
+    """A bar of 8 x 4 x 4 mm: red (1) at x = 8, blue at x = 0."""
+    bar = pv.RectPrism(pv.Vec3(4, 2, 2), pv.Vec3(8, 4, 4))
+    return pv.FGrade(["x/8", "1 - x/8"], [red, blue], True, bar)
+
+
+def volumes(nodes, cells):
+    """Of tetrahedra, mm3."""
+    return numpy.linalg.det(nodes[cells[:, 1:]] - nodes[cells[:, :1]]) / 6
+
+
+def test_bricks_fill_a_tree():
+    mesh = pv.HexahedralMesh.from_tree(graded(), pv.Vec3(1, 2, 0.5))
+    assert (mesh.number_of_elements(), mesh.number_of_nodes()) == (8 * 2 * 8, 9 * 3 * 9)
+    assert mesh.bounding_box() == (pv.Vec3(0, 0, 0), pv.Vec3(8, 4, 4)) and mesh.voxel_size() == pv.Vec3(1, 2, 0.5)
+    corners = mesh.nodes[mesh.elements[0]] - mesh.nodes[mesh.elements[0]][0]
+    assert numpy.allclose(corners[[1, 2, 3, 6]], [[1, 0, 0], [1, 2, 0], [0, 2, 0], [1, 2, 0.5]])
+    assert numpy.allclose(mesh.cell_centroids.mean(axis=0), [4, 2, 2])
+    assert pv.HexahedralMesh.from_tree(graded()).number_of_elements() == 128  # of 1 mm
+
+
+def test_counted_bricks_of_pyvcad_2():
+    mesh = pv.HexahedralMesh(graded(), 12, 3, 3)
+    with pytest.raises(RuntimeError, match="call compute()"):
+        mesh.nodes()
+    mesh.compute()
+    assert mesh.nodes().shape == (13 * 4 * 4, 3) and mesh.elements().shape == (108, 8)
+    assert set(mesh.material_assignments()) == {red, blue}
+    with pytest.raises(ValueError, match="nx: expected a count"):
+        pv.HexahedralMesh(graded(), 0, 1, 1)
+
+
+def test_tetrahedra_fill_a_tree():
+    mesh = pv.TetrahedralMesh.from_tree(graded(), 30, 1, 0.25, 3, 1)
+    assert mesh.elements.shape[1] == 4 and (volumes(mesh.nodes, mesh.elements) > 0).all()
+    assert volumes(mesh.nodes, mesh.elements).sum() == pytest.approx(128, rel=1e-3)
+    assert set(numpy.unique(mesh.elements)) == set(range(mesh.number_of_nodes()))
+    coarse = pv.TetrahedralMesh.from_tree(graded(), facet_angle=25, facet_size=2, facet_distance=0.5,
+                                          cell_radius_edge_ratio=3, cell_size=2)
+    assert coarse.number_of_elements() < mesh.number_of_elements() / 3
+
+
+def test_sizes_of_tetrahedra_follow_a_formula():
+    """The even mixture is in the middle of the bar: there elements are small."""
+    mesh = pv.TetrahedralMesh.from_tree(graded(), 25, 3, 1, 3, cell_size_lower=0.5, cell_size_upper=3)
+    sizes = volumes(mesh.nodes, mesh.elements)
+    near = abs(mesh.cell_centroids[:, 0] - 4) < 1
+    assert sizes[near].mean() < sizes[~near].mean() / 2
+    even = pv.TetrahedralMesh.from_tree(graded(), 25, 3, 1, 3, 0.5, 3, "max_cell + 0*h*min_cell")
+    assert even.number_of_elements() < mesh.number_of_elements() / 2
+    with pytest.raises(ValueError, match="cell_size_lower <= cell_size_upper"):
+        pv.TetrahedralMesh.from_tree(graded(), 25, 3, 1, 3, 3, 0.5)
+
+
+def deck(path):
+    """{heading line: lines of numbers} of an .inp file."""
+    parts = {}
+    for line in path.read_text(encoding="ascii").splitlines():
+        if line.startswith("*"):
+            last = parts.setdefault(line, [])
+        elif line[0].isdigit():
+            last.append([float(word) for word in line.split(",")])
+    return parts
+
+
+def test_tetrahedra_are_written_with_their_materials(tmp_path):
+    mesh = pv.TetrahedralMesh.from_tree(graded(), 25, 2, 0.5, 3, 2)
+    mesh.write_to_inp(tmp_path / "own.inp", pv.default_materials, graded())
+    mesh.write_to_inp(tmp_path / "other.inp", pv.default_materials, pv.Sphere(pv.Vec3(4, 2, 2), 9, green))
+    parts, other = deck(tmp_path / "own.inp"), deck(tmp_path / "other.inp")
+    assert numpy.allclose(numpy.array(parts["*NODE, NSET=NALL"])[:, 1:], mesh.nodes, atol=1e-9)
+    sets = {name: numpy.array(parts[f"*ELEMENT, TYPE=C3D4, ELSET={name}"], dtype=int) for name in ("RED", "BLUE")}
+    places = {name: mesh.cell_centroids[lines[:, 0] - 1, 0].mean() for name, lines in sets.items()}
+    assert places["RED"] > 4 > places["BLUE"]
+    assert sum(map(len, sets.values())) == mesh.number_of_elements()
+    assert (sets["RED"][:, 1:] - 1 == mesh.elements[sets["RED"][:, 0] - 1]).all()
+    assert len(other["*ELEMENT, TYPE=C3D4, ELSET=GREEN"]) == mesh.number_of_elements()
+    assert "*SOLID SECTION, ELSET=BLUE, MATERIAL=BLUE" in parts
+    with pytest.raises(ValueError, match="lie outside the tree"):
+        mesh.write_to_inp(tmp_path / "no.inp", pv.default_materials, pv.Sphere())
+    assert not (tmp_path / "no.inp").exists()

@@ -11,13 +11,14 @@ from ._bars import CapMode, Cone, PolygonRevolve, Strut
 from ._converters import (AttributeConverterBase, AttributeModifier, ExpressionConverter, InterpolationMode,
                           LookupTableConverter, LookupTableEntry, ScalarsToVec3Converter, ScalarsToVec4Converter,
                           Vec3ToScalarsConverter, Vec4Mode, VolumeFractionsExpressionConverter, resolvers)
+from ._element_meshes import HexahedralMesh, TetrahedralMesh
 from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
 from ._errors import MissingFeature
 from ._field_datasets import (CoverageFailure, FieldAssociation, FieldCoverage, FieldDomain, FieldMetadata,
                               UnstructuredFieldDataset)
 from ._filters import Blend, BoxKernel, Convolution, Convolve, CustomKernel, Voxels
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
-from ._missing import HexahedralMesh, Map, TetrahedralMesh, attribute_of
+from ._missing import Map, attribute_of
 from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference, FGrade, Identity, Intersection, Mirror,
                           Offset, Rotate, Scale, Shell, Sum, Tile, Translate, Union)
 from ._outlines import PolygonExtrude, Text

@@ -99,25 +99,3 @@ class _Missing(Node):
 
 class Map(_Missing):
     """Coordinates along a surface."""
-
-
-class TetrahedralMesh:
-    """Tetrahedra that fill a design."""
-
-    def __init__(self, *arguments: Any, **named: Any) -> None:
-        raise missing("TetrahedralMesh")
-
-    @classmethod
-    def from_tree(cls, *arguments: Any, **named: Any) -> TetrahedralMesh:
-        raise missing("TetrahedralMesh.from_tree")
-
-
-class HexahedralMesh:
-    """Bricks that fill a design."""
-
-    def __init__(self, *arguments: Any, **named: Any) -> None:
-        raise missing("HexahedralMesh")
-
-    @classmethod
-    def from_tree(cls, *arguments: Any, **named: Any) -> HexahedralMesh:
-        raise missing("HexahedralMesh.from_tree")
