@@ -96,7 +96,6 @@ def test_what_is_missing_says_so(name):
 
 
 @pytest.mark.parametrize("code, text", [
-    (lambda: compilers.InpWriter(), "InpWriter"),
     (lambda: compilers.DirectMaterialCompiler(ball(), 1, None, "x", "x", True, 2), "liquid_keep_out"),
 ])
 def test_missing_forms_say_so(code, text):

@@ -2,7 +2,9 @@
 import numpy
 import pytest
 
+import ombre
 import pyvcad as pv
+import pyvcad_compilers as compilers
 from pyvcad_parts import blue, green, red
 
 # A cube of 2 mm in five tetrahedra.
@@ -256,3 +258,131 @@ def test_tetrahedra_are_written_with_their_materials(tmp_path):
     with pytest.raises(ValueError, match="lie outside the tree"):
         mesh.write_to_inp(tmp_path / "no.inp", pv.default_materials, pv.Sphere())
     assert not (tmp_path / "no.inp").exists()
+
+
+# Compilers.
+
+def settings(folder, **members):
+    made = compilers.SimulationCompilerSettings()
+    made.output_directory, made.file_prefix, made.material_defs = str(folder), "bar", pv.default_materials
+    for name, value in members.items():
+        setattr(made, name, value)
+    return made
+
+
+def stiff():
+    """The graded bar with a modulus that grows along it, and a vector."""
+    bar = graded()
+    bar.set_attribute("modulus", pv.FloatAttribute("100 + 10*x"))
+    bar.set_attribute("grain", pv.Vec3Attribute(1, 0, 0))
+    return bar
+
+
+def model_of(root, **members):
+    compiler = compilers.SimulationCompiler(root, settings(".", backend=compilers.SimulationBackend.GENERIC, **members))
+    compiler.compile()
+    assert compiler.written_files() == []
+    return compiler.model()
+
+
+def test_models_hold_arrays():
+    model = model_of(stiff(), direct_attributes=["modulus"])
+    x = model.cell_centroids[:, 0]
+    assert (model.cell_type, model.nodes_per_cell) == (pv.SimulationCellType.HEX8, 8)
+    assert model.nodes.shape == (9 * 5 * 5, 3) and model.connectivity.shape == (128 * 8,)
+    assert numpy.allclose(model.nodes[model.connectivity].reshape(-1, 8, 3).mean(axis=1), model.cell_centroids)
+    assert model.material_names == {red: "red", blue: "blue"}
+    assert numpy.allclose(model.volume_fraction_fields[f"volume_fraction_{red}"], x / 8)
+    assert numpy.allclose(model.volume_fraction_fields[f"volume_fraction_{blue}"], 1 - x / 8)
+    assert numpy.allclose(model.scalar_fields["modulus"], 100 + 10 * x)
+
+
+def test_draws_follow_odds_and_seed():
+    fine = compilers.SimulationHexMeshSettings()
+    fine.voxel_size = 0.25
+    first, again, other = (model_of(graded(), hex_settings=fine, random_seed=seed).material_ids for seed in (1, 1, 2))
+    assert (first == again).all() and (first != other).any()
+    assert abs((first == red).mean() - 0.5) < 4 * 0.5 / len(first) ** 0.5  # four standard deviations
+
+
+def test_models_of_tetrahedra():
+    fine = compilers.SimulationTetFixedMeshSettings()
+    fine.cell_size = fine.facet_size = 1.5
+    model = model_of(stiff(), mesh_kind=compilers.SimulationMeshKind.TET, tet_fixed_settings=fine,
+                     direct_attributes=["modulus"])
+    cells = model.connectivity.reshape(-1, 4)
+    assert model.cell_type is pv.SimulationCellType.TET4
+    assert volumes(model.nodes, cells).sum() == pytest.approx(128, rel=1e-3)
+    assert numpy.allclose(model.scalar_fields["modulus"], 100 + 10 * model.cell_centroids[:, 0])
+
+
+def test_decks_are_written(tmp_path):
+    told = []
+    compiler = compilers.SimulationCompiler(graded(), settings(tmp_path / "new"))
+    compiler.set_progress_callback(told.append)
+    compiler.compile()
+    path, = compiler.written_files()
+    parts = deck(tmp_path / "new" / "bar.inp")
+    assert path == str(tmp_path / "new" / "bar.inp") and told[-1] == 1
+    assert len(parts["*NODE, NSET=NALL"]) == 9 * 5 * 5
+    assert sum(len(parts[f"*ELEMENT, TYPE=C3D8, ELSET={name}"]) for name in ("RED", "BLUE")) == 128
+
+
+@pytest.mark.parametrize("kind", compilers.SimulationMeshKind)
+def test_xdmf_is_written(tmp_path, kind):
+    h5py = pytest.importorskip("h5py")
+    made = settings(tmp_path, backend=compilers.SimulationBackend.FENICSX_XDMF, mesh_kind=kind,
+                    direct_attributes=["modulus"])
+    compiler = compilers.SimulationCompiler(stiff(), made)
+    compiler.compile()
+    assert compiler.written_files() == [str(tmp_path / "bar.xdmf"), str(tmp_path / "bar.h5")]
+    assert 'Grid Name="OpenVCADMesh"' in (tmp_path / "bar.xdmf").read_text(encoding="utf-8")
+    model = model_of(stiff(), mesh_kind=kind, direct_attributes=["modulus"])
+    with h5py.File(tmp_path / "bar.h5") as file:
+        cells = file["CellData"]
+        assert set(cells) == {"material_id", "modulus", f"volume_fraction_{red}", f"volume_fraction_{blue}"}
+        assert (cells["material_id"][()] == model.material_ids).all()
+        assert (cells["modulus"][()] == model.scalar_fields["modulus"]).all()
+    heat = ombre.results(str(tmp_path / "bar.xdmf"), "modulus")
+    assert heat.value(model.cell_centroids[:5]) == pytest.approx(100 + 10 * model.cell_centroids[:5, 0])
+    if kind is compilers.SimulationMeshKind.TET:
+        fields = pv.XDMFFieldLoader.load(tmp_path / "bar.xdmf", grid_name="OpenVCADMesh")
+        assert fields.domain.cell_count == len(model.material_ids)
+    first = (tmp_path / "bar.h5").read_bytes()
+    compiler.compile()
+    assert (tmp_path / "bar.h5").read_bytes() == first and len(list(tmp_path.iterdir())) == 2
+
+
+def test_wrong_settings_say_so(tmp_path):
+    def compiled(root=None, **members):
+        compilers.SimulationCompiler(root or stiff(), settings(tmp_path, **members)).compile()
+    generic = compilers.SimulationBackend.GENERIC
+    with pytest.raises(ValueError, match="decks hold materials alone"):
+        compiled(direct_attributes=["modulus"])
+    with pytest.raises(RuntimeError, match="no node of the tree has the attribute density"):
+        compiled(backend=generic, direct_attributes=["density"])
+    with pytest.raises(RuntimeError, match="direct attributes are numbers; 'grain' is none"):
+        compiled(backend=generic, direct_attributes=["grain"])
+    with pytest.raises(ValueError, match="'material_id' cannot be a direct attribute"):
+        compiled(backend=generic, direct_attributes=["material_id"])
+    with pytest.raises(TypeError, match="mesh_kind: expected a SimulationMeshKind, found str"):
+        compiled(mesh_kind="HEX")
+    with pytest.raises(RuntimeError, match="needs the backend GENERIC"):
+        compilers.SimulationCompiler(stiff(), settings(tmp_path)).model()
+    with pytest.raises(RuntimeError, match="call compile()"):
+        compilers.SimulationCompiler(stiff(), settings(tmp_path, backend=generic)).model()
+    with pytest.raises(TypeError, match="expected SimulationCompilerSettings, found dict"):
+        compilers.SimulationCompiler(stiff(), {})
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_inp_writer(tmp_path):
+    path = tmp_path / "bar.inp"
+    compilers.InpWriter().write(path, graded(), pv.Vec3(1, 1, 1), pv.default_materials, False)
+    parts = deck(path)
+    halves = {name: [int(line[0]) - 1 for line in parts[f"*ELEMENT, TYPE=C3D8, ELSET={name}"]] for name in ("RED", "BLUE")}
+    x = model_of(graded()).cell_centroids[:, 0]
+    assert (x[halves["RED"]] > 4).all() and (x[halves["BLUE"]] < 4).all() and len(halves["RED"]) == 64
+    compilers.InpWriter().write(path, graded(), 1, pv.default_materials, use_volumetric_dither=True)
+    drawn = {int(line[0]) - 1 for line in deck(path)["*ELEMENT, TYPE=C3D8, ELSET=RED"]}
+    assert drawn != set(halves["RED"]) and drawn == set(numpy.flatnonzero(model_of(graded()).material_ids == red))

@@ -24,6 +24,7 @@ from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference,
 from ._outlines import PolygonExtrude, Text
 from ._results import PointMap, SimulationField
 from ._sampling import AttributeSamples, TreeSampler
+from ._simulation_model import SimulationCellType, SimulationModel
 from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, SignedDistanceField, Sphere, Torus
 from ._supports import SupportAnalyzer, SupportAnalyzerParallel
 from ._texts import parse_vcad_text, version
@@ -43,13 +44,14 @@ __all__ = ["Attribute", "AttributeConverterBase", "AttributeModifier", "Attribut
            "VolumeFractionsExpressionConverter", "resolvers", "BBoxIntersection", "Identity",
            "Mirror", "Torus", "CapMode", "Cone", "PolygonRevolve", "SurfaceMesh", "FontAspect", "HorizontalAlignment", "LatticeType", "VerticalAlignment", "MissingFeature", "MaterialDefs",
            "default_materials", "j750_materials", "resources_path", "CAD", "Blend", "BoxKernel", "Convolve", "CustomKernel", "ConformalMap", "Convolution",
-           "HexahedralMesh", "Map", "Offset", "PointMap", "PolygonExtrude", "Shell", "SimulationField",
-           "SupportAnalyzer", "SupportAnalyzerParallel", "TetrahedralMesh", "Text", "Tile", "Voxels", "BBoxUnion",
+           "Map", "Offset", "PointMap", "PolygonExtrude", "Shell", "SimulationField",
+           "SupportAnalyzer", "SupportAnalyzerParallel", "Text", "Tile", "Voxels", "BBoxUnion",
            "Difference", "FGrade", "Intersection", "Rotate", "Scale", "Sum", "Translate", "Union", "Cylinder",
            "Function", "GraphLattice", "Mesh", "RectPrism", "Sphere", "Strut", "parse_vcad_text", "version", "Node",
            "Vec2", "Vec3", "Vec4", "DICOMLoader", "FloatVolume", "PNGColorMode", "PNGLoader", "Vec2sVolume",
            "Vec3sVolume", "Vec4sVolume", "vdb_loader", "SignedDistanceField", "CoverageFailure",
-           "FieldAssociation", "FieldCoverage", "FieldDomain", "FieldMetadata", "UnstructuredFieldDataset", "XDMFFieldLoader"]
+           "FieldAssociation", "FieldCoverage", "FieldDomain", "FieldMetadata", "HexahedralMesh", "SimulationCellType", "SimulationModel", "TetrahedralMesh",
+           "UnstructuredFieldDataset", "XDMFFieldLoader"]
 
 
 def __getattr__(name: str) -> object:
