@@ -1,4 +1,7 @@
 """Meshes for simulations and their results in pyvcad: fields on tetrahedra, meshes of elements, compilers."""
+import pathlib
+import re
+
 import numpy
 import pytest
 
@@ -386,3 +389,13 @@ def test_inp_writer(tmp_path):
     compilers.InpWriter().write(path, graded(), 1, pv.default_materials, use_volumetric_dither=True)
     drawn = {int(line[0]) - 1 for line in deck(path)["*ELEMENT, TYPE=C3D8, ELSET=RED"]}
     assert drawn != set(halves["RED"]) and drawn == set(numpy.flatnonzero(model_of(graded()).material_ids == red))
+
+
+def test_the_manual_runs(capsys):
+    """The stress is 5 times the distance from (8, 2, 2), so 20 at the middle, where the modulus is 500."""
+    manual = (pathlib.Path(__file__).resolve().parents[2] / "docs" / "pyvcad.md").read_text(encoding="utf-8")
+    script = re.search(r"```python\n(import numpy.*?)```", manual, re.S)[1]
+    names = {}
+    exec(compile(script, "manual.py", "exec"), names)
+    assert capsys.readouterr().out == "1\n"
+    assert names["root"].sample(4, 2, 2)[1].get_sample("modulus") == pytest.approx(500, rel=0.02)
