@@ -98,6 +98,17 @@ def test_fields_are_attributes_of_designs():
     assert samples.get_sample("modulus") == pytest.approx(1 + 3.5)
 
 
+def test_fields_decide_of_what_a_part_is(tmp_path):
+    """Half of the part reaches beyond the mesh: there it stays what it was, and the job says so."""
+    part = pv.RectPrism(pv.Vec3(1, 1, 1), pv.Vec3(4, 2, 2))
+    part.set_attribute("heat", dataset().float_attribute("heat"))
+    mixture = pv.VolumeFractionsExpressionConverter(["heat"], [red, green], ["heat/15", "1 - heat/15"])
+    root = pv.AttributeModifier(mixture, part)
+    assert dict(root.distribution(1, 1, 1)) == {red: pytest.approx(8 / 15), green: pytest.approx(7 / 15)}
+    with pytest.warns(ombre.DesignWarning, match="64 voxels"):
+        root._design().slice(tmp_path / "layers", voxel=0.5)
+
+
 @pytest.mark.parametrize("points, cells, said", [
     (POINTS, [[0, 1, 2]], r"expected the shape \(m, 4\)"), (POINTS, [[0, 1, 2, 8]], "cell 0 names a point"),
     (POINTS, [[0, 1, 2, 3]], "cell 0 is flat"), (POINTS[:, :2], CELLS, r"expected the shape \(n, 3\)"),
@@ -128,8 +139,10 @@ def test_wrong_fields_say_so():
 GRID = """<Xdmf Version="3.0"><Domain><Grid Name="mesh" GridType="Uniform">
 <Topology TopologyType="Tetrahedron"><DataItem Dimensions="5 4" Format="HDF">part.h5:/mesh/cells</DataItem></Topology>
 <Geometry GeometryType="XYZ"><DataItem Dimensions="8 3" Format="HDF">part.h5:/mesh/points</DataItem></Geometry>
-<Attribute Name="heat" AttributeType="Scalar" Center="Node"><DataItem Dimensions="8 1" Format="HDF">part.h5:/heat</DataItem></Attribute>
-<Attribute Name="flow" AttributeType="Vector" Center="Cell"><DataItem Dimensions="5 3" Format="HDF">part.h5:/flow</DataItem></Attribute>
+<Attribute Name="heat" AttributeType="Scalar" Center="Node">
+<DataItem Dimensions="8 1" Format="HDF">part.h5:/heat</DataItem></Attribute>
+<Attribute Name="flow" AttributeType="Vector" Center="Cell">
+<DataItem Dimensions="5 3" Format="HDF">part.h5:/flow</DataItem></Attribute>
 </Grid></Domain></Xdmf>
 """
 
@@ -158,10 +171,11 @@ def test_xdmf_is_loaded(grid_file):
     ('"Tetrahedron"', '"Hexahedron"', "TopologyType is 'Hexahedron'; read is Tetrahedron"),
     ('"Tetrahedron"', '"Mixed"', "TopologyType is 'Mixed'"), ('"XYZ"', '"XY"', "GeometryType is 'XY'"),
     ('"Uniform"', '"Collection"', "GridType is 'Collection'"), ('"Vector"', '"Tensor6"', "read is Scalar or Vector"),
-    ('"8 1" Format="HDF"', '"8 1" Format="XML"', "Format is 'XML'; read is HDF"), ('"Cell"', '"Face"', "Center is 'Face'"),
-    ("part.h5:/heat", "part.h5:/cold", "part.h5 has no numbers at /cold"), ("part.h5:/heat", "part.h5", "found 'part.h5'"),
-    ('"8 1"', '"7 1"', "expected 7 x 1 numbers, found 8"), ("</Domain>", "", "mismatched tag"),
-    ("<Topology", '<Time Value="1"/><Topology', "steps in time"), ('Center="Node"', 'Center="Cell"', r"\(5,\), found \(8,\)")])
+    ('"8 1" Format="HDF"', '"8 1" Format="XML"', "Format is 'XML'; read is HDF"),
+    ('"Cell"', '"Face"', "Center is 'Face'"), ("part.h5:/heat", "part.h5:/cold", "part.h5 has no numbers at /cold"),
+    ("part.h5:/heat", "part.h5", "found 'part.h5'"), ('"8 1"', '"7 1"', "expected 7 x 1 numbers, found 8"),
+    ("</Domain>", "", "mismatched tag"), ("<Topology", '<Time Value="1"/><Topology', "steps in time"),
+    ('Center="Node"', 'Center="Cell"', r"\(5,\), found \(8,\)")])
 def test_other_xdmf_is_an_error(grid_file, old, new, said):
     grid_file.write_text(GRID.replace(old, new), encoding="utf-8")
     with pytest.raises(ValueError, match=said):
@@ -374,6 +388,8 @@ def test_wrong_settings_say_so(tmp_path):
         compilers.SimulationCompiler(stiff(), settings(tmp_path)).model()
     with pytest.raises(RuntimeError, match="call compile()"):
         compilers.SimulationCompiler(stiff(), settings(tmp_path, backend=generic)).model()
+    with pytest.raises(AttributeError, match="no member 'random_sed'; it has output_directory"):
+        compiled(random_sed=1)
     with pytest.raises(TypeError, match="expected SimulationCompilerSettings, found dict"):
         compilers.SimulationCompiler(stiff(), {})
     assert list(tmp_path.iterdir()) == []
@@ -383,7 +399,8 @@ def test_inp_writer(tmp_path):
     path = tmp_path / "bar.inp"
     compilers.InpWriter().write(path, graded(), pv.Vec3(1, 1, 1), pv.default_materials, False)
     parts = deck(path)
-    halves = {name: [int(line[0]) - 1 for line in parts[f"*ELEMENT, TYPE=C3D8, ELSET={name}"]] for name in ("RED", "BLUE")}
+    halves = {name: [int(line[0]) - 1 for line in parts[f"*ELEMENT, TYPE=C3D8, ELSET={name}"]]
+              for name in ("RED", "BLUE")}
     x = model_of(graded()).cell_centroids[:, 0]
     assert (x[halves["RED"]] > 4).all() and (x[halves["BLUE"]] < 4).all() and len(halves["RED"]) == 64
     compilers.InpWriter().write(path, graded(), 1, pv.default_materials, use_volumetric_dither=True)

@@ -135,8 +135,8 @@ class UnstructuredFieldDataset:
         """A field of numbers over space.
 
         Args:
-            outside: "error" (a sample of a point outside raises RuntimeError, and jobs warn of such voxels), or
-                "boundary_clamp" (the value of the nearest place of the mesh's border).
+            outside: "error" (a sample of a point outside raises RuntimeError; in jobs there is no number, of which
+                those that mix materials warn), or "boundary_clamp" (the value of the nearest place of the mesh's border).
             max_distance: how far that place may be, mm; None: however far.
         """
         return FloatAttribute(self._results(name, 1, outside, max_distance).value)

@@ -5,7 +5,7 @@ import enum
 import os
 import tempfile
 import xml.sax.saxutils
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy
@@ -38,15 +38,25 @@ class SimulationMeshKind(enum.Enum):
     TET = 1
 
 
+class _Settings:
+    """Members by their names; others are mistakes."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        known = [member.name for member in fields(self)]  # type: ignore[arg-type]
+        if name not in known:
+            raise AttributeError(f"{type(self).__name__} has no member {name!r}; it has {', '.join(known)}")
+        super().__setattr__(name, value)
+
+
 @dataclass
-class SimulationHexMeshSettings:
+class SimulationHexMeshSettings(_Settings):
     """Of bricks: their size, mm, a length or a Vec3."""
 
     voxel_size: Any = 1.0
 
 
 @dataclass
-class SimulationTetFixedMeshSettings:
+class SimulationTetFixedMeshSettings(_Settings):
     """Of tetrahedra, mm: radii of the balls around facets and cells, and how far facets lie from the surface. The mesh is
     as fine as the finest of the three asks; the angle and the ratio are always 25 degrees and 2.2."""
 
@@ -58,7 +68,7 @@ class SimulationTetFixedMeshSettings:
 
 
 @dataclass
-class SimulationCompilerSettings:
+class SimulationCompilerSettings(_Settings):
     """What a SimulationCompiler makes.
 
     Attributes:
@@ -109,7 +119,8 @@ class SimulationCompiler(_AttributeCompiler):
                              "FENICSX_XDMF or GENERIC")
         taken = [name for name in names if name == "material_id" or name.startswith("volume_fraction_")]
         if taken:
-            raise ValueError(f"SimulationCompiler: {taken[0]!r} cannot be a direct attribute, since it is a field of its own")
+            raise ValueError(f"SimulationCompiler: {taken[0]!r} cannot be a direct attribute, since it is a field of its "
+                             "own")
         absent = [name for name in names if name not in self._root.attribute_list()]
         if absent:
             raise RuntimeError(f"SimulationCompiler: no node of the tree has the attribute {', '.join(absent)}")
@@ -197,10 +208,10 @@ def _scalar(name: str, attributes: dict[str, numpy.ndarray]) -> numpy.ndarray:
 def _write_xdmf(path: str, model: SimulationModel) -> None:
     """Writes one grid, OpenVCADMesh, and beside it a file of HDF5 with its numbers."""
     cells = model.connectivity.reshape(-1, model.nodes_per_cell)
-    fields = {"material_id": model.material_ids.astype(numpy.int32), **model.volume_fraction_fields,
+    numbered = {"material_id": model.material_ids.astype(numpy.int32), **model.volume_fraction_fields,
               **model.scalar_fields}
     arrays = {"/Mesh/Topology": cells.astype(numpy.int64), "/Mesh/Geometry": model.nodes,
-              **{f"/CellData/{name}": values for name, values in fields.items()}}
+              **{f"/CellData/{name}": values for name, values in numbered.items()}}
     kind = "Hexahedron" if model.cell_type is SimulationCellType.HEX8 else "Tetrahedron"
     numbers = os.path.basename(path) + ".h5"
 
@@ -214,7 +225,7 @@ def _write_xdmf(path: str, model: SimulationModel) -> None:
             f'<Topology TopologyType="{kind}" NumberOfElements="{len(cells)}" '
             f'NodesPerElement="{model.nodes_per_cell}">{item("/Mesh/Topology")}</Topology>\n'
             f'<Geometry GeometryType="XYZ">{item("/Mesh/Geometry")}</Geometry>\n')
-    for name in fields:
+    for name in numbered:
         text += (f"<Attribute Name={xml.sax.saxutils.quoteattr(name)} AttributeType=\"Scalar\" Center=\"Cell\">"
                  f'{item(f"/CellData/{name}")}</Attribute>\n')
     text += "</Grid>\n</Domain>\n</Xdmf>\n"
