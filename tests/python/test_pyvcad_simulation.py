@@ -1,6 +1,9 @@
 """Meshes for simulations and their results in pyvcad: fields on tetrahedra, meshes of elements, compilers."""
+import json
 import pathlib
 import re
+import shutil
+import subprocess
 
 import numpy
 import pytest
@@ -416,3 +419,39 @@ def test_the_manual_runs(capsys):
     exec(compile(script, "manual.py", "exec"), names)
     assert capsys.readouterr().out == "1\n"
     assert names["root"].sample(4, 2, 2)[1].get_sample("modulus") == pytest.approx(500, rel=0.02)
+
+
+PULL = """*STEP
+*STATIC
+*BOUNDARY
+FIXED, 1, 1, 0
+{corner}, 2, 3, 0
+{other}, 3, 3, 0
+PULLED, 1, 1, 0.08
+*EL PRINT, ELSET=STEEL_1
+S
+*END STEP
+"""
+
+
+@pytest.mark.parametrize("kind", compilers.SimulationMeshKind)
+def test_calculix_takes_decks(tmp_path, kind):
+    """A bar of 8 mm is pulled by 0.08 mm: with a modulus of 1000 MPa and no Poisson's ratio its stress is 10 MPa."""
+    if not shutil.which("ccx"):
+        pytest.skip("there is no ccx")
+    table = tmp_path / "materials.json"
+    table.write_text(json.dumps({"materials": [{"name": "steel 1", "r": 1, "g": 2, "b": 3, "a": 255, "modulus_mpa": 1000,
+                                                "poissons_ratio": 0}]}), encoding="utf-8")
+    bar = pv.RectPrism(pv.Vec3(4, 2, 2), pv.Vec3(8, 4, 4), 1)
+    compiler = compilers.SimulationCompiler(bar, settings(tmp_path, mesh_kind=kind, material_defs=pv.MaterialDefs(table)))
+    compiler.compile()
+    path = tmp_path / "bar.inp"
+    nodes = numpy.array(deck(path)["*NODE, NSET=NALL"])
+    sets = "".join(f"*NSET, NSET={name}\n" + "".join(f"{n:.0f},\n" for n in nodes[abs(nodes[:, 1] - x) < 1e-3, 0])
+                   for name, x in (("FIXED", 0), ("PULLED", 8)))
+    corner, other = (1 + numpy.linalg.norm(nodes[:, 1:] - place, axis=1).argmin() for place in ([0, 0, 0], [0, 4, 0]))
+    path.write_text(path.read_text(encoding="ascii") + sets + PULL.format(corner=corner, other=other), encoding="ascii")
+    subprocess.run(["ccx", "-i", "bar"], cwd=tmp_path, check=True, capture_output=True, timeout=60)
+    lines = [line.split() for line in (tmp_path / "bar.dat").read_text(encoding="ascii").splitlines()]
+    stresses = numpy.array([[float(word) for word in line[2:]] for line in lines if len(line) == 8])
+    assert len(stresses) and numpy.allclose(stresses, [10, 0, 0, 0, 0, 0], atol=0.01)
