@@ -1,5 +1,6 @@
 """Results of simulations in Python: the node, and pyvcad's nodes over it."""
 import pathlib
+import shutil
 
 import pytest
 
@@ -30,8 +31,23 @@ def test_values_stand_in_formulas(files):
     assert solid.attribute("twice", (1, 2, 3)) == pytest.approx(2 * 0.9 + 1)
 
 
-def test_listing_5(files):
-    """Shares by the length of the displacement, as for the seat of OpenVCAD (2025)."""
+def test_listing_5(tmp_path):
+    """The seat of the 2025 paper, a bracket of its first formula mended: a slab of tetrahedra whose displacement grows
+    linearly along x, so that shares do, too."""
+    seat = pv.TetrahedralMesh.from_tree(pv.RectPrism(pv.Vec3(20, 5, 2), pv.Vec3(40, 10, 4)), 25, 2.4, 1, 3, 2.4)
+    seat.write_to_inp(tmp_path / "bike_seat_new.inp")
+    table = [f"{n},0,0,{-0.000055 - 0.00035 * x / 40}" for n, (x, _, _) in enumerate(seat.nodes, 1)]
+    (tmp_path / "bike_seat_point_map.csv").write_text("\n".join(table) + "\n", encoding="utf-8")
+    shutil.copy(pathlib.Path(__file__).parent / "listings" / "listing5.py", tmp_path)
+    design = ombre.load(tmp_path / "listing5.py")
+    assert design.volume(0.5) == pytest.approx(40 * 10 * 4)
+    points = [[0.5, 5, 2], [10, 1, 3], [20, 5, 2], [39.5, 9, 1]]
+    shares = design.material(points)
+    assert shares["blue"] == pytest.approx([x / 40 for x, _, _ in points], abs=1e-5)
+    assert shares["green"] == pytest.approx([1 - x / 40 for x, _, _ in points], abs=1e-5)
+
+
+def test_shares_by_the_length_of_displacements(files):
     materials = pv.default_materials
     root = pv.SimulationField(*files, ["(len-0.1)/0.9", "-(len-0.1)/0.9+1"],
                               [materials.id("blue"), materials.id("green")])

@@ -11,16 +11,20 @@ from ._bars import CapMode, Cone, PolygonRevolve, Strut
 from ._converters import (AttributeConverterBase, AttributeModifier, ExpressionConverter, InterpolationMode,
                           LookupTableConverter, LookupTableEntry, ScalarsToVec3Converter, ScalarsToVec4Converter,
                           Vec3ToScalarsConverter, Vec4Mode, VolumeFractionsExpressionConverter, resolvers)
+from ._element_meshes import HexahedralMesh, TetrahedralMesh
 from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
 from ._errors import MissingFeature
+from ._field_datasets import (CoverageFailure, FieldAssociation, FieldCoverage, FieldDomain, FieldMetadata,
+                              UnstructuredFieldDataset)
 from ._filters import Blend, BoxKernel, Convolution, Convolve, CustomKernel, Voxels
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
-from ._missing import HexahedralMesh, Map, TetrahedralMesh, attribute_of
+from ._missing import Map, attribute_of
 from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference, FGrade, Identity, Intersection, Mirror,
                           Offset, Rotate, Scale, Shell, Sum, Tile, Translate, Union)
 from ._outlines import PolygonExtrude, Text
 from ._results import PointMap, SimulationField
 from ._sampling import AttributeSamples, TreeSampler
+from ._simulation_model import SimulationCellType, SimulationModel
 from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, SignedDistanceField, Sphere, Torus
 from ._supports import SupportAnalyzer, SupportAnalyzerParallel
 from ._texts import parse_vcad_text, version
@@ -29,6 +33,7 @@ from ._triangles import SurfaceMesh
 from ._vectors import Vec2, Vec3, Vec4
 from ._volumes import (DICOMLoader, FloatVolume, PNGColorMode, PNGLoader, Vec2sVolume, Vec3sVolume, Vec4sVolume,
                        vdb_loader)
+from ._xdmf_loader import XDMFFieldLoader
 
 __version__ = version()
 
@@ -39,12 +44,14 @@ __all__ = ["Attribute", "AttributeConverterBase", "AttributeModifier", "Attribut
            "VolumeFractionsExpressionConverter", "resolvers", "BBoxIntersection", "Identity",
            "Mirror", "Torus", "CapMode", "Cone", "PolygonRevolve", "SurfaceMesh", "FontAspect", "HorizontalAlignment", "LatticeType", "VerticalAlignment", "MissingFeature", "MaterialDefs",
            "default_materials", "j750_materials", "resources_path", "CAD", "Blend", "BoxKernel", "Convolve", "CustomKernel", "ConformalMap", "Convolution",
-           "HexahedralMesh", "Map", "Offset", "PointMap", "PolygonExtrude", "Shell", "SimulationField",
-           "SupportAnalyzer", "SupportAnalyzerParallel", "TetrahedralMesh", "Text", "Tile", "Voxels", "BBoxUnion",
+           "Map", "Offset", "PointMap", "PolygonExtrude", "Shell", "SimulationField",
+           "SupportAnalyzer", "SupportAnalyzerParallel", "Text", "Tile", "Voxels", "BBoxUnion",
            "Difference", "FGrade", "Intersection", "Rotate", "Scale", "Sum", "Translate", "Union", "Cylinder",
            "Function", "GraphLattice", "Mesh", "RectPrism", "Sphere", "Strut", "parse_vcad_text", "version", "Node",
            "Vec2", "Vec3", "Vec4", "DICOMLoader", "FloatVolume", "PNGColorMode", "PNGLoader", "Vec2sVolume",
-           "Vec3sVolume", "Vec4sVolume", "vdb_loader", "SignedDistanceField"]
+           "Vec3sVolume", "Vec4sVolume", "vdb_loader", "SignedDistanceField", "CoverageFailure",
+           "FieldAssociation", "FieldCoverage", "FieldDomain", "FieldMetadata", "HexahedralMesh", "SimulationCellType", "SimulationModel", "TetrahedralMesh",
+           "UnstructuredFieldDataset", "XDMFFieldLoader"]
 
 
 def __getattr__(name: str) -> object:

@@ -1,6 +1,7 @@
 """Attributes of nodes, as scripts of pyvcad 3 have them in place of materials: values that vary through a solid."""
 from __future__ import annotations
 
+import math
 import operator
 import re
 from typing import Any
@@ -128,13 +129,16 @@ class FloatAttribute(Attribute):
 
 
 def _sampled(value: Any, point: tuple[float, float, float], d: float) -> float:
-    """A definition at a point. Of formulas with d, at that distance."""
+    """A definition at a point. Of formulas with d, at that distance. Raises RuntimeError where it is not finite."""
     if isinstance(value, (int, float)):
         return float(value)
     # A ball of the radius r has the distance d at the distance r + d from its middle.
     radius = max(1.0, 1.0 - d)
     ball = ombre.translate(ombre.sphere(radius), (point[0] - radius - d, point[1], point[2]))
-    return float(ombre.attribute(ball, "value", value).attribute("value", point))
+    found = float(ombre.attribute(ball, "value", value).attribute("value", point))
+    if not math.isfinite(found):
+        raise RuntimeError(f"the attribute has no finite value at ({', '.join(f'{c:g}' for c in point)})")
+    return found
 
 
 class DerivedFloatAttribute(FloatAttribute):

@@ -24,8 +24,7 @@ MISSING: dict[str, dict[str, str]] = {
         "ColorMap": "", "FloatGrid": _grids, "BoolGrid": _grids, "CellMap": _surfaces, "CellMapCollection": _surfaces,
         "MappedImplicitLattice": _lattices, "MappedGraphLattice": _lattices, "ImplicitUnitCell": _lattices,
         "GraphUnitCell": _lattices, "CADModel": "CAD(path) reads STEP and IGES files", "CADFace": "",
-        "TriangleMeshSurface": _surfaces, "MeshSelection": "", "UnstructuredFieldDataset": "",
-        "FieldAssociation": "", "XDMFFieldLoader": "", "SimulationModel": "", "probe_point": "node.snap(point)",
+        "TriangleMeshSurface": _surfaces, "MeshSelection": "", "probe_point": "node.snap(point)",
         "probe_ray": "node.snap(point)", "surface_normal": "node.gradient(point)", "alignment_angles": "",
         "Point2": "Vec2", "Segment2": "", "Polygon2": "", "Polyline2": "", "Arrangement2": ""},
     "pyvcad_compilers": dict.fromkeys(
@@ -34,8 +33,6 @@ MISSING: dict[str, dict[str, str]] = {
         "MaterialInkjetCompiler writes the images of a material printer") | dict.fromkeys(
         ("MultiMaterialVatCompiler", "MultiMaterialVatSystem", "MultiMaterialVatOutputMode",
          "MyersonCompiler"), "VatCompiler writes gray images") | dict.fromkeys(
-        ("SimulationCompiler", "SimulationCompilerSettings", "SimulationBackend", "SimulationMeshKind",
-         "SimulationHexMeshSettings", "SimulationTetFixedMeshSettings"), "") | dict.fromkeys(
         ("FullSpectrumSlicerProjectCompiler",),
         "PrusaSlicerProjectCompiler writes a .3mf with a body for each band"),
     "pyvcad_rendering": {
@@ -100,25 +97,3 @@ class _Missing(Node):
 
 class Map(_Missing):
     """Coordinates along a surface."""
-
-
-class TetrahedralMesh:
-    """Tetrahedra that fill a design."""
-
-    def __init__(self, *arguments: Any, **named: Any) -> None:
-        raise missing("TetrahedralMesh")
-
-    @classmethod
-    def from_tree(cls, *arguments: Any, **named: Any) -> TetrahedralMesh:
-        raise missing("TetrahedralMesh.from_tree")
-
-
-class HexahedralMesh:
-    """Bricks that fill a design."""
-
-    def __init__(self, *arguments: Any, **named: Any) -> None:
-        raise missing("HexahedralMesh")
-
-    @classmethod
-    def from_tree(cls, *arguments: Any, **named: Any) -> HexahedralMesh:
-        raise missing("HexahedralMesh.from_tree")

@@ -5,10 +5,16 @@ A callback gets the share that is done, 0 to 1.
 from pyvcad._missing import attribute_of
 
 from ._attribute_compilers import MaterialInkjetCompiler, MaterialInkjetExportMode, VatCompiler, VdbCompiler
-from ._compilers import (CrossSectionSlicer, DirectMaterialCompiler, GrayscaleCompiler, InpWriter, MeshCompiler)
+from ._compilers import CrossSectionSlicer, DirectMaterialCompiler, GrayscaleCompiler, MeshCompiler
+from ._simulation import (InpWriter, SimulationBackend, SimulationCellType, SimulationCompiler,
+                          SimulationCompilerSettings, SimulationHexMeshSettings, SimulationMeshKind, SimulationModel,
+                          SimulationTetFixedMeshSettings)
 from ._slicer_projects import PrusaSlicerProjectCompiler
 
-__all__ = ["PrusaSlicerProjectCompiler", "MaterialInkjetCompiler", "MaterialInkjetExportMode", "VatCompiler", "VdbCompiler", "CrossSectionSlicer", "DirectMaterialCompiler", "GrayscaleCompiler", "InpWriter", "MeshCompiler"]
+__all__ = ["PrusaSlicerProjectCompiler", "MaterialInkjetCompiler", "MaterialInkjetExportMode", "VatCompiler", "VdbCompiler",
+           "CrossSectionSlicer", "DirectMaterialCompiler", "GrayscaleCompiler", "InpWriter", "MeshCompiler",
+           "SimulationBackend", "SimulationCellType", "SimulationCompiler", "SimulationCompilerSettings",
+           "SimulationHexMeshSettings", "SimulationMeshKind", "SimulationModel", "SimulationTetFixedMeshSettings"]
 
 
 def __getattr__(name: str) -> object:

@@ -175,13 +175,6 @@ class CrossSectionSlicer:
                 return [_outline(line) for line in file if line.startswith("$$POLYLINE/")]
 
 
-class InpWriter:
-    """Would write elements for simulations (.inp)."""
-
-    def __init__(self) -> None:
-        raise missing("InpWriter")
-
-
 def _outline(line: str) -> list[Vec2]:
     numbers = [float(text) for text in line.split("/", 1)[1].split(",")[3:]]
     corners = [Vec2(x, y) for x, y in zip(numbers[::2], numbers[1::2])]
