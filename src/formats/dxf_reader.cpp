@@ -103,11 +103,10 @@ class DxfReader {
     for (const DxfEntity& entity : document_.entities) add(entity, {1, 0, 0, 1, 0, 0}, 0, options_.layer.empty());
     size_t open = 0;
     std::vector<Ring> rings = joiner_.rings(open);
-    if (open > 0)
-      diagnostics_.warning(
-          {make_source(name_, ""), 0, 0},
-          std::to_string(open) + " lines or chains of lines do not close; a straight line joins the ends of each",
-          "join their ends in the program that made the file");
+    if (open > 0)  // which OpenSCAD does without a word
+      diagnostics_.note({make_source(name_, ""), 0, 0}, std::to_string(open) +
+                                                            " lines or chains of lines do not close; a straight line "
+                                                            "joins the ends of each");
     PlaneShapes shapes;
     if (!rings.empty()) shapes.shapes.push_back(std::move(rings));
     return shapes;
