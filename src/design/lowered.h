@@ -104,8 +104,8 @@ struct AttributeDeclaration {
   bool operator==(const AttributeDeclaration&) const = default;
 };
 
-// An attribute is asked for number by number. These are the names of its numbers: of a number or label its own, of others
-// "fibre.x", "color_rgba.r", "tissue.red". Names of attributes have no dots.
+// An attribute is asked for number by number. These are the names of its numbers: of a number or label its own, of
+// others "fibre.x", "color_rgba.r", "tissue.red". Names of attributes have no dots.
 std::vector<std::string> parts_of(const AttributeDeclaration& declaration);
 // "fibre" of "fibre.x".
 std::string_view attribute_of_part(std::string_view part);
