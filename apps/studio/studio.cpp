@@ -72,6 +72,7 @@ const std::vector<Studio::Kind>& Studio::kinds() {
                                       {"probe", &Studio::show<probe_answer>},
                                       {"volume", &Studio::show<volume_answer>},
                                       {"measure", &Studio::show<measure_answer>},
+                                      {"compare", &Studio::compare},
                                       {"estimate", &Studio::estimate},
                                       {"export", &Studio::start_export},
                                       {"change_export", &Studio::change_export},
@@ -237,6 +238,11 @@ Answer Studio::load(const Request& request, const StopFlag& stop) {
   }
   answer.members.emplace_back("diagnostics", describe(diagnostics, source));
   return answer;
+}
+
+Answer Studio::compare(const Request& request, const StopFlag& stop) {
+  const OpenDesignPtr before = designs_.find(request.text("before"));
+  return compare_answer(*before, *design_of(request), stop);
 }
 
 Answer Studio::estimate(const Request& request, const StopFlag& stop) {

@@ -60,6 +60,7 @@ class Studio {
   compile::LoadedPtr read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
                           Diagnostics& diagnostics);
   Answer load(const Request& request, const StopFlag& stop);
+  Answer compare(const Request& request, const StopFlag& stop);
   Answer estimate(const Request& request, const StopFlag& stop);
   Answer start_export(const Request& request, const StopFlag& stop);
   Answer change_export(const Request& request, const StopFlag& stop);

@@ -1,11 +1,13 @@
 #include "studio/studio.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <csignal>
 #include <map>
 #include <mutex>
 
@@ -181,6 +183,42 @@ TEST_F(StudioTest, MeasuresABall) {
     EXPECT_NEAR(number_in(material, "volume_mm3"), volume / 2, 1e-3 * volume);
 }
 
+// A cube of 8 mm grows to 10 along x, loses 1 along z, and half of what stays (x < 4) is of another material.
+TEST_F(StudioTest, ComparesTwoVersions) {
+  const std::string before = load("translate(4, 4, 4) rectprism((8, 8, 8), red);");
+  const std::string after = load(
+      "translate(2, 4, 3.5) rectprism((4, 8, 7), blue);\n"
+      "translate(7, 4, 3.5) rectprism((6, 8, 7), red);");
+  const auto compare = [&](const std::string& old, const std::string& now) {
+    return ask("compare", R"("before": ")" + old + R"(", "design": ")" + now + '"').first;
+  };
+  const Data found = compare(before, after);
+  const double within = 0.02 * 448;  // half a voxel of 0.086 mm at a face
+  EXPECT_NEAR(number_in(found, "gained_mm3"), 2 * 8 * 7, within) << print_json(found);
+  EXPECT_NEAR(number_in(found, "lost_mm3"), 8 * 8 * 1, within);
+  EXPECT_NEAR(number_in(found, "changed_mm3"), 4 * 8 * 7, within);
+  EXPECT_NEAR(number_in(found, "unchanged_mm3"), 4 * 8 * 7, within);
+  const Data back = compare(after, before);
+  EXPECT_EQ(number_in(back, "lost_mm3"), number_in(found, "gained_mm3"));
+  EXPECT_EQ(number_in(back, "gained_mm3"), number_in(found, "lost_mm3"));
+  EXPECT_EQ(number_in(back, "changed_mm3"), number_in(found, "changed_mm3"));
+  const Data same = compare(after, after);
+  EXPECT_EQ(number_in(same, "gained_mm3") + number_in(same, "lost_mm3") + number_in(same, "changed_mm3"), 0);
+  EXPECT_EQ(text(compare("d99", after), "error"), "gone");
+}
+
+// Half red and half blue everywhere becomes three quarters red: a quarter of it is of another material.
+TEST_F(StudioTest, ComparesMixtures) {
+  const auto mixed = [&](const std::string& red) {
+    return load("fgrade([\"" + red + "\", \"1 - " + red + "\"], [red, blue]) rectprism((8, 8, 8));");
+  };
+  const std::string before = mixed("0.5"), after = mixed("0.75");
+  const Data found = ask("compare", R"("before": ")" + before + R"(", "design": ")" + after + '"').first;
+  EXPECT_NEAR(number_in(found, "changed_mm3"), 128, 3) << print_json(found);
+  EXPECT_NEAR(number_in(found, "unchanged_mm3"), 384, 8);
+  EXPECT_NEAR(number_in(found, "gained_mm3") + number_in(found, "lost_mm3"), 0, 1e-3);
+}
+
 TEST_F(StudioTest, PicturesStayWhereTheirCameraIs) {
   const std::string design = load("sphere(1, red);");
   const auto picture = [&](const std::string& target) {
@@ -312,12 +350,13 @@ TEST_F(StudioTest, NewerRequestsOfALaneCancelOlder) {
   EXPECT_LT(watch.seconds(), 20);
 }
 
+// A job of some seconds.
+constexpr const char* gyroid =
+    "gyroid_block(20);\nmodule gyroid_block(s) intersection() { rectprism((s, s, s)); "
+    "function(\"sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x)\", red); }";
+
 TEST_F(StudioTest, JobsPauseAndGoOn) {
-  const std::string job = R"("printer": "j750", "folder": "a_slices", "design": ")" +
-                          load(
-                              "gyroid_block(20);\nmodule gyroid_block(s) intersection() { rectprism((s, s, s)); "
-                              "function(\"sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x)\", red); }") +
-                          '"';
+  const std::string job = R"("printer": "j750", "folder": "a_slices", "design": ")" + load(gyroid) + '"';
   const Data started = ask("export", job).first;
   ASSERT_FALSE(started.find("error")) << text(started, "message");
   const std::string id = std::to_string(static_cast<int>(number_in(*started.find("job"), "id")));
@@ -335,6 +374,100 @@ TEST_F(StudioTest, JobsPauseAndGoOn) {
   EXPECT_EQ(text(ask("export", R"("printer": "j750", "folder": "../x", "design": ")" + load("sphere(1);") + '"').first,
                  "error"),
             "name");
+}
+
+// Files of this process end after so many bytes, as on a disk without space.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &usual_);
+    const rlimit few{bytes, usual_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &few);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &usual_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit usual_{};
+  void (*handler_)(int);
+};
+
+TEST_F(StudioTest, JobsGoOnWhenAFullDiskHasSpaceAgain) {
+  const std::string job = R"("printer": "j750", "folder": "a_slices", "design": ")" + load(gyroid) + '"';
+  const Data started = ask("export", job).first;
+  const std::string id = std::to_string(static_cast<int>(number_in(*started.find("job"), "id")));
+  ASSERT_FALSE(job_in("working").is_null());
+  ask("change_export", R"("to": "pause", "job": )" + id);
+  ASSERT_FALSE(job_in("paused").is_null());
+  const std::filesystem::path last = folder.path / "a_slices/slice_00740.png";
+  ASSERT_FALSE(std::filesystem::exists(last));
+  {
+    const FullDisk full(1000);
+    ask("change_export", R"("to": "resume", "job": )" + id);
+    const Data failed = job_in("failed");
+    ASSERT_FALSE(failed.is_null());
+    EXPECT_NE(text(failed, "message").find("cannot write"), std::string::npos) << text(failed, "message");
+    EXPECT_FALSE(std::filesystem::exists(last));
+  }
+  ask("change_export", R"("to": "resume", "job": )" + id);
+  ASSERT_FALSE(job_in("done").is_null());
+  EXPECT_TRUE(std::filesystem::exists(last));
+  for (const auto& file : std::filesystem::directory_iterator(folder.path / "a_slices"))
+    EXPECT_NE(file.path().extension(), ".part") << file.path();
+}
+
+TEST_F(StudioTest, StopsScriptsWithoutEnd) {
+  Studio impatient(folder.path, {"ombre test", {}, "", 0.3}, cache);
+  impatient.add(client);
+  const auto ask_impatient = [&](const std::string& script) {
+    const int id = ++last_;
+    impatient.take(client, R"({"do": "load", "file": "a.vcad", "id": )" + std::to_string(id) + R"(, "text": )" +
+                               print_json_line(script) + "}");
+    return answer(id).first;
+  };
+  const Stopwatch watch;
+  const Data endless = ask_impatient("function f(n) = n < 2 ? 1 : f(n - 1) + f(n - 2);\nsphere(f(90));");
+  EXPECT_EQ(text(endless, "error"), "time") << print_json(endless);
+  EXPECT_NE(text(endless, "message").find("0.3 s"), std::string::npos);
+  EXPECT_LT(watch.seconds(), 10);
+  EXPECT_EQ(*ask_impatient("sphere(1);").find("ok"), Data(true));  // the next is answered
+  impatient.remove(client);
+}
+
+TEST_F(StudioTest, SaysWhereScriptsCallThemselvesWithoutEnd) {
+  for (const char* script : {"function f(n) = f(n + 1) + 1;\nsphere(f(0));", "module m() { m(); }\nm();"}) {
+    const Data loaded = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(std::string(script))).first;
+    EXPECT_EQ(*loaded.find("ok"), Data(false));
+    ASSERT_FALSE(loaded.find("diagnostics")->list()->empty());
+  }
+}
+
+// The limits are those of the language: 400 nodes inside each other, and 200 levels of text.
+TEST_F(StudioTest, ShowsDeepDesignsAndRefusesDeeperOnes) {
+  const auto nested = [](int depth) {
+    return "module nest(n) { if (n > 0) translate(0, 0, 0.01) nest(n - 1); else sphere(1, red); }\nnest(" +
+           std::to_string(depth) + ");";
+  };
+  const std::string design = load(nested(390));
+  const Data probed = ask("probe", R"("at": [0, 0, 3.9], "design": ")" + design + '"').first;
+  EXPECT_NEAR(number_in(probed, "distance_mm"), -1, 1e-6) << print_json(probed);
+  EXPECT_FALSE(ask("render", R"("width": 20, "height": 20, "design": ")" + design + '"').second.empty());
+  EXPECT_NEAR(number_in(ask("measure", R"("design": ")" + design + '"').first, "volume_mm3"), 4.18879, 0.01);
+  std::string long_text;
+  for (int n = 0; n < 100'000; ++n) long_text += "translate(0, 0, 0.01) ";
+  for (const auto& [script, why] : {std::pair{nested(500), "deeper than 400"}, {long_text, "deeper than 200"}}) {
+    const Data refused = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(script)).first;
+    EXPECT_EQ(*refused.find("ok"), Data(false));
+    ASSERT_FALSE(refused.find("diagnostics")->list()->empty());
+    const std::string told = text(refused.find("diagnostics")->list()->front(), "message");
+    EXPECT_NE(told.find(why), std::string::npos) << told;
+  }
+  studio.take(client, R"({"id": 900, "do": "load", "x": )" + std::string(100'000, '[') + "}");
+  EXPECT_EQ(text(answer(-1).first, "error"), "request");
 }
 
 TEST_F(StudioTest, TellsOfChangesOnTheDisk) {

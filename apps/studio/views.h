@@ -27,5 +27,7 @@ Answer estimate_answer(OpenDesign& design, const Request& request, const StopFla
 
 // Reads "printer", "dither", "place" and "level" of a request.
 Cutting cutting_of(const Request& request);
+// "compare": what `after` has more than `before`, less, and of other materials, in mm3.
+Answer compare_answer(const OpenDesign& before, const OpenDesign& after, const StopFlag& stop);
 
 }  // namespace ombre::studio

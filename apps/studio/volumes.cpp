@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "compile/find_printer.h"
-#include "compile/grid_job.h"
 #include "studio/design_answer.h"
+#include "studio/sampled_design.h"
 #include "studio/views.h"
 
 namespace ombre::studio {
@@ -16,41 +15,6 @@ namespace {
 
 constexpr size_t channels = 4;        // of a texture
 constexpr size_t most_materials = 8;  // that are shown: two textures
-constexpr double measured_voxels = 1e6;
-
-// Cubes of such a size that about so many fill the box.
-Pitch pitch_for(const Box& box, double voxels) {
-  const Vec3 size = box.size();
-  const double least = std::max({size.x, size.y, size.z}) / 1000;
-  const double sides = std::max(size.x, least) * std::max(size.y, least) * std::max(size.z, least);
-  // Three digits are enough, and keep the lattice's arithmetic exact.
-  const double side = std::cbrt(sides / voxels), unit = std::pow(10, std::floor(std::log10(side)) - 2);
-  return Pitch::from_mm(std::ceil(side / unit) * unit).value_or(Pitch{});
-}
-
-struct SampledDesign {
-  compile::Plan plan;
-  compile::GridJob job;
-};
-
-SampledDesign sample(OpenDesign& design, double voxels, const StopFlag& stop) {
-  Diagnostics diagnostics;
-  const auto printer = compile::find_printer("generic", diagnostics);
-  if (!printer) throw design_error(diagnostics);
-  compile::PlanOptions options;
-  options.printer = *printer;
-  options.pitch.fill(pitch_for(design.bounds, voxels));
-  options.stop = &stop;
-  auto plan = compile::plan_slice(design.loaded, options, diagnostics);
-  if (!plan) throw design_error(diagnostics);
-  compile::GridWishes wishes;
-  wishes.fractions = true;
-  const auto& count = plan->request.lattice.count;
-  auto job =
-      compile::plan_grids(design.loaded, *plan, wishes, {{0, 0, 0}, {count[0], count[1], count[2]}}, diagnostics);
-  if (!job) throw design_error(diagnostics);
-  return {std::move(*plan), std::move(*job)};
-}
 
 // One byte a material and texel, four materials a texture: what WebGL takes as RGBA. A texel is the mean of 2 x 2 x 2
 // voxels, so that surfaces, and the light on them, are smooth.
@@ -114,7 +78,7 @@ std::optional<double> mass_of(const design::Material& material, double volume_mm
 
 Answer volume_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
   const double side = static_cast<double>(request.whole("side", 8, 256));
-  const SampledDesign sampled = sample(design, 8 * side * side * side, stop);
+  const SampledDesign sampled = sample(design, design.bounds, 8 * side * side * side, stop);
   if (sampled.job.grids.empty()) throw RequestError("design", "the design has no material to show");
   Textures textures(sampled.job);
   const auto take = [&](const compile::GridSlab& slab) {
@@ -139,7 +103,7 @@ Answer volume_answer(OpenDesign& design, const Request& request, const StopFlag&
 }
 
 Answer measure_answer(OpenDesign& design, const Request&, const StopFlag& stop) {
-  const SampledDesign sampled = sample(design, measured_voxels, stop);
+  const SampledDesign sampled = sample(design, design.bounds, measured_voxels, stop);
   const auto& grids = sampled.job.grids;
   std::vector<double> voxels(grids.size(), 0);
   const auto take = [&](const compile::GridSlab& slab) {

@@ -56,6 +56,29 @@ TEST(Workspace, SavesWhatItHasSeenAlone) {
   EXPECT_TRUE(std::holds_alternative<std::string>(workspace.save("a.vcad", "three", "")));
 }
 
+// What is written to /dev/full finds no space.
+TEST(Workspace, KeepsTheOldFileWhereTheDiskIsFull) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP();
+  const TestFolder folder;
+  folder.write("a.vcad", "one");
+  Workspace workspace(folder.path);
+  const std::string version = workspace.read("a.vcad").version;
+  fs::create_symlink("/dev/full", folder.path / "a.vcad.part");
+  try {
+    workspace.save("a.vcad", "two", version);
+    FAIL() << "it was saved";
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what()).find("No space left on device"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("a.vcad"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(folder.read("a.vcad"), "one");
+  EXPECT_FALSE(fs::exists(fs::symlink_status(folder.path / "a.vcad.part")));
+  EXPECT_TRUE(workspace.changes().empty());
+  // There is space again: the same text is saved over the same version.
+  ASSERT_TRUE(std::holds_alternative<std::string>(workspace.save("a.vcad", "two", version)));
+  EXPECT_EQ(folder.read("a.vcad"), "two");
+}
+
 TEST(Workspace, NoticesChangesByOthers) {
   const TestFolder folder;
   folder.write("a.vcad", "one");

@@ -52,6 +52,11 @@ struct GridJob {
   JobStagesPtr stages;
 };
 
+// As plan_slice, on a lattice that covers the box, which is bounded, in place of the design's own: designs on equal
+// boxes have equal lattices.
+std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const PlanOptions& options,
+                              Diagnostics& diagnostics);
+
 // Nothing, and diagnostics, when the design cannot be sampled, or has no such attribute.
 std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, const GridWishes& wishes,
                                   const voxel::TileBox& region, Diagnostics& diagnostics);

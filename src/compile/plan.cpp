@@ -5,6 +5,7 @@
 #include "base/tasks.h"
 #include "base/text.h"
 #include "compile/build.h"
+#include "compile/grid_job.h"
 #include "compile/load.h"
 #include "export/material_stack.h"
 
@@ -201,13 +202,17 @@ std::optional<Plan> plan_shades(const LoadedPtr& loaded, PlanOptions options, co
 }  // namespace
 
 std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& options, Diagnostics& diagnostics) {
+  const auto box = design_box(loaded->design, diagnostics);
+  return box ? plan_over(loaded, *box, options, diagnostics) : std::nullopt;
+}
+
+std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const PlanOptions& options,
+                              Diagnostics& diagnostics) {
   const design::Design& design = loaded->design;
-  const auto box = design_box(design, diagnostics);
-  if (!box) return std::nullopt;
-  const auto lattice = LatticePlanner(*loaded, options, *box, diagnostics).run();
+  const auto lattice = LatticePlanner(*loaded, options, box, diagnostics).run();
   if (!lattice) return std::nullopt;
-  warn_of_features(options.printer, box->size(), {loaded->source, 0, 0}, diagnostics);
-  if (options.value) return plan_shades(loaded, options, *box, *lattice, diagnostics);
+  warn_of_features(options.printer, box.size(), {loaded->source, 0, 0}, diagnostics);
+  if (options.value) return plan_shades(loaded, options, box, *lattice, diagnostics);
   const design::Design on_lattice = design_on(design, *lattice, options);
   Hash design_hash;
   std::optional<Built> built;

@@ -181,6 +181,25 @@ const checks = {
     assert.match(await page.innerText(".panel"), /8\.1\d\d cm³ in all/); // 4/3 pi 12.5^3 is 8181 mm³
   },
 
+  async "compares with a marked version"() {
+    await page.click("text=Mark this version");
+    await page.click("#tab-variables");
+    const before = await page.getAttribute(".surface canvas", "data-design");
+    await page.fill("[aria-label='radius, exactly']", "13.5");
+    await until((old) => document.querySelector(".surface canvas").dataset.design !== old, before);
+    await page.click("#tab-materials");
+    await page.click("text=Compare");
+    await page.waitForSelector(".versions table");
+    const cells = await page.locator(".versions td").allInnerTexts(); // 4/3 pi (13.5^3 - 12.5^3) is 2125 mm³
+    assert.match(cells[0], /^2\.1\d\d cm³/);
+    assert.match(cells[1], /^0(\.0*)? mm³/);
+    assert.match(cells[3], /cm³/);
+    await page.click("text=Forget the mark");
+    await page.click("#tab-variables");
+    await page.click("text=Reset");
+    await page.click("#tab-materials");
+  },
+
   async "cuts open"() {
     const whole = await alphaInMiddle("surface");
     await page.selectOption(".surface .cut", "y<");

@@ -1,7 +1,7 @@
 // Beside the views: variables, materials, slicing, the reference of nodes.
 import { useState } from "preact/hooks";
 import { page } from "./language";
-import { changeJob, choosePlace, estimate, insert, jobKey, measure, resetVariables, setVariable, startExport, writeVariables } from "./session";
+import { changeJob, choosePlace, compare, estimate, forgetMark, insert, jobKey, markVersion, measure, resetVariables, setVariable, startExport, writeVariables } from "./session";
 import { PrinterChoice } from "./slices";
 import { Job, NodeType, Place, State, Value, Variable, set, state, useStore } from "./store";
 
@@ -73,6 +73,31 @@ function Variables() {
 
 const volumeText = (mm3: number) => (mm3 >= 1000 ? `${(mm3 / 1000).toPrecision(4)} cm³` : `${mm3.toPrecision(4)} mm³`);
 
+// What the design has gained and lost since a version that was marked.
+function Versions() {
+  const { design, mark, comparison: known, comparisonProblem, isOld } = useStore();
+  if (!design) return null;
+  const found = known && known.mark === mark && known.design === design.design ? known : undefined;
+  const rows: [string, number][] = found ? [["gained", found.gained_mm3], ["lost", found.lost_mm3], ["of other material", found.changed_mm3], ["unchanged", found.unchanged_mm3]] : [];
+  return (
+    <div class="versions">
+      <p class="controls">
+        <button disabled={isOld} onClick={markVersion}>Mark this version</button>
+        <button disabled={!mark || isOld} onClick={compare}>Compare</button>
+        {mark && <button onClick={forgetMark}>Forget the mark</button>}
+      </p>
+      {mark && <p class="hint">Marked: {mark.file} at {mark.time}</p>}
+      {found && (
+        <table aria-label="Since the marked version">
+          <tbody>{rows.map(([name, mm3]) => <tr><th scope="row">{name}</th><td>{volumeText(mm3)}</td></tr>)}</tbody>
+        </table>
+      )}
+      {found && <p class="hint">From voxels of {found.pitch_mm} mm.</p>}
+      {comparisonProblem && <p class="error" role="alert">{comparisonProblem}</p>}
+    </div>
+  );
+}
+
 function Materials() {
   const { design, opacity, measure: known } = useStore();
   const measured = known && design && known.design === design.design ? known : undefined;
@@ -99,6 +124,7 @@ function Materials() {
         </p>
       )}
       {measured && <p class="hint">{volumeText(measured.volume_mm3)} in all, from voxels of {measured.pitch_mm} mm.</p>}
+      <Versions />
       {design && (
         <p class="hint">
           {design.bounds_mm[1].map((v, n) => `${+(v - design.bounds_mm[0][n]).toPrecision(5)}`).join(" × ")} mm

@@ -1,6 +1,6 @@
 // What the page does: opens, saves, evaluates, slices. Components call it; answers go into the store.
 import { Connection, Refused, Reply } from "./connection";
-import { Job, Place, Plan, Value, set, state } from "./store";
+import { Job, Mark, Place, Plan, Value, set, state } from "./store";
 
 // What the session needs of the editor.
 export interface Editor {
@@ -212,20 +212,28 @@ export async function runPython() {
   if (!state.conflict) load(true);
 }
 
+// What is set in place of the text's values, of those variables that the text still has.
+function definitions(): string[] {
+  const known = new Set(state.variables.map((v) => v.name));
+  return Object.entries(state.values)
+    .filter(([name]) => known.size === 0 || known.has(name))
+    .map(([name, value]) => `${name}=${JSON.stringify(value)}`);
+}
+
+let shown = { file: "", text: "", definitions: [] as string[] }; // what the design was made of
+
 async function load(isRun = false) {
   if (!editor || !state.file || !connection.isOpen) return;
   if (isPython() && !isRun) return set({ isOld: state.design !== undefined, problem: "" });
   isLoading = true;
   isWanted = false;
   set({ isBusy: true });
-  const known = new Set(state.variables.map((v) => v.name));
-  const definitions = Object.entries(state.values)
-    .filter(([name]) => known.size === 0 || known.has(name))
-    .map(([name, value]) => `${name}=${JSON.stringify(value)}`);
+  const sent = { file: state.file, text: editor.text(), definitions: definitions() };
   try {
-    const reply = await connection.ask("load", { file: state.file, text: editor.text(), definitions, ...(isRun ? { run: true } : {}) }, "load").answer;
+    const reply = await connection.ask("load", { ...sent, ...(isRun ? { run: true } : {}) }, "load").answer;
     const change: any = { isBusy: false, problem: "", diagnostics: reply.diagnostics, echo: reply.echo, variables: reply.variables ?? [], isOld: !reply.ok };
     if (reply.ok) change.design = reply;
+    if (reply.ok) shown = sent;
     if (reply.ok && isNaN(state.z)) change.z = (reply.bounds_mm[0][2] + reply.bounds_mm[1][2]) / 2;
     set(change);
     editor.setDiagnostics();
@@ -294,6 +302,45 @@ export async function measure() {
     set({ measure: { design, ...((await about("measure", {}, "measure")) as any) } });
   } catch {
     // Another one is under way, or the design is gone.
+  }
+}
+
+export function markVersion() {
+  if (!state.design) return;
+  set({ mark: { design: state.design.design, ...shown, time: new Date().toLocaleTimeString() }, comparison: undefined, comparisonProblem: "" });
+}
+
+export function forgetMark() {
+  set({ mark: undefined, comparison: undefined, comparisonProblem: "" });
+}
+
+// The server keeps few designs, so that the marked one may have to be made again.
+async function remake(mark: Mark): Promise<Mark> {
+  if (mark.file.endsWith(".py")) throw new Error("the server has forgotten the marked version: mark another one");
+  const { file, text, definitions } = mark;
+  const reply = await connection.ask("load", { file, text, definitions }, "mark").answer;
+  if (!reply.ok) throw new Error("the marked version can no longer be made; files that it reads have changed");
+  const made = { ...mark, design: reply.design as string };
+  if (state.mark === mark) set({ mark: made });
+  return made;
+}
+
+async function compareWith(mark: Mark, design: string) {
+  const reply = (await connection.ask("compare", { before: mark.design, design }, "compare").answer) as any;
+  if (state.mark === mark) set({ comparison: { design, mark, ...reply } });
+}
+
+export async function compare() {
+  const { mark, design } = state;
+  if (!mark || !design) return;
+  set({ comparisonProblem: "" });
+  try {
+    await compareWith(mark, design.design).catch(async (error) => {
+      if ((error as Refused).code !== "gone") throw error;
+      await compareWith(await remake(mark), design.design);
+    });
+  } catch (error) {
+    if (!(error as Refused).isCancelled) set({ comparisonProblem: (error as Error).message });
   }
 }
 

@@ -140,6 +140,26 @@ export interface Estimate {
   checks: string[];
 }
 
+// A version that later ones are compared with.
+export interface Mark {
+  design: string; // its handle, until the server forgets it
+  file: string;
+  text: string;
+  definitions: string[];
+  time: string;
+}
+
+// `design` against `mark`.
+export interface Comparison {
+  design: string;
+  mark: Mark;
+  gained_mm3: number;
+  lost_mm3: number;
+  changed_mm3: number;
+  unchanged_mm3: number;
+  pitch_mm: number;
+}
+
 export type ViewName = "surface" | "slices" | "volume" | "graph";
 
 export interface State {
@@ -174,6 +194,9 @@ export interface State {
   probe?: Probe;
   probeBefore?: number[]; // where the one before was, mm
   measure?: { design: string; volume_mm3: number; pitch_mm: number; materials: { name: string; volume_mm3: number; mass_g?: number }[] };
+  mark?: Mark;
+  comparison?: Comparison;
+  comparisonProblem: string;
   jobs: Job[];
   view: ViewName | "all";
   panel: "variables" | "materials" | "export" | "reference";
@@ -207,6 +230,7 @@ export let state: State = {
   place: "",
   planProblem: "",
   z: NaN,
+  comparisonProblem: "",
   jobs: [],
   view: "surface",
   panel: "variables",

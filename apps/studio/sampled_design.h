@@ -1,0 +1,23 @@
+// A design's materials on a coarse lattice of cubes.
+#pragma once
+
+#include "base/progress.h"
+#include "compile/grid_job.h"
+#include "studio/designs.h"
+
+namespace ombre::studio {
+
+constexpr double measured_voxels = 1e6;  // that volumes are told by
+
+struct SampledDesign {
+  compile::Plan plan;
+  compile::GridJob job;  // a grid for each material: its fraction
+
+  double pitch_mm() const { return plan.request.lattice.pitch[0].mm(); }
+};
+
+// About so many voxels fill the box: equal boxes and numbers give equal lattices. Throws RequestError for what cannot
+// be sampled, and Cancelled.
+SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, const StopFlag& stop);
+
+}  // namespace ombre::studio
