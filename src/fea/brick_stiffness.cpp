@@ -31,7 +31,8 @@ constexpr std::array<size_t, 3> axis_bits{1, 2, 4};
 // A corner's place among patterns: a bit for each axis along which it is the upper one.
 constexpr size_t bits_of(size_t corner) {
   const Cell& at = brick_corners[corner];
-  return static_cast<size_t>(at[0] + 2 * at[1] + 4 * at[2]);
+  const int place = at[0] + 2 * at[1] + 4 * at[2];
+  return static_cast<size_t>(place);
 }
 
 // 1, or -1 where the pattern turns an odd number of times on the way to the corner.
