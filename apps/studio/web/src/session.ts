@@ -121,8 +121,10 @@ async function saveNow() {
   try {
     const reply = await connection.ask("save", { file, text: usesCrlf ? text.replaceAll("\n", "\r\n") : text, version }).answer;
     if (file !== state.file) return;
-    if (!reply.saved) return set({ saved: "unsaved", conflict: { text: reply.text, version: reply.version } });
-    version = reply.version;
+    const onDisk = reply.saved || reply.text === undefined ? undefined : fromDisk(reply.text);
+    version = reply.saved || onDisk === text || onDisk === savedText ? reply.version : version;
+    if (onDisk === savedText && onDisk !== text) return await saveNow(); // another window saved the same text as this one
+    if (!reply.saved && onDisk !== text) return set({ saved: "unsaved", conflict: { text: reply.text, version: reply.version } });
     savedText = text;
     if (editor.text() === text) localStorage.removeItem(draftKey(file));
     set({ saved: editor.text() === text ? "saved" : "unsaved", saveProblem: "" });
