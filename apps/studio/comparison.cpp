@@ -117,7 +117,7 @@ Answer compare_answer(const OpenDesign& before, const OpenDesign& after, const S
   const std::vector<TileBox> slabs = pair.slabs();
   Sums sums(names.size());
   run_ordered<Sums>(
-      slabs.size(), 0, static_cast<size_t>(2 * core_count()),
+      slabs.size(), 0, size_t{2} * static_cast<size_t>(core_count()),
       [&](size_t n) {
         if (stop.requested()) throw Cancelled();
         return compare_slab(pair, names, slabs[n], stop);
