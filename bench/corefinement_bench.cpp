@@ -13,7 +13,7 @@ namespace {
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Exact::Point_3>;
 
-// Of the processor, which other programs do not lengthen.
+// Returns processor time, since other programs on the machine lengthen wall time.
 double seconds_since(std::clock_t begin) { return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC; }
 
 // Makes a ball as OpenSCAD does, with rings at half steps from the poles.

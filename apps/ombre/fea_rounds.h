@@ -10,7 +10,7 @@
 
 namespace ombre::cli {
 
-// What the elements of a round are made of.
+// The elements that a round of a simulation had, and their materials, by which rounds are compared.
 struct RoundModel {
   size_t elements = 0, nodes = 0;
   std::vector<fea::ValueField> fields;

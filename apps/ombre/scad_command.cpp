@@ -125,7 +125,7 @@ class ScadRun {
     return true;
   }
 
-  // With Ombre's words the script is a design, whose surfaces are meshed where files ask for them.
+  // A script that uses Ombre's words is a design: its surfaces are meshed only when a file asks for them.
   openscad::Outcome run_script(Diagnostics& found) {
     if (!openscad::uses_words(source_, options_)) return openscad::run_with_files(source_, options_, messages_);
     compile::LoadOptions load;

@@ -20,7 +20,7 @@ bool writes_solids(const std::string& format);
 bool write_solids(const solids::TreePtr& tree, const std::vector<std::string>& paths, bool no_overlap,
                   lang::openscad::Messages& said, Session& session);
 
-// The same of a script's design, whose surfaces are triangles within the tolerance of `ombre mesh`.
+// Writes the solids of a script that is a design; its surfaces are meshed within the usual tolerance of `ombre mesh`.
 bool write_design(const compile::LoadedPtr& loaded, const std::vector<std::string>& paths, bool no_overlap,
                   Session& session);
 

@@ -1,4 +1,4 @@
-// What ombre info says of a volume.
+// Describes a volume for `ombre info`: as text, as data for programs, and as a picture of three planes.
 #pragma once
 
 #include <string>

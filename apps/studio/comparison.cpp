@@ -1,4 +1,4 @@
-// What a design has more than another, less, and of another material.
+// Compares two designs: the volumes that one has gained, lost and changed against the other.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -85,7 +85,7 @@ struct Sums {
   std::vector<double> before, after;  // of each material
 };
 
-// What both have of a material in a voxel is unchanged; what both fill otherwise is changed.
+// In each voxel the lesser share of a material is unchanged, and what both designs fill beyond that has changed.
 Sums compare_slab(const Pair& pair, const std::vector<std::string>& names, const TileBox& slab, const StopFlag& stop) {
   const std::vector<float> before = fractions(pair.side(0), names, slab, stop);
   const std::vector<float> after = fractions(pair.side(1), names, slab, stop);

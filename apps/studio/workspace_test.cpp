@@ -56,7 +56,7 @@ TEST(Workspace, SavesWhatItHasSeenAlone) {
   EXPECT_TRUE(std::holds_alternative<std::string>(workspace.save("a.vcad", "three", "")));
 }
 
-// What is written to /dev/full finds no space.
+// The device /dev/full refuses all that is written to it, as a full disk does.
 TEST(Workspace, KeepsTheOldFileWhereTheDiskIsFull) {
   if (!fs::exists("/dev/full")) GTEST_SKIP();
   const TestFolder folder;

@@ -31,7 +31,7 @@ export function fitted(design: Design, aspect: number, from: { azimuth: number; 
 // Vertical, in degrees; 0: rays are parallel.
 export const fieldOfView = () => (state.perspective ? 35 : 0);
 
-// Of the eye from the target, mm; 0: infinite.
+// Returns how far the eye is from the target, mm; 0 stands for parallel rays.
 export function eyeDistance(camera: Camera): number {
   return state.perspective ? camera.height / 2 / Math.tan((fieldOfView() / 2) * radians) : 0;
 }

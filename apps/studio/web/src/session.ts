@@ -214,7 +214,7 @@ export async function runPython() {
   if (!state.conflict) load(true);
 }
 
-// What is set in place of the text's values, of those variables that the text still has.
+// Lists the values that the page sets in place of those in the text, for the variables that the text still has.
 function definitions(): string[] {
   const known = new Set(state.variables.map((v) => v.name));
   return Object.entries(state.values)

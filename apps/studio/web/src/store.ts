@@ -121,7 +121,7 @@ export interface Camera {
   height: number; // mm, of what the view shows
 }
 
-// What lies on all sides is left away (one plane, or the planes of a wedge); or what lies outside of a box.
+// A cut takes away what lies beyond all of its planes (one plane, or the planes of a wedge), or what lies outside of a box.
 export interface Cut {
   sides: { axis: number; side: "<" | ">"; mm: number }[];
   box?: [number[], number[]];
@@ -129,7 +129,7 @@ export interface Cut {
 
 export type Place = "" | "design" | "center" | "tray";
 
-// Of a job that is not begun; `of` says of which.
+// The server estimates a job before it begins; `of` is the job's request as text, so that an old answer is known as such.
 export interface Estimate {
   of: string;
   seconds: number;
