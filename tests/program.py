@@ -26,9 +26,10 @@ def environment():
 
 def run(arguments, cwd=None, timeout=120, **options):
     """Runs a command; its output as text, its status in .returncode."""
+    if "input" not in options:
+        options["stdin"] = subprocess.DEVNULL
     return subprocess.run([str(a) for a in arguments], cwd=cwd, env=environment(), timeout=timeout, text=True,
-                          encoding="utf-8", errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, **options)
+                          encoding="utf-8", errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
 
 
 def expect(truth, message):

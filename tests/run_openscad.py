@@ -88,6 +88,14 @@ def check_options(ombre):
     problems = [f"{arguments}: {said(*arguments)}" for arguments, wanted in cases if said(*arguments) != (wanted, 0)]
     if program.run([ombre, "scad", script, "-p", sets, "-P", "none"]).returncode != 1:
         problems.append("a missing parameter set is no error")
+    piped = program.run([ombre, "scad", "-", "-o", "-", "--export-format", "off"], input="cube(2);")
+    if piped.returncode != 0 or not piped.stdout.startswith("OFF") or "0 0 2" not in piped.stdout:
+        problems.append(f"a solid from stdin to stdout: {piped.returncode} {piped.stdout[:200]} {piped.stderr}")
+    with tempfile.TemporaryDirectory() as scratch:
+        named = pathlib.Path(scratch) / "cube.part"
+        made = program.run([ombre, "scad", "-", "-o", named, "--export-format", "binstl"], input="cube(2);")
+        if made.returncode != 0 or abs(volume_of_stl(named) - 8) > 1e-5 or f"written to {named}" not in made.stderr:
+            problems.append(f"a file of another name: {made.returncode} {made.stderr}")
     warned = program.run([ombre, "scad", FOLDER / "unknown_names.scad", "--hardwarnings"])
     if warned.returncode != 1:
         problems.append("--hardwarnings goes on after a warning")

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/temporary_folder.h"
 #include "base/text.h"
 #include "compile/scad_words_design.h"
 #include "export/output_file.h"
@@ -30,10 +32,15 @@ struct ScadArguments {
   bool is_quiet = false, stops_at_warnings = false, no_overlap = false;
 };
 
+// OpenSCAD's word for binary STL files is binstl.
 std::string format_of(const std::string& output, const ScadArguments& arguments) {
-  if (!arguments.format.empty()) return arguments.format;
+  if (!arguments.format.empty()) return arguments.format == "binstl" ? "stl" : arguments.format;
   const std::string ending = fs::path(output).extension().string();
   return ending.empty() ? "" : to_lower(ending.substr(1));
+}
+
+bool has_ending(const std::string& path, const std::string& format) {
+  return to_lower(fs::path(path).extension().string()) == "." + format;
 }
 
 void write_output(const std::string& path, const std::string& bytes, Session& session) {
@@ -99,9 +106,8 @@ class ScadRun {
   void check(const std::string& output) const {
     const std::string format = format_of(output, arguments_);
     if (format == "echo" || format == "csg" || format == "ast") return;
-    const bool has_own_ending = "." + format == to_lower(fs::path(output).extension().string());
-    if (writes_solids(format) && !has_own_ending)
-      throw WrongArgument("ombre scad writes solids to files with their ending; write -o " + output + "." + format);
+    if (writes_solids(format) && !has_ending(output, format) && output.find("{part}") != std::string::npos)
+      throw WrongArgument("a file for each part is named by its ending; write -o " + output + "." + format);
     if (writes_solids(format)) return;
     throw WrongArgument("ombre scad cannot write \"" + output + "\"; write a file that ends in " +
                         join(scad_formats(), ", ") + ", or name one of them with --export-format");
@@ -152,14 +158,36 @@ class ScadRun {
           output, openscad::csg_text(*outcome.tree, fs::path(source_->name()).parent_path().string()) + '\n', session_);
   }
 
-  // All files of solids and areas at once, so that the geometry is made once.
+  // All files of solids and areas at once, so that the geometry is made once. Writers know formats by their endings, so
+  // what has another name, or goes to stdout, is written beside first.
   bool write_geometry(const openscad::Outcome& outcome) {
+    const TemporaryFolder beside;
     std::vector<std::string> paths;
-    for (const std::string& output : arguments_.outputs)
-      if (writes_solids(format_of(output, arguments_))) paths.push_back(output);
-    if (design_ && !paths.empty()) return write_design(design_, paths, arguments_.no_overlap, session_);
-    return paths.empty() || !outcome.tree ||
-           write_solids(outcome.tree, paths, arguments_.no_overlap, messages_, session_);
+    std::map<std::string, std::string> wanted;  // by the file that is written
+    for (const std::string& output : arguments_.outputs) {
+      const std::string format = format_of(output, arguments_);
+      if (!writes_solids(format)) continue;
+      paths.push_back(has_ending(output, format) ? output : beside.file(std::to_string(paths.size()) + '.' + format));
+      wanted[paths.back()] = output;
+    }
+    if (paths.empty() || (!design_ && !outcome.tree)) return true;
+    const auto files = design_ ? write_design(design_, paths, arguments_.no_overlap, session_)
+                               : write_solids(outcome.tree, paths, arguments_.no_overlap, messages_, session_);
+    if (!files) return false;
+    for (const std::string& file : *files) {
+      const auto known = wanted.find(file);
+      const std::string& name = known == wanted.end() ? file : known->second;
+      if (name != file) write_output(name, formats::read_file(file), session_);
+      if (name != "-") tell_file(name);
+    }
+    return true;
+  }
+
+  void tell_file(const std::string& file) const {
+    if (session_.console.voice() == Voice::programs)
+      session_.console.event("written", {{"file", file}});
+    else
+      session_.console.say("written to " + file);
   }
 
   void show(const openscad::Message& message) const {

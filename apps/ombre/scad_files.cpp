@@ -26,21 +26,9 @@ bool writes_solids(const std::string& format) {
   return std::ranges::find(solid_formats, format) != std::end(solid_formats);
 }
 
-namespace {
-
-void tell_files(const std::vector<std::string>& files, Session& session) {
-  for (const std::string& file : files) {
-    if (session.console.voice() == Voice::programs)
-      session.console.event("written", {{"file", file}});
-    else
-      session.console.say("written to " + file);
-  }
-}
-
-}  // namespace
-
-bool write_design(const compile::LoadedPtr& loaded, const std::vector<std::string>& paths, bool no_overlap,
-                  Session& session) {
+std::optional<std::vector<std::string>> write_design(const compile::LoadedPtr& loaded,
+                                                     const std::vector<std::string>& paths, bool no_overlap,
+                                                     Session& session) {
   Diagnostics messages;
   std::optional<QuitAtOnce> quits(std::in_place);
   auto pieces = compile::meshed_parts(loaded, messages, &session.stop);
@@ -56,8 +44,8 @@ bool write_design(const compile::LoadedPtr& loaded, const std::vector<std::strin
     files.insert(files.end(), written.begin(), written.end());
   }
   session.console.diagnose(messages);
-  tell_files(files, session);
-  return pieces && !messages.has_errors();
+  if (!pieces || messages.has_errors()) return std::nullopt;
+  return files;
 }
 
 namespace {
@@ -81,8 +69,9 @@ Diagnostics without_warnings(const Diagnostics& found, lang::openscad::Messages&
 
 }  // namespace
 
-bool write_solids(const solids::TreePtr& tree, const std::vector<std::string>& paths, bool no_overlap,
-                  lang::openscad::Messages& said, Session& session) {
+std::optional<std::vector<std::string>> write_solids(const solids::TreePtr& tree, const std::vector<std::string>& paths,
+                                                     bool no_overlap, lang::openscad::Messages& said,
+                                                     Session& session) {
   compile::ScadRequest request;
   request.tree = tree;
   for (const std::string& path : paths) {
@@ -97,9 +86,8 @@ bool write_solids(const solids::TreePtr& tree, const std::vector<std::string>& p
   request.before_writing = [&] { quits.reset(); };
   const compile::ScadResult result = compile::run_scad(request, messages);
   session.console.diagnose(without_warnings(messages, said));
-  if (messages.has_errors()) return false;
-  tell_files(result.files, session);
-  return true;
+  if (messages.has_errors()) return std::nullopt;
+  return result.files;
 }
 
 }  // namespace ombre::cli

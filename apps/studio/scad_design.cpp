@@ -1,12 +1,11 @@
 #include "studio/scad_design.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 
 #include "base/error.h"
 #include "base/json.h"
+#include "base/temporary_folder.h"
 #include "compile/scad_job.h"
 #include "lang/openscad/run.h"
 
@@ -15,27 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace openscad = lang::openscad;
-
-// A folder that goes away with this.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "ombre-studio-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw Error("cannot make a folder in " + fs::temp_directory_path().string());
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
 
 // A line of the script, without the blanks before it; the script as a whole for messages from elsewhere.
 SourceRange range_of(const SourcePtr& script, const openscad::Message& message) {

@@ -19,31 +19,11 @@
 
 #include "base/error.h"
 #include "base/tasks.h"
+#include "base/temporary_folder.h"
 #include "base/text.h"
 
 namespace ombre::fea {
 namespace {
-
-// A new folder that goes with all that is in it.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "ombre-calculix-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw Error("no folder can be made in " + pattern + ": " + std::strerror(errno));
-    path_ = pattern;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::string file(const char* name) const { return (path_ / name).string(); }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string text_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -85,7 +65,7 @@ int status_of(pid_t process, const StopFlag* stop) {
 }
 
 // Runs ccx on job.inp in the folder, its words to job.log.
-void run_program(const ScratchFolder& folder, int threads, const StopFlag* stop) {
+void run_program(const TemporaryFolder& folder, int threads, const StopFlag* stop) {
   const std::string log = folder.file("job.log");
   std::vector<std::string> variables;
   for (char** entry = environ; *entry; ++entry)
@@ -182,7 +162,7 @@ std::array<double, 6> in_order(const std::array<double, 6>& c) { return {c[0], c
 PrintedResults results_of(const ModelView& model, const Conditions& conditions, const CalculixOptions& options,
                           const StopFlag* stop) {
   refuse_inverted(model.mesh);
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   {
     std::ofstream deck(folder.file("job.inp"), std::ios::binary);
     write_inp(

@@ -1,0 +1,24 @@
+// A new folder for files that other programs or modules read, which goes with all that is in it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace ombre {
+
+class TemporaryFolder {
+ public:
+  // In the system's folder for temporary files. Throws Error where none can be made.
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace ombre
