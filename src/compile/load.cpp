@@ -142,7 +142,7 @@ std::optional<design::Design> run_scad_script(const SourcePtr& source, const Loa
   for (const std::string& name : solids->part_names) {
     const bool is_all = solids->part_names.size() == 1;
     const NodePtr node = scad_node(source, is_all ? "" : design::part_word(name), values, again);
-    if (node) design.parts.push_back({name.empty() ? "part" : name, node});
+    if (node) design.parts.push_back({name.empty() ? std::string(design::nameless_part) : name, node});
   }
   if (told.has_errors()) diagnostics.add_all(told);
   return design;

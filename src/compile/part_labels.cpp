@@ -4,17 +4,10 @@
 #include "nodes/all_nodes.h"
 
 namespace ombre::compile {
-namespace {
-
-// The name of a part that front ends made of all that is in none.
-constexpr std::string_view nameless = "part";
-
-}  // namespace
-
 design::Design with_part_nodes(design::Design design) {
   const design::NodeType& type = *nodes::registry().find("part");
   for (design::Part& part : design.parts) {
-    if (part.name == nameless || &part.solid->type() == &type) continue;
+    if (part.name == design::nameless_part || &part.solid->type() == &type) continue;
     Diagnostics none;
     const design::Reader reader{design.materials, none, nullptr, part.solid->where(), "part", ""};
     part.solid = design::make_node(type, {{type.parameters.data(), Data(part.name)}}, {part.solid}, reader);

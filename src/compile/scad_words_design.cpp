@@ -8,12 +8,6 @@
 #include "nodes/all_nodes.h"
 
 namespace ombre::compile {
-namespace {
-
-constexpr std::string_view unnamed_part = "part";  // of a design whose solids have no parts
-
-}  // namespace
-
 WordsRun run_with_words(const SourcePtr& script, lang::openscad::Options run, const LoadOptions& options,
                         lang::openscad::Messages& messages, Diagnostics& diagnostics) {
   sources::SourceCache own;
@@ -46,7 +40,7 @@ std::optional<solids::Pieces> meshed_parts(const LoadedPtr& loaded, Diagnostics&
     alone.design.parts = {part};
     auto made = mesh_design(alone, request, diagnostics, nullptr, stop);
     if (!made) return std::nullopt;
-    const bool has_name = loaded->design.parts.size() > 1 || part.name != unnamed_part;
+    const bool has_name = loaded->design.parts.size() > 1 || part.name != design::nameless_part;
     for (RegionBody& body : made->bodies) {
       solids::Attributes attributes{"", has_name ? part.name : "", solids::Colour{}};
       for (size_t n = 0; n < body.colour.size(); ++n) (*attributes.colour)[n] = body.colour[n] / 255.0;

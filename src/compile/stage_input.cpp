@@ -74,7 +74,7 @@ StageInput::StageInput(const design::Design& job, const std::vector<design::Stag
 void StageInput::add(const design::Design& job, const design::StageRead& read, const voxel::Lattice& lattice,
                      size_t number) {
   design::Design solid = job;
-  solid.parts = {{"part", read.solid}};
+  solid.parts = {{design::nameless_part, read.solid}};
   Evaluator evaluator;
   evaluator.first_channel = channels_.size();
   if (read.distance || read.fractions || !read.attributes.empty())

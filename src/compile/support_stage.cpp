@@ -163,7 +163,7 @@ class SupportStage final : public design::SweepStage {
                const Box& bounds)
       : use_(use), bounds_(bounds) {
     design_.materials = materials;
-    design_.parts.push_back({"part", solid});
+    design_.parts.push_back({design::nameless_part, solid});
   }
 
   std::string name() const override { return "supports"; }
@@ -203,7 +203,7 @@ design::StagePtr make_support_stage(const design::NodePtr& solid, const design::
                                     const design::Reader& reader) {
   design::Design design;
   design.materials = reader.materials;
-  design.parts.push_back({"part", solid});
+  design.parts.push_back({design::nameless_part, solid});
   const auto box = design_box(design, reader.diagnostics);
   if (!box) return nullptr;
   if (use.pitch_mm && !is_sensible_sweep(*box, *use.pitch_mm)) {

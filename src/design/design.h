@@ -24,6 +24,9 @@ struct Sampling {
   std::array<Pitch, 3> pitch;
 };
 
+// The name that front ends give what stands in no named part.
+inline constexpr const char* nameless_part = "part";
+
 struct Design {
   MaterialTable materials;
   std::vector<Part> parts;  // at least one; they may overlap

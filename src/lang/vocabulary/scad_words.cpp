@@ -102,7 +102,8 @@ std::optional<design::Design> ScadWords::finish(const solids::TreePtr& tree, con
   if (diagnostics.has_errors()) return std::nullopt;
   design::Design design{materials_, {}, {}};
   for (const WordSolid& solid : solids)
-    if (!solid.node->is_nothing()) design.parts.push_back({solid.part.empty() ? "part" : solid.part, solid.node});
+    if (!solid.node->is_nothing())
+      design.parts.push_back({solid.part.empty() ? std::string(design::nameless_part) : solid.part, solid.node});
   if (!design.parts.empty()) return design;
   diagnostics.error(whole, "the script makes no solid");
   return std::nullopt;

@@ -257,7 +257,7 @@ std::optional<design::Design> VcadVocabulary::finish(std::vector<Product> produc
   if (!unnamed.empty()) {
     const NodePtr rest = joined(unnamed, registry_, reader);
     if (!rest) return std::nullopt;
-    design.parts.insert(design.parts.begin(), {"part", rest});
+    design.parts.insert(design.parts.begin(), {design::nameless_part, rest});
   }
   if (diagnostics.has_errors()) return std::nullopt;
   return design;
