@@ -201,6 +201,28 @@ def attributes_come_back(grid):
                        f".{ending}: {name} at {point}: {found[f'v{n}']}, expected {wanted[name]}")
 
 
+def scans_are_resampled_and_cropped(grid):
+    """Numbers of a scan that are linear in space are so on other voxels too; the nearest voxel's are whole."""
+    count, step, origin = (10, 8, 6), (1.0, 1.5, 2.0), (-4.0, -5.0, -5.0)
+    values = [2 * (origin[0] + i * step[0]) + 3 * (origin[1] + j * step[1]) - (origin[2] + k * step[2])
+              for k in range(count[2]) for j in range(count[1]) for i in range(count[0])]
+    (grid.folder / "scan.raw").write_bytes(struct.pack(f"<{len(values)}f", *values))
+    (grid.folder / "scan.raw.json").write_text(json.dumps({
+        "data_type": "float32", "byte_order": "little", "dimensions": count, "spacing_mm": step, "origin_mm": origin}))
+    grid.run("voxels", "scan.raw", "-o", "small.raw", "--voxel", "0.5", "--box=-2,-2,-2,2,1,2")
+    about = json.loads((grid.folder / "small.raw.json").read_text())
+    nx, ny, nz = about["dimensions"]
+    found, first = grid.floats("small.raw"), about["origin_mm"]
+    expect(8 <= nx <= 9 and 6 <= ny <= 7 and 8 <= nz <= 9, f"dimensions {nx} {ny} {nz}")
+    for n, value in enumerate(found):
+        x, y, z = first[0] + n % nx * 0.5, first[1] + n // nx % ny * 0.5, first[2] + n // nx // ny * 0.5
+        expect(abs(value - (2 * x + 3 * y - z)) < 1e-4, f"{value} at {(x, y, z)}")
+    grid.run("voxels", "scan.raw", "-o", "labels.raw", "--voxel", "0.5", "--what", "nearest", "--box=-2,-2,-2,2,1,2")
+    expect(set(grid.floats("labels.raw")) <= {struct.unpack("<f", struct.pack("<f", v))[0] for v in values}, "other numbers")
+    error = grid.run("voxels", "scan.raw", "-o", "c.raw", status=1).stderr
+    expect("--voxel 1" in error and "ombre info scan.raw" in error, error)
+
+
 def vtk_reads_image_data(grid):
     """With VTK where there is one: pip install vtk. Its classes come from the package of its own names."""
     try:
@@ -312,7 +334,7 @@ def openvdb_prints_the_same(grid):
     return ""
 
 
-CHECKS = [materials_are_those_of_slices, distances_are_mathematics, numpy_reads_them, nrrd_is_in_millimetres, image_data_holds_all_grids, attributes_come_back, vtk_reads_image_data,
+CHECKS = [materials_are_those_of_slices, distances_are_mathematics, numpy_reads_them, nrrd_is_in_millimetres, image_data_holds_all_grids, attributes_come_back, scans_are_resampled_and_cropped, vtk_reads_image_data,
           boxes_are_cut_out, slips_get_remedies, files_are_kept, interrupts_leave_nothing,
           sparse_files_are_the_same_on_any_threads, openvdb_prints_the_same]
 

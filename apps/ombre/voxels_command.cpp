@@ -18,6 +18,7 @@
 #include "ombre/job_arguments.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
+#include "ombre/scan_files.h"
 #include "ombre/slice_report.h"
 
 namespace ombre::cli {
@@ -55,7 +56,9 @@ constexpr const char* voxels_footer =
     "  ombre voxels part.vcad -o part.vdb                        distance, and a grid for each material\n"
     "  ombre voxels part.vcad -o part.npy --what density         the attribute \"density\"\n"
     "  ombre voxels part.vcad -o part.vti --what materials,distance,attributes\n"
-    "  ombre voxels part.vcad -o part.nrrd --gzip --box -5,-5,0,5,5,2\n";
+    "  ombre voxels part.vcad -o part.nrrd --gzip --box -5,-5,0,5,5,2\n"
+    "  ombre voxels scan.nii -o small.nrrd --voxel 1 --box 0,0,0,50,50,40   a scan, on other voxels and cropped; its\n"
+    "              number between voxels, or with --what nearest that of the nearest, for labels\n";
 
 void add_arguments(CLI::App& app, VoxelsArguments& a) {
   add_voxel_arguments(app, a.job);
@@ -100,7 +103,7 @@ std::string what_words() {
 compile::GridWishes chosen_grids(const VoxelsArguments& a, const Format& format) {
   compile::GridWishes wishes;
   wishes.narrow_band = is_sparse(format);
-  const std::string usual = is_sparse(format) ? "distance,fractions" : "materials";
+  const std::string usual = is_scan(a.job.design) ? "number" : is_sparse(format) ? "distance,fractions" : "materials";
   for (const std::string& word : split(a.what.empty() ? usual : a.what, ',')) {
     const auto name = trim(word);
     if (name.empty()) throw WrongArgument("--what " + a.what + " lacks a word; " + what_words());
@@ -231,7 +234,12 @@ std::optional<compile::GridJob> plan_job(const VoxelsArguments& a, const compile
   if (!options) return std::nullopt;
   options->threads = a.threads;
   options->stop = &session.stop;
-  const compile::LoadedPtr loaded = load_design(a.job, session, diagnostics, a.threads);
+  if (is_scan(a.job.design) && !options->pitch[0])
+    throw WrongArgument(
+        "how large the voxels of a scan are to be is not said; write for example --voxel 1 (mm; ombre info " +
+        a.job.design + " prints its own)");
+  const compile::LoadedPtr loaded = is_scan(a.job.design) ? load_scan(a.job, session, diagnostics, a.threads)
+                                                          : load_design(a.job, session, diagnostics, a.threads);
   if (!loaded) return std::nullopt;
   const auto plan = compile::plan_slice(loaded, *options, diagnostics);
   if (!plan) return std::nullopt;

@@ -139,7 +139,9 @@ class PartsStage final : public MarkStage {
   std::string name() const override { return "keep_parts"; }
   Hash content() const override {
     std::string text = "parts " + std::to_string(static_cast<int>(choice_.keep));
-    for (const double n : {choice_.least_mm3, choice_.at.x, choice_.at.y, choice_.at.z}) text += ' ' + format_number(n);
+    text += ' ' + format_number(choice_.least_mm3);
+    for (const Vec3& p : choice_.at)
+      for (int axis = 0; axis < 3; ++axis) text += ' ' + format_number(p[axis]);
     return hash_bytes(text);
   }
 
@@ -154,7 +156,8 @@ class PartsStage final : public MarkStage {
     std::vector<char> marks(runs.count(), 0);
     if (marks.empty()) return marks;
     if (choice_.keep == KeepParts::at) {
-      if (const auto part = runs.part_at(cell_of(choice_.at, lattice))) marks[*part] = 1;
+      for (const Vec3& p : choice_.at)
+        if (const auto part = runs.part_at(cell_of(p, lattice))) marks[*part] = 1;
       return marks;
     }
     const std::vector<int64_t> sizes = runs.sizes();

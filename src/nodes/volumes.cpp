@@ -19,6 +19,7 @@ const char* channel_between(const Choice& between) {
 struct VolumeSolid : VolumePlace {
   MaterialName material;
   double level = 0.5;
+  std::optional<double> upper;
   int label = -1;
   bool above = true;
   Choice between = "linear", by = "level";
@@ -30,6 +31,7 @@ struct VolumeSolid : VolumePlace {
             with_place<VolumeSolid>(
                 {{"material", &VolumeSolid::material, "Its material"},
                  {"level", &VolumeSolid::level, "Inside are values of at least this"},
+                 {"upper", &VolumeSolid::upper, "Inside are values of at most this too"},
                  {"label", &VolumeSolid::label,
                   "Inside are the voxels with this number, whole and not interpolated; -1: by level",
                   from_to(-1, greatest_label)},
@@ -45,7 +47,12 @@ struct VolumeSolid : VolumePlace {
   bool complete(const Reader& reader) {
     if (!read_volume(reader)) return false;
     if (by == "otsu") level = grid->otsu_level;
-    return true;
+    if (!upper || (above && *upper >= level)) return true;
+    reader.diagnostics.error(reader.where,
+                             above ? "upper of volume_solid is below its level, so nothing is inside"
+                                   : "upper of volume_solid goes with values above the level, not with above=false",
+                             "write for example level=60, upper=200");
+    return false;
   }
 
   Metric metric() const { return Metric::implicit(); }
@@ -63,7 +70,8 @@ struct VolumeSolid : VolumePlace {
     const Vec3 c = cells.center(), h = 0.5 * cells.size();
     const Field from_grid = corner(abs(at.x - c.x) - h.x, abs(at.y - c.y) - h.y, abs(at.z - c.z) - h.z);
     const Field read = p.builder().source(grid->source, channel(), at.x, at.y, at.z);
-    const Field value = label >= 0 ? abs(read - label) - 0.5 : above ? level - read : read - level;
+    Field value = label >= 0 ? abs(read - label) - 0.5 : above ? level - read : read - level;
+    if (label < 0 && upper) value = program::max(value, read - *upper);
     return select(from_grid <= 0, value, program::max(value, from_grid));
   }
 
@@ -75,6 +83,7 @@ struct VolumeSolid : VolumePlace {
   // Values where g is `margin` or less.
   Interval wanted(double margin) const {
     if (label >= 0) return {label - 0.5 - margin, label + 0.5 + margin};
+    if (upper) return {level - margin, *upper + margin};
     return above ? Interval(level - margin, Box::inf) : Interval(-Box::inf, level + margin);
   }
 };

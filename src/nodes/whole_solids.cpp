@@ -23,17 +23,19 @@ struct KeepPartsOf : Marked {
   Choice keep = "largest";
   double volume = 0;
   Vec3 at;
+  Points seeds;
   std::optional<Vec3> pitch;
 
   static Spec<KeepPartsOf> spec() {
     return {
         "keep_parts",
         "voxel shapes",
-        "Keeps of its child the part that is largest, or those that are large enough, or the one at a point.",
+        "Keeps of its child the part that is largest, or those that are large enough, or those at points.",
         {{"keep", &KeepPartsOf::keep, "Which parts; voxels that touch by a side belong together",
           one_of({"largest", "above", "at"})},
          {"volume", &KeepPartsOf::volume, "Least volume of the parts that are kept by \"above\"", not_negative("mm3")},
          {"at", &KeepPartsOf::at, "A point of the part that is kept by \"at\"", unit::mm},
+         {"seeds", &KeepPartsOf::seeds, "In place of `at`: points of the parts that are kept by \"at\"", unit::points},
          {"pitch", &KeepPartsOf::pitch, about_pitch, unit::positive_mm}},
         one_solid,
         "keep_parts() union() { sphere(4, \"red\"); translate(8, 0, 0) sphere(2, \"red\"); }"};
@@ -41,7 +43,7 @@ struct KeepPartsOf : Marked {
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
     const KeepParts what = keep == "largest" ? KeepParts::largest : keep == "above" ? KeepParts::above : KeepParts::at;
-    stage = make_parts_stage(inputs[0], {what, volume, at}, pitch);
+    stage = make_parts_stage(inputs[0], {what, volume, seeds.at.empty() ? std::vector{at} : seeds.at}, pitch);
     return check_bounds(reader, stage);
   }
 };

@@ -10,7 +10,7 @@ enum class KeepParts : uint8_t { largest, above, at };
 struct PartChoice {
   KeepParts keep = KeepParts::largest;
   double least_mm3 = 0;  // of the parts kept by `above`
-  Vec3 at;               // a point of the part kept by `at`
+  std::vector<Vec3> at;  // points of the parts kept by `at`
 };
 
 // The mark "inside": of the parts of a solid whose voxels touch by their sides, those that are chosen. Of equally large

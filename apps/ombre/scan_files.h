@@ -1,0 +1,17 @@
+// Files with volumes (scans, say), where commands take them in place of designs.
+#pragma once
+
+#include <string>
+
+#include "compile/load.h"
+#include "ombre/job_arguments.h"
+
+namespace ombre::cli {
+
+// Is it a folder, or does its name end like those of files with volumes?
+bool is_scan(const std::string& path);
+// The numbers of a volume as a design: a solid that fills the grid, with the attributes "number", linear between
+// voxels, and "nearest". Null, and diagnostics, when it cannot be read.
+compile::LoadedPtr load_scan(const JobArguments& arguments, Session& session, Diagnostics& diagnostics, int threads);
+
+}  // namespace ombre::cli
