@@ -133,6 +133,10 @@ Field Inputs::inside_of(const SolidName& solid, const Point& p) const {
   return lowering_ ? lowering_->inside(*solid.node, p) : anything(p, {0, 1});
 }
 
+Composition Inputs::composition_of(const SolidName& solid, const Point& p) const {
+  return lowering_->composition(*solid.node, p, Demand::everywhere);
+}
+
 Field Inputs::attribute_of(const SolidName& solid, std::string_view attribute_name, const Point& p) const {
   return lowering_ ? lowering_->attribute(*solid.node, attribute_name, p, Demand::inside) : anything(p);
 }

@@ -58,6 +58,8 @@ class Inputs {
       : node_(node), lowering_(lowering), memory_(memory) {}
 
   size_t count() const;
+  // Are only bounds, the metric or ranges of numbers asked for? Then nothing is known of solids but that.
+  bool are_ranges() const { return !lowering_; }
   const Node& node() const { return node_; }
   const Node& input(size_t i) const;
 
@@ -91,6 +93,8 @@ class Inputs {
   // Of a solid that a parameter holds: mm, negative inside. Anything where only ranges are evaluated.
   Field distance_to(const SolidName& solid, const Point& p) const;
   Field inside_of(const SolidName& solid, const Point& p) const;
+  // What it is made of at the point, inside or not. Not where only ranges are evaluated.
+  Composition composition_of(const SolidName& solid, const Point& p) const;
   // One of the numbers of its attributes.
   Field attribute_of(const SolidName& solid, std::string_view attribute_name, const Point& p) const;
   // The input's attribute, or number of one, that formulas call by this name in small letters; empty: it has none.

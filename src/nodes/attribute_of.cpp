@@ -1,10 +1,11 @@
-// Attributes of solids as values.
+// What solids are made of, and their attributes, as values.
 #include <algorithm>
 
 #include "base/text.h"
 #include "design/attributes.h"
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
+#include "nodes/field_math.h"
 
 namespace ombre::nodes {
 namespace {
@@ -12,6 +13,14 @@ namespace {
 using namespace design;
 
 constexpr MaterialId no_material = 0;
+
+// Void comes first among materials.
+void add_void(Composition& made, Field share) {
+  if (!made.fractions.empty() && made.fractions.front().first == no_material)
+    made.fractions.front().second = made.fractions.front().second + share;
+  else
+    made.fractions.insert(made.fractions.begin(), {no_material, share});
+}
 
 struct AttributeOf {
   SolidName solid;
@@ -70,11 +79,7 @@ struct AttributeOf {
       made.fractions.emplace_back(id, number(ask, share));
       rest = rest - made.fractions.back().second;
     }
-    const bool has_void = !made.fractions.empty() && made.fractions.front().first == no_material;
-    if (has_void)
-      made.fractions.front().second = made.fractions.front().second + rest;
-    else
-      made.fractions.insert(made.fractions.begin(), {no_material, rest});
+    add_void(made, rest);
     return made;
   }
 
@@ -95,8 +100,58 @@ struct AttributeOf {
   }
 };
 
+struct CompositionOf {
+  SolidName solid;
+  std::string of;
+  MaterialId wanted = no_material;  // found when the node is made
+
+  static Spec<CompositionOf> spec() {
+    return {"composition_of",
+            "values",
+            "What a solid is made of, at the place where the value is used; outside of the solid, the void.",
+            {{"solid", &CompositionOf::solid, "The solid", required()},
+             {"of", &CompositionOf::of, "The material whose share is wanted; none: the mixture of all"}},
+            no_inputs,
+            "cube(9, composition_of(fgrade([\"x/9 + 0.5\", \"0.5 - x/9\"], [\"red\", \"blue\"], cube(9))));",
+            {{"mixture", &CompositionOf::mixture, "Its materials"},
+             {"share", &CompositionOf::share, "Of the material, from 0 to 1", Interval(0, 1)}}};
+  }
+
+  bool complete(const Reader& reader) {
+    if (of.empty()) return true;
+    if (const Material* material = reader.materials.find(of)) {
+      wanted = material->id;
+      return true;
+    }
+    const std::vector<std::string> names = reader.materials.names();
+    std::string hint = did_you_mean(of, names);
+    if (hint.empty()) hint = "there are " + join(names, ", ");
+    reader.diagnostics.error(reader.where, "there is no material \"" + of + '"', hint);
+    return false;
+  }
+
+  bool gives(size_t output) const { return output == (of.empty() ? 0 : 1); }
+
+  Composition mixture(const Ask& ask) const {
+    const Field inside = ask.in.inside_of(solid, ask.p), zero = ask.p.constant(0);
+    Composition made = ask.in.composition_of(solid, ask.p);
+    for (auto& [id, fraction] : made.fractions) fraction = select(inside, fraction, zero);
+    for (auto& [number, mark] : made.checks) mark = logical_and(inside, mark);
+    add_void(made, select(inside, zero, ask.p.constant(1)));
+    return made;
+  }
+
+  Field share(const Ask& ask) const {
+    if (ask.in.are_ranges()) return anything(ask.p, {0, 1});
+    const Composition made = ask.in.composition_of(solid, ask.p);
+    for (const auto& [id, fraction] : made.fractions)
+      if (id == wanted) return select(ask.in.inside_of(solid, ask.p), limited(fraction, 0, 1), ask.p.constant(0));
+    return ask.p.constant(0);
+  }
+};
+
 }  // namespace
 
-void add_attribute_of(Registry& registry) { registry.add<AttributeOf>(); }
+void add_attribute_of(Registry& registry) { registry.add<AttributeOf, CompositionOf>(); }
 
 }  // namespace ombre::nodes

@@ -176,6 +176,7 @@ class RandomDesign {
       return one_number(domain, true);
     }
     if (kind == "file") return Data("ball.stl");
+    if (type.name == "composition_of") return Data(index(2) ? "red" : "");
     // A standard name would be of one type.
     if (kind == "text") return Data(type.name == "attribute" ? "own_density" : "density");
     if (kind == "true or false") return Data(index(2) == 0);

@@ -76,7 +76,7 @@ def test_converters_compute_attributes():
     assert set(mixed.material_list()) == {red, blue}
     with pytest.raises(RuntimeError, match="AttributeModifier"):
         dense.set_attribute("a", pv.FloatAttribute(1))
-    with pytest.raises(pv.MissingFeature):
+    with pytest.raises(ValueError, match="3 keys"):
         pv.LookupTableConverter(["a", "b", "c"], ["d"], entries, pv.InterpolationMode.LINEAR)
 
 
@@ -200,11 +200,137 @@ def test_tables_of_several_inputs():
     steps = [entry([(-10, 0), (-10, 5)], [1, 7]), entry([(0, 10), (5, 10)], [2, 8])]
     each = pv.AttributeModifier(pv.LookupTableConverter(["a", "b"], ["c", "e"], steps), part).sample(4, -3, 0)[1]
     assert each.get_sample("c") == 2 and each.get_sample("e") == 7
-    with pytest.raises(ValueError, match="each pair of keys"):
+    with pytest.raises(ValueError, match="each combination of keys"):
         pv.LookupTableConverter(["a", "b"], ["c"], grid[:-1], lines)
+    cube = [entry([p, q, r], p * q * r + r) for p in (0, 2) for q in (-4, 5) for r in (1, 3)]  # trilinear itself
+    box = ball()
+    for name, formula in zip("abc", ("x", "y", "z + 2")):
+        box.set_attribute(name, pv.FloatAttribute(formula))
+    between = pv.AttributeModifier(pv.LookupTableConverter(["a", "b", "c"], ["d"], cube, lines), box)
+    assert between.sample(1.5, -3, 0.25)[1].get_sample("d") == pytest.approx(1.5 * -3 * 2.25 + 2.25)
     with pytest.raises(ValueError, match="2 ranges"):
         pv.LookupTableConverter(["a", "b"], ["c", "e"], [entry(0, 1, [1, 2])])
     grid[0].is_valid = False
     holed = pv.AttributeModifier(pv.LookupTableConverter(["a", "b"], ["c"], grid, lines), part)
     assert math.isnan(holed.sample(-1, -3, 0)[1].get_sample("c"))
     assert holed.sample(1, 2, 0)[1].get_sample("c") == pytest.approx(12)
+
+
+class Product(pv.AttributeConverterBase):
+    def required_attributes(self):
+        return ["a", "b"]
+
+    def output_attributes(self):
+        return ["c", "e"]
+
+    def convert(self, samples):
+        samples.set_sample("c", samples.get_sample("a") * samples.get_sample("b"))
+        samples.set_sample("e", samples.get_sample("a") - samples.get_sample("b"))
+        return samples
+
+
+def test_converters_of_ones_own():
+    part = ball()
+    part.set_attribute("a", pv.FloatAttribute("x"))
+    part.set_attribute("b", pv.FloatAttribute("y + 1"))
+    samples = pv.AttributeModifier(Product(), part).sample(2, 1, 0)[1]
+    assert samples.get_sample("c") == pytest.approx(2 * 2) and samples.get_sample("e") == pytest.approx(0)
+    with pytest.raises(NotImplementedError, match="convert"):
+        pv.AttributeConverterBase().convert(samples)
+
+
+def two_balls():
+    left, right = pv.Sphere(pv.Vec3(-2, 0, 0), 3), pv.Sphere(pv.Vec3(2, 0, 0), 3)
+    left.set_attribute("a", pv.FloatAttribute("1 + x"))
+    right.set_attribute("a", pv.FloatAttribute(10))
+    return left, right
+
+
+def test_conflicts_are_resolved_by_functions():
+    both = pv.Union(0.0, [*two_balls(), pv.Sphere(pv.Vec3(0, 0, 0), 0.5)])  # the third has no such attribute
+    both.set_attribute_conflict_resolver("a", pv.resolvers.CustomFloatConflictResolver(lambda left, right: 2 * left + right))
+    assert both.sample(0.5, 0, 0)[1].get_sample("a") == pytest.approx(2 * 1.5 + 10)
+    assert both.sample(-3, 0, 0)[1].get_sample("a") == pytest.approx(-2)
+    assert both.sample(3, 0, 0)[1].get_sample("a") == pytest.approx(10)
+    four = pv.Intersection(0.0, [ball() for _ in range(4)])
+    for node in four.children():
+        node.set_attribute("n", pv.FloatAttribute(1))
+    four.set_attribute_conflict_resolver("n", pv.resolvers.CustomFloatConflictResolver(lambda a, b: a + b))
+    assert four.sample(0, 0, 0)[1].get_sample("n") == pytest.approx(4)
+    with pytest.raises(TypeError, match="1 function"):
+        pv.resolvers.CustomFloatConflictResolver("a + b")
+
+
+def test_vectors_are_compared_as_a_whole():
+    colours = [pv.Vec4Attribute(1, 0, 0, 1), pv.Vec4Attribute(0.6, 0.6, 0.6, 0.5)]
+    for resolver, wanted in [(pv.resolvers.MaxConflictResolver(pv.Vec4Mode.Magnitude), (1, 0, 0, 1)),
+                             (pv.resolvers.MinConflictResolver(pv.Vec4Mode.Magnitude), (0.6, 0.6, 0.6, 0.5)),
+                             (pv.resolvers.MaxConflictResolver(), (1, 0.6, 0.6, 1))]:
+        nodes = [ball(), ball()]
+        for node, colour in zip(nodes, colours):
+            node.set_attribute("color_rgba", colour)
+        both = pv.Union(0.0, nodes)
+        both.set_attribute_conflict_resolver("color_rgba", resolver)
+        assert list(both.sample(1, 0, 0)[1].get_sample("color_rgba")) == pytest.approx(wanted)
+
+
+def inkjet(tmp_path, root, **options):
+    return pvc.MaterialInkjetCompiler(root, pv.Vec3(0.5, 0.5, 0.5), tmp_path / "layers", "p", pv.j750_materials, **options)
+
+
+def test_inkjet_keeps_liquid_from_the_surface(tmp_path):
+    table = pv.j750_materials
+    part = pv.RectPrism(origin, pv.Vec3(8, 8, 8))
+    part.set_attribute("volume_fractions", pv.VolumeFractionsAttribute(
+        [(0.5, table.id("M.Cleanser")), (0.5, table.id("VeroClear"))]))
+    compiler = inkjet(tmp_path, part, liquid_keep_out_distance=2)
+    compiler.compile()
+    counts = compiler.material_voxel_counts()
+    inner = 8 ** 3  # voxels deeper than 2 mm: 4 mm of 0.5 mm each way
+    assert counts[table.id("M.Cleanser")] == pytest.approx(inner / 2, rel=0.15)
+    assert sum(counts.values()) == 16 ** 3 and compiler.resolution() == (16, 16, 16)
+    (tmp_path / "dry.json").write_text('{"materials": [{"name": "a", "r": 9, "g": 9, "b": 9}]}')
+    with pytest.raises(RuntimeError, match="no liquid"):
+        pvc.DirectMaterialCompiler(ball(), pv.Vec3(1, 1, 1), pv.MaterialDefs(str(tmp_path / "dry.json")), tmp_path, "p", True, 2)
+
+
+def test_inkjet_of_what_nothing_is_said_of(tmp_path, capsys):
+    said, unsaid = pv.RectPrism(origin, pv.Vec3(4, 4, 4)), pv.RectPrism(pv.Vec3(0, 0, 8), pv.Vec3(4, 4, 4))
+    said.set_attribute("volume_fractions", pv.VolumeFractionsAttribute([(1, 2)]))
+    root = pv.Union(0.0, [said, unsaid])
+    compiler = inkjet(tmp_path, root)
+    compiler.compile()
+    assert compiler.material_voxel_counts() == {2: 512} and compiler.resolution()[2] == 8  # the rest is void
+    compiler.report_stats()
+    assert "voxels: 512" in capsys.readouterr().out
+    compiler.set_fallback_material_id(3)
+    compiler.compile()
+    assert compiler.material_voxel_counts() == {2: 512, 3: 512} and compiler.resolution()[2] == 24
+    compiler.set_strict_mode(True)
+    with pytest.raises(RuntimeError, match=r"nothing gives volume_fractions at \(-1.75, -1.75, 6.25\)"):
+        compiler.compile()
+
+
+def test_inkjet_can_be_cancelled(tmp_path):
+    part = ball()
+    part.set_attribute("volume_fractions", pv.VolumeFractionsAttribute([(1, 2)]))
+    compiler = inkjet(tmp_path, part)
+    compiler.set_progress_callback(lambda share: compiler.cancel())
+    with pytest.raises(RuntimeError, match="cancelled"):
+        compiler.compile()
+    assert list((tmp_path / "layers").iterdir()) == []
+
+
+def test_vat_in_strict_mode(tmp_path):
+    said, unsaid = pv.RectPrism(origin, pv.Vec3(4, 4, 4)), pv.RectPrism(pv.Vec3(0, 0, 8), pv.Vec3(4, 4, 4))
+    said.set_attribute("intensity", pv.FloatAttribute(1))
+    compiler = pvc.VatCompiler(pv.Union(0.0, [said, unsaid]), pv.Vec3(1, 1, 1), tmp_path / "vat", "p")
+    compiler.set_strict_mode(True)
+    with pytest.raises(RuntimeError, match=r"VatCompiler: nothing gives intensity at \(-1.5, -1.5, 6.5\)"):
+        compiler.compile()
+    unsaid.set_attribute("intensity", pv.FloatAttribute(0.5))
+    compiler.compile()
+    assert compiler.resolution() == (4, 4, 12)  # 2 mm of air in the middle
+    compiler.set_progress_callback(lambda share: compiler.cancel())
+    with pytest.raises(RuntimeError, match="cancelled"):
+        compiler.compile()

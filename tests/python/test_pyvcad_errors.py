@@ -93,11 +93,3 @@ def test_cycles_are_found_in_every_walk():
 def test_what_is_missing_says_so(name):
     with pytest.raises(NotImplementedError, match=f"{name}: Ombre does not have this yet"):
         getattr(pv, name)()
-
-
-@pytest.mark.parametrize("code, text", [
-    (lambda: compilers.DirectMaterialCompiler(ball(), 1, None, "x", "x", True, 2), "liquid_keep_out"),
-])
-def test_missing_forms_say_so(code, text):
-    with pytest.raises(pv.MissingFeature, match=text):
-        code()
