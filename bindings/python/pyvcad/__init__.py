@@ -10,7 +10,7 @@ from ._attributes import (Attribute, DefaultAttributes, DerivedFloatAttribute, F
 from ._bars import CapMode, Cone, PolygonRevolve, Strut
 from ._converters import (AttributeConverterBase, AttributeModifier, ExpressionConverter, InterpolationMode,
                           LookupTableConverter, LookupTableEntry, ScalarsToVec3Converter, ScalarsToVec4Converter,
-                          Vec3ToScalarsConverter, Vec4Mode, VolumeFractionsExpressionConverter, resolvers)
+                          Vec3ToScalarsConverter, VolumeFractionsExpressionConverter)
 from ._element_meshes import HexahedralMesh, TetrahedralMesh
 from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
 from ._errors import MissingFeature
@@ -22,6 +22,7 @@ from ._missing import Map, attribute_of
 from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference, FGrade, Identity, Intersection, Mirror,
                           Offset, Rotate, Scale, Shell, Sum, Tile, Translate, Union)
 from ._outlines import PolygonExtrude, Text
+from ._resolvers import Vec4Mode, resolvers
 from ._results import PointMap, SimulationField
 from ._sampling import AttributeSamples, TreeSampler
 from ._simulation_model import SimulationCellType, SimulationModel

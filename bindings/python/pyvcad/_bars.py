@@ -10,7 +10,7 @@ import numpy
 import ombre
 
 from ._arguments import Point, length, number, read, vector
-from ._solids import _Leaf, _one
+from ._solids import _Leaf, _one, _unset
 
 
 class CapMode(enum.Enum):
@@ -41,7 +41,7 @@ class Cone(_Leaf):
         super().__init__()
         values = read("Cone", ({}, {"angle": number, "height": length, "material": _one}), arguments, named)
         angle, self._height = values.get("angle", 0.5), values.get("height", 1.0)
-        self._base, self._material = self._height * math.tan(angle), values.get("material", 1)
+        self._base, self._material = self._height * math.tan(angle), values.get("material", _unset)
         if not 0 < self._base < 1e6:
             raise ValueError(f"Cone, angle: expected radians between 0 and pi/2, found {angle}")
 
@@ -80,7 +80,7 @@ class Strut(_Leaf):
         values = read("Strut", ({}, plain, capped), arguments, named)
         self._start: Point = values.get("start", (0, 0, 0))
         self._end: Point = values.get("end", (10, 0, 0))
-        self._radius, self._material = values.get("radius", 1.0), values.get("material", 1)
+        self._radius, self._material = values.get("radius", 1.0), values.get("material", _unset)
         self._caps = (values["cap1"], values["cap2"]) if "cap1" in values else None
         self._radii: tuple[float, float] = (values.get("r1", 0.0), values.get("r2", 0.0))
         if self._caps and (min(self._radii) < 0 or max(self._radii) <= 0 or self._start == self._end):

@@ -1,14 +1,19 @@
-"""Attributes that are computed from others: AttributeModifier and its converters; and rules where children overlap."""
+"""Attributes that are computed from others: AttributeModifier and its converters."""
 from __future__ import annotations
 
 import enum
+import math
 from typing import Any
 
 import ombre
 
 from ._arguments import material, number
 from ._errors import missing
+from ._functions import pointwise
+from ._resolvers import numbers_of
+from ._samples import AttributeSamples
 from ._tree import Unary
+from ._vectors import Vec3
 
 
 class InterpolationMode(enum.Enum):
@@ -16,59 +21,43 @@ class InterpolationMode(enum.Enum):
     LINEAR = 1
 
 
-class Vec4Mode(enum.Enum):
-    PerChannel = 0
-    Magnitude = 1
-
-
-class _Resolver:
-    _rule = ""
-
-
-class _Average(_Resolver):
-    _rule = "mean"
-
-
-class _ByMode(_Resolver):
-    def __init__(self, mode: Vec4Mode = Vec4Mode.PerChannel) -> None:
-        if mode is not Vec4Mode.PerChannel:
-            raise missing(f"{type(self).__name__}(Vec4Mode.Magnitude)", "Vec4Mode.PerChannel combines number by number")
-
-
-class _Min(_ByMode):
-    _rule = "min"
-
-
-class _Max(_ByMode):
-    _rule = "max"
-
-
-class _Custom(_Resolver):
-    def __init__(self, *functions: Any) -> None:
-        raise missing("resolvers by functions", "AverageConflictResolver, MinConflictResolver, MaxConflictResolver")
-
-
-class resolvers:
-    """How an attribute combines where children overlap; without one, the first child that has it wins."""
-
-    AverageConflictResolver = _Average
-    MinConflictResolver = _Min
-    MaxConflictResolver = _Max
-    CustomFloatConflictResolver = _Custom
-    CustomVec4ConflictResolver = _Custom
-
-
 class AttributeConverterBase:
-    """A converter of attributes. Those below are formulas; classes of one's own cannot be compiled."""
+    """A converter of attributes. A class of one's own says required_attributes(), output_attributes() and convert().
+
+    It may read three numbers in all (or one vector) and gives numbers. Python runs it at every point that is asked for, so
+    ExpressionConverter is much faster where a formula will do.
+    """
 
     def required_attributes(self) -> list[str]:
-        raise missing("an AttributeConverterBase of one's own", "ExpressionConverter takes formulas")
+        raise NotImplementedError(f"{type(self).__name__}: required_attributes() is missing")
 
     def output_attributes(self) -> list[str]:
-        raise missing("an AttributeConverterBase of one's own", "ExpressionConverter takes formulas")
+        raise NotImplementedError(f"{type(self).__name__}: output_attributes() is missing")
+
+    def convert(self, samples: AttributeSamples) -> AttributeSamples:
+        """The samples of one point, with the outputs set."""
+        raise NotImplementedError(f"{type(self).__name__}: convert(samples) is missing")
 
     def _apply(self, solid: ombre.Solid) -> ombre.Solid:
-        raise missing("an AttributeConverterBase of one's own", "ExpressionConverter takes formulas")
+        inputs = {name: numbers_of(solid, name) for name in self.required_attributes()}
+        numbers = [number for each in inputs.values() for number in each]
+        if len(numbers) > 3:
+            raise missing(f"{type(self).__name__} of {len(numbers)} numbers", "three, or an ExpressionConverter")
+        place = (*numbers, 0, 0, 0)[:3]
+        for name in self.output_attributes():
+            solid = ombre.attribute(solid, name, ombre.at(pointwise(self._output_of(name, inputs)), place))
+        return solid
+
+    def _output_of(self, name: str, inputs: dict[str, list[Any]]) -> Any:
+        """A function of the numbers of all inputs."""
+        def at(x: float, y: float, z: float) -> float:
+            left = [x, y, z]
+            samples = AttributeSamples()
+            for source, numbers in inputs.items():
+                mine, left = left[:len(numbers)], left[len(numbers):]
+                samples.set_sample(source, mine[0] if len(mine) == 1 else Vec3(*mine))
+            return float(self.convert(samples).get_sample(name))
+        return at
 
     def _materials(self) -> set[int] | None:
         return None
@@ -226,7 +215,7 @@ class LookupTableConverter(AttributeConverterBase):
     """What a table gives for attributes: in steps, or in straight lines from key to key.
 
     In steps each of several inputs is looked up in its own ranges and gives its own output, or its number of the one vector
-    or colour. Lines take one input, or two with an entry for each pair of their keys.
+    or colour. Lines have an entry for each combination of the inputs' keys.
     """
 
     def __init__(self, input_attributes: Any, output_attributes: Any, entries: Any,
@@ -260,17 +249,15 @@ class LookupTableConverter(AttributeConverterBase):
 
     def _check_lines(self) -> None:
         count = len(self._inputs)
-        if count > 2:
-            raise missing("a LookupTableConverter in lines of three inputs and more", "ombre.table takes up to three")
         for entry in self._entries:
             if len(entry.input_points) != count:
                 raise ValueError(f"LookupTableConverter: expected {count} keys in an entry, found {len(entry.input_points)}")
             self._check_values(entry, len(self._outputs))
         self._entries.sort(key=lambda entry: entry.input_points)
         self._keys = [sorted({entry.input_points[i] for entry in self._entries}) for i in range(count)]
-        if count == 2 and len(self._entries) != len(self._keys[0]) * len(self._keys[1]):
-            raise ValueError("LookupTableConverter: expected one entry for each pair of keys, found "
-                             f"{len(self._entries)} for {len(self._keys[0])} times {len(self._keys[1])}")
+        if len(self._entries) != math.prod(map(len, self._keys)):
+            raise ValueError("LookupTableConverter: expected one entry for each combination of keys, found "
+                             f"{len(self._entries)} for {' times '.join(str(len(keys)) for keys in self._keys)}")
 
     @staticmethod
     def _check_values(entry: LookupTableEntry, count: int) -> None:
@@ -307,11 +294,14 @@ class LookupTableConverter(AttributeConverterBase):
         texts = [repr(float(value)) if entry.is_valid else _unknown for value, entry in zip(values, self._entries)]
         if self._mode is InterpolationMode.STEP:
             return _steps(self._inputs[0], [entry.input_ranges[0] for entry in self._entries], texts)
-        if len(self._inputs) == 1:
-            return _lines(self._inputs[0], [entry.input_points[0] for entry in self._entries], texts)
-        across = len(self._keys[1])
-        rows = [_lines(self._inputs[1], self._keys[1], texts[n:n + across]) for n in range(0, len(texts), across)]
-        return _lines(self._inputs[0], self._keys[0], rows)
+        return self._in_lines(0, texts)
+
+    def _in_lines(self, axis: int, texts: list[str]) -> str:
+        """The formula between the keys of this input and the next ones, from the texts of the entries in order."""
+        keys = self._keys[axis]
+        size = len(texts) // len(keys)
+        rows = texts if size == 1 else [self._in_lines(axis + 1, texts[n:n + size]) for n in range(0, len(texts), size)]
+        return _lines(self._inputs[axis], keys, rows)
 
     def _materials(self) -> set[int] | None:
         found = {id for entry in self._entries for value in entry.output_values if isinstance(value, dict)

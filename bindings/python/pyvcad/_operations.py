@@ -7,6 +7,7 @@ import ombre
 
 from ._arguments import Optional, Point, boolean, length, material, number, radius_of_blend, read, vector
 from ._functions import expression
+from ._resolvers import given
 from ._tree import Binary, NAry, Node, Unary, as_node, as_nodes
 
 
@@ -108,8 +109,13 @@ class _Boolean(NAry):
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         rule = "mix" if self._mix or self._mixes() else "first"
-        return getattr(ombre, self._operation)(solids, materials=rule, blend=self._blend,
-                                               attributes=self._attribute_rules())
+        whole: ombre.Solid = getattr(ombre, self._operation)(solids, materials=rule, blend=self._blend,
+                                                             attributes=self._attribute_rules())
+        for name, resolver in self._rules.items():
+            own = [solid for node, solid in zip(self._inputs(), solids) if name in node.attribute_list()]
+            if not resolver._rule and own:
+                whole = given(whole, name, resolver, own)
+        return whole
 
 
 class Union(_Boolean):

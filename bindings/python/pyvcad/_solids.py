@@ -14,7 +14,17 @@ from ._functions import expression
 from ._tree import Node, _call_place
 from ._volumes import FloatVolume
 
-_one = Optional(material, 1)
+class _Unset(int):
+    """The material of a node that was given none."""
+
+
+_unset = _Unset(1)
+_one = Optional(material, _unset)
+
+
+def is_unset(node: Node) -> bool:
+    """Whether the node is a solid that was given no material."""
+    return isinstance(node, _Leaf) and isinstance(node._material, _Unset)
 
 
 class _Leaf(Node):
@@ -36,7 +46,7 @@ class RectPrism(_Leaf):
         values = read("RectPrism", ({}, {"center": vector, "size": size, "material": _one}), arguments, named)
         self._center: Point = values.get("center", (0, 0, 0))
         self._size: Point = values.get("size", (10, 10, 10))
-        self._material = values.get("material", 1)
+        self._material = values.get("material", _unset)
 
     @staticmethod
     def FromMinAndMax(min: Any, max: Any, material: int = 1) -> RectPrism:
@@ -60,7 +70,7 @@ class Sphere(_Leaf):
         self._center: Point = values.get("center") or (
             values.get("cx", 0.0), values.get("cy", 0.0), values.get("cz", 0.0))
         self._radius = values.get("radius", 5.0)
-        self._material = values.get("material", 1)
+        self._material = values.get("material", _unset)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return _at(self._center, ombre.sphere(self._radius, self._material))
@@ -73,7 +83,7 @@ class Torus(_Leaf):
         super().__init__()
         values = read("Torus", ({}, {"r1": length, "r2": length, "material": _one}), arguments, named)
         self._ring, self._tube = values.get("r1", 2.0), values.get("r2", 1.0)
-        self._material = values.get("material", 1)
+        self._material = values.get("material", _unset)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return ombre.torus(self._ring, self._tube, self._material)
@@ -88,7 +98,7 @@ class Cylinder(_Leaf):
         values = read("Cylinder", ({}, form), arguments, named)
         self._center: Point = values.get("center", (0, 0, 0))
         self._radius, self._height = values.get("radius", 5.0), values.get("height", 10.0)
-        self._material = values.get("material", 1)
+        self._material = values.get("material", _unset)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return _at(self._center, ombre.cylinder(self._radius, self._height, self._material))

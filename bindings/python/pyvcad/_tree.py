@@ -362,7 +362,7 @@ class NAry(Node):
 
     def set_attribute_conflict_resolver(self, name: str, resolver: Any) -> None:
         """How an attribute combines where children overlap, in place of the first child that has it."""
-        if not isinstance(name, str) or not getattr(resolver, "_rule", ""):
+        if not isinstance(name, str) or not hasattr(resolver, "_combine"):
             raise TypeError("set_attribute_conflict_resolver: expected a name and a resolver such as "
                             "resolvers.AverageConflictResolver()")
         self._rules[name] = resolver
@@ -372,7 +372,8 @@ class NAry(Node):
         return dict(self._rules)
 
     def _attribute_rules(self) -> list[tuple[str, str]]:
-        return [(name, resolver._rule) for name, resolver in self._rules.items() if name != "volume_fractions"]
+        return [(name, resolver._rule) for name, resolver in self._rules.items()
+                if name != "volume_fractions" and resolver._rule]
 
     def _mixes(self) -> bool:
         return "volume_fractions" in self._rules

@@ -4,11 +4,12 @@ A callback gets the share that is done, 0 to 1.
 """
 from pyvcad._missing import attribute_of
 
-from ._attribute_compilers import MaterialInkjetCompiler, MaterialInkjetExportMode, VatCompiler, VdbCompiler
+from ._attribute_compilers import VatCompiler, VdbCompiler
 from ._compilers import CrossSectionSlicer, DirectMaterialCompiler, GrayscaleCompiler, MeshCompiler
 from ._simulation import (InpWriter, SimulationBackend, SimulationCellType, SimulationCompiler,
                           SimulationCompilerSettings, SimulationHexMeshSettings, SimulationMeshKind, SimulationModel,
                           SimulationTetFixedMeshSettings)
+from ._inkjet import MaterialInkjetCompiler, MaterialInkjetExportMode
 from ._slicer_projects import PrusaSlicerProjectCompiler
 
 __all__ = ["PrusaSlicerProjectCompiler", "MaterialInkjetCompiler", "MaterialInkjetExportMode", "VatCompiler", "VdbCompiler",

@@ -1,27 +1,30 @@
 """Compilers of pyvcad 3, which take attributes: material inkjet, vat, OpenVDB."""
 from __future__ import annotations
 
-import enum
 import os
 import struct
-import tempfile
 from collections.abc import Callable
 from typing import Any
 
 import numpy
 
 from pyvcad._arguments import number, size
-from pyvcad._errors import missing
+from pyvcad._attributes import FloatAttribute
 from pyvcad._grids import centers, slabs
 from pyvcad._materials import expect_table
-from pyvcad._tree import as_node
+from pyvcad._tree import Node, as_node, in_order
 
 from ._compilers import Path, _Compiler, _voxel
+
+
+_is_undefined = "attribute_is_undefined"  # 1 where nothing gives the attribute that is looked for
 
 
 class _AttributeCompiler(_Compiler):
     _required: tuple[str, ...] = ()
     _root: Any
+    _voxel: tuple[float, float, float]
+    _is_strict = _is_stopped = False
 
     def set_progress_callback(self, callback: Callable[[float], Any] | None) -> None:
         self.setProgressCallback(callback)
@@ -30,69 +33,43 @@ class _AttributeCompiler(_Compiler):
         return list(self._required)
 
     def set_strict_mode(self, strict: bool) -> None:
-        if strict:
-            raise missing(f"{type(self).__name__}.set_strict_mode(True)", "ombre.probe tells what a point has")
+        """Makes places of the part without the attribute an error, before anything is written."""
+        self._is_strict = bool(strict)
 
     def cancel(self) -> None:
-        raise missing(f"{type(self).__name__}.cancel", "raise an exception in the progress callback")
+        """Ends a compile() under way, from its callback or another thread; it raises RuntimeError and writes nothing."""
+        self._is_stopped = True
+
+    def _share(self, share: float) -> None:
+        self._stop_if_cancelled()
+        self._tell(share)
+        self._stop_if_cancelled()
+
+    def _stop_if_cancelled(self) -> None:
+        if self._is_stopped:
+            raise RuntimeError(f"{type(self).__name__}: cancelled")
+
+    def _check_everywhere(self, name: str, lacks: Callable[[Node], bool], has: Callable[[Node], bool]) -> None:
+        """Raises RuntimeError at the first voxel of nodes that lack the attribute, where none above has it."""
+        tree = self._root.clone()
+        for node in in_order(tree):
+            if lacks(node):
+                node._attributes[_is_undefined] = FloatAttribute(1)
+            if has(node):
+                node._attributes[_is_undefined] = FloatAttribute(0)
+        design = tree._design()
+        if _is_undefined not in design.attributes:
+            return
+        for _, points in slabs(centers(design.bounds, self._voxel), lambda share: self._share(0.0)):
+            bad = design.inside(points) & (design.attribute(_is_undefined, points) > 0.5)
+            if bad.any():
+                x, y, z = (float(c) for c in points[bad][0])
+                raise RuntimeError(f"{type(self).__name__}: nothing gives {name} at ({x:g}, {y:g}, {z:g})")
 
     def _check_attributes(self) -> None:
         absent = [name for name in self._required if name not in self._root.attribute_list()]
         if absent:
             raise RuntimeError(f"{type(self).__name__}: no node of the tree has the attribute {', '.join(absent)}")
-
-
-class MaterialInkjetExportMode(enum.Enum):
-    STOCHASTIC = 0
-    DITHERED_3D = 1
-
-
-class MaterialInkjetCompiler(_AttributeCompiler):
-    """Writes an image for each layer from "volume_fractions", in the colours of the materials: PREFIX0.png, ...
-
-    Images are not flipped, and draws have the seed 0, so that two runs give the same bytes.
-    """
-
-    _required = ("volume_fractions",)
-
-    def __init__(self, root: Any, voxel_size: Any, output_directory: Path, file_prefix: str, material_defs: Any,
-                 liquid_keep_out_distance: float = 0.0,
-                 export_mode: MaterialInkjetExportMode = MaterialInkjetExportMode.STOCHASTIC) -> None:
-        if liquid_keep_out_distance:
-            raise missing("MaterialInkjetCompiler with liquid_keep_out_distance", "pass 0")
-        self._root, self._voxel = as_node(root), _voxel("MaterialInkjetCompiler", voxel_size)
-        self._materials = expect_table("MaterialInkjetCompiler", material_defs)
-        self._folder, self._prefix, self._mode = os.fspath(output_directory), file_prefix, export_mode
-        self._counts: dict[int, int] = {}
-        self._resolution = (0, 0, 0)
-
-    def set_fallback_material_id(self, id: int) -> None:
-        if id != 0:
-            raise missing("MaterialInkjetCompiler.set_fallback_material_id", "set volume_fractions on the root")
-
-    def compile(self) -> None:
-        self._check_attributes()
-        design = self._root._ombre_design_(self._materials)
-        os.makedirs(self._folder, exist_ok=True)
-        dither = "stochastic" if self._mode is MaterialInkjetExportMode.STOCHASTIC else "diffusion"
-        with tempfile.TemporaryDirectory(prefix="ombre_", dir=self._folder) as folder:
-            job = os.path.join(folder, "job")
-            design.slice(job, voxel=self._voxel, dither=dither, progress=self._callback)
-            images = sorted(name for name in os.listdir(job) if name.endswith(".png"))
-            with open(os.path.join(job, images[0]), "rb") as file:
-                width, height = struct.unpack(">II", file.read(24)[16:])
-            for layer, image in enumerate(images):
-                os.replace(os.path.join(job, image), os.path.join(self._folder, f"{self._prefix}{layer}.png"))
-        self._resolution = (width, height, len(images))
-        ids = design.voxels(self._voxel, dither=dither).values
-        self._counts = {int(id): int(n) for id, n in zip(*numpy.unique(ids, return_counts=True)) if id}
-        self._tell(1.0)
-
-    def resolution(self) -> tuple[int, int, int]:
-        return self._resolution
-
-    def material_voxel_counts(self) -> dict[int, int]:
-        return dict(self._counts)
 
 
 def _write_bmp(path: str, pixels: numpy.ndarray) -> None:
@@ -131,10 +108,16 @@ class VatCompiler(_AttributeCompiler):
     def supported_attributes(self) -> list[str]:
         return ["intensity"]
 
+    def _check_strictly(self) -> None:
+        if self._is_strict:
+            self._check_everywhere("intensity", lambda node: not node._inputs(), lambda node: "intensity" in node._attributes)
+
     def set_fallback_intensity(self, value: float) -> None:
         self._fallback = min(1.0, max(0.0, number(value)))
 
     def compile(self) -> None:
+        self._is_stopped = False
+        self._check_strictly()
         design = self._root._design()
         low, high = (list(map(float, corner)) for corner in design.bounds)
         if self._volume:
@@ -145,7 +128,7 @@ class VatCompiler(_AttributeCompiler):
                 low[axis], high[axis] = middle - self._volume[axis] / 2, middle + self._volume[axis] / 2
         axes = centers((tuple(low), tuple(high)), self._voxel)
         layers = []
-        for _, points in slabs(axes, self._callback):
+        for _, points in slabs(axes, self._share):
             value = (design.attribute("intensity", points) if "intensity" in design.attributes
                      else numpy.full(points.shape[:-1], self._fallback))
             gray = numpy.where(design.distance(points) <= 0, numpy.clip(value, 0, 1), 0)
@@ -173,11 +156,12 @@ class VdbCompiler(_AttributeCompiler):
         self._path, self._names = os.fspath(path), list(attributes_to_export or [])
 
     def compile(self) -> None:
+        self._is_stopped = False
         design = self._root._design()
         names = self._names or [name for name in self._root.attribute_list() if name != "volume_fractions"]
         absent = [name for name in names if name not in design.attributes]
         if absent:
             raise RuntimeError(f"VdbCompiler: no node of the tree has the attribute {', '.join(absent)}")
         design.write_voxels(self._path, voxel=",".join(map(repr, self._voxel)), what=",".join(["distance", *names]),
-                            force=True, progress=self._callback)
+                            force=True, progress=self._share)
         self._tell(1.0)

@@ -11,8 +11,8 @@ import numpy
 import ombre
 from pyvcad import Vec2
 from pyvcad._arguments import Point, size, vector, voxel_size
-from pyvcad._errors import missing
 from pyvcad._grids import centers, slabs
+from pyvcad._keep_out import KeepOut
 from pyvcad._materials import expect_table
 from pyvcad._operations import Intersection
 from pyvcad._solids import RectPrism
@@ -46,15 +46,15 @@ class DirectMaterialCompiler(_Compiler):
         material_defs: a MaterialDefs.
         output_directory: made where it is missing; images of the same names are replaced.
         file_prefix: what the names of the images start with.
-        liquid_keep_out, liquid_keep_out_distance: not known yet; True is an error.
+        liquid_keep_out, liquid_keep_out_distance: whether mixtures hold no liquid nearer to the surface than this, mm.
     """
 
     def __init__(self, root: Any, voxel_size: Any, material_defs: Any, output_directory: Path, file_prefix: str,
                  liquid_keep_out: bool = False, liquid_keep_out_distance: float = 0) -> None:
-        if liquid_keep_out:
-            raise missing("DirectMaterialCompiler with liquid_keep_out", "pass False")
         self._root, self._voxel = as_node(root), _voxel("DirectMaterialCompiler", voxel_size)
         self._materials = expect_table("DirectMaterialCompiler", material_defs)
+        if liquid_keep_out:
+            self._root = KeepOut(self._root, liquid_keep_out_distance, self._materials)
         self._folder, self._prefix = os.fspath(output_directory), file_prefix
 
     def compile(self) -> None:

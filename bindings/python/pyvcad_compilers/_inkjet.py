@@ -1,0 +1,116 @@
+"""The compiler of material inkjet printers."""
+from __future__ import annotations
+
+import enum
+import json
+import os
+import struct
+import tempfile
+import time
+from typing import Any
+
+from pyvcad._arguments import number
+from pyvcad._keep_out import KeepOut
+from pyvcad._materials import default_materials, expect_table
+from pyvcad._solids import is_unset
+from pyvcad._tree import Node, as_node, in_order
+
+from ._attribute_compilers import _AttributeCompiler
+from ._compilers import Path, _voxel
+
+
+class MaterialInkjetExportMode(enum.Enum):
+    STOCHASTIC = 0
+    DITHERED_3D = 1
+
+
+class MaterialInkjetCompiler(_AttributeCompiler):
+    """Writes an image for each layer from "volume_fractions", in the colours of the materials: PREFIX0.png, ...
+
+    Layers that are empty at both ends are left out. Images are not flipped, and draws have the seed 0, so that two runs give
+    the same bytes.
+
+    Args:
+        liquid_keep_out_distance: mm from the surface, within which mixtures hold no liquid; 0: it may be anywhere.
+    """
+
+    _required = ("volume_fractions",)
+
+    def __init__(self, root: Any, voxel_size: Any, output_directory: Path, file_prefix: str, material_defs: Any,
+                 liquid_keep_out_distance: float = 0.0,
+                 export_mode: MaterialInkjetExportMode = MaterialInkjetExportMode.STOCHASTIC) -> None:
+        self._root, self._voxel = as_node(root), _voxel("MaterialInkjetCompiler", voxel_size)
+        self._materials = expect_table("MaterialInkjetCompiler", material_defs)
+        self._folder, self._prefix, self._mode = os.fspath(output_directory), file_prefix, export_mode
+        self._keep_out = number(liquid_keep_out_distance)
+        self._fallback = 0
+        self._counts: dict[int, int] = {}
+        self._resolution = (0, 0, 0)
+        self._stats: list[tuple[str, Any]] = []
+
+    def set_fallback_material_id(self, id: int) -> None:
+        """The material of what nothing says anything of; 0, the void, at first."""
+        (self._materials or default_materials).name(id)  # which raises an error where there is none
+        self._fallback = id
+
+    def compile(self) -> None:
+        self._check_attributes()
+        self._is_stopped = False
+        begin = time.monotonic()
+        tree = self._tree()
+        if self._is_strict:
+            self._check_everywhere("volume_fractions", is_unset, lambda node: node._fractions() is not None)
+        if self._keep_out > 0:
+            tree = KeepOut(tree, self._keep_out, self._materials)
+        design = tree._ombre_design_(self._materials)
+        prepared = time.monotonic()
+        os.makedirs(self._folder, exist_ok=True)
+        dither = "stochastic" if self._mode is MaterialInkjetExportMode.STOCHASTIC else "diffusion"
+        with tempfile.TemporaryDirectory(prefix="ombre_", dir=self._folder) as folder:
+            job = os.path.join(folder, "job")
+            self._share(0.0)
+            design.slice(job, voxel=self._voxel, dither=dither, progress=self._share)
+            self._stop_if_cancelled()
+            self._take(job)
+        self._stats = [("box", design.bounds), ("voxel size, mm", self._voxel), ("pixels and layers", self._resolution),
+                       ("voxels", sum(self._counts.values())), ("preparing, s", round(prepared - begin, 3)),
+                       ("slicing and writing, s", round(time.monotonic() - prepared, 3))]
+        self._tell(1.0)
+
+    def resolution(self) -> tuple[int, int, int]:
+        return self._resolution
+
+    def material_voxel_counts(self) -> dict[int, int]:
+        return dict(self._counts)
+
+    def report_stats(self) -> None:
+        """Prints figures of the last compile()."""
+        for name, value in self._stats:
+            print(f"{name}: {value}")
+
+    def _tree(self) -> Node:
+        """A copy, in which what has no material of its own is of the fallback."""
+        tree = self._root.clone()
+        for node in in_order(tree):
+            if is_unset(node):
+                node._material = self._fallback  # type: ignore[attr-defined]
+        return tree
+
+    def _take(self, job: str) -> None:
+        """Moves the images out of the job, and counts."""
+        with open(os.path.join(job, "job.json"), encoding="utf-8") as file:
+            ids = [material["id"] for material in json.load(file)["materials"]][1:]
+        with open(os.path.join(job, "journal.jsonl"), encoding="utf-8") as file:
+            entries = [json.loads(line) for line in file]
+        layers = sorted((entry for entry in entries if "layer" in entry), key=lambda entry: int(entry["layer"]))
+        filled = [n for n, entry in enumerate(layers) if sum(entry["voxels"])]
+        kept = layers[filled[0]:filled[-1] + 1] if filled else []
+        width = height = 0
+        for n, entry in enumerate(kept):
+            path = os.path.join(self._folder, f"{self._prefix}{n}.png")
+            os.replace(os.path.join(job, entry["files"][0]["file"]), path)
+            if n == 0:
+                with open(path, "rb") as image:
+                    width, height = struct.unpack(">II", image.read(24)[16:])
+        self._counts = {id: count for i, id in enumerate(ids) if (count := sum(entry["voxels"][i] for entry in kept))}
+        self._resolution = (width, height, len(kept))
