@@ -40,6 +40,7 @@ WRONG = [
 SOLID = """#include "design/spec.h"
 using namespace ombre;
 using namespace ombre::design;
+namespace {{
 struct Ball {{
   Number radius = 1;
   static Spec<Ball> spec() {{
@@ -48,11 +49,15 @@ struct Ball {{
   Field distance(const Point& p) const {{ return length(p.x, p.y, p.z) - radius(p); }}
   {method}
 }};
+}}
 void add(Registry& registry) {{ registry.add<Ball>(); }}
 """
+# Clang alone tells of methods that nothing calls, since their name is none of a node's.
+MISSPELT = "Field membrship(const Inputs&, const Point& p, Border) const { return p.x; }"
 WRONG_METHODS = [
     ("Box bounds() const { return Box(); }", "bounds is Box bounds(const Box& where) const"),
-    ("bool inside(const Inputs&, const Point&) const { return true; }", "inside is Field inside(const Inputs&"),
+    ("Field membership(const Inputs&, const Point& p) const { return p.x; }", "membership is Field membership(const Inputs&"),
+    ("Traits traits(const Point&) const { return {}; }", "traits is Traits traits() const"),
     ("Composition composition(const Inputs&, const Point&) const { return {}; }", "composition is Composition"),
 ]
 
@@ -60,7 +65,9 @@ WRONG_METHODS = [
 def compile_text(compiler, folder, number, text):
     file = pathlib.Path(folder) / f"node{number}.cpp"
     file.write_text(text)
-    return subprocess.run([compiler, "-std=c++20", "-fsyntax-only", f"-I{SOURCE}", file], capture_output=True, text=True)
+    warnings = ["-Werror", "-Wunused-member-function"] if "clang" in compiler else []
+    return subprocess.run([compiler, "-std=c++20", "-fsyntax-only", *warnings, f"-I{SOURCE}", file], capture_output=True,
+                          text=True)
 
 
 def main():
@@ -68,6 +75,8 @@ def main():
     cases = [("a right node", NODE.format(**RIGHT), None), ("a right solid", SOLID.format(method=""), None)]
     cases += [(what, NODE.format(**{**RIGHT, **changes}), message) for what, changes, message in WRONG]
     cases += [(method, SOLID.format(method=method), message) for method, message in WRONG_METHODS]
+    if "clang" in compiler:
+        cases.append((MISSPELT, SOLID.format(method=MISSPELT), "unused member function 'membrship'"))
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
         results = list(pool.map(lambda n: compile_text(compiler, folder, n, cases[n][1]), range(len(cases))))
     failures = 0

@@ -29,7 +29,7 @@ class TestSolid {
     design::Lowering lowering(context, builder);
     const auto p = program::Point::origin_frame(builder);
     program::Outputs outputs{{"inside", lowering.inside(*solid_, p)},
-                             {"interior", lowering.interior(*solid_, p)},
+                             {"interior", lowering.membership(*solid_, p, design::Border::excluded)},
                              {"distance", lowering.distance(*solid_, p)}};
     for (const auto& [id, fraction] : lowering.composition(*solid_, p, demand).fractions)
       outputs.emplace_back(loaded_->design.materials.all()[id].name, fraction);

@@ -31,11 +31,20 @@ struct Composition {
 // (a blend, a complement) makes points inside that were outside.
 enum class Demand : uint8_t { inside, everywhere };
 
-// How strongly solids are felt beyond their surfaces, by which they are joined smoothly.
+// The influence of solids beyond their surfaces, by which they are joined smoothly.
 struct Falloff {
   std::function<Field(Field distance, const Point& p)> weight;  // 0 from reach_mm on
   double reach_mm = 0;
 };
+
+// Whether a solid's surface belongs to it: then a point is a member where the distance is at most 0, else below 0.
+enum class Border : uint8_t { included, excluded };
+inline Border other(Border border) { return border == Border::included ? Border::excluded : Border::included; }
+// a <= b with the border, a < b without.
+inline Field at_most(Field a, Field b, Border border) {
+  return border == Border::included ? less_equal(a, b) : less(a, b);
+}
+inline Field at_most(Field a, double b, Border border) { return border == Border::included ? a <= b : a < b; }
 
 // What is asked of the parts besides "inside".
 enum class PartQuery : uint8_t {
@@ -87,7 +96,7 @@ enum class ValueType : uint8_t { number, vector, colour, mixture, label };
 std::string_view name(ValueType type);
 
 // How an attribute's values combine where solids overlap, number by number. Between solids that are blended, `mix`
-// weighs them by how strongly they are felt; elsewhere it is the mean.
+// weighs them by their influence; elsewhere it is the mean.
 enum class Overlap : uint8_t { first, last, mean, min, max, sum, mix };
 inline constexpr std::array<std::string_view, 7> overlap_names{"first", "last", "mean", "min", "max", "sum", "mix"};
 Overlap overlap_called(std::string_view name);  // which is one of the names

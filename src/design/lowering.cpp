@@ -93,7 +93,8 @@ LoweringContext::LoweringContext(const MaterialTable& materials, const std::vect
   std::unordered_map<const Node*, int> uses;
   for (const Node* node : topological(roots)) {
     for (const NodePtr& input : node->dependencies())
-      if (node->repetitions() > 1 || (input.use_count() > 1 && ++uses[input.get()] == 2)) shared_.insert(input.get());
+      if (node->traits().most_evaluations_of_input > 1 || (input.use_count() > 1 && ++uses[input.get()] == 2))
+        shared_.insert(input.get());
     if (const auto declared = node->declares()) declare(*declared);
   }
 }
@@ -134,7 +135,7 @@ program::SourceField LoweringContext::staged(const Node& node, const StagePtr& s
   return stages_->source(stage, place);
 }
 
-void LoweringContext::tell(const Diagnostic& diagnostic) {
+void LoweringContext::report(const Diagnostic& diagnostic) {
   const std::scoped_lock lock(asked_);
   diagnostics_.add_new(diagnostic);
 }
@@ -157,7 +158,7 @@ void LoweringContext::find_views() {
     const View own = views_.at(node);
     View below = own;
     below.scale *= shrinks > 0 ? shrinks : 1;
-    if (node->repetitions() > 1 || (inner && !(input_from_node && is_shift(*input_from_node))))
+    if (node->traits().most_evaluations_of_input > 1 || (inner && !(input_from_node && is_shift(*input_from_node))))
       below.offset = std::nullopt;
     else if (inner && below.offset)
       below.offset = *below.offset + input_from_node->offset;
@@ -167,7 +168,7 @@ void LoweringContext::find_views() {
     };
     for (const NodePtr& input : node->inputs()) set(input, below);
     View beside = own;
-    if (node->repetitions() > 1) beside.offset = std::nullopt;
+    if (node->traits().most_evaluations_of_input > 1) beside.offset = std::nullopt;
     for (const NodePtr& value : node->values()) set(value, beside);
   }
 }
@@ -215,28 +216,29 @@ LoweringContext::Body* Lowering::body_for(const Node& node) {
   return &node != own_ && !stands_alone_ && context_.is_shared(node) ? &context_.body_of(node) : nullptr;
 }
 
-Field Lowering::once(const Node& node, const Point& p, Query query,
-                     Field (Lowering::*make)(const Node&, const Point&)) {
+template <class Make>
+Field Lowering::once(const Node& node, const Point& p, Query query, const Make& make) {
   const Key key = key_of(node, p, query);
   if (const auto known = fields_.find(key); known != fields_.end()) return known->second;
-  const Field field = (this->*make)(node, p);
+  const Field field = make();
   fields_.emplace(key, field);
   return field;
 }
 
 Field Lowering::distance(const Node& node, const Point& p) {
   if (auto* body = body_for(node)) return body->call("distance", body->lowering.distance(node, body->frame()), p);
-  return once(node, p, Query::distance, &Lowering::make_distance);
+  return once(node, p, Query::distance, [&] { return node.distance(Inputs(node, this), p); });
 }
 
-Field Lowering::inside(const Node& node, const Point& p) {
-  if (auto* body = body_for(node)) return body->call("inside", body->lowering.inside(node, body->frame()), p);
-  return once(node, p, Query::inside, &Lowering::make_inside);
-}
-
-Field Lowering::interior(const Node& node, const Point& p) {
-  if (auto* body = body_for(node)) return body->call("interior", body->lowering.interior(node, body->frame()), p);
-  return once(node, p, Query::interior, &Lowering::make_interior);
+Field Lowering::membership(const Node& node, const Point& p, Border border) {
+  const bool with_border = border == Border::included;
+  if (auto* body = body_for(node))
+    return body->call(with_border ? "inside" : "interior", body->lowering.membership(node, body->frame(), border), p);
+  return once(node, p, with_border ? Query::inside : Query::interior, [&] {
+    if (const auto own = node.membership(Inputs(node, this), p, border)) return *own;
+    if (const auto inner = node.inner(p)) return membership(*node.inputs()[0], *inner, border);
+    return at_most(distance(node, p), 0, border);
+  });
 }
 
 Field Lowering::number(const NodeOutput& output, const Point& p) {
@@ -268,20 +270,6 @@ Composition Lowering::mixture(const Node& node, const Point& p) {
   Composition made = node.mixture({in, p});
   compositions_.emplace(key, made);
   return made;
-}
-
-Field Lowering::make_distance(const Node& node, const Point& p) { return node.distance(Inputs(node, this), p); }
-
-Field Lowering::make_inside(const Node& node, const Point& p) {
-  if (const auto own = node.inside(Inputs(node, this), p)) return *own;
-  if (const auto inner = node.inner(p)) return inside(*node.inputs()[0], *inner);
-  return distance(node, p) <= 0;
-}
-
-Field Lowering::make_interior(const Node& node, const Point& p) {
-  if (const auto own = node.interior(Inputs(node, this), p)) return *own;
-  if (const auto inner = node.inner(p)) return interior(*node.inputs()[0], *inner);
-  return distance(node, p) < 0;
 }
 
 Field Lowering::along(const Node& node, const Point& p) {

@@ -39,7 +39,7 @@ class LoweringContext {
   const std::vector<AttributeDeclaration>& attributes() const { return attributes_; }
   // What nodes told while they were lowered, each once.
   const Diagnostics& diagnostics() const { return diagnostics_; }
-  void tell(const Diagnostic& diagnostic);
+  void report(const Diagnostic& diagnostic);
   uint32_t register_check(const Node& node, const std::string& message);
   // As the node has them, where transforms above shrink or stretch it; where there are several ways to it, the least.
   std::optional<JobScale> scale(const Node& node);
@@ -103,8 +103,8 @@ class Lowering : public OutputFields {
   Lowering& operator=(const Lowering&) = delete;
 
   Field distance(const Node& node, const Point& p);
-  Field inside(const Node& node, const Point& p);
-  Field interior(const Node& node, const Point& p);
+  Field membership(const Node& node, const Point& p, Border border);  // truth value
+  Field inside(const Node& node, const Point& p) { return membership(node, p, Border::included); }
   Composition composition(const Node& node, const Point& p, Demand demand);
   Field attribute(const Node& node, std::string_view name, const Point& p, Demand demand);
   Field number(const NodeOutput& output, const Point& p) override;
@@ -130,7 +130,7 @@ class Lowering : public OutputFields {
   MaterialId material(const MaterialName& name) const;
   std::optional<JobScale> scale(const Node& node) { return context_.scale(node); }
   program::SourceField staged(const Node& node, const StagePtr& stage) { return context_.staged(node, stage); }
-  void tell(const Diagnostic& diagnostic) { context_.tell(diagnostic); }
+  void report(const Diagnostic& diagnostic) { context_.report(diagnostic); }
   uint32_t add_check(const Node& node, const std::string& message);
   program::Builder& builder() { return builder_; }
 
@@ -156,10 +156,8 @@ class Lowering : public OutputFields {
   };
 
   static Key key_of(const Node& node, const Point& p, Query query);
-  Field once(const Node& node, const Point& p, Query query, Field (Lowering::*make)(const Node&, const Point&));
-  Field make_distance(const Node& node, const Point& p);
-  Field make_inside(const Node& node, const Point& p);
-  Field make_interior(const Node& node, const Point& p);
+  template <class Make>
+  Field once(const Node& node, const Point& p, Query query, const Make& make);
   VectorField numbers(const Node& node, size_t output, const Point& p);
   Composition make_composition(const Node& node, const Point& p, Demand demand);
   Field make_attribute(const Node& node, std::string_view name, const Point& p, Demand demand);

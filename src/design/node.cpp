@@ -19,12 +19,18 @@ void Node::finish(std::vector<NodePtr> inputs, const std::vector<NodePtr>& value
   int depth = 1;
   for (const NodePtr& other : dependencies()) depth = std::max(depth, other->depth() + 1);
   depth_ = static_cast<uint16_t>(depth) & 0xFFF;
-  uses_cell_ = !gives_cell() && (has_cell_numbers() || std::ranges::any_of(dependencies(), [](const NodePtr& other) {
-                                   return other->uses_cell();
-                                 }));
+  uses_cell_ = !traits().gives_cell &&
+               (has_cell_numbers() ||
+                std::ranges::any_of(dependencies(), [](const NodePtr& other) { return other->uses_cell(); }));
   const Metric metric = find_metric(Inputs(*this, nullptr));
   lipschitz_ = metric.lipschitz;
   kind_ = static_cast<uint16_t>(metric.kind) & 7;
+}
+
+Traits Node::traits_of_shape() const {
+  const Node* node = this;
+  while (node->keeps_shape()) node = node->inputs().front().get();
+  return node->traits();
 }
 
 bool Node::has_along() const {
@@ -100,8 +106,9 @@ const Node& Inputs::input(size_t i) const { return *node_.inputs()[i]; }
 Box Inputs::reach(size_t i, const Box& where, double margin) const { return memory_->of(input(i), where, margin); }
 Metric Inputs::metric(size_t i) const { return input(i).metric(); }
 Field Inputs::distance(size_t i, const Point& p) const { return lowering_->distance(input(i), p); }
-Field Inputs::inside(size_t i, const Point& p) const { return lowering_->inside(input(i), p); }
-Field Inputs::interior(size_t i, const Point& p) const { return lowering_->interior(input(i), p); }
+Field Inputs::membership(size_t i, const Point& p, Border border) const {
+  return lowering_->membership(input(i), p, border);
+}
 Composition Inputs::composition(size_t i, const Point& p, Demand demand) const {
   return lowering_->composition(input(i), p, demand);
 }
@@ -156,8 +163,9 @@ class InputList : public PartList {
   }
   bool uses_cell(size_t i) const override { return node_.inputs()[i]->uses_cell(); }
   Field distance(const Inputs& in, size_t i, const Point& p) const override { return in.distance(i, p); }
-  Field inside(const Inputs& in, size_t i, const Point& p) const override { return in.inside(i, p); }
-  Field interior(const Inputs& in, size_t i, const Point& p) const override { return in.interior(i, p); }
+  Field membership(const Inputs& in, size_t i, const Point& p, Border border) const override {
+    return in.membership(i, p, border);
+  }
   Field along(const Inputs& in, size_t i, const Point& p) const override { return in.along(i, p); }
   Composition composition(const Inputs& in, size_t i, const Point& p, Demand demand) const override {
     return in.composition(i, p, demand);
@@ -182,14 +190,9 @@ std::vector<Field> Inputs::distances(const Point& p) const {
   for (size_t i = 0; i < count(); ++i) fields.push_back(distance(i, p));
   return fields;
 }
-std::vector<Field> Inputs::insides(const Point& p) const {
+std::vector<Field> Inputs::memberships(const Point& p, Border border) const {
   std::vector<Field> fields;
-  for (size_t i = 0; i < count(); ++i) fields.push_back(inside(i, p));
-  return fields;
-}
-std::vector<Field> Inputs::interiors(const Point& p) const {
-  std::vector<Field> fields;
-  for (size_t i = 0; i < count(); ++i) fields.push_back(interior(i, p));
+  for (size_t i = 0; i < count(); ++i) fields.push_back(membership(i, p, border));
   return fields;
 }
 
@@ -203,8 +206,8 @@ std::optional<JobScale> Inputs::scale() const { return lowering_->scale(node_); 
 
 program::SourceField Inputs::staged(const StagePtr& stage) const { return lowering_->staged(node_, stage); }
 
-void Inputs::tell(Severity severity, const std::string& message, const std::string& hint) const {
-  lowering_->tell({severity, node_.where(), message, hint});
+void Inputs::report(Severity severity, const std::string& message, const std::string& hint) const {
+  lowering_->report({severity, node_.where(), message, hint});
 }
 
 std::pair<uint32_t, Field> Inputs::check(Field bad, const std::string& message) const {

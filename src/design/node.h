@@ -45,8 +45,7 @@ class PartList {
   virtual Box reach(size_t i, const Box& where, double margin) const = 0;
   virtual bool uses_cell(size_t i) const = 0;
   virtual Field distance(const Inputs& in, size_t i, const Point& p) const = 0;
-  virtual Field inside(const Inputs& in, size_t i, const Point& p) const = 0;
-  virtual Field interior(const Inputs& in, size_t i, const Point& p) const = 0;
+  virtual Field membership(const Inputs& in, size_t i, const Point& p, Border border) const = 0;
   virtual Field along(const Inputs& in, size_t i, const Point& p) const = 0;
   virtual Composition composition(const Inputs& in, size_t i, const Point& p, Demand demand) const = 0;
 };
@@ -69,8 +68,8 @@ class Inputs {
   Metric metric(size_t i) const;
 
   Field distance(size_t i, const Point& p) const;
-  Field inside(size_t i, const Point& p) const;    // truth value of distance <= 0
-  Field interior(size_t i, const Point& p) const;  // truth value of distance < 0
+  Field membership(size_t i, const Point& p, Border border) const;  // truth value
+  Field inside(size_t i, const Point& p) const { return membership(i, p, Border::included); }
   Composition composition(size_t i, const Point& p, Demand demand) const;
   Field attribute(size_t i, std::string_view attribute_name, const Point& p, Demand demand) const;
   bool has_attribute(size_t i, std::string_view attribute_name) const;
@@ -84,8 +83,7 @@ class Inputs {
 
   // All inputs at one point.
   std::vector<Field> distances(const Point& p) const;
-  std::vector<Field> insides(const Point& p) const;
-  std::vector<Field> interiors(const Point& p) const;
+  std::vector<Field> memberships(const Point& p, Border border) const;
 
   MaterialId material(const MaterialName& name) const;  // which is no mixture
   // The composition of a material alone, or of the mixture at the point.
@@ -104,7 +102,7 @@ class Inputs {
   // The source that gives what a stage of this node computes.
   program::SourceField staged(const std::shared_ptr<const Stage>& stage) const;
   // Told once for each job that lowers the node.
-  void tell(Severity severity, const std::string& message, const std::string& hint) const;
+  void report(Severity severity, const std::string& message, const std::string& hint) const;
   // A mark that is 1 where something is wrong; `message` is told once, with the count of voxels.
   std::pair<uint32_t, Field> check(Field bad, const std::string& message) const;
 
@@ -121,6 +119,17 @@ struct Ask {
   const Point& p;
 };
 
+// What helps to make a faster program of a design. No trait changes what a design means.
+struct Traits {
+  double most_evaluations_of_input = 1;  // an upper bound of how often one evaluation of the node evaluates an input
+  size_t instances = 1;                  // number of inner solids (struts, say) that may become rows of a table
+  bool gives_cell = false;               // does it set the cell's numbers ci, cj and ck for what lies below it?
+  std::optional<Vec3> cell_size = {};    // steps at which copies of a unit cell join, mm
+  // Of copies at steps of at least these (mm), the one whose origin is nearest always has the least g, wherever the
+  // others are.
+  Vec3 nearest_copy_is_enough_from = {Box::inf, Box::inf, Box::inf};
+};
+
 // Its parameters, and what they mean, are in the type that is made from a plain struct (spec.h). One piece of
 // memory holds all of it but lists: designs may have millions.
 class Node {
@@ -135,10 +144,9 @@ class Node {
   virtual const NodeType& type() const = 0;
   // Encloses the points of `where` at which g is `margin` (mm, not negative) or less.
   virtual Box reach(const Inputs& in, const Box& where, double margin) const = 0;
-  // Solids give `distance`; the other three have defaults that follow from it or from the inputs.
+  // Solids give `distance`; the others have defaults that follow from it or from the inputs.
   virtual Field distance(const Inputs& in, const Point& p) const = 0;
-  virtual std::optional<Field> inside(const Inputs& in, const Point& p) const = 0;
-  virtual std::optional<Field> interior(const Inputs& in, const Point& p) const = 0;
+  virtual std::optional<Field> membership(const Inputs& in, const Point& p, Border border) const = 0;
   virtual std::optional<Composition> composition(const Inputs& in, const Point& p, Demand demand) const = 0;
   virtual std::optional<Field> attribute(const Inputs& in, std::string_view name, const Point& p,
                                          Demand demand) const = 0;
@@ -149,15 +157,9 @@ class Node {
   virtual std::optional<Point> inner(const Point& p) const = 0;
   // Along struts: 0 at their start, 1 at their end. Nothing where the inputs are to be asked.
   virtual std::optional<Field> along(const Inputs& in, const Point& p) const = 0;
-  // Of copies of the solid at such steps along an axis, does the one whose origin is nearest always have the least
-  // g, wherever the others are?
-  virtual std::array<bool, 3> nearest_copy_is_enough(Vec3 steps) const = 0;
-  // At which steps copies of a unit cell join.
-  virtual std::optional<Vec3> pitch() const = 0;
-  // At how many points it may ask an input, for one that is asked of itself.
-  virtual double repetitions() const = 0;
-  // Of how many solids that are not its inputs it is made, if it may keep them in a table; else 1.
-  virtual size_t own_parts() const = 0;
+  virtual Traits traits() const = 0;
+  // Of the shape that it has: its own, or those of the node that it carries something to.
+  Traits traits_of_shape() const;
 
   // Value nodes have outputs, in the order of their type's list.
   virtual bool gives(size_t output) const = 0;                           // do its parameters allow this one?
@@ -186,7 +188,6 @@ class Node {
   virtual Metric find_metric(const Inputs& in) const = 0;
   virtual bool gives_along() const = 0;
   virtual bool has_cell_numbers() const = 0;
-  virtual bool gives_cell() const = 0;
 
   SourceRange where_;
   std::unique_ptr<NodePtr[]> inputs_;  // and then the values

@@ -23,11 +23,11 @@ constexpr size_t most_solids = 256;
 
 // How often the innermost nodes are asked; infinite for parts of too many solids.
 double repetitions(const Node& node, size_t& solids) {
-  solids += node.own_parts();
+  solids += node.traits().instances;
   if (solids > most_solids) return std::numeric_limits<double>::infinity();
   double most = 1;
   for (const NodePtr& input : node.inputs()) most = std::max(most, repetitions(*input, solids));
-  return most * node.repetitions();
+  return most * node.traits().most_evaluations_of_input;
 }
 
 bool repeats_much(std::span<const NodePtr> inputs, size_t part) {
@@ -88,13 +88,14 @@ bool PartRows::try_add(size_t part) {
   lowering.write_bodies_out();
   const Inputs in(node, &lowering);
   const Point p = Point::origin_frame(builder_).mapped(node_from_program);
-  const Field mark = query == PartQuery::interior ? list.interior(in, part, p) : list.inside(in, part, p);
+  const Border border = query == PartQuery::interior ? Border::excluded : Border::included;
+  const Field mark = list.membership(in, part, p, border);
   const Field weight = falloff ? falloff->weight(list.distance(in, part, p), p) : Field();
-  const Field felt = weight ? less(p.constant(0), weight) : mark;
+  const Field is_reached = weight ? less(p.constant(0), weight) : mark;
   outputs_.clear();
   slots_.clear();
   has_checks_ = false;
-  add_output(0, "reached", weight ? logical_or(mark, felt) : mark);
+  add_output(0, "reached", weight ? logical_or(mark, is_reached) : mark);
   if (weight) add_output(set_->held_slot, "held", mark);
   if (weight) add_output(made_.weight_slot, "weight", weight);
   if (query == PartQuery::along) add_output(made_.along_slot, "t", list.along(in, part, p));
@@ -103,7 +104,7 @@ bool PartRows::try_add(size_t part) {
     composition_ = list.composition(in, part, p, weight ? Demand::everywhere : Demand::inside);
     add_fractions(mark, weight, p);
     add_checks(lowering, false, mark, box);
-    if (weight) add_checks(lowering, true, felt, box);
+    if (weight) add_checks(lowering, true, is_reached, box);
   }
   builder_.finish(outputs_, program_);
   if (!program_.reads.empty() || program_.has_parts()) return false;

@@ -8,8 +8,7 @@
 //   Point inner(Point) const                  where the input is asked, with `scale()` for its distance
 // and where the defaults do not fit
 //   Metric metric([Inputs]) const             default: exact for leaves with constant numbers
-//   inside, interior, composition, attribute, declares, complete, along, pitch,
-//   nearest_copy_is_enough, repetitions, own_parts, makes_nothing
+//   membership, composition, attribute, declares, complete, along, traits, makes_nothing
 //
 // A node that gives values has outputs in its spec instead of a shape. Each is a method of the struct, whose return
 // type is the output's type:
@@ -176,20 +175,11 @@ class NodeOf final : public Node {
       return in.distance(0, p);
   }
 
-  std::optional<Field> inside(const Inputs& in, const Point& p) const override {
-    if constexpr (requires { data.inside(in, p); })
-      return data.inside(in, p);
+  std::optional<Field> membership(const Inputs& in, const Point& p, Border border) const override {
+    if constexpr (requires { data.membership(in, p, border); })
+      return data.membership(in, p, border);
     else if constexpr (passes_on)
-      return in.inside(0, p);
-    else
-      return std::nullopt;
-  }
-
-  std::optional<Field> interior(const Inputs& in, const Point& p) const override {
-    if constexpr (requires { data.interior(in, p); })
-      return data.interior(in, p);
-    else if constexpr (passes_on)
-      return in.interior(0, p);
+      return in.membership(0, p, border);
     else
       return std::nullopt;
   }
@@ -234,38 +224,11 @@ class NodeOf final : public Node {
       return std::nullopt;
   }
 
-  std::array<bool, 3> nearest_copy_is_enough(Vec3 steps) const override {
-    if constexpr (!passes_on)
-      if (!type_.has_constant_numbers(data)) return {};
-    if constexpr (requires { data.nearest_copy_is_enough(steps); })
-      return data.nearest_copy_is_enough(steps);
-    else if constexpr (passes_on)
-      return inputs().size() == 1 ? inputs()[0]->nearest_copy_is_enough(steps) : std::array<bool, 3>{};
-    else
-      return {};
-  }
-
-  std::optional<Vec3> pitch() const override {
-    if constexpr (requires { data.pitch(); })
-      return data.pitch();
-    else if constexpr (passes_on)
-      return inputs().size() == 1 ? inputs()[0]->pitch() : std::nullopt;
-    else
-      return std::nullopt;
-  }
-
-  double repetitions() const override {
-    if constexpr (requires { data.repetitions(); })
-      return data.repetitions();
-    else
-      return 1;
-  }
-
-  size_t own_parts() const override {
-    if constexpr (requires { data.own_parts(); })
-      return data.own_parts();
-    else
-      return 1;
+  Traits traits() const override {
+    Traits traits;
+    if constexpr (requires { data.traits(); }) traits = data.traits();
+    if (!type_.has_constant_numbers(data)) traits.nearest_copy_is_enough_from = Traits().nearest_copy_is_enough_from;
+    return traits;
   }
 
   bool gives(size_t output) const override {
@@ -301,9 +264,6 @@ class NodeOf final : public Node {
     return requires(const T& t, const Inputs& in, const Point& p) { t.along(in, p); };
   }
   bool has_cell_numbers() const override { return type_.has_cell_numbers(data); }
-  bool gives_cell() const override {
-    return requires { T::gives_cell; };
-  }
 
   const NodeTypeOf<T>& type_;
 };
@@ -317,14 +277,10 @@ consteval bool has_right_methods() {
             requires(const T& t, const Point& p) { Field(t.distance(p)); } ||
             requires(const T& t, const Ask& ask) { Field(t.distance(ask)); },
         "distance is Field distance(const Inputs&, const Point&) const, or takes a Point alone");
-  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::inside)>; })
+  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::membership)>; })
     static_assert(
-        requires(const T& t, const Inputs& in, const Point& p) { std::optional<Field>(t.inside(in, p)); },
-        "inside is Field inside(const Inputs&, const Point&) const");
-  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::interior)>; })
-    static_assert(
-        requires(const T& t, const Inputs& in, const Point& p) { std::optional<Field>(t.interior(in, p)); },
-        "interior is Field interior(const Inputs&, const Point&) const");
+        requires(const T& t, const Inputs& in, const Point& p) { Field(t.membership(in, p, Border::included)); },
+        "membership is Field membership(const Inputs&, const Point&, Border) const");
   if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::composition)>; })
     static_assert(HasComposition<T>,
                   "composition is Composition composition(const Inputs&, const Point&, Demand) const");
@@ -354,6 +310,9 @@ consteval bool has_right_methods() {
         requires(const T& t, const Inputs& in) { Metric(t.metric(in)); } ||
             requires(const T& t) { Metric(t.metric()); },
         "metric is Metric metric(const Inputs&) const, or takes nothing");
+  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::traits)>; })
+    static_assert(
+        requires(const T& t) { Traits(t.traits()); }, "traits is Traits traits() const");
   return true;
 }
 

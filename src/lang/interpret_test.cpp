@@ -282,7 +282,8 @@ TEST(Interpret, StepsAndInstancesAreLimited) {
   EXPECT_NE(result.messages.find("the design makes more than 100 nodes"), std::string::npos);
 }
 
-// With the limits as they are these stop after millions of calls or nodes, which takes seconds, instead of milliards.
+// With the limits as they are these stop after millions of calls or nodes, which takes seconds, instead of 10^9 of
+// them.
 TEST(Interpret, WhatDoublesAtEachLevelIsLimited) {
   Options options;
   options.limits.calls = 5000;

@@ -31,14 +31,11 @@ struct Array {
     return metric.is_implicit() ? metric : Metric::bounded(std::max(1.0, metric.lipschitz));
   }
 
-  double repetitions() const { return self().most_asked_at_once(); }
+  Traits traits() const { return {.most_evaluations_of_input = self().most_asked_at_once()}; }
 
-  Field inside(const Inputs& in, const Point& p) const {
-    return program::fold(insides(in, self().holding(p)), program::logical_or);
-  }
-  Field interior(const Inputs& in, const Point& p) const {
+  Field membership(const Inputs& in, const Point& p, Border border) const {
     std::vector<Field> marks;
-    for (const Point& q : self().holding(p)) marks.push_back(in.interior(0, q));
+    for (const Point& q : self().holding(p)) marks.push_back(in.membership(0, q, border));
     return program::fold(marks, program::logical_or);
   }
   Field distance(const Inputs& in, const Point& p) const {
@@ -49,7 +46,7 @@ struct Array {
     const std::vector<Point> asked = points(p, demand);
     std::vector<Composition> compositions;
     for (const Point& q : asked) compositions.push_back(in.composition(0, q, demand));
-    const std::vector<Field> marks = owners(in, p, asked, demand);
+    const std::vector<Field> marks = holders(in, p, asked, demand);
     const Choice rule = self().materials;
     return weighted(compositions, rule == "first" ? first_true(marks) : rule == "last" ? last_true(marks) : marks);
   }
@@ -59,7 +56,7 @@ struct Array {
     std::vector<Field> values;
     for (const Point& q : asked) values.push_back(in.attribute(0, name, q, demand));
     const AttributeDeclaration declaration = in.declaration(name);
-    return overlapping_values(values, owners(in, p, asked, demand), declaration.overlap,
+    return overlapping_values(values, holders(in, p, asked, demand), declaration.overlap,
                               p.constant(default_of(declaration, name)));
   }
 
@@ -85,7 +82,7 @@ struct Array {
   }
 
   // The copies that hold the point; where none does and it matters, the nearest.
-  std::vector<Field> owners(const Inputs& in, const Point& p, const std::vector<Point>& asked, Demand demand) const {
+  std::vector<Field> holders(const Inputs& in, const Point& p, const std::vector<Point>& asked, Demand demand) const {
     std::vector<Field> marks = insides(in, asked);
     if (demand == Demand::inside) return marks;
     const Field none = logical_not(program::fold(marks, program::logical_or));

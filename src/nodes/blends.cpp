@@ -7,6 +7,7 @@
 
 namespace ombre::nodes {
 
+using design::Border;
 using design::Composition;
 using design::Demand;
 using design::Falloff;
@@ -32,7 +33,7 @@ std::vector<Field> shares(const Inputs& in, const Point& p, Demand demand, std::
     for (size_t i = 0; i < result.size(); ++i) result[i] = select(reached, result[i], close[i]);
   }
   if (rule == "blend") return result;
-  std::vector<Field> marks = in.insides(p);
+  std::vector<Field> marks = in.memberships(p, Border::included);
   const Field any = program::fold(marks, program::logical_or);
   if (rule == "first") marks = first_true(marks);
   if (rule == "last") marks = last_true(marks);
@@ -100,14 +101,11 @@ Field Blend::distance(Field total, Field least, const Point& p) const {
   return max(radius(p), least) - (is_chamfer ? total : sqrt(total));
 }
 
-Field Blend::inside(Field total, Field any, const Point& p) const {
-  const Field held = less_equal(full(p), total);
-  return radius.constant() ? held : logical_or(any, logical_and(held, less(p.constant(0), radius(p))));
-}
-
-Field Blend::interior(Field total, Field any, const Point& p) const {
-  const Field held = less(full(p), total);
-  return radius.constant() ? held : logical_or(any, held);
+Field Blend::membership(Field total, Field any, const Point& p, Border border) const {
+  const Field held = at_most(full(p), total, border);
+  if (radius.constant()) return held;
+  // Where the radius is 0 nothing is joined: 0 <= 0 would hold everywhere.
+  return logical_or(any, border == Border::excluded ? held : logical_and(held, less(p.constant(0), radius(p))));
 }
 
 double Blend::lipschitz(size_t solids) const {
@@ -128,22 +126,21 @@ std::vector<Field> weights(const Inputs& in, const Point& p, const Falloff& fall
   return result;
 }
 
-Felt felt(const Inputs& in, const Point& p, PartQuery query, const Falloff& falloff) {
-  const bool interior = query == PartQuery::interior;
+Influence influence_of(const Inputs& in, const Point& p, PartQuery query, const Falloff& falloff) {
+  const Border border = query == PartQuery::interior ? Border::excluded : Border::included;
   const auto parts = in.many_parts(query, p, &falloff);
   if (!parts)
-    return {program::sum(weights(in, p, falloff)),
-            program::fold(interior ? in.interiors(p) : in.insides(p), program::logical_or)};
-  Felt sum{parts->weight, parts->inside};
+    return {program::sum(weights(in, p, falloff)), program::fold(in.memberships(p, border), program::logical_or)};
+  Influence sum{parts->weight, parts->inside};
   for (const size_t i : parts->others) {
     sum.total = sum.total + falloff.weight(in.distance(i, p), p);
-    sum.any = logical_or(sum.any, interior ? in.interior(i, p) : in.inside(i, p));
+    sum.any = logical_or(sum.any, in.membership(i, p, border));
   }
   return sum;
 }
 
-Composition felt_composition(const Inputs& in, const Point& p, Demand demand, std::string_view rule,
-                             const Falloff& falloff) {
+Composition blended_composition(const Inputs& in, const Point& p, Demand demand, std::string_view rule,
+                                const Falloff& falloff) {
   if (in.count() == 1) return in.composition(0, p, demand);
   const auto parts = demand == Demand::inside ? in.many_parts(query_for(rule), p, &falloff) : std::nullopt;
   const bool in_order = rule == "first" || rule == "last";
@@ -151,8 +148,8 @@ Composition felt_composition(const Inputs& in, const Point& p, Demand demand, st
   return weighted(in, p, Demand::everywhere, shares(in, p, demand, rule, falloff));
 }
 
-Field felt_attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand, const Falloff& falloff,
-                     const design::AttributeDeclaration& declaration) {
+Field blended_attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand, const Falloff& falloff,
+                        const design::AttributeDeclaration& declaration) {
   if (in.count() == 1) return in.attribute(0, name, p, demand);
   const bool weighs = declaration.overlap == design::Overlap::mix;
   std::vector<Field> marks;

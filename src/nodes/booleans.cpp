@@ -33,7 +33,7 @@ AttributeDeclaration declaration_here(const Inputs& in, std::string_view part, c
 
 // Weights of inputs that contain the point; where none does and it matters, the nearest counts.
 std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand demand, std::string_view rule) {
-  std::vector<Field> marks = in.insides(p);
+  std::vector<Field> marks = in.memberships(p, Border::included);
   if (demand == Demand::everywhere) {
     const Field none = logical_not(program::fold(marks, program::logical_or));
     const std::vector<Field> close = nearest(in.distances(p));
@@ -95,7 +95,7 @@ struct Union {
       for (size_t i = 0; i < in.count(); ++i) box = hull(box, in.reach(i, where, margin));
       return box;
     }
-    const std::vector<size_t> company = companies(in, where);
+    const std::vector<size_t> company = overlap_counts(in, where);
     for (size_t i = 0; i < in.count(); ++i) {
       const double farther = blend().reach(company[i], where, margin);
       box = hull(box, in.reach(i, where, company[i] == 1 ? margin : farther));
@@ -110,33 +110,22 @@ struct Union {
     return blend().distance(total, least, p);
   }
 
-  Field inside(const Inputs& in, const Point& p) const {
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    const PartQuery asked = border == Border::included ? query() : PartQuery::interior;
     if (!blend().is_plain() && in.count() > 1) {
-      const Felt all = felt(in, p, query(), blend().falloff());
-      return blend().inside(all.total, all.any, p);
+      const Influence all = influence_of(in, p, asked, blend().falloff());
+      return blend().membership(all.total, all.any, p, border);
     }
-    const auto parts = in.many_parts(query(), p);
-    if (!parts) return program::fold(in.insides(p), program::logical_or);
+    const auto parts = in.many_parts(asked, p);
+    if (!parts) return program::fold(in.memberships(p, border), program::logical_or);
     Field any = parts->inside;
-    for (const size_t i : parts->others) any = logical_or(any, in.inside(i, p));
-    return any;
-  }
-
-  Field interior(const Inputs& in, const Point& p) const {
-    if (!blend().is_plain() && in.count() > 1) {
-      const Felt all = felt(in, p, PartQuery::interior, blend().falloff());
-      return blend().interior(all.total, all.any, p);
-    }
-    const auto parts = in.many_parts(PartQuery::interior, p);
-    if (!parts) return program::fold(in.interiors(p), program::logical_or);
-    Field any = parts->inside;
-    for (const size_t i : parts->others) any = logical_or(any, in.interior(i, p));
+    for (const size_t i : parts->others) any = logical_or(any, in.membership(i, p, border));
     return any;
   }
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     if (in.count() == 1) return in.composition(0, p, demand);
-    if (!blend().is_plain()) return felt_composition(in, p, demand, materials.text(), blend().falloff());
+    if (!blend().is_plain()) return blended_composition(in, p, demand, materials.text(), blend().falloff());
     const auto parts = demand == Demand::inside ? in.many_parts(query(), p) : std::nullopt;
     if (parts && materials == "mix") return mixed(in, p, *parts);
     if (parts && parts->others.empty()) return parts->composition;
@@ -147,13 +136,13 @@ struct Union {
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
     if (in.count() == 1) return in.attribute(0, name, p, demand);
     const AttributeDeclaration here = declaration_here(in, name, attribute_words);
-    if (!blend().is_plain()) return felt_attribute(in, name, p, demand, blend().falloff(), here);
+    if (!blend().is_plain()) return blended_attribute(in, name, p, demand, blend().falloff(), here);
     return overlapping_attribute(in, name, p, demand, overlap_weights(in, p, demand, "mix"), here);
   }
 
  private:
-  // For each input, how many may be felt where it is, itself included. Of very many all are counted.
-  std::vector<size_t> companies(const Inputs& in, const Box& where) const {
+  // For each input, the number of inputs whose influence may reach it, itself included; of very many all are counted.
+  std::vector<size_t> overlap_counts(const Inputs& in, const Box& where) const {
     constexpr size_t few = 64;
     const size_t count = in.count();
     if (count > few) return std::vector<size_t>(count, count);
@@ -213,11 +202,10 @@ struct Carved {
     return program::sum(values);
   }
   Field distance(const Point& p) const { return -blend.distance(total(p), program::fold(depths, program::min), p); }
-  // In the whole where the joint's interior is not.
-  Field inside(Field any_outside, const Point& p) const {
-    return logical_not(blend.interior(total(p), any_outside, p));
+  // In the whole where the joint is not; the border belongs to one of both.
+  Field membership(Field any_outside, const Point& p, Border border) const {
+    return logical_not(blend.membership(total(p), any_outside, p, other(border)));
   }
-  Field interior(Field any_beyond, const Point& p) const { return logical_not(blend.inside(total(p), any_beyond, p)); }
 };
 
 struct Intersection {
@@ -253,13 +241,9 @@ struct Intersection {
   Field distance(const Inputs& in, const Point& p) const {
     return is_sharp(in) ? program::fold(in.distances(p), greatest) : carved(in, p).distance(p);
   }
-  Field inside(const Inputs& in, const Point& p) const {
-    const Field all = program::fold(in.insides(p), program::logical_and);
-    return is_sharp(in) ? all : carved(in, p).inside(logical_not(all), p);
-  }
-  Field interior(const Inputs& in, const Point& p) const {
-    const Field all = program::fold(in.interiors(p), program::logical_and);
-    return is_sharp(in) ? all : carved(in, p).interior(logical_not(all), p);
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    const Field all = program::fold(in.memberships(p, border), program::logical_and);
+    return is_sharp(in) ? all : carved(in, p).membership(logical_not(all), p, border);
   }
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
@@ -310,18 +294,11 @@ struct Difference {
   }
 
   // The surface of what is cut away belongs to both.
-  Field inside(const Inputs& in, const Point& p) const {
-    std::vector<Field> marks = in.interiors(p);
-    marks[0] = in.inside(0, p);
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    std::vector<Field> marks = in.memberships(p, other(border));
+    marks[0] = in.membership(0, p, border);
     const Field left = without(marks);
-    return is_sharp(in) ? left : carved(in, p).inside(logical_not(left), p);
-  }
-
-  Field interior(const Inputs& in, const Point& p) const {
-    std::vector<Field> marks = in.insides(p);
-    marks[0] = in.interior(0, p);
-    const Field left = without(marks);
-    return is_sharp(in) ? left : carved(in, p).interior(logical_not(left), p);
+    return is_sharp(in) ? left : carved(in, p).membership(logical_not(left), p, border);
   }
 
  private:
@@ -349,8 +326,9 @@ struct Negate {
 
   Box reach(const Inputs&, const Box& where, double) const { return where; }
   Field distance(const Inputs& in, const Point& p) const { return -in.distance(0, p); }
-  Field inside(const Inputs& in, const Point& p) const { return logical_not(in.interior(0, p)); }
-  Field interior(const Inputs& in, const Point& p) const { return logical_not(in.inside(0, p)); }
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    return logical_not(in.membership(0, p, other(border)));
+  }
 
   Composition composition(const Inputs& in, const Point& p, Demand) const {
     return in.composition(0, p, Demand::everywhere);

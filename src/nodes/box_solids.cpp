@@ -27,7 +27,7 @@ struct Cube {
     return Box::centered({h, h, h});
   }
 
-  static std::array<bool, 3> nearest_copy_is_enough(Vec3) { return grows_outward; }
+  Traits traits() const { return grows_outward; }
 
   Field distance(const Point& p) const {
     const Field half = side(p) * 0.5;
@@ -51,7 +51,7 @@ struct RectPrism {
 
   Box bounds(const Box& where) const { return Box::centered(0.5 * size.upper(where)); }
 
-  static std::array<bool, 3> nearest_copy_is_enough(Vec3) { return grows_outward; }
+  Traits traits() const { return grows_outward; }
 
   Field distance(const Point& p) const {
     return corner(abs(p.x) - size.x(p) * 0.5, abs(p.y) - size.y(p) * 0.5, abs(p.z) - size.z(p) * 0.5);

@@ -113,8 +113,7 @@ struct SolidOfParts {
 
   Box bounds(const Box&) const { return bounds_of(parts); }
   Field distance(const Point& p) const { return least_distance(parts, p); }
-  Field inside(const Inputs&, const Point& p) const { return inside_any(parts, p); }
-  Field interior(const Inputs& in, const Point& p) const { return inside(in, p); }
+  Field membership(const Inputs&, const Point& p, Border) const { return inside_any(parts, p); }
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     return composition_of(parts, in, p, demand);
   }
@@ -296,8 +295,7 @@ struct Cad {
   Metric metric() const { return parts->size() == 1 && parts->front().is_single ? Metric::exact() : Metric::bounded(); }
   Box bounds(const Box&) const { return bounds_of(*parts); }
   Field distance(const Inputs& in, const Point& p) const { return least_distance(made(in), p); }
-  Field inside(const Inputs& in, const Point& p) const { return inside_any(made(in), p); }
-  Field interior(const Inputs& in, const Point& p) const { return inside(in, p); }
+  Field membership(const Inputs& in, const Point& p, Border) const { return inside_any(made(in), p); }
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     return composition_of(made(in), in, p, demand);
   }
@@ -308,7 +306,7 @@ struct Cad {
     for (size_t n = 0; n < parts->size(); ++n) {
       const CadPart& part = (*parts)[n];
       sources.push_back({part_materials[n], part.source->make(in.scale())});
-      for (const Remark& r : part.source->remarks(in.scale())) in.tell(r.severity, r.message, r.hint);
+      for (const Remark& r : part.source->remarks(in.scale())) in.report(r.severity, r.message, r.hint);
     }
     return sources;
   }

@@ -99,10 +99,10 @@ class SimplexNoise final : public Octaves {
     std::array<int, 3> order{0, 1, 2};
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return first[a] > first[b]; });
     std::array<int64_t, 3> corner = cell;
-    double total = felt(corner, p, seed);
+    double total = influence(corner, p, seed);
     for (const int axis : order) {
       ++corner[static_cast<size_t>(axis)];
-      total += felt(corner, p, seed);
+      total += influence(corner, p, seed);
     }
     return std::clamp(0.5 + 0.5 * total / peak, 0.0, 1.0);
   }
@@ -113,7 +113,7 @@ class SimplexNoise final : public Octaves {
     return at - Vec3{back, back, back};
   }
 
-  static double felt(const std::array<int64_t, 3>& corner, Vec3 p, uint64_t seed) {
+  static double influence(const std::array<int64_t, 3>& corner, Vec3 p, uint64_t seed) {
     const Vec3 from = p - unskewed(corner);
     const double near = 0.5 - dot(from, from);
     if (near <= 0) return 0;

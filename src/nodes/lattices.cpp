@@ -56,13 +56,14 @@ struct Lattice {
 
   Metric metric() const { return segments_.size() == 1 ? Metric::exact() : Metric::bounded(); }
 
-  // The neighbours are mirror images, with their struts beyond the mirror.
-  std::array<bool, 3> nearest_copy_is_enough(Vec3 steps) const {
-    if (!is_mirrored()) return {};
-    return {steps.x >= size.x, steps.y >= size.y, steps.z >= size.z};
+  Traits traits() const {
+    Traits traits{.instances = segments_.size()};
+    if (cell == "none") return traits;
+    traits.cell_size = size;
+    // Of a mirrored cell, the neighbours are mirror images, with their struts beyond the mirror.
+    if (is_mirrored()) traits.nearest_copy_is_enough_from = size;
+    return traits;
   }
-
-  size_t own_parts() const { return segments_.size(); }
 
   // Nothing where they are no conical frusta.
   std::optional<std::vector<StrutShape>> shapes() const {
@@ -76,8 +77,6 @@ struct Lattice {
     return shapes;
   }
 
-  std::optional<Vec3> pitch() const { return cell == "none" ? std::nullopt : std::optional(size); }
-
   Box bounds(const Box& where) const {
     Box box;
     const double greatest = radius.range(where, {{"t", {0, 1}}}).hi;
@@ -90,16 +89,11 @@ struct Lattice {
     return nearest(q, struts_here());
   }
 
-  Field inside(const Inputs& in, const Point& p) const {
-    if (const auto parts = table(in, PartQuery::mix, p)) return parts->inside;
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    const PartQuery query = border == Border::included ? PartQuery::mix : PartQuery::interior;
+    if (const auto parts = table(in, query, p)) return parts->inside;
     const std::vector<const Strut*> near = struts_near(p);
-    return near.empty() ? p.constant(0) : nearest(folded(p), near) <= 0;
-  }
-
-  Field interior(const Inputs& in, const Point& p) const {
-    if (const auto parts = table(in, PartQuery::interior, p)) return parts->inside;
-    const std::vector<const Strut*> near = struts_near(p);
-    return near.empty() ? p.constant(0) : nearest(folded(p), near) < 0;
+    return near.empty() ? p.constant(0) : at_most(nearest(folded(p), near), 0, border);
   }
 
   // That of the strut whose surface is nearest; of very many the first that holds the point.
@@ -150,8 +144,9 @@ struct Lattice {
     Field distance(const Inputs&, size_t i, const Point& p) const override {
       return lattice_.segments_[i].distance(p, lattice_.radius);
     }
-    Field inside(const Inputs& in, size_t i, const Point& p) const override { return distance(in, i, p) <= 0; }
-    Field interior(const Inputs& in, size_t i, const Point& p) const override { return distance(in, i, p) < 0; }
+    Field membership(const Inputs& in, size_t i, const Point& p, Border border) const override {
+      return at_most(distance(in, i, p), 0, border);
+    }
     Field along(const Inputs&, size_t i, const Point& p) const override { return lattice_.segments_[i].along(p); }
     Composition composition(const Inputs& in, size_t, const Point& p, Demand) const override {
       return in.composition_of(lattice_.material, p);
@@ -223,7 +218,7 @@ struct Lattice {
 
 size_t lattice_strut_count(const design::Node& node) {
   const auto* lattice = dynamic_cast<const NodeOf<Lattice>*>(&node);
-  return lattice ? lattice->data.own_parts() : 0;
+  return lattice ? lattice->data.traits().instances : 0;
 }
 
 std::optional<std::vector<StrutShape>> lattice_struts(const design::Node& node) {

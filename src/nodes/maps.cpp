@@ -78,11 +78,13 @@ struct ConformalMap {
   }
 
   Metric metric() const { return Metric::implicit(); }
-  double repetitions() const { return 7; }  // the base: at the point, and twice along each axis
+  // Of the base: at the point, and twice along each axis.
+  Traits traits() const { return {.most_evaluations_of_input = 7}; }
 
   Field distance(const Inputs& in, const Point& p) const { return in.distance(1, place(in, p)); }
-  Field inside(const Inputs& in, const Point& p) const { return in.inside(1, place(in, p)); }
-  Field interior(const Inputs& in, const Point& p) const { return in.interior(1, place(in, p)); }
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    return in.membership(1, place(in, p), border);
+  }
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     return in.composition(1, place(in, p), demand);
   }
@@ -148,16 +150,15 @@ struct SurfaceMap {
   }
 
   Metric metric() const { return Metric::implicit(); }
-  double repetitions() const { return 14; }  // a surface: at a point, and twice along each axis, for two points
+  // Of a surface: at a point, and twice along each axis, for two points.
+  Traits traits() const { return {.most_evaluations_of_input = 14}; }
 
   Field distance(const Inputs& in, const Point& p) const {
     return max(in.distance(2, place(in, p)), abs(in.distance(1, p)) - height);
   }
-  Field inside(const Inputs& in, const Point& p) const {
-    return logical_and(in.inside(2, place(in, p)), less_equal(abs(in.distance(1, p)), p.constant(height)));
-  }
-  Field interior(const Inputs& in, const Point& p) const {
-    return logical_and(in.interior(2, place(in, p)), less(abs(in.distance(1, p)), p.constant(height)));
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    return logical_and(in.membership(2, place(in, p), border),
+                       at_most(abs(in.distance(1, p)), p.constant(height), border));
   }
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     return in.composition(2, place(in, p), demand);

@@ -90,15 +90,10 @@ struct PolygonExtrude {
   }
 
   // Along voxel rows this needs no distances.
-  std::optional<Field> inside(const Inputs&, const Point& p) const {
-    if (taper != 0) return distance(p) <= 0;
+  Field membership(const Inputs&, const Point& p, Border border) const {
+    if (taper != 0) return at_most(distance(p), 0, border);
     const Point at = p.mapped(inverse(here_from_plane));
-    return logical_and(truth(ask(outline, "inside", at.x, at.y)), beyond_ends(at.z) <= 0);
-  }
-  std::optional<Field> interior(const Inputs&, const Point& p) const {
-    if (taper != 0) return distance(p) < 0;
-    const Point at = p.mapped(inverse(here_from_plane));
-    return logical_and(truth(ask(outline, "inside", at.x, at.y)), beyond_ends(at.z) < 0);
+    return logical_and(truth(ask(outline, "inside", at.x, at.y)), at_most(beyond_ends(at.z), 0, border));
   }
 
  private:
@@ -175,8 +170,10 @@ struct Revolve {
     return select(faces(p, false), within, min(from_end(p, 0), from_end(p, angle)));
   }
 
-  std::optional<Field> inside(const Inputs&, const Point& p) const { return holds(p, false); }
-  std::optional<Field> interior(const Inputs&, const Point& p) const { return holds(p, true); }
+  Field membership(const Inputs&, const Point& p, Border border) const {
+    const Field ring = truth(ask(outline, "inside", length(p.x, p.y), p.z));
+    return angle == 360 ? ring : logical_and(ring, faces(p, border == Border::excluded));
+  }
 
  private:
   static Domain turns() {
@@ -211,11 +208,6 @@ struct Revolve {
     const auto not_below = [&](Field value) { return strictly ? 0.0 - value < 0 : 0.0 - value <= 0; };
     const Field behind_first = not_below(end_at(p, 0).across), before_last = not_below(-end_at(p, angle).across);
     return angle <= 180 ? logical_and(behind_first, before_last) : logical_or(behind_first, before_last);
-  }
-
-  Field holds(const Point& p, bool strictly) const {
-    const Field ring = truth(ask(outline, "inside", length(p.x, p.y), p.z));
-    return angle == 360 ? ring : logical_and(ring, faces(p, strictly));
   }
 };
 

@@ -244,7 +244,7 @@ Lowered lower(const NodePtr& node, const MaterialTable& materials, Demand demand
   Lowering lowering(context, builder);
   const Point p = Point::origin_frame(builder);
   std::vector<std::pair<std::string, Field>> outputs{{"inside", lowering.inside(*node, p)},
-                                                     {"interior", lowering.interior(*node, p)},
+                                                     {"interior", lowering.membership(*node, p, Border::excluded)},
                                                      {"distance", lowering.distance(*node, p)}};
   const Composition composition = lowering.composition(*node, p, demand);
   for (const auto& [id, fraction] : composition.fractions) outputs.emplace_back("fraction", fraction);

@@ -29,7 +29,7 @@ struct Sphere {
     return Box::centered({r, r, r});
   }
 
-  static std::array<bool, 3> nearest_copy_is_enough(Vec3) { return grows_outward; }
+  Traits traits() const { return grows_outward; }
 
   Field distance(const Point& p) const { return length(p.x, p.y, p.z) - radius(p); }
 };
@@ -57,7 +57,7 @@ struct Ellipsoid {
     return Box::centered((margin > 0 ? 1 + margin / least : 1) * radii.upper(where));
   }
 
-  static std::array<bool, 3> nearest_copy_is_enough(Vec3) { return grows_outward; }
+  Traits traits() const { return grows_outward; }
 
   Field distance(const Point& p) const {
     const Field a = radii.x(p), b = radii.y(p), c = radii.z(p);
@@ -85,7 +85,7 @@ struct Cylinder {
     return Box::centered({r, r, height.range(where).hi / 2});
   }
 
-  static std::array<bool, 3> nearest_copy_is_enough(Vec3) { return grows_outward; }
+  Traits traits() const { return grows_outward; }
 
   Field distance(const Point& p) const { return corner(length(p.x, p.y) - radius(p), abs(p.z) - height(p) * 0.5); }
 };

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "design/node.h"
 #include "program/field.h"
 
 namespace ombre::nodes {
@@ -11,7 +12,7 @@ using program::Field;
 using program::Point;
 
 // Solids whose g grows away from the planes x = 0, y = 0 and z = 0, so that of copies the nearest has the least.
-inline constexpr std::array<bool, 3> grows_outward{true, true, true};
+inline const design::Traits grows_outward{.nearest_copy_is_enough_from = Vec3{}};
 
 // A rotation that takes a direction to the z axis; what is at a right angle to it and nearest to x (or y, where the
 // direction is x) comes to lie along x.

@@ -27,10 +27,9 @@ struct Marked {
   program::Field distance(const design::Inputs& in, const program::Point& p) const {
     return read_channel(in, stage, "distance", p);
   }
-  program::Field inside(const design::Inputs& in, const program::Point& p) const {
+  program::Field membership(const design::Inputs& in, const program::Point& p, design::Border) const {
     return truth(read_channel(in, stage, "inside", p));
   }
-  program::Field interior(const design::Inputs& in, const program::Point& p) const { return inside(in, p); }
   design::Composition composition(const design::Inputs& in, const program::Point& p, design::Demand) const {
     return in.composition(0, p, design::Demand::everywhere);
   }

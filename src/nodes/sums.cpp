@@ -59,24 +59,20 @@ struct Sum {
     return blend(p) * (sin(angle) * 2.0);
   }
 
-  Field inside(const Inputs& in, const Point& p) const {
-    if (is_level_set()) return distance(in, p) <= 0;
-    return less_equal(p.constant(0.5), felt(in, p, PartQuery::mix, falloff()).total);
-  }
-
-  Field interior(const Inputs& in, const Point& p) const {
-    if (is_level_set()) return distance(in, p) < 0;
-    return less(p.constant(0.5), felt(in, p, PartQuery::interior, falloff()).total);
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    if (is_level_set()) return at_most(distance(in, p), 0, border);
+    const PartQuery query = border == Border::included ? PartQuery::mix : PartQuery::interior;
+    return at_most(p.constant(0.5), influence_of(in, p, query, falloff()).total, border);
   }
 
   // Children that contain the point count alike; else those within reach count by their falloff; else the nearest does.
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    if (!is_level_set()) return felt_composition(in, p, demand, "mix", falloff());
+    if (!is_level_set()) return blended_composition(in, p, demand, "mix", falloff());
     return weighted(in, p, Demand::everywhere, holders_or_nearest(in, p));
   }
 
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
-    if (!is_level_set()) return felt_attribute(in, name, p, demand, falloff(), in.declaration(name));
+    if (!is_level_set()) return blended_attribute(in, name, p, demand, falloff(), in.declaration(name));
     return overlapping_attribute(in, name, p, Demand::everywhere, holders_or_nearest(in, p), in.declaration(name));
   }
 
@@ -88,7 +84,7 @@ struct Sum {
   }
 
   static std::vector<Field> holders_or_nearest(const Inputs& in, const Point& p) {
-    std::vector<Field> marks = in.insides(p);
+    std::vector<Field> marks = in.memberships(p, Border::included);
     const Field any = program::fold(marks, program::logical_or);
     const std::vector<Field> close = nearest(in.distances(p));
     for (size_t i = 0; i < marks.size(); ++i) marks[i] = select(any, marks[i], close[i]);

@@ -61,13 +61,9 @@ struct Support {
   Field distance(const Inputs& in, const Point& p) const {
     return max(read(in, "distance", p), clearance - in.distance(0, p));
   }
-  Field inside(const Inputs& in, const Point& p) const {
-    const Field is_free =
-        clearance > 0 ? less_equal(p.constant(clearance), in.distance(0, p)) : logical_not(in.interior(0, p));
-    return logical_and(truth(read(in, "inside", p)), is_free);
-  }
-  Field interior(const Inputs& in, const Point& p) const {
-    const Field is_free = clearance > 0 ? less(p.constant(clearance), in.distance(0, p)) : logical_not(in.inside(0, p));
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    const Field is_free = clearance > 0 ? at_most(p.constant(clearance), in.distance(0, p), border)
+                                        : logical_not(in.membership(0, p, other(border)));
     return logical_and(truth(read(in, "inside", p)), is_free);
   }
 

@@ -69,11 +69,8 @@ struct Letters {
 
   Field distance(const Point& p) const { return corner(ask("distance", p), beyond_ends(p)); }
   // Along voxel rows this needs no distances.
-  Field inside(const Inputs&, const Point& p) const {
-    return logical_and(truth(ask("inside", p)), beyond_ends(p) <= 0);
-  }
-  Field interior(const Inputs&, const Point& p) const {
-    return logical_and(truth(ask("inside", p)), beyond_ends(p) < 0);
+  Field membership(const Inputs&, const Point& p, Border border) const {
+    return logical_and(truth(ask("inside", p)), at_most(beyond_ends(p), 0, border));
   }
 
  private:

@@ -15,8 +15,6 @@ using namespace design;
 // Copies moved by whole multiples of the steps. A point is brought back into the cell around the child; the copies
 // that may matter there are asked: the own one, and neighbours that reach into it.
 struct Tile {
-  static constexpr bool gives_cell = true;
-
   std::optional<Vec3> size, first, last;
 
   static Spec<Tile> spec() {
@@ -41,9 +39,9 @@ struct Tile {
     };
     const Box box = inputs[0]->bounds(design_space());
     if (box.is_empty()) return fail("there is nothing in tile's braces to repeat", "");
-    const Vec3 step = size.value_or(inputs[0]->pitch().value_or(box.size()));
+    const Traits traits = inputs[0]->traits_of_shape();
+    const Vec3 step = size.value_or(traits.cell_size.value_or(box.size()));
     if (step == Vec3{}) return fail("tile repeats along no axis", "write for example tile((10, 10, 0))");
-    const std::array<bool, 3> is_one_enough = inputs[0]->nearest_copy_is_enough(step);
     double copies = 1;
     for (int n = 0; n < 3; ++n) {
       Axis& axis = axes_[static_cast<size_t>(n)];
@@ -60,7 +58,7 @@ struct Tile {
         return fail("what tile repeats has no end along " + std::string(1, "xyz"[n]),
                     inputs[0]->uses_cell() ? "bound sizes that use ci, cj or ck, for example clamp(0.5, 1 + 0.1*ci, 2)"
                                            : "cut it to size first, or write 0 for that axis");
-      axis.is_one_enough = is_one_enough[static_cast<size_t>(n)];
+      axis.is_one_enough = step[n] >= traits.nearest_copy_is_enough_from[n];
       axis.middle = axis.is_one_enough ? 0 : 0.5 * (axis.lo + axis.hi);
       copies *= 2 * axis.neighbours(true) + 1;
     }
@@ -73,7 +71,7 @@ struct Tile {
                 "give steps at least half as long as the child is");
   }
 
-  double repetitions() const { return repetitions_; }
+  Traits traits() const { return {.most_evaluations_of_input = repetitions_, .gives_cell = true}; }
 
   TileCopies all_copies() const {
     TileCopies copies;
@@ -113,13 +111,9 @@ struct Tile {
     return program::fold(fields, program::min);
   }
 
-  Field inside(const Inputs& in, const Point& p) const {
-    return program::fold(marks(in, copies(p, false, Order::any)), program::logical_or);
-  }
-
-  Field interior(const Inputs& in, const Point& p) const {
+  Field membership(const Inputs& in, const Point& p, Border border) const {
     std::vector<Field> fields;
-    for (const Point& q : copies(p, false, Order::any)) fields.push_back(in.interior(0, q));
+    for (const Point& q : copies(p, false, Order::any)) fields.push_back(in.membership(0, q, border));
     return program::fold(fields, program::logical_or);
   }
 

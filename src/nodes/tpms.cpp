@@ -128,19 +128,16 @@ struct Tpms {
     return kind == "sheet" ? abs(from_surface) - thickness(p) * 0.5 : from_surface;
   }
 
-  Field inside(const Inputs&, const Point& p) const { return held(p, program::less_equal); }
-  Field interior(const Inputs&, const Point& p) const { return held(p, program::less); }
+  Field membership(const Inputs&, const Point& p, Border border) const {
+    const auto [value, slope] = at(p);
+    if (kind == "solid") return at_most(value, p.constant(0), border);
+    return at_most(square(value), square(thickness(p) * 0.5) * slope, border);
+  }
 
  private:
   struct Sample {
     Field value, squared_slope;  // of the function less the level; the latter by mm
   };
-
-  Field held(const Point& p, Field (*compare)(Field, Field)) const {
-    const auto [value, slope] = at(p);
-    if (kind == "solid") return compare(value, p.constant(0));
-    return compare(square(value), square(thickness(p) * 0.5) * slope);
-  }
 
   static Field phase(Field x, Field length) { return x / length * (2 * std::numbers::pi); }
   Field phase_x(const Point& p) const { return phase(p.x, cell.x(p)); }

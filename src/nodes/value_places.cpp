@@ -98,7 +98,7 @@ struct At {
 
   bool gives(size_t output) const { return output == (what.material.is_given() ? 1 : 0); }
   // What it asks lies at other points than itself.
-  double repetitions() const { return 2; }
+  Traits traits() const { return {.most_evaluations_of_input = 2}; }
 
   Field value(const Ask& ask) const { return what.number(moved(ask.p)); }
   Composition mixture(const Ask& ask) const { return ask.in.composition_of(what.material, moved(ask.p)); }

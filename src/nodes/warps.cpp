@@ -335,12 +335,8 @@ struct FormulaWarp {
     const Field box = from_box(p);
     return select(box <= 0, value, program::max(value, box));
   }
-  Field inside(const Inputs& in, const Point& p) const {
-    const Field mark = in.inside(0, inner(p));
-    return min ? logical_and(from_box(p) <= 0, mark) : mark;
-  }
-  Field interior(const Inputs& in, const Point& p) const {
-    const Field mark = in.interior(0, inner(p));
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    const Field mark = in.membership(0, inner(p), border);
     return min ? logical_and(from_box(p) <= 0, mark) : mark;
   }
 

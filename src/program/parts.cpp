@@ -257,15 +257,15 @@ void PartIndex::append(const PartIndex& later) {
 
 void PartIndex::build() {
   piece_begins_.push_back(static_cast<uint32_t>(pieces_.size()));
-  knots_.clear();
+  tree_.clear();
   if (parts_.empty()) return;
-  knots_.reserve(2 * leaves_of(parts_.size()) - 1);
+  tree_.reserve(2 * leaves_of(parts_.size()) - 1);
   build(0, static_cast<uint32_t>(parts_.size()));
 }
 
 // Halves at the median of the middles along the longest side.
 uint32_t PartIndex::build(uint32_t begin, uint32_t end) {
-  const auto number = static_cast<uint32_t>(knots_.size());
+  const auto number = static_cast<uint32_t>(tree_.size());
   Bounds bounds = parts_[begin].bounds;
   for (uint32_t n = begin; n < end; ++n) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -273,7 +273,7 @@ uint32_t PartIndex::build(uint32_t begin, uint32_t end) {
       bounds.hi[axis] = std::max(bounds.hi[axis], parts_[n].bounds.hi[axis]);
     }
   }
-  knots_.push_back({bounds, begin, end, 0});
+  tree_.push_back({bounds, begin, end, 0});
   if (end - begin <= most_in_leaf) return number;
   int longest = 0;
   for (int axis = 1; axis < 3; ++axis)
@@ -286,38 +286,38 @@ uint32_t PartIndex::build(uint32_t begin, uint32_t end) {
                    });
   build(begin, half);
   const uint32_t right = build(half, end);
-  knots_[number].right = right;
+  tree_[number].right = right;
   return number;
 }
 
 double volume(const Box& box) { return box.size().x * box.size().y * box.size().z; }
 
 double PartIndex::filling() const {
-  if (knots_.empty()) return 0;
+  if (tree_.empty()) return 0;
   double pieces = 0;
   for (const Part& part : parts_)
     visit_pieces(part, part.bounds.box(), [&](uint32_t, const Box& piece) {
       pieces += volume(piece);
       return true;
     });
-  return pieces / volume(knots_[0].bounds.box());
+  return pieces / volume(tree_[0].bounds.box());
 }
 
 template <class Visit>
 void PartIndex::visit(const Box& region, Visit visit) const {
   std::array<uint32_t, 64> open;  // deeper than any tree of 32-bit numbers
   size_t depth = 0;
-  if (!knots_.empty()) open[depth++] = 0;
+  if (!tree_.empty()) open[depth++] = 0;
   while (depth > 0) {
     const uint32_t number = open[--depth];
-    const Knot& knot = knots_[number];
-    if (!knot.bounds.meets(region)) continue;
-    if (knot.right != 0) {
-      open[depth++] = knot.right;
+    const TreeNode& branch = tree_[number];
+    if (!branch.bounds.meets(region)) continue;
+    if (branch.right != 0) {
+      open[depth++] = branch.right;
       open[depth++] = number + 1;
       continue;
     }
-    for (uint32_t n = knot.begin; n < knot.end; ++n)
+    for (uint32_t n = branch.begin; n < branch.end; ++n)
       if (parts_[n].bounds.meets(region) && !visit_pieces(parts_[n], region, visit)) return;
   }
 }

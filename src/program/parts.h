@@ -159,7 +159,7 @@ class PartIndex {
     bool meets(const Box& box) const;
     Box box() const { return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}}; }
   };
-  struct Knot {
+  struct TreeNode {
     Bounds bounds;
     uint32_t begin = 0, end = 0;  // of its parts
     uint32_t right = 0;           // the left one follows; 0: a leaf
@@ -176,7 +176,7 @@ class PartIndex {
   template <class Visit>
   bool visit_pieces(const Part& part, const Box& region, Visit visit) const;
 
-  std::vector<Knot> knots_;
+  std::vector<TreeNode> tree_;
   std::vector<Part> parts_;             // once built, by leaf
   std::vector<Cells> pieces_;           // by number of the part
   std::vector<uint32_t> piece_begins_;  // by number of the part, and an end
