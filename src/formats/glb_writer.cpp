@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/json.h"
-#include "base/math.h"
+#include "base/srgb.h"
 #include "formats/append_numbers.h"
 #include "formats/mesh_writers.h"
 
@@ -17,10 +17,7 @@ constexpr double float_type = 5126, uint16_type = 5123, uint32_type = 5125;
 constexpr double vertex_buffer = 34962, index_buffer = 34963;
 constexpr size_t point_bytes = 12, colour_bytes = 8, triangle_bytes = 12;
 
-double linear(uint8_t srgb) {
-  const double v = srgb / 255.0;
-  return v <= 0.04045 ? v / 12.92 : math::pow((v + 0.055) / 1.055, 2.4);
-}
+double linear(uint8_t srgb) { return linear_of_srgb(srgb / 255.0); }
 
 Data material_of(const MeshMaterial& material, bool is_translucent) {
   const auto& [red, green, blue, alpha] = material.colour;

@@ -5,15 +5,13 @@
 #include <cmath>
 
 #include "base/assert.h"
+#include "base/srgb.h"
 
 namespace ombre::nodes {
 namespace {
 
 constexpr std::string_view texture_channels[] = {"red", "green", "blue", "alpha", "value"};
 constexpr int value_number = 4;
-
-// IEC 61966-2-1.
-double light_of(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
 
 class TextureSource final : public program::FieldSource {
  public:
@@ -25,7 +23,7 @@ class TextureSource final : public program::FieldSource {
         hash_bytes("texture " + content.hex() + (use.repeats ? " repeats" : "") + (use.is_linear ? " light" : ""));
     for (size_t n = 0; n < level_.size(); ++n) {
       const double share = static_cast<double>(n) / 255;
-      level_[n] = use.is_linear ? light_of(share) : share;
+      level_[n] = use.is_linear ? linear_of_srgb(share) : share;
     }
   }
 

@@ -3,9 +3,11 @@
 #include <map>
 
 #include "base/assert.h"
+#include "base/srgb.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
 #include "nodes/all_nodes.h"
+#include "nodes/colour_mixer.h"
 #include "nodes/field_math.h"
 #include "nodes/mixtures.h"
 #include "nodes/solid_values.h"
@@ -29,7 +31,7 @@ Colour each(const Colour& colour, const Change& change) {
 }
 
 // IEC 61966-2-1.
-Field linear_of_srgb(Field v) { return select(v <= 0.04045, v / 12.92, power_of((max(v, 0.0) + 0.055) / 1.055, 2.4)); }
+Field light_of_srgb(Field v) { return select(v <= 0.04045, v / 12.92, power_of((max(v, 0.0) + 0.055) / 1.055, 2.4)); }
 Field srgb_of_linear(Field v) {
   return select(v <= 0.0031308, v * 12.92, power_of(max(v, 0.0), 1 / 2.4) * 1.055 - 0.055);
 }
@@ -91,7 +93,7 @@ Domain colour_spaces() { return one_of({"srgb", "linear", "hsv", "lab"}); }
 Colour to_linear(const Colour& colour, const Choice& space) {
   if (space == "lab") return linear_of_lab(colour);
   if (space == "linear") return colour;
-  return each(space == "hsv" ? rgb_of_hsv(colour) : colour, linear_of_srgb);
+  return each(space == "hsv" ? rgb_of_hsv(colour) : colour, light_of_srgb);
 }
 Colour from_linear(const Colour& colour, const Choice& space) {
   if (space == "lab") return lab_of_linear(colour);
@@ -240,6 +242,21 @@ struct Texture {
   }
 };
 
+// A mixture by shares, of which negative ones and those that are no numbers count as 0; the first alone where all do.
+Composition by_shares(const Ask& ask, const SharedList<MaterialName>& materials, const std::vector<Field>& shares) {
+  const Field zero = ask.p.constant(0);
+  std::vector<Composition> parts;
+  std::vector<Field> weights, known;
+  for (const MaterialName& name : materials) parts.push_back(ask.in.composition_of(name, ask.p));
+  for (const Field raw : shares) {
+    weights.push_back(select(is_finite(raw), max(raw, 0.0), zero));
+    known.push_back(truth(weights.back()));
+  }
+  const Field any = program::fold(known, program::logical_or);
+  weights[0] = select(any, weights[0], ask.p.constant(1));
+  return weighted(parts, weights);
+}
+
 struct MixMany {
   SharedList<MaterialName> materials;
   SharedList<Number> shares;
@@ -266,23 +283,78 @@ struct MixMany {
   }
 
   Composition mixture(const Ask& ask) const {
-    const Field zero = ask.p.constant(0);
-    std::vector<Composition> parts;
-    std::vector<Field> weights, known;
-    for (const MaterialName& name : materials) parts.push_back(ask.in.composition_of(name, ask.p));
-    for (const Number& share : shares) {
-      const Field raw = share(ask.p);
-      weights.push_back(select(is_finite(raw), max(raw, 0.0), zero));
-      known.push_back(truth(weights.back()));
+    std::vector<Field> raw;
+    for (const Number& share : shares) raw.push_back(share(ask.p));
+    return by_shares(ask, materials, raw);
+  }
+};
+
+struct ColourMixture {
+  Numbers3 wanted;
+  SharedList<MaterialName> materials;
+  std::vector<Vec3> colours;  // of the materials, in linear light; with the table, found when the node is made
+  program::SourceField table;
+
+  static Spec<ColourMixture> spec() {
+    return {"colour_mixture",
+            "values",
+            "The mixture of materials that shows a colour: by the mean of their light, and with the least graininess.",
+            {{"colour", &ColourMixture::wanted, "Red, green and blue from 0 to 1 (sRGB)", required()},
+             {"materials", &ColourMixture::materials,
+              "Those that may be mixed, 12 at most; their colours are those of the "
+              "materials file, without their opacity",
+              required()}},
+            no_inputs,
+            "cube(20, colour_mixture(texture(\"models/leaf.png\", 20).colour, [\"red\", \"green\", \"white\", "
+            "\"black\"]));",
+            {{"mixture", &ColourMixture::mixture, "Where no mixture shows the colour, that which comes nearest"},
+             {"difference", &ColourMixture::difference,
+              "How different what it shows looks: the distance in CIE L*a*b* (Delta E of 1976)", Interval(0, 1e6)}}};
+  }
+
+  bool complete(const Reader& reader) {
+    constexpr size_t most = ColourMixer::most_materials;
+    if (materials.empty())
+      return turn_down(reader, "colour_mixture needs a material", "write for example [\"red\", \"white\"]");
+    if (materials.size() > most)
+      return turn_down(reader, "colour_mixture has " + std::to_string(materials.size()) + " materials",
+                       "give " + std::to_string(most) + " at most");
+    for (const MaterialName& name : materials) {
+      const auto& [red, green, blue, alpha] = name.material->colour;
+      colours.push_back({linear_of_srgb(red / 255.0), linear_of_srgb(green / 255.0), linear_of_srgb(blue / 255.0)});
     }
-    const Field any = program::fold(known, program::logical_or);
-    weights[0] = select(any, weights[0], ask.p.constant(1));
-    return weighted(parts, weights);
+    table = make_colour_table(ColourMixer(colours), colours.size());
+    return true;
+  }
+
+  Composition mixture(const Ask& ask) const { return by_shares(ask, materials, shares(ask)); }
+
+  Field difference(const Ask& ask) const {
+    const std::vector<Field> each_share = shares(ask);
+    Colour shown = each(colour_at(wanted, ask.p), [&](Field) { return ask.p.constant(0); });
+    for (size_t n = 0; n < colours.size(); ++n)
+      for (int axis = 0; axis < 3; ++axis) {
+        Field& light = shown[static_cast<size_t>(axis)];
+        light = light + each_share[n] * colours[n][axis];
+      }
+    const Colour p = lab_of_linear(shown), q = lab_of_linear(each(colour_at(wanted, ask.p), light_of_srgb));
+    return length(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  }
+
+ private:
+  std::vector<Field> shares(const Ask& ask) const {
+    const Colour at = colour_at(wanted, ask.p);
+    std::vector<Field> fields;
+    for (size_t n = 0; n < colours.size(); ++n)
+      fields.push_back(ask.p.builder().source(table, static_cast<int>(n), at[0], at[1], at[2]));
+    return fields;
   }
 };
 
 }  // namespace
 
-void add_value_colours(Registry& registry) { registry.add<ColourValue, ColourDifference, Texture, MixMany>(); }
+void add_value_colours(Registry& registry) {
+  registry.add<ColourValue, ColourDifference, Texture, MixMany, ColourMixture>();
+}
 
 }  // namespace ombre::nodes

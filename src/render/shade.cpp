@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/math.h"
+#include "base/srgb.h"
 #include "base/tasks.h"
 
 namespace ombre::render {
@@ -21,10 +22,7 @@ double to_the_40th(double v) {
   return v16 * v16 * v8;
 }
 
-double to_linear(uint8_t value) {
-  const double v = value / 255.0;
-  return v <= 0.04045 ? v / 12.92 : math::pow((v + 0.055) / 1.055, 2.4);
-}
+double to_linear(uint8_t value) { return linear_of_srgb(value / 255.0); }
 
 // The colour halfway between byte values n - 1 and n.
 double border_below(size_t n) {

@@ -334,3 +334,31 @@ def test_vat_in_strict_mode(tmp_path):
     compiler.set_progress_callback(lambda share: compiler.cancel())
     with pytest.raises(RuntimeError, match="cancelled"):
         compiler.compile()
+
+
+def test_colour_inkjet(tmp_path):
+    table = pv.j750_materials
+    gray = pv.RectPrism(origin, pv.Vec3(20, 20, 20))
+    gray.set_attribute("color_rgba", pv.Vec4Attribute(0.5, 0.5, 0.5, 0.75))
+    unsaid = pv.RectPrism(pv.Vec3(0, 0, 20), pv.Vec3(20, 20, 20))
+    compiler = pvc.ColorInkjetCompiler(pv.Union(0.0, [gray, unsaid]), pv.Vec3(1, 1, 1), tmp_path, "c")
+    compiler.compile()
+    counts = compiler.material_voxel_counts()
+    # A quarter of the gray is clear, and all of what has no colour. The rest is black and white by their light.
+    light = lambda v: ((v + 0.055) / 1.055) ** 2.4
+    black, white = light(25 / 255), light(245 / 255)
+    share = (light(0.5) - black) / (white - black)
+    assert counts[table.id("VeroClear")] == pytest.approx(2000 + 8000, rel=0.02)
+    assert counts[table.id("VeroPureWht")] == pytest.approx(6000 * share, rel=0.06)
+    assert set(counts) == {table.id(name) for name in ("VeroClear", "VeroPureWht", "VeroBlack")}
+    assert compiler.resolution() == (20, 20, 40) and (tmp_path / "c39.png").exists()
+    compiler.set_fallback_color((0, 0, 0, 1))
+    compiler.compile()
+    assert compiler.material_voxel_counts()[table.id("VeroClear")] == pytest.approx(2000, rel=0.06)
+    compiler.set_strict_mode(True)
+    with pytest.raises(RuntimeError, match="nothing gives color_rgba"):
+        compiler.compile()
+    with pytest.raises(pv.MissingFeature, match="ICC profile"):
+        pvc.ColorInkjetCompiler(gray, pv.Vec3(1, 1, 1), tmp_path, "c", "fogra39")
+    with pytest.raises(RuntimeError, match="color_rgba"):
+        pvc.ColorInkjetCompiler(ball(), pv.Vec3(1, 1, 1), tmp_path, "c").compile()
