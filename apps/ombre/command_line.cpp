@@ -27,14 +27,27 @@ constexpr const char* program_footer =
     "Exit codes: 0 done, 1 the design or the arguments are wrong, 2 a file or the machine failed,\n"
     "3 a check failed, 130 interrupted.\n";
 
-DataList described_options(const CLI::App& app) {
+// Adds what only the options of jobs say of their values.
+void add_kind(const Command& command, DataMembers& described) {
+  for (const options::Option& option : command.options) {
+    if (option.name() != *described.front().second.string()) continue;
+    DataList choices(option.choices.begin(), option.choices.end());
+    described.emplace_back("kind", option.kind);
+    described.emplace_back("choices", std::move(choices));
+  }
+}
+
+DataList described_options(const Command& command) {
   DataList list;
-  for (const CLI::Option* option : app.get_options())
-    list.emplace_back(DataMembers{{"name", option->get_name()},
-                                  {"help", option->get_description()},
-                                  {"type", option->get_type_name()},
-                                  {"is_flag", option->get_items_expected_max() == 0},
-                                  {"is_list", option->get_items_expected_max() > 1}});
+  for (const CLI::Option* option : command.app->get_options()) {
+    DataMembers described{{"name", option->get_name()},
+                          {"help", option->get_description()},
+                          {"type", option->get_type_name()},
+                          {"is_flag", option->get_items_expected_max() == 0},
+                          {"is_list", option->get_items_expected_max() > 1}};
+    add_kind(command, described);
+    list.emplace_back(std::move(described));
+  }
   return list;
 }
 
@@ -60,7 +73,7 @@ class CommandLine {
     for (const Command& command : commands_)
       list.emplace_back(DataMembers{{"name", command.app->get_name()},
                                     {"help", command.app->get_description()},
-                                    {"options", described_options(*command.app)}});
+                                    {"options", described_options(command)}});
     return list;
   }
 
@@ -75,6 +88,8 @@ class CommandLine {
       return program_.exit(asked);
     } catch (const CLI::ParseError& error) {
       return wrong(explain(program_, error));
+    } catch (const WrongArgument& error) {
+      return wrong(error.what());
     }
     if (!host_.on_event)
       console_.set_voice(output_.json ? Voice::programs : output_.quiet ? Voice::quiet : Voice::people);

@@ -371,11 +371,10 @@ void write_output(const FeaArguments& a, const std::string& path, const Case& he
 }
 
 std::optional<compile::PlanOptions> plan_options_of(const FeaArguments& a, Diagnostics& diagnostics) {
-  JobArguments job;
-  static_cast<DesignArguments&>(job) = a.design;
-  job.voxel = a.cell;
-  job.seed = a.seed;
-  return plan_options(job, diagnostics);
+  compile::SamplingOptions sampling;
+  if (!a.cell.empty()) sampling.voxel = parse_voxel(a.cell, "--cell");
+  sampling.rules.seed = options::parse_seed(a.seed);
+  return plan_options(sampling, diagnostics);
 }
 
 std::optional<compile::Plan> plan_bricks(const FeaArguments& a, const compile::LoadedPtr& loaded, Session& session,
@@ -505,7 +504,7 @@ void check_elements(const FeaArguments& a) {
     if (a.size > 0 || !a.size_by.empty() || !a.subdomains.empty())
       throw WrongArgument("--size, --size-by and --subdomains are of tetrahedra: add --elements tet10");
     if (a.cell.empty()) throw WrongArgument("bricks need a size: write --cell 1, or --elements tet10 --size 1.5");
-    parse_voxel(a.cell);
+    parse_voxel(a.cell, "--cell");
     return;
   }
   if (!a.cell.empty()) throw WrongArgument("--cell is of bricks; write --size 1.5");

@@ -78,10 +78,9 @@ std::optional<fea::Model> make_model(const HomogeniseArguments& a, Session& sess
   const auto box = compile::periodic_box(loaded, wanted, a.cell, diagnostics);
   if (!box) return std::nullopt;
   const compile::LoadedPtr sampled = compile::sampled_by(loaded, *box);
-  JobArguments job;
-  static_cast<DesignArguments&>(job) = a.design;
-  job.seed = a.seed;
-  auto options = plan_options(job, diagnostics);
+  compile::SamplingOptions sampling;
+  sampling.rules.seed = options::parse_seed(a.seed);
+  auto options = plan_options(sampling, diagnostics);
   if (!options) return std::nullopt;
   options->threads = a.threads;
   options->stop = &session.stop;

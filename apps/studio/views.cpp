@@ -87,7 +87,7 @@ DataList colour_list(const formats::Rgba& colour) {
 // Tiles show materials in their colours with x to the right and y up, whatever the printer's files do.
 compile::SliceRequest shown(const compile::SliceRequest& request) {
   compile::SliceRequest tile = request;
-  tile.format = voxel::ImageFormat::rgba;
+  tile.format = ImageFormat::rgba;
   tile.flip_x = tile.flip_y = false;
   tile.background = {0, 0, 0, 0};
   tile.files = {};

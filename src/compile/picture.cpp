@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/error.h"
 #include "base/steady_pace.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
@@ -53,6 +54,8 @@ struct Shot {
   render::Lighting lighting = render::Lighting::from_the_eye;
   std::function<render::RayBand(int64_t begin, int64_t end)> cast;
 };
+
+constexpr int64_t most_rays = 2'000'000;  // of a band
 
 class Studio {
  public:
@@ -300,10 +303,7 @@ class Studio {
   }
 
   // Rows of pixels, so that large pictures fit into memory.
-  int64_t rows_at_once(int64_t samples) const {
-    constexpr int64_t most_rays = 2'000'000;
-    return std::max<int64_t>(1, most_rays / (width_ * samples * samples));
-  }
+  int64_t rows_at_once(int64_t samples) const { return std::max<int64_t>(1, most_rays / (width_ * samples * samples)); }
 
   uint64_t rows_in_all() const { return static_cast<uint64_t>(request_.frames) * static_cast<uint64_t>(height_); }
 
@@ -322,6 +322,18 @@ class Studio {
   Stopwatch watch_;
   uint64_t rows_done_ = 0;
 };
+
+// Bands have always the same size, since their borders show in sums over translucent material.
+void check_memory(const PictureRequest& request) {
+  const double row = static_cast<double>(request.width * request.samples * request.samples);
+  const double rays = std::max<double>(most_rays, row) * sizeof(render::RayHit);
+  // The pixels, and the file that they become.
+  const double pixels = 2.0 * 4 * static_cast<double>(request.width) * static_cast<double>(request.height);
+  if (rays + pixels > static_cast<double>(request.memory_bytes))
+    throw Error("the picture takes about " + format_bytes(rays + pixels) + " of memory, more than the " +
+                format_bytes(static_cast<double>(request.memory_bytes)) +
+                " allowed; choose a smaller --size, or more --memory");
+}
 
 std::optional<CutSide> parse_side(std::string_view text) {
   const size_t sign = text.find_first_of("=<>");
@@ -355,10 +367,8 @@ std::optional<SliceView> parse_slice(std::string_view text) {
 
 bool take_pictures(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop,
                    const std::function<void(int, const Picture&)>& take, Diagnostics& diagnostics, Progress* progress) {
-  StageLoan loan;
-  loan.threads = request.threads;
-  loan.progress = progress;
-  loan.stop = &stop;
+  check_memory(request);
+  const StageLoan loan{request.threads, request.memory_bytes, progress, &stop};
   PictureRequest effective = request;
   const std::vector<std::string> attributes = attribute_names(loaded.design);
   const bool by_parts = request.by == "parts" && std::ranges::find(attributes, request.by) == attributes.end();

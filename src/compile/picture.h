@@ -63,6 +63,7 @@ struct PictureRequest {
   MarkRequest marks;
   int frames = 1;  // around the part
   int threads = 0;
+  size_t memory_bytes = size_t{4} << 30;  // for rays, pixels and stages
 };
 
 struct Picture {
@@ -71,7 +72,7 @@ struct Picture {
 };
 
 // Calls `take` with each frame; progress counts rows of all frames. False, and diagnostics, when there is nothing to
-// see. Throws Cancelled, and Error where annotations cannot be drawn.
+// see. Throws Cancelled, and Error where annotations cannot be drawn or memory does not suffice.
 bool take_pictures(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop,
                    const std::function<void(int frame, const Picture&)>& take, Diagnostics& diagnostics,
                    Progress* progress = nullptr);
