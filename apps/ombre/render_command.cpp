@@ -87,7 +87,7 @@ void add_arguments(CLI::App& app, RenderArguments& a) {
       ->check(one_of(compile::palette_names()))
       ->type_name("NAME");
   app.add_option("--deform", a.deform,
-                 "Of results (.vtu, .frd): how many times the displacement moves the part (default 0)")
+                 "Of results (.vtu, .xdmf, .frd): how many times the displacement moves the part (default 0)")
       ->type_name("X");
   app.add_option("--background", a.background, "white (default), black, gray, transparent or #rrggbb")
       ->type_name("COLOUR");

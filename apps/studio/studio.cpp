@@ -34,6 +34,22 @@ DataList describe_printers() {
   return list;
 }
 
+DataList describe_palettes() {
+  DataList list;
+  for (const compile::Palette& palette : compile::palettes()) {
+    DataList colours;
+    for (const design::Rgba& colour : palette.colours)
+      colours.emplace_back(DataList{number(colour[0]), number(colour[1]), number(colour[2])});
+    list.emplace_back(DataMembers{{"name", std::string(palette.name)}, {"colours", std::move(colours)}});
+  }
+  return list;
+}
+
+DataMembers joined(DataMembers first, const DataMembers& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
 DataList describe_nodes() {
   DataList list;
   for (const auto& type : compile::node_registry().types()) list.emplace_back(compile::describe_node(*type));
@@ -72,6 +88,9 @@ const std::vector<Studio::Kind>& Studio::kinds() {
                                       {"probe", &Studio::show<probe_answer>},
                                       {"volume", &Studio::show<volume_answer>},
                                       {"measure", &Studio::show<measure_answer>},
+                                      {"scan", &Studio::scan},
+                                      {"plane", &Studio::plane},
+                                      {"voxel", &Studio::voxel},
                                       {"compare", &Studio::compare},
                                       {"estimate", &Studio::estimate},
                                       {"export", &Studio::start_export},
@@ -84,6 +103,7 @@ Studio::Studio(const std::filesystem::path& folder, StudioOptions options, sourc
     : options_(std::move(options)),
       cache_(cache),
       workspace_(folder),
+      scans_(workspace_),
       exports_([this](const DataMembers& job) {
         tell_all("job", {{"job", job}});
       }),
@@ -163,24 +183,42 @@ void Studio::look_around() {
     tell_all("changed", {{"file", change.name}, {"version", change.version}});
 }
 
-Answer Studio::hello(const Request&, const StopFlag&) {
-  return {{{"program", options_.program},
-           {"folder", workspace_.root().string()},
-           {"file", options_.first_file},
-           {"files", texts(workspace_.list())},
-           {"printers", describe_printers()},
-           {"dithers", texts(voxel::dither_names())},
-           {"palettes", texts(compile::palette_names())},
-           {"nodes", describe_nodes()},
-           {"functions", describe_functions()}},
-          {}};
+// The files of the folder: designs, and the data beside them.
+DataMembers Studio::listed() const {
+  DataList data;
+  for (const Workspace::DataFile& file : workspace_.list_data())
+    data.emplace_back(DataMembers{{"name", file.name}, {"kind", std::string(name_of(file.kind))}});
+  return {{"files", texts(workspace_.list())}, {"data", std::move(data)}};
 }
 
-Answer Studio::list(const Request&, const StopFlag&) { return {{{"files", texts(workspace_.list())}}, {}}; }
+Answer Studio::hello(const Request&, const StopFlag&) {
+  Answer answer{{{"program", options_.program},
+                 {"folder", workspace_.root().string()},
+                 {"file", options_.first_file},
+                 {"printers", describe_printers()},
+                 {"dithers", texts(voxel::dither_names())},
+                 {"palettes", describe_palettes()},
+                 {"nodes", describe_nodes()},
+                 {"functions", describe_functions()}},
+                {}};
+  const DataMembers files = listed();
+  answer.members.insert(answer.members.end(), files.begin(), files.end());
+  return answer;
+}
 
+Answer Studio::list(const Request&, const StopFlag&) { return {listed(), {}}; }
+
+// Of a scan and of results the text is a script that shows them.
 Answer Studio::open(const Request& request, const StopFlag&) {
-  FileText file = workspace_.read(request.text("file"));
-  return {{{"text", std::move(file.text)}, {"version", std::move(file.version)}}, {}};
+  const std::string& name = request.text("file");
+  const std::filesystem::path path = workspace_.path(name);
+  const DataKind kind = is_dicom_folder(path) ? DataKind::scan : data_kind(name);
+  const DataMembers of_kind{{"kind", std::string(name_of(kind))}, {"version", ""}};
+  if (kind == DataKind::scan) return {joined({{"text", script_for_scan(name, path)}}, of_kind), {}};
+  if (kind == DataKind::results) return {joined({{"text", script_for_results(name, path)}}, of_kind), {}};
+  FileText file = workspace_.read(name);
+  return {{{"text", std::move(file.text)}, {"version", std::move(file.version)}, {"kind", std::string(name_of(kind))}},
+          {}};
 }
 
 Answer Studio::save(const Request& request, const StopFlag&) {
@@ -211,6 +249,16 @@ compile::LoadedPtr Studio::read(const Request& request, const SourcePtr& text, c
   return load_python(text->name(), options_.command, options, diagnostics);
 }
 
+// Names the scans in the folder that the design reads.
+DataList Studio::scans_of(const design::Design& design) const {
+  std::set<std::string> names;
+  for (const std::string& file : design_files(design)) {
+    const std::string name = workspace_.name_of(file);
+    if (!name.empty() && (data_kind(name) == DataKind::scan || is_dicom_folder(file))) names.insert(name);
+  }
+  return {names.begin(), names.end()};
+}
+
 Answer Studio::load(const Request& request, const StopFlag& stop) {
   const std::string& file = request.text("file");
   const std::string path = workspace_.path(file).string();
@@ -230,11 +278,12 @@ Answer Studio::load(const Request& request, const StopFlag& stop) {
   const bool is_right = loaded && bounds && !diagnostics.has_errors();
   Answer answer;
   answer.members = {{"ok", is_right}, {"echo", std::move(echo)}};
-  if (has_ending(file, ".vcad") || has_ending(file, ".scad"))
+  if (!has_ending(file, ".py") && !has_ending(file, ".json"))
     answer.members.emplace_back("variables", describe_variables(source));
   if (is_right) {
     const DataMembers design = describe_design(*designs_.add(loaded, *bounds, options_.program), source);
     answer.members.insert(answer.members.end(), design.begin(), design.end());
+    answer.members.emplace_back("scans", scans_of(loaded->design));
   }
   answer.members.emplace_back("diagnostics", describe(diagnostics, source));
   return answer;

@@ -11,6 +11,7 @@
 #include "sources/source_cache.h"
 #include "studio/exports.h"
 #include "studio/messages.h"
+#include "studio/scans.h"
 #include "studio/work_queue.h"
 #include "studio/workspace.h"
 
@@ -60,6 +61,11 @@ class Studio {
   compile::LoadedPtr read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
                           Diagnostics& diagnostics);
   Answer load(const Request& request, const StopFlag& stop);
+  Answer scan(const Request& request, const StopFlag& stop) { return scans_.describe(request, stop); }
+  Answer plane(const Request& request, const StopFlag& stop) { return scans_.plane(request, stop); }
+  Answer voxel(const Request& request, const StopFlag& stop) { return scans_.voxel(request, stop); }
+  DataMembers listed() const;
+  DataList scans_of(const design::Design& design) const;
   Answer compare(const Request& request, const StopFlag& stop);
   Answer estimate(const Request& request, const StopFlag& stop);
   Answer start_export(const Request& request, const StopFlag& stop);
@@ -73,6 +79,7 @@ class Studio {
   StudioOptions options_;
   sources::SourceCache& cache_;
   Workspace workspace_;
+  Scans scans_;
   Designs designs_;
   std::mutex mutex_;
   std::set<ClientPtr> clients_;

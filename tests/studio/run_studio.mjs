@@ -3,12 +3,12 @@
 //     node tests/studio/run_studio.mjs build/release/apps/ombre/ombre chromium [--pictures FOLDER]
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { appendFileSync, copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { inflateSync } from "node:zlib";
+import { gunzipSync, inflateSync } from "node:zlib";
 
 const source = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const require = createRequire(join(source, "apps/studio/web/package.json"));
@@ -25,6 +25,8 @@ fgrade(["0.5 + x / 40", "0.5 - x / 40"], [red, blue]) sphere(radius);
 `;
 writeFileSync(file, script);
 writeFileSync(join(folder, "box.scad"), "width = 4; // [1:9]\ncolor(\"red\") cube([width, 3, 2]);\n");
+for (const name of ["bent_beam.vtu", "two_lobes.nrrd"]) copyFileSync(join(source, "examples/models", name), join(folder, name));
+writeFileSync(join(folder, "history.csv"), "round,elements,change,greatest von Mises stress [MPa]\n1,256,,13.5\n2,256,0.25,11.75\n3,256,0.03125,11.5\n");
 writeFileSync(join(folder, "drop.py"), "import ombre\nroot = ombre.sphere(3, 'blue')\n");
 
 let server;
@@ -51,7 +53,12 @@ function stopServer(signal) {
 
 const url = await startServer();
 const port = new URL(url).port;
-const browser = await chromium.launch({ executablePath: browserPath, args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+const browser = await chromium.launch({ executablePath: browserPath, args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] }).catch(async (error) => {
+  await stopServer("SIGINT");
+  rmSync(folder, { recursive: true, force: true });
+  console.log(String(error).split("\n").slice(0, 4).join("\n"));
+  process.exit(1);
+});
 const context = await browser.newContext({ viewport: { width: 1400, height: 860 } });
 context.setDefaultTimeout(20000);
 const page = await context.newPage();
@@ -387,6 +394,68 @@ const checks = {
     const [red, , blue] = await alphaInMiddle("surface");
     assert.ok(blue > red);
     await page.selectOption("select.file", "ball.vcad");
+    await isReady("surface");
+  },
+
+  async "shows a scan in three planes, and what it makes of it"() {
+    await page.selectOption("select.file", "two_lobes.nrrd");
+    await page.waitForSelector(".plane canvas[data-state=ready] >> nth=2");
+    await page.waitForSelector(".scaninfo:has-text('0 to 200, uint8')");
+    // The crosshair begins in the middle, whose number ombre info and the file agree on.
+    const here = () => page.getAttribute(".scaninfo dd[data-value]", "data-value").then(Number);
+    await page.waitForSelector(".scaninfo:has-text('23, 18, 9')");
+    const bytes = readFileSync(join(source, "examples/models/two_lobes.nrrd"));
+    const numbers = bytes.subarray(bytes.indexOf("\n\n") + 2); // 46 x 37 x 19 bytes, unless they are packed
+    const unpacked = numbers.length === 46 * 37 * 19 ? numbers : gunzipSync(numbers);
+    assert.equal(await here(), unpacked[(9 * 37 + 18) * 46 + 23]);
+    await page.focus(".plane canvas >> nth=0");
+    await page.keyboard.press("Shift+ArrowRight");
+    await page.waitForSelector(".scaninfo:has-text('33, 18, 9')");
+    assert.equal(await here(), unpacked[(9 * 37 + 18) * 46 + 33]);
+    await page.hover(".plane canvas >> nth=1");
+    await page.waitForSelector(".scaninfo dt:has-text('pointer')");
+    const brightness = () =>
+      page.evaluate(() => {
+        const canvas = document.querySelector(".plane canvas");
+        const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+        return data.reduce((sum, v, n) => (n % 4 === 1 ? sum + v : sum), 0);
+      });
+    const before = await brightness();
+    await page.focus("#scan-level");
+    await page.keyboard.press("Home"); // a low level is bright
+    await page.waitForTimeout(100);
+    assert.ok((await brightness()) > before);
+    await picture("scan");
+    await page.click("#tab-surface");
+    await isReady("surface");
+    assert.equal((await alphaInMiddle("surface"))[3], 255);
+  },
+
+  async "shows results in colours, and moved by their displacement"() {
+    await page.selectOption("select.file", "bent_beam.vtu");
+    await page.waitForSelector(".colours");
+    await isReady("surface");
+    const [least, most] = (await page.getAttribute(".colours", "data-range")).split(",").map(Number);
+    assert.ok(Math.abs(least - 1.1089) < 0.001 && Math.abs(most - 13.458) < 0.001, `${least} to ${most}`); // as ombre info says
+    const before = await page.getAttribute(".surface canvas", "data-design");
+    await page.click("#tab-variables");
+    await page.fill("[aria-label='deform, exactly']", "10");
+    await until((old) => document.querySelector(".surface canvas").dataset.design !== old, before);
+    await page.fill("[aria-label='Value of the last colour']", "8");
+    await page.keyboard.press("Enter");
+    await isReady("surface");
+    await picture("results");
+  },
+
+  async "shows tables as charts, and their news"() {
+    await page.selectOption("select.file", "history.csv");
+    await page.waitForSelector("[data-column=change][data-points='2']"); // of the first round there is none
+    assert.match(await page.getAttribute("[data-column^=greatest] svg", "aria-label"), /by round: 3 points from 11\.5 to 13\.5, the last is 11\.5/);
+    appendFileSync(join(folder, "history.csv"), "4,256,0.015,11.4\n");
+    await page.waitForSelector("[data-column=change][data-points='3']");
+    await picture("charts");
+    await page.selectOption("select.file", "ball.vcad");
+    await page.click("#tab-surface");
     await isReady("surface");
   },
 

@@ -7,9 +7,9 @@ import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
 import { Annotation, EditorState } from "@codemirror/state";
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from "@codemirror/view";
 import { classHighlighter } from "@lezer/highlight";
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { complete, hover, vcad } from "./language";
-import { edited, reveal, save, setEditor, settle } from "./session";
+import { edited, keepAsDesign, reveal, save, setEditor, settle } from "./session";
 import { Diagnostic, state, useStore } from "./store";
 
 const fromElsewhere = Annotation.define<boolean>();
@@ -58,6 +58,7 @@ function makeEditor(parent: HTMLElement): EditorView {
       if (update.docChanged && !update.transactions.some((t) => t.annotation(fromElsewhere))) edited();
     }),
   ];
+  const extended = () => [...extensions, EditorState.readOnly.of(state.kind !== "")];
   const view: EditorView = new EditorView({ parent, state: EditorState.create({ extensions }) });
   setEditor({
     text: () => view.state.doc.toString(),
@@ -65,7 +66,7 @@ function makeEditor(parent: HTMLElement): EditorView {
       const isNew = view.state.doc.length === 0 && undoDepth(view.state) === 0;
       const head = Math.min(view.state.selection.main.head, text.length);
       if (isNew || view.dom.dataset.file !== state.file) {
-        view.setState(EditorState.create({ doc: text, extensions }));
+        view.setState(EditorState.create({ doc: text, extensions: extended() }));
         view.dom.dataset.file = state.file;
         return;
       }
@@ -93,6 +94,20 @@ function Conflict() {
       <span>{isGone ? `${file} was deleted on the disk.` : `${file} was changed on the disk, and here as well.`}</span>
       <button onClick={() => settle(true)}>{isGone ? "Write it again" : "Keep what is here"}</button>
       {!isGone && <button onClick={() => settle(false)}>Take what is on the disk</button>}
+    </div>
+  );
+}
+
+// Data is shown by a script that nobody wrote.
+function DataBar() {
+  const { kind, file } = useStore();
+  const [problem, setProblem] = useState("");
+  if (kind === "") return null;
+  return (
+    <div class="bar">
+      <span>{kind === "table" ? `The table ${file}` : `A script that shows ${file}`}</span>
+      {kind !== "table" && <button onClick={async () => setProblem(await keepAsDesign())}>Keep it as a design</button>}
+      {problem && <span class="error" role="alert">{problem}</span>}
     </div>
   );
 }
@@ -128,6 +143,7 @@ export function EditorPane() {
   return (
     <section class="editor" aria-label="Editor">
       <Conflict />
+      <DataBar />
       <div class="code" ref={host} />
       <Problems />
     </section>

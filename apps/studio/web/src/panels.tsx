@@ -43,7 +43,7 @@ function Control({ v, value }: { v: Variable; value: Value }) {
 }
 
 function Variables() {
-  const { variables, values, file } = useStore();
+  const { variables, values, file, kind } = useStore();
   const isChanged = Object.keys(values).length > 0;
   let section = "";
   return (
@@ -63,7 +63,7 @@ function Variables() {
       })}
       {variables.length > 0 && (
         <p class="controls">
-          <button disabled={!isChanged} onClick={writeVariables}>Write into the script</button>
+          <button disabled={!isChanged || kind !== ""} onClick={writeVariables}>Write into the script</button>
           <button disabled={!isChanged} onClick={resetVariables}>Reset</button>
         </p>
       )}
@@ -213,7 +213,7 @@ function PlaceChoice() {
 }
 
 function Export() {
-  const { plan, planProblem, jobs, file, design, isOld } = useStore();
+  const { plan, planProblem, jobs, file, kind, design, isOld } = useStore();
   const [given, setFolder] = useState("");
   const [replace, setReplace] = useState(false);
   const [problem, setProblem] = useState("");
@@ -247,7 +247,7 @@ function Export() {
       <ul class="jobs" aria-label="Jobs">{jobs.map((job) => <JobRow job={job} />)}</ul>
       {plan && (
         <>
-          {!file.endsWith(".scad") && (
+          {!file.endsWith(".scad") && kind === "" && (
             <details>
               <summary>The same on the command line</summary>
               <pre tabIndex={0}>{commandLine(folder)}</pre>

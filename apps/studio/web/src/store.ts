@@ -54,6 +54,14 @@ export interface Design {
   part_nodes: number[];
   attributes: { name: string; type: string; unit: string }[];
   nodes: GraphNode[];
+  scans: string[]; // files of the folder that it reads
+}
+
+// A file beside designs.
+export type DataKind = "scan" | "results" | "table";
+export interface DataFile {
+  name: string;
+  kind: DataKind;
 }
 
 export interface NodeType {
@@ -73,7 +81,7 @@ export interface Hello {
   files: string[];
   printers: { name: string; title: string }[];
   dithers: string[];
-  palettes: string[];
+  palettes: { name: string; colours: number[][] }[]; // from the least value to the greatest, mixed in linear light
   nodes: NodeType[];
   functions: { name: string; signature: string }[];
 }
@@ -160,13 +168,16 @@ export interface Comparison {
   pitch_mm: number;
 }
 
-export type ViewName = "surface" | "slices" | "volume" | "graph";
+export type ViewName = "surface" | "slices" | "volume" | "graph" | "planes" | "chart";
 
 export interface State {
   status: "connecting" | "open" | "lost" | "refused";
   hello?: Hello;
   files: string[];
+  data: DataFile[];
   file: string;
+  kind: "" | DataKind; // of the file: a design, or data, whose text is not edited
+  table: string; // text of the table that is open
   saved: "saved" | "unsaved" | "saving" | "failed";
   saveProblem: string;
   conflict?: { text?: string; version?: string }; // what the disk has; no text: it is gone
@@ -183,6 +194,8 @@ export interface State {
   perspective: boolean;
   by: string;
   palette: string;
+  range?: [number, number]; // of the values that colours span; nothing: those of the design
+  shownRange?: { of: string; range: [number, number] }; // of the last picture
   opacity: Record<string, number>;
   printer: string;
   dither: string;
@@ -211,7 +224,10 @@ const listeners = new Set<() => void>();
 export let state: State = {
   status: "connecting",
   files: [],
+  data: [],
   file: "",
+  kind: "",
+  table: "",
   saved: "saved",
   saveProblem: "",
   isOld: false,

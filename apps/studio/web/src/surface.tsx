@@ -15,13 +15,29 @@ const steps = [
 
 // Pictures of equal keys differ in size alone.
 function pictureKey(): string {
-  const { design, camera, cut, perspective, by, palette, opacity } = state;
-  return JSON.stringify([design?.design, camera, cut, perspective, by, palette, opacity]);
+  const { design, camera, cut, perspective, by, palette, range, opacity } = state;
+  return JSON.stringify([design?.design, camera, cut, perspective, by, palette, range, opacity]);
+}
+
+// What a range of values belongs to.
+const coloursKey = () => `${state.design?.design} ${state.by}`;
+
+// The range that is set, or the one that the server found for the same colours before.
+function colourMembers(): Record<string, unknown> {
+  const { by, palette, range, shownRange } = state;
+  if (!by) return {};
+  const known = range ?? (shownRange?.of === coloursKey() ? shownRange.range : undefined);
+  return { by, palette, ...(known ? { range: known } : {}) };
+}
+
+function noteRange(of: string, range: [number, number] | undefined) {
+  if (range && !state.range && (state.shownRange?.of !== of || state.shownRange.range.join() !== range.join())) set({ shownRange: { of, range } });
 }
 
 async function drawOne(canvas: HTMLCanvasElement, step: (typeof steps)[0]) {
-  const { camera, cut, by, palette, opacity } = state;
+  const { camera, cut, opacity } = state;
   if (!camera) return;
+  const colours = coloursKey();
   const ratio = Math.min(devicePixelRatio, 2) * step.share;
   const width = Math.max(1, Math.round(canvas.clientWidth * ratio)),
     height = Math.max(1, Math.round(canvas.clientHeight * ratio));
@@ -38,11 +54,12 @@ async function drawOne(canvas: HTMLCanvasElement, step: (typeof steps)[0]) {
       height_mm: camera.height,
       perspective: fieldOfView(),
       ...cutMembers(cut),
-      ...(by ? { by, palette } : {}),
+      ...colourMembers(),
       opacity,
     },
     "surface",
   );
+  noteRange(colours, reply.range);
   const picture = await createImageBitmap(new Blob([reply.bytes as BlobPart], { type: "image/png" }));
   canvas.width = Math.round(canvas.clientWidth * Math.min(devicePixelRatio, 2));
   canvas.height = Math.round(canvas.clientHeight * Math.min(devicePixelRatio, 2));
@@ -131,6 +148,32 @@ export function Legend() {
   );
 }
 
+const shortNumber = (value: number) => String(+value.toPrecision(4));
+
+// The values that colours stand for, and numbers to set them by.
+function ColourLegend() {
+  const { by, palette, range, shownRange, design, hello } = useStore();
+  const known = range ?? (shownRange?.of === coloursKey() ? shownRange.range : undefined);
+  if (!by || !known) return null;
+  const colours = (hello?.palettes.find((p) => p.name === palette) ?? hello?.palettes[0])?.colours ?? [];
+  const unit = design?.attributes.find((a) => a.name === by)?.unit;
+  const change = (end: number, text: string) => {
+    const made = known.map((v, n) => (n === end ? +text : v)) as [number, number];
+    if (text !== "" && made[0] < made[1]) set({ range: made });
+  };
+  return (
+    <div class="colours" role="group" aria-label="Colours" data-range={known.join()}>
+      <span>{by}{unit && unit !== "1" ? `, ${unit}` : ""}</span>
+      <span class="ramp" style={{ background: `linear-gradient(in srgb-linear to right, ${colours.map((c) => `rgb(${c.join(",")})`).join(",")})` }} />
+      <span class="controls">
+        <input type="number" step="any" aria-label="Value of the first colour" value={shortNumber(known[0])} onChange={(e) => change(0, e.currentTarget.value)} />
+        <button disabled={!range} onClick={() => set({ range: undefined })}>all</button>
+        <input type="number" step="any" aria-label="Value of the last colour" value={shortNumber(known[1])} onChange={(e) => change(1, e.currentTarget.value)} />
+      </span>
+    </div>
+  );
+}
+
 export function ViewButtons() {
   const { design, perspective } = useStore();
   const look = (from: { azimuth: number; elevation: number }, fit: boolean) => {
@@ -187,7 +230,7 @@ export function SurfaceView() {
         <CutControls />
         <label>
           Colour by
-          <select value={by} onChange={(e) => set({ by: e.currentTarget.value })}>
+          <select value={by} onChange={(e) => set({ by: e.currentTarget.value, range: undefined })}>
             <option value="">materials</option>
             {design?.materials.map((m) => <option value={m.name}>fraction of {m.name}</option>)}
             {design?.attributes.map((a) => <option value={a.name}>{a.name}</option>)}
@@ -197,7 +240,7 @@ export function SurfaceView() {
           <label>
             Palette
             <select value={palette} onChange={(e) => set({ palette: e.currentTarget.value })}>
-              {hello?.palettes.map((name, n) => <option value={n === 0 ? "" : name}>{name}</option>)}
+              {hello?.palettes.map((p, n) => <option value={n === 0 ? "" : p.name}>{p.name}</option>)}
             </select>
           </label>
         )}
@@ -206,7 +249,7 @@ export function SurfaceView() {
         <canvas ref={canvas} tabIndex={0} role="img" aria-label={`The design from outside${design ? `, materials ${design.materials.map((m) => m.name).join(", ")}` : ""}. Arrows turn it, with Shift they move it, plus and minus zoom.`}
                 {...pointer} onKeyDown={moveByKeys} />
         <p class="viewproblem" role="status"></p>
-        <Legend />
+        {by ? <ColourLegend /> : <Legend />}
         {camera && <ScaleBar pixelMm={camera.height / height} />}
       </div>
     </section>
