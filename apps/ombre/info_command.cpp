@@ -83,7 +83,7 @@ int show_design(const std::string& path, Session& session) {
 
 bool is_design(const std::string& path) {
   const std::string ending = to_lower(std::filesystem::path(path).extension().string());
-  return ending == ".vcad" || ending == ".py" || ending == ".json";
+  return ending == ".vcad" || ending == ".py" || ending == ".json" || ending == ".ombre";
 }
 
 std::string parameter_text(const lang::openscad::Parameter& parameter) {

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "compile/find_printer.h"
+#include "compile/turned.h"
 #include "ombre/arguments.h"
 #include "ombre/checks.h"
 #include "ombre/interrupt.h"
@@ -18,10 +19,19 @@ uint64_t parse_seed(const std::string& text) {
   throw WrongArgument("--seed " + text + " is not a whole number from 0 to 18446744073709551615");
 }
 
+Vec3 parse_angles(const std::string& text) {
+  const std::vector<double> angles = parse_numbers(text);
+  if (angles.size() == 3) return {angles[0], angles[1], angles[2]};
+  throw WrongArgument("--rotate " + text +
+                      " is not three angles, about x, y and z; write for example --rotate 90,0,45");
+}
+
 }  // namespace
 
 void add_design_arguments(CLI::App& app, DesignArguments& a) {
-  app.add_option("design", a.design, "The design: a .vcad, .json or .py file")->required()->type_name("FILE");
+  app.add_option("design", a.design, "The design: a .vcad, .scad, .json, .ombre or .py file")
+      ->required()
+      ->type_name("FILE");
   app.add_option("--materials", a.materials, "Materials file (see: ombre materials)")->type_name("FILE");
   app.add_option("-D,--define", a.definitions, "Set a variable of the design; may be repeated")
       ->allow_extra_args(false)
@@ -50,6 +60,8 @@ void add_voxel_arguments(CLI::App& app, JobArguments& a) {
                      "Layers cover the design's own box, or the build plate with the part in its middle")
           ->check(one_of({"design", "center"}))
           ->type_name("design|center");
+  app.add_option("--rotate", a.rotate, "Turn the part about x, then y, then z, before it is placed; degrees")
+      ->type_name("X,Y,Z");
   app.add_flag("--tray", a.tray, "Layers cover the printer's whole build box, the design where it stands")
       ->excludes(place);
 }
@@ -108,8 +120,10 @@ compile::LoadedPtr load_design(const DesignArguments& a, Session& session, Diagn
   options.stop = &session.stop;
   options.threads = threads;
   options.cache = &session.cache;
+  const Vec3 angles = a.rotate.empty() ? Vec3{} : parse_angles(a.rotate);
   const QuitAtOnce quits;
-  return session.load(a.design, options, diagnostics);
+  const compile::LoadedPtr loaded = session.load(a.design, options, diagnostics);
+  return loaded ? compile::turned(loaded, angles, diagnostics) : nullptr;
 }
 
 }  // namespace ombre::cli

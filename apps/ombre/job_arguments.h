@@ -16,6 +16,7 @@ namespace ombre::cli {
 struct DesignArguments {
   std::string design, materials;
   std::vector<std::string> definitions;
+  std::string rotate = {};  // "90,0,45": how the part is turned, degrees; empty: as it was designed
 };
 void add_design_arguments(CLI::App& app, DesignArguments& arguments);
 

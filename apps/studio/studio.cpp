@@ -1,5 +1,7 @@
 #include "studio/studio.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <variant>
 
@@ -11,7 +13,9 @@
 #include "compile/find_printer.h"
 #include "compile/node_data.h"
 #include "compile/node_registry.h"
+#include "compile/turned.h"
 #include "lang/builtins.h"
+#include "studio/bundles.h"
 #include "studio/design_answer.h"
 #include "studio/python_design.h"
 #include "studio/scad_design.h"
@@ -91,10 +95,15 @@ const std::vector<Studio::Kind>& Studio::kinds() {
                                       {"scan", &Studio::scan},
                                       {"plane", &Studio::plane},
                                       {"voxel", &Studio::voxel},
+                                      {"bundle", &Studio::of_folder<bundle_answer>},
+                                      {"unbundle", &Studio::of_folder<unbundle_answer>},
+                                      {"examples", &Studio::of_folder<examples_answer>},
+                                      {"open_example", &Studio::of_folder<open_example_answer>},
                                       {"compare", &Studio::compare},
                                       {"estimate", &Studio::estimate},
                                       {"export", &Studio::start_export},
                                       {"change_export", &Studio::change_export},
+                                      {"open_folder", &Studio::open_folder},
                                       {"jobs", &Studio::jobs}};
   return list;
 }
@@ -162,6 +171,7 @@ void Studio::answer(const ClientPtr& client, const Request& request, const Kind&
   const auto fail = [&](const std::string& code, const std::string& message) {
     client->send(frame_of_error(request.id, code, message));
   };
+  has_answered_ = true;
   const StopFlag stop(&cancelled, options_.most_seconds);
   try {
     if (stop.requested()) throw Cancelled();
@@ -178,7 +188,20 @@ void Studio::answer(const ClientPtr& client, const Request& request, const Kind&
   }
 }
 
+// The allocator keeps what threads freed, each in a heap of its own, so that a server grows from edit to edit although
+// it holds no more.
+void Studio::give_memory_back() {
+  constexpr double seconds_between = 3;
+  if (!has_answered_ || given_back_.seconds() < seconds_between) return;
+  has_answered_ = false;
+  given_back_ = {};
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
+
 void Studio::look_around() {
+  give_memory_back();
   for (const Workspace::Change& change : workspace_.changes())
     tell_all("changed", {{"file", change.name}, {"version", change.version}});
 }
@@ -191,10 +214,18 @@ DataMembers Studio::listed() const {
   return {{"files", texts(workspace_.list())}, {"data", std::move(data)}};
 }
 
+double Studio::idle_seconds() {
+  const bool is_at_work = exports_.is_at_work();
+  const std::lock_guard lock(mutex_);
+  if (is_at_work || !clients_.empty()) idle_ = {};
+  return idle_.seconds();
+}
+
 Answer Studio::hello(const Request&, const StopFlag&) {
   Answer answer{{{"program", options_.program},
                  {"folder", workspace_.root().string()},
                  {"file", options_.first_file},
+                 {"opens_folders", options_.open_folder != nullptr},
                  {"printers", describe_printers()},
                  {"dithers", texts(voxel::dither_names())},
                  {"palettes", describe_palettes()},
@@ -273,7 +304,11 @@ Answer Studio::load(const Request& request, const StopFlag& stop) {
   options.cache = &cache_;
   Diagnostics diagnostics;
   const SourcePtr source = make_source(path, text);
-  const compile::LoadedPtr loaded = read(request, source, options, diagnostics);
+  compile::LoadedPtr loaded = read(request, source, options, diagnostics);
+  if (loaded && request.body.find("rotate")) {
+    const std::vector<double> angles = request.numbers("rotate", 3);
+    loaded = compile::turned(loaded, {angles[0], angles[1], angles[2]}, diagnostics);
+  }
   const auto bounds = loaded ? compile::design_box(loaded->design, diagnostics) : std::nullopt;
   const bool is_right = loaded && bounds && !diagnostics.has_errors();
   Answer answer;
@@ -321,6 +356,14 @@ Answer Studio::change_export(const Request& request, const StopFlag&) {
     exports_.cancel(id);
   else
     throw RequestError("request", "\"to\" is pause, resume or cancel");
+  return {};
+}
+
+Answer Studio::open_folder(const Request& request, const StopFlag&) {
+  const std::filesystem::path folder = workspace_.path(request.text("folder"));
+  if (!std::filesystem::is_directory(folder)) throw RequestError("gone", folder.string() + " is no folder any more");
+  if (!options_.open_folder) throw RequestError("unsupported", "this studio has no display to open " + folder.string());
+  if (!options_.open_folder(folder.string())) throw Error("no program opens " + folder.string());
   return {};
 }
 

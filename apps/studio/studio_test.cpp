@@ -24,6 +24,18 @@ constexpr const char* ball =
     "radius = 3;  // [1:5]\n"
     "fgrade([\"0.5 + x / 6\", \"0.5 - x / 6\"], [red, blue]) sphere(radius);\n";
 
+std::string to_base64(const std::string& bytes) {
+  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (size_t n = 0; n < bytes.size(); n += 3) {
+    unsigned group = 0;
+    for (size_t k = 0; k < 3; ++k)
+      group = group << 8 | (n + k < bytes.size() ? static_cast<unsigned char>(bytes[n + k]) : 0);
+    for (size_t k = 0; k < 4; ++k) text += n + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
 // Remembers what it was sent.
 class Listener : public Client {
  public:
@@ -102,8 +114,11 @@ class StudioTest : public testing::Test {
   }
 
   TestFolder folder;
+  std::vector<std::string> opened;  // folders that were to be shown
   sources::SourceCache cache;
-  Studio studio{folder.path, {"ombre test", {}, "", 60}, cache};
+  Studio studio{folder.path,
+                {"ombre test", {}, "", 60, [this](const std::string& shown) { return opened.push_back(shown), true; }},
+                cache};
   std::shared_ptr<Listener> client = std::make_shared<Listener>();
   int last_ = 0;
 };
@@ -283,6 +298,64 @@ TEST_F(StudioTest, ShowsResults) {
   };
   EXPECT_NEAR(lowest(loaded), -2.5, 1e-6);
   EXPECT_NEAR(lowest(load_deformed("10")), -2.5 - 10 * 0.36225, 0.05);
+}
+
+TEST_F(StudioTest, OpensFoldersOfItsOwn) {
+  folder.write("a_slices/job.json", "{}");
+  EXPECT_EQ(*ask("hello").first.find("opens_folders"), Data(true));
+  ask("open_folder", R"("folder": "a_slices")");
+  EXPECT_EQ(opened, std::vector<std::string>{(folder.path / "a_slices").string()});
+  EXPECT_EQ(text(ask("open_folder", R"("folder": "gone")").first, "error"), "gone");
+  EXPECT_EQ(text(ask("open_folder", R"("folder": "../a")").first, "error"), "name");
+  EXPECT_EQ(opened.size(), 1U);
+}
+
+// A turned design is the one that the script would turn, in its bounds and in what is sliced.
+TEST_F(StudioTest, TurnsDesigns) {
+  const Data loaded =
+      ask("load", R"("file": "a.vcad", "rotate": [90, 0, 0], "text": "rectprism((2, 4, 6), red);")").first;
+  ASSERT_EQ(*loaded.find("ok"), Data(true)) << print_json(loaded);
+  EXPECT_EQ(*loaded.find("bounds_mm"), Data(DataList{DataList{-1.0, -3.0, -2.0}, DataList{1.0, 3.0, 2.0}}));
+  const std::string turned = R"("printer": "generic", "design": ")" + text(loaded, "design") + '"';
+  const std::string written =
+      R"("printer": "generic", "design": ")" + load("rotate((90, 0, 0)) rectprism((2, 4, 6), red);") + '"';
+  EXPECT_EQ(*ask("plan", turned).first.find("count"), *ask("plan", written).first.find("count"));
+  const std::string tile = R"(, "layer": 10, "x": 0, "y": 0, "width": 64, "height": 64)";
+  EXPECT_EQ(ask("tile", turned + tile).second, ask("tile", written + tile).second);
+}
+
+TEST_F(StudioTest, MakesAndOpensBundles) {
+  folder.write("shapes/a.vcad", "include <b.vcad>\nsphere(r);\n");
+  folder.write("shapes/b.vcad", "r = 2;\n");
+  const auto [made, bytes] = ask("bundle", R"("file": "shapes/a.vcad")");
+  if (print_json(made).find("-DOMBRE_3MF=ON") != std::string::npos) GTEST_SKIP();
+  EXPECT_EQ(*made.find("files"), Data(DataList{"a.vcad", "b.vcad"})) << print_json(made);
+  const auto open = [&](const std::string& bundle) {
+    return ask("unbundle", R"("name": "gift.ombre", "bytes": ")" + to_base64(bundle) + '"').first;
+  };
+  EXPECT_EQ(text(open(bytes), "file"), "gift/a.vcad");
+  EXPECT_EQ(text(open(bytes), "file"), "gift_2/a.vcad");
+  EXPECT_EQ(folder.read("gift_2/b.vcad"), "r = 2;\n");
+  EXPECT_EQ(text(open(bytes.substr(0, bytes.size() / 2)), "error"), "design");
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "gift_3"));
+  EXPECT_EQ(text(ask("unbundle", R"("name": "../../x.ombre", "bytes": "!")").first, "error"), "request");
+  EXPECT_EQ(text(ask("bundle", R"("file": "../a.vcad")").first, "error"), "name");
+}
+
+// The gear is a mesh in a folder beside the example.
+TEST_F(StudioTest, OpensCopiesOfExamples) {
+  const Data examples = ask("examples").first;
+  ASSERT_TRUE(examples.find("examples")) << print_json(examples);
+  const DataList& list = *examples.find("examples")->list();
+  EXPECT_TRUE(std::ranges::any_of(list, [](const Data& e) {
+    return text(e, "name") == "gear" && text(e, "sentence").starts_with("A gear from a mesh");
+  }));
+  const Data opened = ask("open_example", R"("name": "gear")").first;
+  if (print_json(opened).find("-DOMBRE_3MF=ON") != std::string::npos) GTEST_SKIP();
+  EXPECT_EQ(text(opened, "file"), "gear/gear.vcad") << print_json(opened);
+  EXPECT_TRUE(std::filesystem::exists(folder.path / "gear/models/gear.stl"));
+  EXPECT_EQ(text(ask("open_example", R"("name": "../gear")").first, "error"), "name");
+  EXPECT_EQ(text(ask("open_example", R"("name": "nothing")").first, "error"), "name");
 }
 
 TEST_F(StudioTest, OpensTablesAsTheyAre) {

@@ -3,7 +3,7 @@
 //     node tests/studio/run_studio.mjs build/release/apps/ombre/ombre chromium [--pictures FOLDER]
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { appendFileSync, copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { appendFileSync, copyFileSync, existsSync, mkdtempSync, readFileSync, realpathSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
@@ -29,21 +29,27 @@ for (const name of ["bent_beam.vtu", "two_lobes.nrrd"]) copyFileSync(join(source
 writeFileSync(join(folder, "history.csv"), "round,elements,change,greatest von Mises stress [MPa]\n1,256,,13.5\n2,256,0.25,11.75\n3,256,0.03125,11.5\n");
 writeFileSync(join(folder, "drop.py"), "import ombre\nroot = ombre.sphere(3, 'blue')\n");
 
-let server;
-async function startServer(port = 0, key = token) {
+async function serve(place, port, key) {
   const variables = { ...process.env, OMBRE_DATA: source, OMBRE_STUDIO_TOKEN: key };
-  server = spawn(ombre, ["studio", file, "--json", "--no-browser", "--port", String(port)], { env: variables, stdio: ["ignore", "pipe", "inherit"] });
+  const child = spawn(ombre, ["studio", place, "--json", "--no-browser", "--port", String(port)], { env: variables, stdio: ["ignore", "pipe", "inherit"] });
   const url = await new Promise((resolve, reject) => {
     let text = "";
-    server.once("exit", (code) => reject(new Error(`the server ended with ${code}`)));
-    server.stdout.on("data", (data) => {
+    child.once("exit", (code) => reject(new Error(`the server ended with ${code}`)));
+    child.stdout.on("data", (data) => {
       text += data;
       const found = /"url": ?"([^"]+)"/.exec(text);
       if (found) resolve(found[1]);
     });
   });
-  server.removeAllListeners("exit");
-  return url;
+  child.removeAllListeners("exit");
+  return { child, url };
+}
+
+let server;
+async function startServer(port = 0, key = token) {
+  const started = await serve(file, port, key);
+  server = started.child;
+  return started.url;
 }
 function stopServer(signal) {
   const ended = new Promise((resolve) => server.once("exit", resolve));
@@ -314,6 +320,19 @@ const checks = {
     await picture("job");
   },
 
+  async "turns the part on the tray"() {
+    await page.click("#tab-export");
+    await page.click("[aria-label='90 degrees more about y']");
+    await page.waitForSelector("summary:has-text('command line')");
+    await page.click("summary:has-text('command line')");
+    await page.waitForSelector("pre:has-text('--rotate 0,90,0')");
+    await status("[data-old=false][data-busy=false]");
+    await page.fill("[aria-label='Turn about y']", "0");
+    await page.keyboard.press("Enter");
+    await status("[data-old=false][data-busy=false]");
+    assert.equal(await page.innerText(".job[data-state=done] .path"), join(realpathSync(folder), "ball_slices"));
+  },
+
   async "a reload loses nothing"() {
     await page.reload();
     await isReady("slices");
@@ -459,12 +478,75 @@ const checks = {
     await isReady("surface");
   },
 
+  async "a bundle goes out and comes in again"() {
+    const [made] = await Promise.all([page.waitForEvent("download"), page.click("text=Download bundle")]);
+    assert.equal(made.suggestedFilename(), "ball.ombre");
+    const bundle = join(folder, "ball.ombre");
+    await made.saveAs(bundle);
+    await page.setInputFiles("[aria-label='Bundle to open']", bundle);
+    await status("[data-old=false][data-busy=false]");
+    await page.waitForSelector("option[value='ball/ball.vcad']", { state: "attached" });
+    assert.equal(await page.inputValue("select.file"), "ball/ball.vcad");
+    assert.equal(readFileSync(join(folder, "ball/ball.vcad"), "utf8"), onDisk());
+    writeFileSync(bundle, "no archive");
+    await page.setInputFiles("[aria-label='Bundle to open']", bundle);
+    await page.waitForSelector(".problems:has-text('this is no bundle')");
+    assert.ok(!existsSync(join(folder, "ball_2")));
+    rmSync(bundle);
+    await page.selectOption("select.file", "ball.vcad");
+    await isReady("surface");
+  },
+
+  async "makes pictures and turntables by keys"() {
+    const bytesOf = async (key) => {
+      const [made] = await Promise.all([page.waitForEvent("download", { timeout: 60000 }), page.keyboard.press(key)]);
+      return { name: made.suggestedFilename(), bytes: readFileSync(await made.path()) };
+    };
+    const png = await bytesOf("Alt+p");
+    assert.equal(png.name, "ball_surface.png");
+    const stage = await page.locator(".surface canvas").boundingBox();
+    assert.equal(png.bytes.readUInt32BE(16), Math.round(stage.width));
+    await page.setViewportSize({ width: 900, height: 420 }); // small pictures are made soon
+    const film = await bytesOf("Alt+t");
+    await page.setViewportSize({ width: 1400, height: 860 });
+    assert.equal(film.name, "ball_turntable.webm");
+    assert.equal(film.bytes.readUInt32BE(0), 0x1a45dfa3); // EBML
+    assert.ok(film.bytes.length > 5000, `${film.bytes.length} bytes`);
+    await page.keyboard.press("Alt+k");
+    await page.waitForSelector("dialog[open]");
+    await page.keyboard.press("Escape");
+    await page.keyboard.press("Alt+2");
+    await isReady("slices");
+    await page.keyboard.press("Alt+1");
+    await isReady("surface");
+  },
+
+  async "from an empty folder to a sliced example, by keys and names that are seen"() {
+    const empty = mkdtempSync(join(tmpdir(), "ombre-studio-new-"));
+    const { child, url: other } = await serve(empty, 0, token);
+    const fresh = await (await browser.newContext({ viewport: { width: 1400, height: 860 } })).newPage();
+    await fresh.goto(other);
+    await fresh.click("text=See examples");
+    await fresh.fill("input[type=search]", "knob");
+    await fresh.click("[aria-label='Open a copy of knob']");
+    await fresh.waitForSelector(".surface canvas[data-state=ready]");
+    await picture("example", fresh);
+    await fresh.keyboard.press("Alt+s");
+    await fresh.click("button.main:has-text('Slice')");
+    await fresh.waitForSelector(".job[data-state=done]");
+    assert.ok(existsSync(join(empty, "knob/knob_slices/job.json")));
+    await fresh.context().close();
+    child.kill("SIGINT");
+    await new Promise((resolve) => child.once("exit", resolve));
+    rmSync(empty, { recursive: true, force: true });
+  },
+
   async "axe finds nothing"() {
     await page.click("#tab-all");
     await page.evaluate(axeSource);
     for (const theme of ["light", "dark"]) {
       await page.selectOption("header select >> nth=1", theme);
-      for (const tab of theme === "light" ? ["reference", "variables", "materials", "export"] : ["export"]) {
+      for (const tab of theme === "light" ? ["reference", "examples", "variables", "materials", "export"] : ["export"]) {
         await page.click(`#tab-${tab}`);
         const found = await page.evaluate(() => axe.run());
         assert.deepEqual(found.violations.map((v) => `${theme} ${tab}: ${v.id} at ${v.nodes.map((n) => n.html.slice(0, 120)).join(" and ")}`), []);

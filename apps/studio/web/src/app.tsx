@@ -1,10 +1,13 @@
 // The page as a whole.
 import { render } from "preact";
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { ChartView } from "./chart";
 import { EditorPane } from "./editor";
+import { downloadBundle, openBundle, takeDroppedFiles } from "./files";
 import { GraphView } from "./graph";
+import { KeysDialog, listenToKeys } from "./keys";
 import { Panels, Tabs } from "./panels";
+import { makeTurntable, takePicture } from "./pictures";
 import { PlanesView, scansToSee } from "./planes";
 import { connection, isDirty, listFiles, newFile, openFile, runPython, save } from "./session";
 import { SliceView } from "./slices";
@@ -95,6 +98,31 @@ function FileChoice() {
   );
 }
 
+function PictureButtons() {
+  const { design, turntable, kind } = useStore();
+  return (
+    <span class="controls pictures">
+      <button disabled={!design || kind === "table"} onClick={takePicture} title="A picture of the view, as PNG (Alt P)">Picture</button>
+      <button disabled={!design || kind === "table"} onClick={makeTurntable} title="The design turned once around, as WebM (Alt T)">
+        {turntable === undefined ? "Turntable" : `Stop at ${Math.round(100 * turntable)} %`}
+      </button>
+    </span>
+  );
+}
+
+function BundleButtons() {
+  const { file, kind } = useStore();
+  const input = useRef<HTMLInputElement>(null);
+  return (
+    <span class="controls">
+      <button disabled={!file || kind !== "" || file.endsWith(".py")} onClick={downloadBundle} title="The design with the files that it reads, as one file (Alt B)">Download bundle</button>
+      <button onClick={() => input.current!.click()} title="A bundle, .ombre; it can also be dropped on the page">Open bundle</button>
+      <input ref={input} type="file" accept=".ombre" hidden aria-label="Bundle to open"
+             onChange={(e) => { const chosen = e.currentTarget.files?.[0]; if (chosen) openBundle(chosen); e.currentTarget.value = ""; }} />
+    </span>
+  );
+}
+
 function Theme() {
   const { theme } = useStore();
   return (
@@ -117,6 +145,7 @@ function Views() {
   return (
     <section class={isOld ? "views old" : "views"} aria-label="Views">
       <Tabs label="Views" tabs={views} chosen={view} choose={(name) => set({ view: name })} />
+      <PictureButtons />
       {isOld && <p class="oldmark">of an earlier text</p>}
       <div class={view === "all" ? "grid four" : "grid"} role="tabpanel" aria-labelledby={`tab-${view}`}>
         {view === "planes" && <PlanesView />}
@@ -132,7 +161,11 @@ function Views() {
 
 function App() {
   const { theme, hello } = useStore();
-  useEffect(() => connection.connect(), []);
+  useEffect(() => {
+    takeDroppedFiles();
+    listenToKeys();
+    connection.connect();
+  }, []);
   useEffect(() => {
     document.documentElement.dataset.theme = theme;
   }, [theme]);
@@ -144,8 +177,10 @@ function App() {
       <header>
         <h1>Ombre Studio</h1>
         <FileChoice />
+        <BundleButtons />
         <Status />
         <span class="folder">{hello?.folder}</span>
+        <button onClick={() => set({ showsKeys: true })} title="Keys of the page (Alt K)">Keys</button>
         <Theme />
         <a class="quiet" href="licences.txt" target="_blank" title="Licences of what the page is made of">{hello?.program}</a>
       </header>
@@ -154,6 +189,7 @@ function App() {
         <Views />
         <Panels />
       </main>
+      <KeysDialog />
     </>
   );
 }

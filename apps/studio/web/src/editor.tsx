@@ -9,8 +9,8 @@ import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutt
 import { classHighlighter } from "@lezer/highlight";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { complete, hover, vcad } from "./language";
-import { edited, keepAsDesign, reveal, save, setEditor, settle } from "./session";
-import { Diagnostic, state, useStore } from "./store";
+import { edited, keepAsDesign, newFile, reveal, save, setEditor, settle } from "./session";
+import { Diagnostic, set, state, useStore } from "./store";
 
 const fromElsewhere = Annotation.define<boolean>();
 
@@ -134,6 +134,26 @@ function Problems() {
   );
 }
 
+// What to begin with in a folder without designs.
+function Welcome() {
+  const { status, files, file } = useStore();
+  if (status !== "open" || file) return null;
+  return (
+    <div class="bar">
+      <span>{files.length > 0 ? "Choose a design above, or make a new one." : "There is no design in this folder yet."}</span>
+      <button class="main" onClick={() => newFile(freeName())}>Begin with a ball</button>
+      <button onClick={() => set({ panel: "examples" })}>See examples</button>
+    </div>
+  );
+}
+
+function freeName(): string {
+  for (let n = 1; ; ++n) {
+    const name = n === 1 ? "part.vcad" : `part_${n}.vcad`;
+    if (!state.files.includes(name)) return name;
+  }
+}
+
 export function EditorPane() {
   const host = useRef<HTMLDivElement>(null);
   useEffect(() => {
@@ -142,6 +162,7 @@ export function EditorPane() {
   }, []);
   return (
     <section class="editor" aria-label="Editor">
+      <Welcome />
       <Conflict />
       <DataBar />
       <div class="code" ref={host} />

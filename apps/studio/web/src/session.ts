@@ -71,7 +71,7 @@ export async function openFile(file: string) {
     savedText = fromDisk(disk.text);
     sentText = undefined;
     const kind = disk.kind as State["kind"];
-    set({ file, kind, table: "", by: "", palette: "", range: undefined, values: {}, conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], variables: [], plan: undefined,
+    set({ file, kind, table: "", by: "", palette: "", range: undefined, rotate: [0, 0, 0], values: {}, conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], variables: [], plan: undefined,
           probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", problem: "", z: NaN, isOld: false });
     localStorage.setItem(`ombre:file:${state.hello?.folder}`, file);
     if (kind === "scan") set({ view: "planes" });
@@ -262,7 +262,7 @@ function fieldToShow(attributes: { name: string }[]): string {
   return names.find((name) => /von_?mises/i.test(name)) ?? names.at(-1) ?? "";
 }
 
-let shown = { file: "", text: "", definitions: [] as string[] }; // what the design was made of
+let shown = { file: "", text: "", definitions: [] as string[], rotate: [0, 0, 0] }; // what the design was made of
 
 async function load(isRun = false) {
   if (!editor || !state.file || !connection.isOpen || state.kind === "table") return;
@@ -270,7 +270,7 @@ async function load(isRun = false) {
   isLoading = true;
   isWanted = false;
   set({ isBusy: true });
-  const sent = { file: state.file, text: editor.text(), definitions: definitions() };
+  const sent = { file: state.file, text: editor.text(), definitions: definitions(), rotate: state.rotate };
   try {
     const reply = await connection.ask("load", { ...sent, ...(isRun ? { run: true } : {}) }, "load").answer;
     const change: any = { isBusy: false, problem: "", diagnostics: reply.diagnostics, echo: reply.echo, variables: reply.variables ?? [], isOld: !reply.ok };
@@ -328,6 +328,16 @@ export function choosePlace(place: Place) {
   plan();
 }
 
+// Turns the part as it lies on the tray; the views show it so.
+export function turn(rotate: number[]) {
+  set({ rotate });
+  evaluate(150);
+}
+
+export async function openFolder(job: Job) {
+  await connection.ask("open_folder", { folder: job.folder }).answer.catch((error) => set({ problem: (error as Error).message }));
+}
+
 export async function estimate(): Promise<string> {
   const of = jobKey();
   try {
@@ -360,8 +370,8 @@ export function forgetMark() {
 // The server keeps few designs, so that the marked one may have to be made again.
 async function remake(mark: Mark): Promise<Mark> {
   if (mark.file.endsWith(".py")) throw new Error("the server has forgotten the marked version: mark another one");
-  const { file, text, definitions } = mark;
-  const reply = await connection.ask("load", { file, text, definitions }, "mark").answer;
+  const { file, text, definitions, rotate } = mark;
+  const reply = await connection.ask("load", { file, text, definitions, rotate }, "mark").answer;
   if (!reply.ok) throw new Error("the marked version can no longer be made; files that it reads have changed");
   const made = { ...mark, design: reply.design as string };
   if (state.mark === mark) set({ mark: made });
@@ -411,14 +421,15 @@ function setJobs(jobs: Job[]) {
 }
 
 function takeJob(job: Job) {
+  const before = state.jobs.find((known) => known.folder === job.folder);
   const others = state.jobs.filter((known) => known.folder !== job.folder);
-  setJobs([...others, job]);
+  setJobs([...others, { ...job, rotate: job.rotate ?? before?.rotate }]);
 }
 
 export async function startExport(folder: string, replace: boolean): Promise<string> {
   try {
     const reply = await about("export", { folder, file: state.file, replace, ...cutting() }, "");
-    takeJob(reply.job);
+    takeJob({ ...reply.job, rotate: state.rotate });
     return "";
   } catch (error) {
     return (error as Error).message;
@@ -430,6 +441,10 @@ export async function changeJob(job: Job, to: "pause" | "resume" | "cancel") {
     if (to === "cancel") return setJobs(state.jobs.filter((known) => known !== job));
     if (job.file && job.file !== state.file) return set({ problem: `open ${job.file} to go on with its layers` });
     set({ printer: job.printer, dither: job.dither, place: job.place ?? "" });
+    if (job.rotate && job.rotate.join() !== state.rotate.join()) {
+      set({ rotate: job.rotate });
+      await load();
+    }
     await plan();
     return startExport(job.folder, false);
   }

@@ -78,6 +78,7 @@ export interface Hello {
   program: string;
   folder: string;
   file: string;
+  opens_folders: boolean;
   files: string[];
   printers: { name: string; title: string }[];
   dithers: string[];
@@ -100,6 +101,8 @@ export interface Plan {
 export interface Job {
   id: number;
   state: "waiting" | "working" | "paused" | "done" | "failed" | "cancelled" | "interrupted";
+  path: string; // of the folder, whole
+  rotate?: number[]; // which the page remembers
   folder: string;
   file: string;
   printer: string;
@@ -154,6 +157,7 @@ export interface Mark {
   file: string;
   text: string;
   definitions: string[];
+  rotate: number[];
   time: string;
 }
 
@@ -200,6 +204,7 @@ export interface State {
   printer: string;
   dither: string;
   place: Place;
+  rotate: number[]; // degrees about x, then y, then z: how the part lies
   estimate?: Estimate;
   plan?: Plan;
   planProblem: string;
@@ -212,8 +217,10 @@ export interface State {
   comparisonProblem: string;
   jobs: Job[];
   view: ViewName | "all";
-  panel: "variables" | "materials" | "export" | "reference";
+  panel: "variables" | "materials" | "export" | "reference" | "examples";
   theme: "system" | "light" | "dark";
+  turntable?: number; // the share of one under way that is made
+  showsKeys: boolean;
 }
 
 // What a person chose of the page, which stays when it is loaded again.
@@ -244,6 +251,7 @@ export let state: State = {
   printer: "generic",
   dither: "stochastic",
   place: "",
+  rotate: [0, 0, 0],
   planProblem: "",
   z: NaN,
   comparisonProblem: "",
@@ -251,6 +259,7 @@ export let state: State = {
   view: "surface",
   panel: "variables",
   theme: "system",
+  showsKeys: false,
   ...known,
 };
 

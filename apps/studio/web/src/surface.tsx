@@ -5,13 +5,16 @@ import { Refused } from "./connection";
 import { CutControls, cutMembers } from "./cuts";
 import { moveByKeys, moveByPointer } from "./navigation";
 import { about, connection } from "./session";
-import { set, state, useStore } from "./store";
+import { Camera, set, state, useStore } from "./store";
 
 const steps = [
+  { share: 0.1, samples: 1 }, // of designs that take long alone
   { share: 0.3, samples: 1 },
   { share: 1, samples: 1 },
   { share: 1, samples: 2 },
 ];
+
+const longMilliseconds = 120; // of the second step
 
 // Pictures of equal keys differ in size alone.
 function pictureKey(): string {
@@ -34,31 +37,29 @@ function noteRange(of: string, range: [number, number] | undefined) {
   if (range && !state.range && (state.shownRange?.of !== of || state.shownRange.range.join() !== range.join())) set({ shownRange: { of, range } });
 }
 
+// What a request for a picture from this camera says, apart from its size.
+export function renderMembers(camera: Camera): Record<string, unknown> {
+  return {
+    azimuth: camera.azimuth,
+    elevation: camera.elevation,
+    target: camera.target,
+    height_mm: camera.height,
+    perspective: fieldOfView(),
+    ...cutMembers(state.cut),
+    ...colourMembers(),
+    opacity: state.opacity,
+  };
+}
+
 async function drawOne(canvas: HTMLCanvasElement, step: (typeof steps)[0]) {
-  const { camera, cut, opacity } = state;
+  const { camera } = state;
   if (!camera) return;
   const colours = coloursKey();
   const ratio = Math.min(devicePixelRatio, 2) * step.share;
   const width = Math.max(1, Math.round(canvas.clientWidth * ratio)),
     height = Math.max(1, Math.round(canvas.clientHeight * ratio));
   const started = performance.now();
-  const reply = await about(
-    "render",
-    {
-      width,
-      height,
-      samples: step.samples,
-      azimuth: camera.azimuth,
-      elevation: camera.elevation,
-      target: camera.target,
-      height_mm: camera.height,
-      perspective: fieldOfView(),
-      ...cutMembers(cut),
-      ...colourMembers(),
-      opacity,
-    },
-    "surface",
-  );
+  const reply = await about("render", { width, height, samples: step.samples, ...renderMembers(camera) }, "surface");
   noteRange(colours, reply.range);
   const picture = await createImageBitmap(new Blob([reply.bytes as BlobPart], { type: "image/png" }));
   canvas.width = Math.round(canvas.clientWidth * Math.min(devicePixelRatio, 2));
@@ -72,15 +73,16 @@ async function drawOne(canvas: HTMLCanvasElement, step: (typeof steps)[0]) {
 // One picture after the other, each finer, until something changes. A small picture is finished before the next is
 // begun, so that something is seen while the camera moves; a finer one gives way at once.
 class Drawer {
+  private first = 0;
   private step = 0;
   private key = "";
   private isAtWork = false;
   constructor(private canvas: HTMLCanvasElement) {}
 
   async go() {
-    if (this.isAtWork && (this.step === 0 || pictureKey() === this.key)) return;
+    if (this.isAtWork && (this.step === this.first || pictureKey() === this.key)) return;
     if (this.isAtWork) {
-      this.step = 0;
+      this.step = this.first;
       this.key = "";
       return connection.cancelLane("surface");
     }
@@ -95,7 +97,7 @@ class Drawer {
 
   private isLeft(): boolean {
     if (!state.design || !state.camera || this.canvas.clientWidth === 0 || !connection.isOpen) return false;
-    if (pictureKey() !== this.key) this.step = 0;
+    if (pictureKey() !== this.key) this.step = this.first;
     this.key = pictureKey();
     return this.step < steps.length;
   }
@@ -105,7 +107,9 @@ class Drawer {
       design = state.design!.design;
     this.canvas.dataset.state = "drawing";
     try {
+      const begun = performance.now();
       await drawOne(this.canvas, steps[this.step]);
+      if (this.step === 1) this.first = performance.now() - begun > longMilliseconds ? 0 : 1;
       this.canvas.dataset.design = design;
       this.tell("");
       if (this.key !== key) return;
