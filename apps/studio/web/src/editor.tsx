@@ -141,7 +141,7 @@ function Welcome() {
   return (
     <div class="bar">
       <span>{files.length > 0 ? "Choose a design above, or make a new one." : "There is no design in this folder yet."}</span>
-      <button class="main" onClick={() => newFile(freeName())}>Begin with a ball</button>
+      <button class="main" onClick={() => newFile(freeName()).then(() => set({ panel: "variables" }))}>Begin with a ball</button>
       <button onClick={() => set({ panel: "examples" })}>See examples</button>
     </div>
   );

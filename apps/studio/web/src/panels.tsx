@@ -220,7 +220,7 @@ function Turns() {
   const set = (axis: number, degrees: number) => turn(rotate.map((old, n) => (n === axis ? degrees : old)));
   return (
     <fieldset class="turns">
-      <legend>Turn about x, then y, then z (degrees)</legend>
+      <legend title="About x first, then y, then z">Turn, degrees</legend>
       {["x", "y", "z"].map((name, axis) => (
         <span class="controls">
           <label>

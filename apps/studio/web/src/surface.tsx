@@ -67,6 +67,7 @@ async function drawOne(canvas: HTMLCanvasElement, step: (typeof steps)[0]) {
   const context = canvas.getContext("2d")!;
   context.imageSmoothingEnabled = true;
   context.drawImage(picture, 0, 0, canvas.width, canvas.height);
+  picture.close();
   canvas.dataset.milliseconds = String(Math.round(performance.now() - started));
 }
 
