@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* description = "Ombre compiles solids whose material varies through their volume.";
 constexpr const char* program_footer =
-    "A design is a script (.vcad, or .scad of OpenSCAD), a design file (.json) or a Python script\n"
+    "A design is a script (.vcad, or .scad of OpenSCAD), a design file (.json), a bundle (.ombre) or a Python script\n"
     "(.py, whose root it is; see: ombre run -h).\n"
     "ombre COMMAND --help tells more. Lengths are millimetres, angles degrees; z is up, layer 0 the lowest.\n"
     "Exit codes: 0 done, 1 the design or the arguments are wrong, 2 a file or the machine failed,\n"
@@ -62,7 +62,8 @@ class CommandLine {
                  add_fea(program_, output_),      add_homogenise(program_, output_), add_sheet(program_, output_),
                  add_probe(program_, output_),    add_info(program_, output_),       add_nodes(program_, output_),
                  add_printers(program_, output_), add_materials(program_, output_),  add_scad(program_, output_),
-                 add_studio(program_, output_),   add_optimise(program_, output_),   add_completion(program_)};
+                 add_studio(program_, output_),   add_bundle(program_, output_),     add_optimise(program_, output_),
+                 add_completion(program_)};
     // Only for those who ask what there is: Python runs it before it comes here (python_designs.h).
     program_.add_subcommand("run",
                             "Run a Python script; with --, its root is the design of a command (see: ombre run -h)");

@@ -54,6 +54,7 @@ Command add_nodes(CLI::App& program, OutputOptions& output);
 Command add_printers(CLI::App& program, OutputOptions& output);
 Command add_materials(CLI::App& program, OutputOptions& output);
 Command add_scad(CLI::App& program, OutputOptions& output);
+Command add_bundle(CLI::App& program, OutputOptions& output);
 Command add_studio(CLI::App& program, OutputOptions& output);
 Command add_completion(CLI::App& program);
 

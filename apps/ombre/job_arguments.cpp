@@ -1,5 +1,6 @@
 #include "ombre/job_arguments.h"
 
+#include "compile/turned.h"
 #include "ombre/interrupt.h"
 #include "ombre/options.h"
 
@@ -19,7 +20,8 @@ compile::LoadedPtr load_design(const DesignArguments& a, Session& session, Diagn
   options.threads = threads;
   options.cache = &session.cache;
   const QuitAtOnce quits;
-  return session.load(a.design, options, diagnostics);
+  const compile::LoadedPtr loaded = session.load(a.design, options, diagnostics);
+  return loaded ? compile::turned(loaded, a.rotate.value_or(Vec3{}), diagnostics) : nullptr;
 }
 
 }  // namespace ombre::cli

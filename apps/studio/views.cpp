@@ -142,6 +142,7 @@ Answer picture_answer(OpenDesign& design, const Request& request, const StopFlag
     answer.bytes =
         formats::encode_png(static_cast<uint32_t>(picture.width), static_cast<uint32_t>(picture.height), made.rgba);
     answer.members = {{"pixel_mm", made.pixel_mm}};
+    if (made.range) answer.members.emplace_back("range", DataList{made.range->lo, made.range->hi});
   };
   if (!compile::take_pictures(*design.loaded, picture, stop, take, diagnostics) || diagnostics.has_errors())
     throw design_error(diagnostics);

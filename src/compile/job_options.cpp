@@ -24,10 +24,14 @@ const options::Spec<SamplingRules>& SamplingRules::options() {
 
 const options::Spec<DesignOptions>& DesignOptions::options() {
   static const options::Spec<DesignOptions> spec{
-      option("design", &DesignOptions::design, kind::file, "The design: a .vcad, .json or .py file", "FILE").required(),
+      option("design", &DesignOptions::design, kind::file, "The design: a .vcad, .scad, .json, .ombre or .py file",
+             "FILE")
+          .required(),
       option("--materials", &DesignOptions::materials, kind::file, "Materials file (see: ombre materials)", "FILE"),
       options::list("-D,--define", &DesignOptions::definitions, kind::text,
-                    "Set a variable of the design; may be repeated", "NAME=VALUE")};
+                    "Set a variable of the design; may be repeated", "NAME=VALUE"),
+      option("--rotate", &DesignOptions::rotate, kind::angles, "Turn the design about x, then y, then z; degrees",
+             "X,Y,Z")};
   return spec;
 }
 

@@ -14,6 +14,7 @@ namespace ombre::compile {
 struct DesignOptions {
   std::string design, materials;
   std::vector<std::string> definitions;
+  std::optional<Vec3> rotate = {};  // degrees about x, then y, then z
 
   static const options::Spec<DesignOptions>& options();
 };

@@ -74,7 +74,7 @@ class Studio {
       if (!shot) return false;
       stages_of(loaded_.design)->prepare(loan_);
       is_empty_ = true;
-      Picture picture{expose(*shot), shot->film.pixel_mm * static_cast<double>(request_.samples)};
+      Picture picture{expose(*shot), shot->film.pixel_mm * static_cast<double>(request_.samples), shown_range_};
       if (!mark(picture, frame)) return false;
       if (labels_) labels_->add_to(picture, shot->camera);
       take(frame, picture);
@@ -105,15 +105,13 @@ class Studio {
   bool choose_range() {
     options_.value = ValueColours{request_.by, {0, 1}, request_.palette};
     if (request_.by == part_label && !part_names(loaded_.design).empty()) return true;
-    if (request_.range) {
-      options_.value->range = *request_.range;
-      return true;
-    }
-    if (loaded_.design.materials.find(request_.by) || attribute_parts(loaded_.design, request_.by).size() >= 3)
-      return true;
+    const bool is_fraction = loaded_.design.materials.find(request_.by) != nullptr;
+    if (!is_fraction && attribute_parts(loaded_.design, request_.by).size() >= 3) return true;  // a colour
     const size_t errors = diagnostics_.error_count();
-    if (const auto range = value_range(loaded_.design, whole_, request_.by, diagnostics_))
-      options_.value->range = *range;
+    std::optional<Interval> range = request_.range;
+    if (!range && !is_fraction) range = value_range(loaded_.design, whole_, request_.by, diagnostics_);
+    if (range) options_.value->range = *range;
+    shown_range_ = options_.value->range;
     return diagnostics_.error_count() == errors;
   }
 
@@ -314,7 +312,8 @@ class Studio {
   Diagnostics& diagnostics_;
   Box whole_;
   SceneOptions options_;
-  int64_t width_ = 0, height_ = 0;  // of what is shown, pixels
+  std::optional<Interval> shown_range_;  // by colours
+  int64_t width_ = 0, height_ = 0;       // of what is shown, pixels
   int64_t samples_ = request_.samples;
   std::optional<PictureLabels> labels_;
   bool is_empty_ = true;  // the frame at work

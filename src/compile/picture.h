@@ -69,6 +69,7 @@ struct PictureRequest {
 struct Picture {
   std::vector<uint8_t> rgba;  // rows from the top
   double pixel_mm = 0;        // at the part's middle
+  std::optional<Interval> range;  // that the colours span, where they show an attribute of numbers or a fraction
 };
 
 // Calls `take` with each frame; progress counts rows of all frames. False, and diagnostics, when there is nothing to

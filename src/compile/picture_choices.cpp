@@ -136,7 +136,7 @@ const options::Spec<PictureChoices>& PictureChoices::options() {
              "From the least value to the greatest: " + join(palette_names(), ", "), "NAME")
           .needs("--by"),
       option("--deform", &P::deform, kind::number,
-             "Of results (.vtu, .frd): how many times the displacement moves the part (default 0)", "X"),
+             "Of results (.vtu, .xdmf, .frd): how many times the displacement moves the part (default 0)", "X"),
       option("--background", &P::background, colour_kind, "white (default), black, gray, transparent or #rrggbb",
              "COLOUR"),
       option("--aa", &P::samples, kind::whole, "Rays along the edge of a pixel, which smooth edges (default 2)", "N")

@@ -94,6 +94,13 @@ Box parse_rectangle(const std::string& text, const std::string& option) {
   throw WrongValue(option + " " + text + " is not a box x0,y0,x1,y1; write for example " + option + " -5,-5,5,5 (mm)");
 }
 
+Vec3 parse_angles(const std::string& text, const std::string& option) {
+  const std::vector<double> angles = parse_numbers(text);
+  if (angles.size() == 3) return {angles[0], angles[1], angles[2]};
+  throw WrongValue(option + " " + text + " is not three angles, about x, y and z; write for example " + option +
+                   " 90,0,45 (degrees)");
+}
+
 Interval parse_range(const std::string& text, const std::string& option) {
   const std::vector<double> ends = parse_numbers(text);
   if (ends.size() == 2 && ends[0] < ends[1]) return {ends[0], ends[1]};

@@ -38,6 +38,8 @@ size_t parse_memory(const std::string& text, const std::string& option = "--memo
 Box parse_box(const std::string& text, const std::string& option = "--box");
 // "x0,y0,x1,y1"; its z is 0 to 0.
 Box parse_rectangle(const std::string& text, const std::string& option);
+// Three angles, about x, y and z: "90,0,45"; degrees.
+Vec3 parse_angles(const std::string& text, const std::string& option = "--rotate");
 // Two numbers, the lesser first: "0,1".
 Interval parse_range(const std::string& text, const std::string& option = "--range");
 int parse_whole(const std::string& text, const std::string& option);
@@ -71,6 +73,7 @@ inline constexpr Kind<double> height{"number", parse_height};
 inline constexpr Kind<size_t> memory{"size of memory", parse_memory};
 inline constexpr Kind<Box> box{"6 numbers", parse_box};
 inline constexpr Kind<Box> rectangle{"4 numbers", parse_rectangle};
+inline constexpr Kind<Vec3> angles{"3 numbers", parse_angles};
 inline constexpr Kind<Interval> range{"2 numbers", parse_range};
 
 }  // namespace kind
