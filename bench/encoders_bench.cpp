@@ -135,7 +135,7 @@ void report(benchmark::State& state, const Drawn& drawn, size_t bytes) {
   if (drawn.entropy_bytes > 1) state.counters["size/entropy"] = static_cast<double>(bytes) / drawn.entropy_bytes;
 }
 
-void encode(benchmark::State& state, const Kind& kind, formats::PngFormat format) {
+void encode(benchmark::State& state, const Kind& kind, ImageFormat format) {
   const Drawn drawn = draw(kind);
   const RunLayer layer = runs_of(drawn.voxels);
   const formats::Palette palette = palette_of(kind.materials);
@@ -169,10 +169,10 @@ void count(benchmark::State& state, const Kind& kind) {
 }
 
 void register_all() {
-  const std::pair<const char*, formats::PngFormat> encoders[] = {{"indexed", formats::PngFormat::indexed},
-                                                                 {"rgba", formats::PngFormat::rgba},
-                                                                 {"gray", formats::PngFormat::gray},
-                                                                 {"mask", formats::PngFormat::mask}};
+  const std::pair<const char*, ImageFormat> encoders[] = {{"indexed", ImageFormat::indexed},
+                                                          {"rgba", ImageFormat::rgba},
+                                                          {"gray", ImageFormat::gray},
+                                                          {"mask", ImageFormat::mask}};
   const auto add = [](const std::string& what, const Kind& kind, auto run) {
     benchmark::RegisterBenchmark((what + "/" + kind.name).c_str(), run)->Unit(benchmark::kMillisecond);
   };

@@ -36,7 +36,8 @@ std::optional<compile::Plan> plan(const std::string& text, const voxel::Evaluato
   std::remove(path.c_str());
   if (!loaded) return std::nullopt;
   compile::PlanOptions options;
-  options.evaluator = evaluator;
+  options.evaluator = evaluator.evaluator;
+  options.speed = evaluator;
   for (auto& pitch : options.pitch) pitch = Pitch::parse("0.01");
   return compile::plan_slice(loaded, options, diagnostics);
 }

@@ -28,7 +28,9 @@ import programs
 from table import Table, seconds
 
 PRINTER = {"printer": "j750"}
-FIRST = {"width": 360, "height": 270, "samples": 1}    # as the page begins
+QUICK = {"width": 120, "height": 90, "samples": 1}     # as the page begins with designs that take it long
+FIRST = {"width": 360, "height": 270, "samples": 1}    # as it begins with others
+LONG = 0.12                                            # of the first picture, seconds
 SCREEN = {"width": 1200, "height": 900, "samples": 1}  # as fine as its view on a usual screen
 SLIDER_FRAMES = 15
 
@@ -221,12 +223,21 @@ def full_slice(connection, design, example, folder):
     return written
 
 
+def picture_sizes(connection, example):
+    """Which pictures the page asks for, one after the other: it begins with a smaller one where the first took long."""
+    design = load(connection, example)
+    duration, _ = timed(lambda: connection.ask("render", design=design, **FIRST))
+    return [QUICK, FIRST, SCREEN] if duration > LONG else [FIRST, SCREEN]
+
+
 def row(connection, example, folder, place, is_sliced):
     """What one line of the table says."""
     figures = {"design": example.name}
-    figures["picture"] = after_an_edit(connection, example, lambda d: connection.ask("render", design=d, **FIRST))
+    sizes = picture_sizes(connection, example)
+    figures["pixels"] = sizes[0]["width"] * sizes[0]["height"]
+    figures["picture"] = after_an_edit(connection, example, lambda d: connection.ask("render", design=d, **sizes[0]))
     figures["screen"] = after_an_edit(connection, example, lambda d: [
-        connection.ask("render", design=d, **FIRST), connection.ask("render", design=d, **SCREEN)])
+        connection.ask("render", design=d, **size) for size in sizes])
     figures["tile"] = after_an_edit(connection, example, lambda d: first_tile(connection, d, place))
     design = load(connection, example)
     plan = first_tile(connection, design, place)

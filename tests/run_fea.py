@@ -328,6 +328,13 @@ def results_are_in_xdmf(folder):
         expect(asked.returncode == 0, asked.stderr[-1000:])
         answers.append([json.loads(line)["attributes"] for line in asked.stdout.splitlines() if '"point"' in line])
     expect(answers[0] == answers[1] and len(answers[0]) == 2, str(answers))
+    pictures = []
+    for name in ("bend.vtu", "bend.xdmf"):
+        drawn = program.run([folder.ombre, "render", name, "--by", "von_mises", "--deform", "5", "--size", "80x60", "-o", "p.png",
+                             "--force"], cwd=folder.path)
+        expect(drawn.returncode == 0, drawn.stderr[-1000:])
+        pictures.append((folder.path / "p.png").read_bytes())
+    expect(pictures[0] == pictures[1], "the mesh of .xdmf is another than that of .vtu")
     (folder.path / "bend.h5").write_bytes(before[:1000])
     message = program.run([folder.ombre, "probe", "asks.vcad", *places], cwd=folder.path).stderr
     expect("bend.h5" in message and "HDF5" in message, message)

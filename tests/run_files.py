@@ -320,6 +320,27 @@ def links_lead_to_what_lies_beside_them(job):
     expect("looked for lost_sizes.vcad and real/lost_sizes.vcad" in told, told)
 
 
+def bundles_slice_as_their_designs_do(job):
+    """A mesh in a folder beside the design goes with it, and is found from anywhere; turned, both are turned."""
+    options = ["--voxel", "0.5", "--rotate", "90,0,0"]
+    made = program.run([job.ombre, "bundle", EXAMPLES / "gear.vcad"], cwd=job.folder)
+    if "OMBRE_3MF" in made.stderr:
+        return "skipped: built without zip archives"
+    expect(made.returncode == 0, made.stderr[-1500:])
+    job.slice("design", *options, design=EXAMPLES / "gear.vcad")
+    job.slice("bundle", *options, design=job.folder / "gear.ombre")
+    expect_same(job.folder / "design", job.folder / "bundle")
+    written = job.write("turned.vcad", f'rotate((90, 0, 0), order="xyz") mesh("{EXAMPLES}/models/gear.stl", green);')
+    plain = job.write("plain.vcad", f'mesh("{EXAMPLES}/models/gear.stl", green);')
+    job.slice("written", "--voxel", "0.5", design=written)
+    job.slice("turned", *options, design=plain)
+    expect_same(job.folder / "written", job.folder / "turned")
+    job.write("broken.ombre", "no archive")
+    expect("this is no bundle" in job.slice("broken", design=job.folder / "broken.ombre", status=1).stderr, "broken")
+    expect(not (job.folder / "broken").exists(), "a folder of a broken bundle")
+    return ""
+
+
 def reference_is_up_to_date(job):
     printed = program.run([job.ombre, "nodes", "--markdown"]).stdout
     reference = program.SOURCE / "docs" / "nodes.md"
@@ -345,7 +366,7 @@ CHECKS = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make
           images_tell_their_resolution, palettes_of_any_size, materials_have_masks_of_their_own,
           gray_images_show_brightness, masks_resume_and_are_replaced, layers_of_masks_have_several_files,
           layers_are_those_of_the_job, boxes_cut_layers, layers_have_names_and_are_not_overwritten,
-          wrong_layers_are_explained, links_lead_to_what_lies_beside_them, reference_is_up_to_date,
+          wrong_layers_are_explained, links_lead_to_what_lies_beside_them, bundles_slice_as_their_designs_do, reference_is_up_to_date,
           examples_of_nodes_slice, suggestions_of_examples_work, designs_of_openscad_are_explained]
 
 if __name__ == "__main__":

@@ -82,6 +82,19 @@ def charts_are_written(ombre, folder):
     expect("--force" in told and (folder / "chart.svg").read_text(encoding="utf-8") == before, "overwriting")
 
 
+def layers_conduct_in_series_and_parallel(ombre, folder):
+    design = 'translate([0, 0, 1]) rectprism([4, 4, 2], material="red"); translate([0, 0, -1]) rectprism([4, 4, 2], material="blue");'
+    for physics, unit in (("heat", "conductivity_w_mk"), ("electric", "conductivity_s_m")):
+        (folder / "heat.json").write_text(json.dumps({"physics": physics, "materials": {"red": {unit: 15}, "blue": {unit: 0.2}}}),
+                                          encoding="utf-8")
+        lines = run(ombre, folder, design, "--study", "heat.json", "--json", "--cell", "1", "--tolerance", "1e-10").stdout.splitlines()
+        found = next(e for e in map(json.loads, lines) if e["event"] == "homogenised")[unit]
+        for axis, wanted in enumerate(((15 + 0.2) / 2, (15 + 0.2) / 2, 2 / (1 / 15 + 1 / 0.2))):
+            near(found[axis][axis], wanted, 1e-6, f"the conductivity along {'xyz'[axis]}")
+    told = run(ombre, folder, design, "--study", "heat.json", "--cell", "1", "-o", "chart.svg", status=1).stderr
+    expect("conductivities have none" in told and not (folder / "chart.svg").exists(), told)
+
+
 def wrong_use_is_told(ombre, folder):
     def told(design, *arguments, status=1):
         return run(ombre, folder, design, *arguments, status=status).stderr
@@ -103,7 +116,8 @@ def main():
             function(ombre, pathlib.Path(scratch))
 
     checks = [plain_blocks_are_their_material, layers_share_strain_in_the_plane, boxes_cut_and_repeat,
-              draws_are_softer_than_means, charts_are_written, wrong_use_is_told]
+              draws_are_softer_than_means, charts_are_written, layers_conduct_in_series_and_parallel,
+              wrong_use_is_told]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
 
 

@@ -4,6 +4,7 @@
     python3 tests/run_optimise.py build/dev/apps/ombre/ombre
 """
 import argparse
+import array
 import csv
 import functools
 import json
@@ -94,15 +95,7 @@ def the_best_design_is_a_script(folder):
 def beams_follow_beam_theory(folder):
     """The lightest beam under a limit of its deflection is as high as may be, and as wide as that needs."""
     length, force, modulus, limit, height = 100, 5, 1000, 2, 10
-    folder.write("beam.vcad", f"b = 8;\nh = 6;\ntranslate({length / 2}, 0, 0) rectprism(({length}, b, h), red);\n")
-    folder.write("beam.json", {
-        "variables": {"b": {"from": 1, "to": 20, "start": 8}, "h": {"from": 2, "to": height, "start": 6}},
-        "objectives": [{"minimise": "volume"}],
-        "constraints": [{"measure": "displacement", "axis": "z", "at_most": limit}],
-        "fea": {"materials": {"red": {"modulus_mpa": modulus, "poissons_ratio": 0}},
-                "supports": [{"on": "xmin", "fix": "xyz"}], "loads": [{"on": "xmax", "force_n": [0, 0, -force]}]},
-        "bricks": [40, 1, 4], "evaluations": 120})
-    best = folder.best("beam.vcad", "--study", "beam.json", "-o", "beam")["variables"]
+    best = folder.best(STUDIES / "beam.vcad", "--study", STUDIES / "lighter.json", "-o", "beam")["variables"]
     near(best["h"], height, 0.01, "the height")
     # Deflection by bending and by shear (Timoshenko), of width 1.
     shear = force * length / (5 / 6 * modulus / 2 * height)
@@ -236,20 +229,14 @@ def designs_that_fail_are_left_out(folder):
     folder.run("half.vcad", "--study", "half.json", "-o", "half", "--resume")
 
 
-MBB = {"topology": {"volume_fraction": 0.5, "radius": 2.4},
-       "fea": {"materials": {"red": {"modulus_mpa": 1, "poissons_ratio": 0.3}},
-               "supports": [{"on": "xmin", "fix": "x"}, {"on": {"box": [60, 0, 0, 60, 0, 1]}, "fix": "y"},
-                            {"on": "zmin", "fix": "z"}],
-               "loads": [{"on": {"box": [0, 20, 0, 0, 20, 1]}, "force_n": [0, -1, 0]}]},
-       "cell": 1}
+STUDIES = program.SOURCE / "examples" / "studies"
+MBB = json.loads((STUDIES / "stiffest.json").read_text(encoding="utf-8"))
 
 
 def topologies_are_as_stiff_as_published(folder):
     """Half of a beam on two supports, 60 by 20: Andreassen and others (2011) publish a compliance of 233.71 with a filter
     of densities of radius 2.4. Theirs are plane elements, ours are bricks of one layer."""
-    folder.write("mbb.vcad", "translate(30, 10, 0.5) rectprism((60, 20, 1), red);\n")
-    folder.write("mbb.json", MBB)
-    events = folder.events("mbb.vcad", "--study", "mbb.json", "-o", "mbb")
+    events = folder.events(STUDIES / "half_beam.vcad", "--study", STUDIES / "stiffest.json", "-o", "mbb")
     found = next(event for event in events if event["event"] == "topology")
     near(found["compliance_n_mm"], 233.71, 0.01 * 233.71, "the compliance")
     near(found["volume_fraction"], 0.5, 1e-4, "the volume")
@@ -262,6 +249,24 @@ def topologies_are_as_stiff_as_published(folder):
         expect(('"red":1' if share else '"blue":1') in told, told)
         wanted = "inside" if share else "outside"
         expect(wanted in folder.run("mbb/topology.vcad", "--at", at, command="probe").stdout, f"{at} is not {wanted}")
+
+
+def projection_draws_densities_apart(folder):
+    """With a projection few bricks are left between void and solid, where there are many without one, and the volume holds."""
+    study = {**MBB, "topology": {**MBB["topology"], "steps": 150}}
+
+    def between(name, **more):
+        folder.write("apart.json", {**study, "topology": {**study["topology"], **more}})
+        events = folder.events(STUDIES / "half_beam.vcad", "--study", "apart.json", "-o", name)
+        found = next(event for event in events if event["event"] == "topology")
+        near(found["volume_fraction"], 0.5, 1e-3, "the volume")
+        header, _, data = (folder.path / name / "density.nrrd").read_bytes().partition(b"\n\n")
+        expect(b"encoding: raw" in header and b"type: float" in header, header.decode())
+        densities = array.array("f", data)
+        return sum(0.1 < density < 0.9 for density in densities) / len(densities)
+
+    even, apart = between("even"), between("apart", projection=16)
+    expect(apart < 0.5 * even, f"{apart:.0%} of the bricks are neither void nor solid, {even:.0%} without a projection")
 
 
 def wrong_topologies_are_told(folder):
@@ -293,7 +298,7 @@ def main():
 
     checks = [bars_are_as_light_as_hookes_law_lets_them, the_best_design_is_a_script, beams_follow_beam_theory,
               fronts_are_found, whole_variables_are_whole, searches_go_on, ctrl_c_keeps_the_history,
-              wrong_studies_are_told, designs_that_fail_are_left_out, topologies_are_as_stiff_as_published,
+              wrong_studies_are_told, designs_that_fail_are_left_out, topologies_are_as_stiff_as_published, projection_draws_densities_apart,
               wrong_topologies_are_told]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
 

@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "options/option.h"
+
 namespace ombre::cli {
 
+CLI::Validator within(const options::Limits& limits);
 // Numbers, ends included.
 CLI::Validator between(double least, double greatest);
 // Whole numbers.

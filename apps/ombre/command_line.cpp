@@ -21,20 +21,33 @@ namespace {
 
 constexpr const char* description = "Ombre compiles solids whose material varies through their volume.";
 constexpr const char* program_footer =
-    "A design is a script (.vcad, or .scad of OpenSCAD), a design file (.json) or a Python script\n"
+    "A design is a script (.vcad, or .scad of OpenSCAD), a design file (.json), a bundle (.ombre) or a Python script\n"
     "(.py, whose root it is; see: ombre run -h).\n"
     "ombre COMMAND --help tells more. Lengths are millimetres, angles degrees; z is up, layer 0 the lowest.\n"
     "Exit codes: 0 done, 1 the design or the arguments are wrong, 2 a file or the machine failed,\n"
     "3 a check failed, 130 interrupted.\n";
 
-DataList described_options(const CLI::App& app) {
+// Adds what only the options of jobs say of their values.
+void add_kind(const Command& command, DataMembers& described) {
+  for (const options::Option& option : command.options) {
+    if (option.name() != *described.front().second.string()) continue;
+    DataList choices(option.choices.begin(), option.choices.end());
+    described.emplace_back("kind", option.kind);
+    described.emplace_back("choices", std::move(choices));
+  }
+}
+
+DataList described_options(const Command& command) {
   DataList list;
-  for (const CLI::Option* option : app.get_options())
-    list.emplace_back(DataMembers{{"name", option->get_name()},
-                                  {"help", option->get_description()},
-                                  {"type", option->get_type_name()},
-                                  {"is_flag", option->get_items_expected_max() == 0},
-                                  {"is_list", option->get_items_expected_max() > 1}});
+  for (const CLI::Option* option : command.app->get_options()) {
+    DataMembers described{{"name", option->get_name()},
+                          {"help", option->get_description()},
+                          {"type", option->get_type_name()},
+                          {"is_flag", option->get_items_expected_max() == 0},
+                          {"is_list", option->get_items_expected_max() > 1}};
+    add_kind(command, described);
+    list.emplace_back(std::move(described));
+  }
   return list;
 }
 
@@ -49,7 +62,8 @@ class CommandLine {
                  add_fea(program_, output_),      add_homogenise(program_, output_), add_sheet(program_, output_),
                  add_probe(program_, output_),    add_info(program_, output_),       add_nodes(program_, output_),
                  add_printers(program_, output_), add_materials(program_, output_),  add_scad(program_, output_),
-                 add_studio(program_, output_),   add_optimise(program_, output_),   add_completion(program_)};
+                 add_studio(program_, output_),   add_bundle(program_, output_),     add_optimise(program_, output_),
+                 add_completion(program_)};
     // Only for those who ask what there is: Python runs it before it comes here (python_designs.h).
     program_.add_subcommand("run",
                             "Run a Python script; with --, its root is the design of a command (see: ombre run -h)");
@@ -60,7 +74,7 @@ class CommandLine {
     for (const Command& command : commands_)
       list.emplace_back(DataMembers{{"name", command.app->get_name()},
                                     {"help", command.app->get_description()},
-                                    {"options", described_options(*command.app)}});
+                                    {"options", described_options(command)}});
     return list;
   }
 
@@ -75,6 +89,8 @@ class CommandLine {
       return program_.exit(asked);
     } catch (const CLI::ParseError& error) {
       return wrong(explain(program_, error));
+    } catch (const WrongArgument& error) {
+      return wrong(error.what());
     }
     if (!host_.on_event)
       console_.set_voice(output_.json ? Voice::programs : output_.quiet ? Voice::quiet : Voice::people);

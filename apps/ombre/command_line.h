@@ -43,8 +43,8 @@ struct Host {
   const StopFlag* stop = nullptr;                    // asks a command to stop, in place of Ctrl-C
 };
 
-// [{"name", "help", "options": [{"name", "help", "type", "is_flag", "is_list"}]}]; arguments without dashes are
-// options whose names have none.
+// [{"name", "help", "options": [{"name", "help", "type", "is_flag", "is_list", "kind", "choices"}]}]; arguments without
+// dashes are options whose names have none. Only the options of jobs say the last two.
 Data describe_commands();
 
 // Runs a whole command and returns its exit code. Throws nothing; nor may what `host` holds.

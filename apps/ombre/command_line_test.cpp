@@ -70,11 +70,19 @@ TEST(CommandLine, ValuesThatDoNotFitAreToldWithThoseThatDo) {
 TEST(CommandLine, WhatIsMissingIsTold) {
   expect_wrong({"slice"}, "the design is missing; write for example ombre slice part.vcad; see ombre slice --help");
   expect_wrong({"probe", "part.vcad"}, "--at is missing; write ombre probe ... --at X,Y,Z; see");
+  expect_wrong({"bundle"}, "the design is missing; write for example ombre bundle part.vcad; see");
   expect_wrong({"sheet"}, "folder is missing; write ombre sheet ... DIR; see");
   expect_wrong({"render", "part.vcad", "--zoom"}, "--zoom needs a value: --zoom X; see");
   expect_wrong({"render", "part.vcad", "--view"}, "--view needs a value: --view NAME; see");
   expect_wrong({"slice", "part.vcad", "--layers"}, "--layers needs a value: --layers A:B; see");
   expect_wrong({"slice", "part.vcad", "--seed", "1", "--seed", "2"}, "--seed is given more than once; see");
+}
+
+TEST(CommandLine, BundlesSayWhatToWrite) {
+  expect_wrong({"bundle", "part.py"}, "ombre slice part.py --emit json > part.json");
+  expect_wrong({"bundle", "part.ombre"}, "part.ombre is a bundle already");
+  expect_wrong({"bundle", "part.vcad", "-o", "part.zip"}, "write for example -o part.ombre");
+  expect_wrong({"slice", "part.vcad", "--rotate", "90"}, "write for example --rotate 90,0,45");
 }
 
 TEST(CommandLine, PicturesSayWhatToWrite) {

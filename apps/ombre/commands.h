@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "ombre/command_line.h"
 #include "ombre/console.h"
+#include "options/option.h"
 
 namespace ombre::cli {
 
@@ -25,13 +26,11 @@ using Action = std::function<int(Session&)>;
 struct Command {
   CLI::App* app = nullptr;
   Action run;
+  std::vector<options::Option> options = {};  // of a job; what the command has beside them is not among these
 };
 
 // Arguments wrong in a way that only the command can see; the message says what to write instead.
-class WrongArgument : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+using WrongArgument = options::WrongValue;
 
 // How much a command says; options that many commands have.
 struct OutputOptions {
@@ -55,6 +54,7 @@ Command add_nodes(CLI::App& program, OutputOptions& output);
 Command add_printers(CLI::App& program, OutputOptions& output);
 Command add_materials(CLI::App& program, OutputOptions& output);
 Command add_scad(CLI::App& program, OutputOptions& output);
+Command add_bundle(CLI::App& program, OutputOptions& output);
 Command add_studio(CLI::App& program, OutputOptions& output);
 Command add_completion(CLI::App& program);
 

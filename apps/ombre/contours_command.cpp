@@ -5,29 +5,22 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
-#include "compile/contour_job.h"
+#include "compile/region_choices.h"
 #include "export/outline_files.h"
-#include "ombre/arguments.h"
-#include "ombre/checks.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
+#include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
-#include "ombre/region_arguments.h"
+#include "ombre/slice_report.h"
 
 namespace ombre::cli {
 namespace {
 
 using exporting::OutlineFormat;
 
-struct ContoursArguments {
-  DesignArguments design;
-  RegionArguments regions;
-  std::string output, layer_height, z;
-  int threads = 0;
-  bool force = false;
-};
+using compile::ContourChoices;
 
 constexpr const char* contours_footer =
     "Lengths are millimetres.\n\n"
@@ -40,29 +33,7 @@ constexpr const char* contours_footer =
     "  ombre contours part.vcad -o part.cli --by materials\n"
     "  ombre contours part.vcad -o cut.svg --z 3.2 --bands 4\n";
 
-void add_arguments(CLI::App& app, ContoursArguments& a) {
-  add_design_arguments(app, a.design);
-  app.add_option("-o,--output", a.output, "The folder or file to write; a file's ending says the format")
-      ->required()
-      ->type_name("FOLDER|FILE");
-  app.add_option("--layer-height", a.layer_height, "Height of layers; mm (default: the design's own, else 0.1)")
-      ->type_name("MM");
-  app.add_option("--z", a.z, "Only one layer: what is cut at this height; mm")->type_name("MM");
-  add_region_arguments(app, a.regions, "An outline");
-  add_threads(app, a.threads);
-  app.add_flag("--force", a.force, "Replace files that are there");
-}
-
-compile::ContourRequest contour_request(const ContoursArguments& a) {
-  compile::ContourRequest request{region_request(a.regions), {}, {}, a.threads, nullptr};
-  if (!a.layer_height.empty()) request.layer_height = parse_layer_height(a.layer_height);
-  if (a.z.empty()) return request;
-  request.z_mm = parse_number(a.z);
-  if (!request.z_mm) throw WrongArgument("--z " + a.z + " is not a height; write for example --z 3.2 (mm)");
-  return request;
-}
-
-void refuse_to_overwrite_layers(const ContoursArguments& a, OutlineFormat format) {
+void refuse_to_overwrite_layers(const ContourChoices& a, OutlineFormat format) {
   if (format != OutlineFormat::svg_folder) return refuse_to_overwrite(a.output, a.force);
   std::error_code ignored;
   const auto status = std::filesystem::status(a.output, ignored);
@@ -94,15 +65,22 @@ struct Totals {
   }
 };
 
-void tell_plan(const Console& console, const compile::ContourPlan& plan) {
+void tell_plan(const Console& console, const compile::ContourPlan& plan, int threads) {
   const auto& pitch = plan.corners.pitch;
+  const compile::ContourWork work = compile::size_contour_work(plan, threads);
+  console.say(format_count(static_cast<unsigned long long>(plan.layers())) +
+              (plan.layers() == 1 ? " layer" : " layers") + " of " + mm_text(pitch[2].mm()) + " mm, cells of " +
+              mm_text(pitch[0].mm()) + " mm; at most " + format_bytes(work.memory_bytes) +
+              " of memory for layers in flight");
+  warn_of_memory(console, "a layer", work.memory_bytes, plan.memory_bytes);
   console.event("plan", {{"layers", static_cast<double>(plan.layers())},
                          {"layer_height_mm", pitch[2].mm()},
                          {"tolerance_mm", plan.tolerance_mm},
-                         {"cell_mm", pitch[0].mm()}});
+                         {"cell_mm", pitch[0].mm()},
+                         {"memory_bytes", work.memory_bytes}});
 }
 
-void tell_totals(const Console& console, const ContoursArguments& a, const formats::OutlineDocument& document,
+void tell_totals(const Console& console, const ContourChoices& a, const formats::OutlineDocument& document,
                  const compile::ContourPlan& plan, const Totals& totals, double seconds) {
   DataList regions;
   for (size_t n = 0; n < document.regions.size(); ++n) {
@@ -122,17 +100,17 @@ void tell_totals(const Console& console, const ContoursArguments& a, const forma
                          {"seconds", seconds}});
 }
 
-int write(const ContoursArguments& a, OutlineFormat format, const compile::ContourPlan& plan, Session& session,
+int write(const ContourChoices& a, OutlineFormat format, const compile::ContourPlan& plan, Session& session,
           const StopFlag& stop) {
   const Stopwatch watch;
-  tell_plan(session.console, plan);
+  tell_plan(session.console, plan, a.work.threads);
   const auto document = document_of(plan, std::filesystem::path(a.design.design).stem().string());
   Totals totals(plan.regions.size());
   const auto files = exporting::begin_outline_files(
       {a.output, format, static_cast<uint64_t>(plan.layers()), plan.face_mm(0)}, document);
   ProgressLine progress(session.console, Counted::steps);
   compile::draw_contours(
-      plan, a.threads,
+      plan, a.work.threads,
       [&](int64_t layer, const compile::LayerRegions& regions) {
         files->add(plan.middle_mm(layer), plan.face_mm(layer + 1), regions);
         totals.add(regions, plan.corners.pitch[2].mm());
@@ -144,8 +122,8 @@ int write(const ContoursArguments& a, OutlineFormat format, const compile::Conto
   return done;
 }
 
-int contours(const ContoursArguments& a, Session& session) {
-  compile::ContourRequest request = contour_request(a);
+int contours(const ContourChoices& a, Session& session) {
+  compile::ContourRequest request = a.request();
   const OutlineFormat format = exporting::outline_format_of(a.output);
   if (format == OutlineFormat::svg && !request.z_mm)
     throw WrongArgument("-o " + a.output + " holds one layer; say which with --z, or name a folder: -o " +
@@ -153,7 +131,7 @@ int contours(const ContoursArguments& a, Session& session) {
   refuse_to_overwrite_layers(a, format);
 
   Diagnostics diagnostics;
-  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
   request.stop = &session.stop;
   const auto plan = loaded ? compile::plan_contours(*loaded, request, diagnostics) : std::nullopt;
   session.console.diagnose(diagnostics);
@@ -165,11 +143,12 @@ int contours(const ContoursArguments& a, Session& session) {
 
 Command add_contours(CLI::App& program, OutputOptions& output) {
   CLI::App* app = program.add_subcommand("contours", "Write outlines of layers: SVG, CLI");
-  auto arguments = std::make_shared<ContoursArguments>();
-  add_arguments(*app, *arguments);
+  auto arguments = std::make_shared<ContourChoices>();
+  add_options(*app, *arguments);
   add_output_options(*app, output);
   app->footer(contours_footer);
-  return {app, [arguments](Session& session) { return contours(*arguments, session); }};
+  return {app, [arguments](Session& session) { return contours(*arguments, session); },
+          ContourChoices::options().options()};
 }
 
 }  // namespace ombre::cli

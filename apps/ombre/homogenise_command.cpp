@@ -1,4 +1,4 @@
-// ombre homogenise: how stiff a cell of a design is as a material.
+// ombre homogenise: how stiff a cell of a design is as a material, or how well it conducts.
 #include <memory>
 
 #include "base/error.h"
@@ -7,7 +7,9 @@
 #include "base/text.h"
 #include "compile/homogenise_job.h"
 #include "export/output_file.h"
+#include "fea/conduction.h"
 #include "fea/homogenise.h"
+#include "fea/homogenise_conductivity.h"
 #include "formats/file.h"
 #include "ombre/arguments.h"
 #include "ombre/checks.h"
@@ -35,6 +37,9 @@ constexpr const char* homogenise_footer =
     "nothing.\n\n"
     "Properties of materials come from the study (\"materials\") or the materials file:\n"
     "  {\"materials\": {\"red\": {\"modulus_mpa\": 2850, \"poissons_ratio\": 0.39}}}\n\n"
+    "With \"physics\": \"heat\" or \"electric\" and \"conductivity_w_mk\" or \"conductivity_s_m\" of materials "
+    "it is the\n"
+    "conductivity, from three gradients.\n\n"
     "Examples:\n"
     "  ombre homogenise cell.vcad --cell 0.25 -o cell.svg\n"
     "  ombre homogenise part.vcad --box 0,0,0,2,2,2 --cell 0.05 --assign draw --seed 3   # what dithering prints "
@@ -70,18 +75,17 @@ std::optional<fea::Study> study_of(const HomogeniseArguments& a, Diagnostics& di
   return data ? fea::read_study(*data, diagnostics) : std::nullopt;
 }
 
-std::optional<fea::Model> make_model(const HomogeniseArguments& a, Session& session, Diagnostics& diagnostics) {
-  const auto study = study_of(a, diagnostics);
-  const compile::LoadedPtr loaded = study ? load_design(a.design, session, diagnostics, a.threads) : nullptr;
+std::optional<fea::Model> make_model(const HomogeniseArguments& a, const fea::Study& study, Session& session,
+                                     Diagnostics& diagnostics) {
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
   if (!loaded) return std::nullopt;
   const std::optional<Box> wanted = a.box.empty() ? std::nullopt : std::optional(parse_box(a.box));
   const auto box = compile::periodic_box(loaded, wanted, a.cell, diagnostics);
   if (!box) return std::nullopt;
   const compile::LoadedPtr sampled = compile::sampled_by(loaded, *box);
-  JobArguments job;
-  static_cast<DesignArguments&>(job) = a.design;
-  job.seed = a.seed;
-  auto options = plan_options(job, diagnostics);
+  compile::SamplingOptions sampling;
+  sampling.rules.seed = options::parse_seed(a.seed);
+  auto options = plan_options(sampling, diagnostics);
   if (!options) return std::nullopt;
   options->threads = a.threads;
   options->stop = &session.stop;
@@ -91,7 +95,7 @@ std::optional<fea::Model> make_model(const HomogeniseArguments& a, Session& sess
   if (a.assign == "mix") request.assign = compile::FeaRequest::Assign::mix;
   request.threads = a.threads;
   ProgressLine progress(session.console);
-  auto model = compile::fea_model(sampled, *plan, *study, request, diagnostics, &progress, &session.stop);
+  auto model = compile::fea_model(sampled, *plan, study, request, diagnostics, &progress, &session.stop);
   progress.finish();
   if (!model || diagnostics.has_errors()) return std::nullopt;
   return compile::repeating(std::move(*model), *box);
@@ -150,6 +154,30 @@ void tell(const Console& console, const fea::Homogenised& found, double seconds)
   console.event("homogenised", std::move(event));
 }
 
+void tell(const Console& console, const fea::HomogenisedConductivity& found, bool is_heat, double seconds) {
+  console.say(percent(found.solid_share) + " of the box is solid; solved in " + format_count(found.iterations) +
+              " iterations and " + format_rounded(seconds, 3) + " s");
+  console.say(std::string("conductivity, ") + (is_heat ? "W/(m K)" : "S/m") + " (x, y, z):");
+  DataList rows;
+  for (const auto& row : found.conductivity) {
+    std::string line;
+    for (const double value : row) {
+      const std::string text = format_rounded(std::abs(value) < 1e-6 * found.arithmetic_mean ? 0 : value, 5);
+      line += std::string(text.size() < 12 ? 12 - text.size() : 1, ' ') + text;
+    }
+    console.say(line);
+    rows.emplace_back(list_of(row));
+  }
+  console.say("between " + format_rounded(found.harmonic_mean, 5) + " and " + format_rounded(found.arithmetic_mean, 5) +
+              ", as all that has these shares");
+  console.event("homogenised", {{is_heat ? "conductivity_w_mk" : "conductivity_s_m", rows},
+                                {"arithmetic_mean", found.arithmetic_mean},
+                                {"harmonic_mean", found.harmonic_mean},
+                                {"solid_share", found.solid_share},
+                                {"iterations", static_cast<double>(found.iterations)},
+                                {"seconds", seconds}});
+}
+
 void check_output(const HomogeniseArguments& a) {
   if (a.output.empty()) return;
   if (!to_lower(a.output).ends_with(".svg"))
@@ -157,36 +185,58 @@ void check_output(const HomogeniseArguments& a) {
   refuse_to_overwrite(a.output, a.force);
 }
 
-int run_homogenise(const HomogeniseArguments& a, Session& session) {
-  check_output(a);
-  const auto allowed = static_cast<double>(parse_memory(a.memory));
-  Diagnostics diagnostics;
-  const auto model = make_model(a, session, diagnostics);
-  session.console.diagnose(diagnostics);
-  if (!model) return wrong_input;
-  const fea::Bricks& bricks = model->bricks;
-  const double bytes = fea::solve_bytes(bricks);
-  session.console.say(std::to_string(bricks.period[0]) + " x " + std::to_string(bricks.period[1]) + " x " +
-                      std::to_string(bricks.period[2]) + " bricks of " + format_rounded(bricks.size_mm.x, 4) + " x " +
-                      format_rounded(bricks.size_mm.y, 4) + " x " + format_rounded(bricks.size_mm.z, 4) +
-                      " mm; solving takes about " + format_bytes(bytes));
-  if (bytes > allowed)
+// Throws Error where it takes more than is allowed.
+void tell_size(const HomogeniseArguments& a, const Console& console, const fea::Bricks& bricks, double bytes) {
+  console.say(std::to_string(bricks.period[0]) + " x " + std::to_string(bricks.period[1]) + " x " +
+              std::to_string(bricks.period[2]) + " bricks of " + format_rounded(bricks.size_mm.x, 4) + " x " +
+              format_rounded(bricks.size_mm.y, 4) + " x " + format_rounded(bricks.size_mm.z, 4) +
+              " mm; solving takes about " + format_bytes(bytes));
+  if (const auto allowed = static_cast<double>(parse_memory(a.memory)); bytes > allowed)
     throw Error("solving takes about " + format_bytes(bytes) + " of memory, more than the " + format_bytes(allowed) +
                 " allowed; choose larger bricks with --cell, or more --memory");
+}
+
+void solve_stiffness(const HomogeniseArguments& a, const fea::Model& model, const fea::SolveOptions& options,
+                     Session& session, DataList& files) {
   const Stopwatch watch;
+  ProgressLine progress(session.console, Counted::steps);
+  const fea::Homogenised found = fea::homogenise(model, options, &progress, &session.stop);
+  progress.finish();
+  tell(session.console, found, watch.seconds());
+  if (a.output.empty()) return;
+  exporting::write_file(a.output, fea::stiffness_chart(found.stiffness_mpa, a.design.design));
+  session.console.say(a.output + " written");
+  files.emplace_back(a.output);
+}
+
+void solve_conductivity(const fea::Model& model, const fea::SolveOptions& options, bool is_heat, Session& session) {
+  const Stopwatch watch;
+  ProgressLine progress(session.console, Counted::steps);
+  const fea::HomogenisedConductivity found = fea::homogenise_conductivity(model, options, &progress, &session.stop);
+  progress.finish();
+  tell(session.console, found, is_heat, watch.seconds());
+}
+
+int run_homogenise(const HomogeniseArguments& a, Session& session) {
+  check_output(a);
+  parse_memory(a.memory);
+  Diagnostics diagnostics;
+  const auto study = study_of(a, diagnostics);
+  const bool is_mechanics = !study || study->physics == fea::Physics::mechanics;
+  if (!is_mechanics && !a.output.empty()) throw WrongArgument("-o is a chart of stiffness: conductivities have none");
+  const auto model = study ? make_model(a, *study, session, diagnostics) : std::nullopt;
+  session.console.diagnose(diagnostics);
+  if (!model) return wrong_input;
+  tell_size(a, session.console, model->bricks,
+            is_mechanics ? fea::solve_bytes(model->bricks) : fea::conduct_bytes(model->bricks));
   fea::SolveOptions options;
   options.tolerance = a.tolerance;
   options.threads = a.threads;
-  ProgressLine progress(session.console, Counted::steps);
-  const fea::Homogenised found = fea::homogenise(*model, options, &progress, &session.stop);
-  progress.finish();
-  tell(session.console, found, watch.seconds());
   DataList files;
-  if (!a.output.empty()) {
-    exporting::write_file(a.output, fea::stiffness_chart(found.stiffness_mpa, a.design.design));
-    session.console.say(a.output + " written");
-    files.emplace_back(a.output);
-  }
+  if (is_mechanics)
+    solve_stiffness(a, *model, options, session, files);
+  else
+    solve_conductivity(*model, options, study->physics == fea::Physics::heat, session);
   session.console.event("done", {{"files", files}});
   return done;
 }

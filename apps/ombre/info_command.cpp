@@ -83,7 +83,7 @@ int show_design(const std::string& path, Session& session) {
 
 bool is_design(const std::string& path) {
   const std::string ending = to_lower(std::filesystem::path(path).extension().string());
-  return ending == ".vcad" || ending == ".py" || ending == ".json";
+  return ending == ".vcad" || ending == ".py" || ending == ".json" || ending == ".ombre";
 }
 
 std::string parameter_text(const lang::openscad::Parameter& parameter) {
@@ -117,7 +117,7 @@ int show_script(const std::string& path, Session& session) {
 
 int show_file(const std::string& path, const VolumeArguments& volume, Session& session) {
   if (path.ends_with(".scad")) return show_script(path, session);
-  if (is_results(path) || is_xdmf(path)) return show_results(path, session);
+  if (is_results(path)) return show_results(path, session);
   return is_design(path) ? show_design(path, session) : show_volume(path, volume, session);
 }
 
@@ -135,7 +135,7 @@ Command add_info(CLI::App& program, OutputOptions& output) {
   app->add_option(
          "file", *file,
          "A volume: a folder of DICOM files or images, .dcm, .nii, .nrrd, .mha, .vdb, .vti, .tif, .npy, or raw numbers "
-         "with a .json beside them; or a design, or a script: .scad; or results: .vtu, .frd, .inp")
+         "with a .json beside them; or a design, or a script: .scad; or results: .vtu, .xdmf, .frd, .inp")
       ->required()
       ->type_name("FILE");
   app->add_option("--series", volume->choice.name,

@@ -1,40 +1,22 @@
-// What decides the pixels of a job: the arguments that slicing and its previews share.
+// Designs and jobs as commands need them.
 #pragma once
 
 #include <CLI/App.hpp>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "base/diagnostic.h"
+#include "compile/job_options.h"
 #include "compile/load.h"
 #include "ombre/commands.h"
 
 namespace ombre::cli {
 
-// Which design, and with what it is read.
-struct DesignArguments {
-  std::string design, materials;
-  std::vector<std::string> definitions;
-};
+using DesignArguments = compile::DesignOptions;
 void add_design_arguments(CLI::App& app, DesignArguments& arguments);
 
-struct JobArguments : DesignArguments {
-  std::string printer, voxel, dpi, layer_height, dither = "stochastic", evaluator = "batch", seed = "0", image, place,
-                                                 by, range, bits = "8";
-  bool tray = false;
-};
-
-// Adds the design and the options that decide its voxels to a command.
-void add_voxel_arguments(CLI::App& app, JobArguments& arguments);
-// The same, and those that decide its images.
-void add_job_arguments(CLI::App& app, JobArguments& arguments);
-
-// Two numbers, the lesser first: "0,1".
-Interval parse_range(const std::string& text);
-
-// Nothing, and diagnostics, when there is no such printer. Throws WrongArgument.
-std::optional<compile::PlanOptions> plan_options(const JobArguments& arguments, Diagnostics& diagnostics);
+// As compile::plan_options, by this program.
+std::optional<compile::PlanOptions> plan_options(const compile::SamplingOptions& sampling, Diagnostics& diagnostics,
+                                                 const compile::ImageOptions& images = {});
 
 // On up to `threads` threads; 0: all cores. Null, and diagnostics, when the design is wrong.
 compile::LoadedPtr load_design(const DesignArguments& arguments, Session& session, Diagnostics& diagnostics,

@@ -6,22 +6,19 @@
 #include "base/text.h"
 #include "compile/layer.h"
 #include "compile/layer_files.h"
+#include "compile/slice_choices.h"
 #include "export/output_file.h"
-#include "ombre/arguments.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
+#include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/slice_report.h"
 
 namespace ombre::cli {
 namespace {
 
-struct LayerArguments {
-  JobArguments job;
-  std::string output, z, index, box;
-  bool force = false;
-};
+using compile::LayerChoices;
 
 constexpr const char* layer_footer =
     "Lengths are millimetres in the design's space.\n\n"
@@ -30,20 +27,7 @@ constexpr const char* layer_footer =
     "  ombre layer part.vcad --index 100 --printer j750     a layer of a printer's job, the lowest is 0\n"
     "  ombre layer part.vcad --z 0 --box -5,-5,5,5 -o -     a part of it, to stdout\n";
 
-void add_arguments(CLI::App& app, LayerArguments& a) {
-  add_job_arguments(app, a.job);
-  app.add_option("-o,--output", a.output,
-                 "The image to write, - for stdout (default: the names of the design and of the layer's file)")
-      ->type_name("FILE");
-  CLI::Option* z = app.add_option("--z", a.z, "The layer at this height of the design; mm")->type_name("MM");
-  app.add_option("--index", a.index, "The layer of this number: 0 is the lowest, -1 the highest")
-      ->type_name("N")
-      ->excludes(z);
-  app.add_option("--box", a.box, "Only the pixels that touch this box; mm")->type_name("X0,Y0,X1,Y1");
-  app.add_flag("--force", a.force, "Replace the image if it is there");
-}
-
-int64_t chosen_layer(const LayerArguments& a, const voxel::Lattice& lattice) {
+int64_t chosen_layer(const LayerChoices& a, const voxel::Lattice& lattice) {
   const int64_t count = lattice.count[2];
   if (!a.index.empty()) {
     const auto range =
@@ -53,33 +37,31 @@ int64_t chosen_layer(const LayerArguments& a, const voxel::Lattice& lattice) {
                         format_count(static_cast<unsigned long long>(count)) + " layers, which are 0 to " +
                         std::to_string(count - 1));
   }
-  const std::optional<double> z = parse_number(a.z);
-  if (!z) throw WrongArgument("--z " + a.z + " is not a height; write for example --z 3.2 (mm)");
-  if (const auto layer = compile::layer_at(lattice, *z)) return *layer;
+  if (const auto layer = compile::layer_at(lattice, *a.z_mm)) return *layer;
   const Box box = lattice.box();
-  throw WrongArgument("--z " + a.z + " is outside the part, which lies from " + mm_text(box.lo.z) + " to " +
-                      mm_text(box.hi.z) + " mm along z");
+  throw WrongArgument("--z " + format_number(*a.z_mm) + " is outside the part, which lies from " + mm_text(box.lo.z) +
+                      " to " + mm_text(box.hi.z) + " mm along z");
 }
 
-std::optional<compile::LayerWindow> chosen_window(const LayerArguments& a, const voxel::Lattice& lattice) {
-  if (a.box.empty()) return std::nullopt;
-  const std::vector<double> corners = parse_numbers(a.box);
-  if (corners.size() != 4 || corners[0] >= corners[2] || corners[1] >= corners[3])
-    throw WrongArgument("--box " + a.box + " is not a box x0,y0,x1,y1; write for example --box -5,-5,5,5 (mm)");
-  if (const auto window = compile::window_over(lattice, corners[0], corners[1], corners[2], corners[3])) return window;
+std::optional<compile::LayerWindow> chosen_window(const LayerChoices& a, const voxel::Lattice& lattice) {
+  if (!a.box) return std::nullopt;
+  const auto& [lo, hi] = *a.box;
+  if (const auto window = compile::window_over(lattice, lo.x, lo.y, hi.x, hi.y)) return window;
   const Box box = lattice.box();
-  throw WrongArgument("--box " + a.box + " is beside the images, which lie from " + mm_text(box.lo.x) + "," +
-                      mm_text(box.lo.y) + " to " + mm_text(box.hi.x) + "," + mm_text(box.hi.y) + " mm");
+  const std::vector<std::string> corners{format_number(lo.x), format_number(lo.y), format_number(hi.x),
+                                         format_number(hi.y)};
+  throw WrongArgument("--box " + join(corners, ",") + " is beside the images, which lie from " + mm_text(box.lo.x) +
+                      "," + mm_text(box.lo.y) + " to " + mm_text(box.hi.x) + "," + mm_text(box.hi.y) + " mm");
 }
 
 // part.vcad and slice_00012.png give part_slice_00012.png. Where each material has a file, -o layer.png gives
 // layer_red.png, layer_blue.png and so on.
-std::vector<std::string> output_files(const LayerArguments& a, const compile::SliceRequest& request, int64_t layer) {
+std::vector<std::string> output_files(const LayerChoices& a, const compile::SliceRequest& request, int64_t layer) {
   namespace fs = std::filesystem;
   std::vector<std::string> files;
   if (a.output.empty()) {
     for (const std::string& name : compile::LayerFiles(request).names(layer))
-      files.push_back(fs::path(a.job.design).stem().string() + "_" + name);
+      files.push_back(fs::path(a.design.design).stem().string() + "_" + name);
     return files;
   }
   if (!request.files.has_material()) return {a.output};
@@ -112,7 +94,7 @@ void tell_layer(const Console& console, const compile::SliceRequest& request, in
                          {"materials", materials}});
 }
 
-int write_layer(const LayerArguments& a, const compile::Plan& plan, Session& session) {
+int write_layer(const LayerChoices& a, const compile::Plan& plan, Session& session) {
   const compile::SliceRequest& request = plan.request;
   const int64_t layer = chosen_layer(a, request.lattice);
   const auto window = chosen_window(a, request.lattice);
@@ -121,10 +103,12 @@ int write_layer(const LayerArguments& a, const compile::Plan& plan, Session& ses
   if (!to_stdout)
     for (const std::string& file : files) refuse_to_overwrite(file, a.force);
 
-  compile::StageLoan loan;
-  loan.stop = &session.stop;
+  const compile::StageLoan loan{a.work.threads, a.work.memory_bytes, nullptr, &session.stop};
+  warn_of_memory(session.console, "the layer",
+                 compile::layer_memory_bytes(request, window) + static_cast<double>(plan.stages->memory_bytes(loan)),
+                 a.work.memory_bytes);
   plan.stages->prepare(loan);
-  const compile::LayerImages images = compile::make_layer(request, plan.regions, layer, window);
+  const compile::LayerImages images = compile::make_layer(request, plan.regions, layer, window, &session.stop);
   if (to_stdout) {
     session.console.print(images.bytes.front());
   } else {
@@ -136,20 +120,23 @@ int write_layer(const LayerArguments& a, const compile::Plan& plan, Session& ses
 }
 
 // Ctrl-C stops the loading in good order; after it there is nothing to put in order.
-std::optional<compile::Plan> plan_job(const JobArguments& job, Session& session, Diagnostics& diagnostics) {
-  const auto wishes = plan_options(job, diagnostics);
+std::optional<compile::Plan> plan_job(const LayerChoices& a, Session& session, Diagnostics& diagnostics) {
+  auto wishes = plan_options(a.sampling, diagnostics, a.images);
   if (!wishes) return std::nullopt;
-  const compile::LoadedPtr loaded = load_design(job, session, diagnostics);
+  wishes->threads = a.work.threads;
+  wishes->memory_bytes = a.work.memory_bytes;
+  wishes->stop = &session.stop;
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
   return loaded ? compile::plan_slice(loaded, *wishes, diagnostics) : std::nullopt;
 }
 
-int layer(const LayerArguments& a, Session& session) {
-  if (a.z.empty() && a.index.empty())
+int layer(const LayerChoices& a, Session& session) {
+  if (!a.z_mm && a.index.empty())
     throw WrongArgument("which layer? write --z with a height in mm, or --index with a number");
   if (a.output == "-" && session.console.voice() == Voice::programs)
     throw WrongArgument("-o - writes the image to stdout, where --json writes events; give -o a file name");
   Diagnostics diagnostics;
-  const auto plan = plan_job(a.job, session, diagnostics);
+  const auto plan = plan_job(a, session, diagnostics);
   session.console.diagnose(diagnostics);
   if (!plan || diagnostics.has_errors()) return wrong_input;
   return write_layer(a, *plan, session);
@@ -159,11 +146,11 @@ int layer(const LayerArguments& a, Session& session) {
 
 Command add_layer(CLI::App& program, OutputOptions& output) {
   CLI::App* app = program.add_subcommand("layer", "Write one layer, with the pixels that slicing would write");
-  auto arguments = std::make_shared<LayerArguments>();
-  add_arguments(*app, *arguments);
+  auto arguments = std::make_shared<LayerChoices>();
+  add_options(*app, *arguments);
   add_output_options(*app, output);
   app->footer(layer_footer);
-  return {app, [arguments](Session& session) { return layer(*arguments, session); }};
+  return {app, [arguments](Session& session) { return layer(*arguments, session); }, LayerChoices::options().options()};
 }
 
 }  // namespace ombre::cli

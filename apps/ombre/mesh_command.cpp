@@ -8,32 +8,21 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "compile/beam_document.h"
-#include "compile/colour_map.h"
-#include "compile/mesh_job.h"
+#include "compile/region_choices.h"
 #include "compile/vertex_colours.h"
 #include "export/mesh_file.h"
-#include "ombre/arguments.h"
-#include "ombre/checks.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
+#include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
-#include "ombre/region_arguments.h"
 #include "ombre/slicer_settings.h"
 
 namespace ombre::cli {
 namespace {
 
-struct MeshArguments {
-  DesignArguments design;
-  RegionArguments regions;
-  std::string output, flavour = "generic", colour_by, palette, range;
-  std::vector<std::string> settings;
-  std::string memory = "4G";
-  int threads = 0;
-  bool beams = false, keep_all = false, force = false;
-};
+using compile::MeshChoices;
 
 constexpr const char* mesh_footer =
     "Lengths are millimetres.\n\n"
@@ -53,53 +42,6 @@ constexpr const char* mesh_footer =
     "  ombre mesh sole.vcad --by infill_density,temperature --flavour prusa     each band with its own settings\n"
     "  ombre mesh part.vcad --colour-by color_rgba -o part.glb                  vertices in the attribute's colours\n"
     "  ombre mesh seat.vcad --bands 4 --flavour prusa --setting fill_density=10%..60%\n";
-
-void add_arguments(CLI::App& app, MeshArguments& a) {
-  add_design_arguments(app, a.design);
-  app.add_option("-o,--output", a.output,
-                 "The file to write; its ending says the format (default: the design's name and .3mf)")
-      ->type_name("FILE");
-  add_region_arguments(app, a.regions, "A body");
-  CLI::Option* by =
-      app.add_option("--colour-by,--color-by", a.colour_by,
-                     "Colours of vertices by an attribute, or by the mixture: materials; not for .stl and "
-                     ".off")
-          ->type_name("materials|NAME");
-  app.add_option("--palette", a.palette, "Of an attribute that is a number")
-      ->needs(by)
-      ->check(one_of(compile::palette_names()))
-      ->type_name("NAME");
-  app.add_option("--range", a.range, "The values from the first colour to the last (default: those at the vertices)")
-      ->needs(by)
-      ->type_name("LO,HI");
-  app.add_flag("--keep-all", a.keep_all, "Keep the triangles of all cells, also where the surface is flat");
-  app.add_option("--flavour,--flavor", a.flavour, "Whom a .3mf is for: generic (default), prusa or bambu")
-      ->check(one_of({"generic", "prusa", "bambu"}))
-      ->type_name("SLICER");
-  app.add_option("--setting", a.settings,
-                 "A slicer's setting for the bodies: KEY=VALUE, KEY=FIRST..LAST from the first region to the last, or\n"
-                 "KEY=V1,V2,... one by one; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  app.add_flag("--beams", a.beams, "Write struts and lattices as beams, where they can be; .3mf only");
-  add_threads(app, a.threads);
-  app.add_option("--memory", a.memory, "Most memory for the cells at the surface (default 4G)")->type_name("SIZE");
-  app.add_flag("--force", a.force, "Replace the file if it is there");
-}
-
-compile::MeshRequest mesh_request(const MeshArguments& a) {
-  compile::MeshRequest request{region_request(a.regions)};
-  request.beams = a.beams;
-  request.join_flat = !a.keep_all;
-  request.threads = a.threads;
-  request.memory_bytes = parse_memory(a.memory);
-  return request;
-}
-
-formats::SlicerFlavour flavour_of(const std::string& name) {
-  if (name == "prusa") return formats::SlicerFlavour::prusa;
-  return name == "bambu" ? formats::SlicerFlavour::bambu : formats::SlicerFlavour::generic;
-}
 
 // Returns the slicer setting that an attribute's bands set on their bodies; empty if slicers have no such setting.
 std::string slicer_key(const std::string& attribute) {
@@ -231,19 +173,19 @@ void tell_plan(const Console& console, const compile::MeshPlan& plan) {
                          {"memory_bytes", plan.memory_bytes}});
 }
 
-void check_beams(const MeshArguments& a, const compile::MeshRequest& request, const std::string& output,
+void check_beams(const MeshChoices& a, const compile::MeshRequest& request, const std::string& output,
                  exporting::MeshFormat format) {
   if (format != exporting::MeshFormat::three_mf)
     throw WrongArgument("--beams are for .3mf; " + output + " cannot hold them");
-  if (a.flavour != "generic")
-    throw WrongArgument("--flavour " + a.flavour +
+  if (a.flavour != formats::SlicerFlavour::generic)
+    throw WrongArgument(std::string("--flavour ") + (a.flavour == formats::SlicerFlavour::prusa ? "prusa" : "bambu") +
                         " has no beams, which its slicers do not read; leave one of the two out");
   if (request.bands)
     throw WrongArgument("beams have a material each, but no bands; write --by materials, or leave --beams out");
 }
 
-int mesh(const MeshArguments& a, Session& session) {
-  compile::MeshRequest request = mesh_request(a);
+int mesh(const MeshChoices& a, Session& session) {
+  compile::MeshRequest request = a.request();
   Diagnostics diagnostics;
   size_t told = 0;
   const auto diagnose = [&] {
@@ -270,7 +212,7 @@ int mesh(const MeshArguments& a, Session& session) {
     throw WrongArgument("this ombre was built without libzip, which .3mf files need; write -o " + stem + ".amf");
 
   const Stopwatch watch;
-  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
   std::optional<compile::MeshedDesign> made;
   if (loaded) {
     ProgressLine progress(session.console, Counted::steps);
@@ -288,14 +230,14 @@ int mesh(const MeshArguments& a, Session& session) {
   warn_of_lost_parts(session.console, *made);
   formats::MeshDocument document = document_of(*made, stem, settings);
   if (!a.colour_by.empty()) {
-    const compile::VertexColouring colouring{a.colour_by, a.palette,
-                                             a.range.empty() ? std::nullopt : std::optional(parse_range(a.range))};
-    const bool good = compile::colour_vertices(*loaded, colouring, document, diagnostics, a.threads, &session.stop);
+    const compile::VertexColouring colouring{a.colour_by, a.palette, a.range};
+    const bool good =
+        compile::colour_vertices(*loaded, colouring, document, diagnostics, a.work.threads, &session.stop);
     diagnose();
     if (!good) return wrong_input;
   }
   compile::add_beams(*made, loaded->design.materials, document);
-  exporting::write_mesh_file(output, document, *format, flavour_of(a.flavour));
+  exporting::write_mesh_file(output, document, *format, a.flavour);
   session.console.say(output + " written in " + format_rounded(watch.seconds(), 3) + " s");
   session.console.event("done", {{"file", output}, {"seconds", watch.seconds()}});
   return done;
@@ -305,11 +247,11 @@ int mesh(const MeshArguments& a, Session& session) {
 
 Command add_mesh(CLI::App& program, OutputOptions& output) {
   CLI::App* app = program.add_subcommand("mesh", "Write closed surfaces: STL, 3MF and others");
-  auto arguments = std::make_shared<MeshArguments>();
-  add_arguments(*app, *arguments);
+  auto arguments = std::make_shared<MeshChoices>();
+  add_options(*app, *arguments);
   add_output_options(*app, output);
   app->footer(mesh_footer);
-  return {app, [arguments](Session& session) { return mesh(*arguments, session); }};
+  return {app, [arguments](Session& session) { return mesh(*arguments, session); }, MeshChoices::options().options()};
 }
 
 }  // namespace ombre::cli

@@ -304,9 +304,7 @@ class Report {
   DataList files_;
 };
 
-std::optional<compile::PlanOptions> plan_of(Diagnostics& diagnostics) {
-  return plan_options(JobArguments{}, diagnostics);
-}
+std::optional<compile::PlanOptions> plan_of(Diagnostics& diagnostics) { return plan_options({}, diagnostics); }
 
 optimise::Problem problem_of(const OptimiseStudy& study, Evaluator& evaluator) {
   optimise::Problem problem;

@@ -26,7 +26,7 @@ std::optional<TopologyCase> make_topology_case(const TopologyArguments& a, const
                                                Session& session, Diagnostics& diagnostics) {
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
   if (!loaded) return std::nullopt;
-  auto options = plan_options(JobArguments{}, diagnostics);
+  auto options = plan_options({}, diagnostics);
   if (!options) return std::nullopt;
   options->threads = a.threads;
   options->stop = &session.stop;

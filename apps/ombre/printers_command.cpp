@@ -29,7 +29,7 @@ std::string describe(const voxel::Printer& printer) {
     text += row("build box", format_rounded(build.x, 6) + " x " + format_rounded(build.y, 6) + " x " +
                                  format_rounded(build.z, 6) + " mm");
   }
-  text += row("images", voxel::to_text(printer.image) + (printer.files.has_material() ? ", for each material" : ""));
+  text += row("images", voxel::to_text(printer.format) + (printer.files.has_material() ? ", for each material" : ""));
   text += row("images cover", printer.origin == voxel::Placement::center ? "the build plate, the part in its middle"
                                                                          : "the design's box");
   if (printer.flip_x || printer.flip_y)

@@ -92,22 +92,15 @@ DataMembers results_members(const std::string& path, const formats::Results& res
 
 }  // namespace
 
-bool is_xdmf(const std::string& path) { return to_lower(std::filesystem::path(path).extension().string()) == ".xdmf"; }
-
 bool is_results(const std::string& path) { return sources::has_elements(path); }
 
 int show_results(const std::string& path, Session& session) {
   Diagnostics diagnostics;
   const std::string bytes = formats::read_file(path);
   std::optional<formats::ResultsFile> numbers;
-  std::string beside, beside_bytes;
-  if (is_xdmf(path)) {
-    beside = std::filesystem::path(path).replace_extension(".h5").string();
-    if (std::filesystem::exists(beside)) {
-      beside_bytes = formats::read_file(beside);
-      numbers = formats::ResultsFile{beside, beside_bytes};
-    }
-  }
+  const std::string beside = sources::numbers_beside(path);
+  const std::string beside_bytes = beside.empty() ? "" : formats::read_file(beside);
+  if (!beside.empty()) numbers = formats::ResultsFile{beside, beside_bytes};
   const auto results = formats::read_results(path, bytes, numbers, diagnostics);
   session.console.diagnose(diagnostics);
   if (!results) return wrong_input;

@@ -7,10 +7,8 @@
 
 namespace ombre::cli {
 
-// Does the name end like one of those files that hold a mesh: .vtu, .frd, .inp?
+// Does the name end like one of those files that hold a mesh: .vtu, .xdmf, .frd, .inp?
 bool is_results(const std::string& path);
-// Does it end like a grid whose numbers are in a file of HDF5 beside it?
-bool is_xdmf(const std::string& path);
 // Prints what one of these files holds; an exit code.
 int show_results(const std::string& path, Session& session);
 // A design that is the mesh of such a file, moved by its displacement times `deform`, with the field called `by` as an

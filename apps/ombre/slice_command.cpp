@@ -1,28 +1,20 @@
 // ombre slice: a printable slice stack from a design.
-#include <filesystem>
 #include <memory>
 
 #include "base/error.h"
-#include "base/text.h"
-#include "compile/slice.h"
-#include "ombre/arguments.h"
-#include "ombre/checks.h"
+#include "compile/slice_choices.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/free_space.h"
 #include "ombre/job_arguments.h"
+#include "ombre/options.h"
 #include "ombre/progress_line.h"
 #include "ombre/slice_report.h"
 
 namespace ombre::cli {
 namespace {
 
-struct SliceArguments {
-  JobArguments job;
-  std::string folder, layers, memory = "2G", emit;
-  int threads = 0;
-  bool force = false, resume = false, dry_run = false, strict = false;
-};
+using compile::SliceChoices;
 
 constexpr const char* slice_footer =
     "Lengths are millimetres and may be exact: 25.4/600 is 600 dpi.\n\n"
@@ -34,50 +26,6 @@ constexpr const char* slice_footer =
     "  ombre slice part.vcad --layers 100:110               a few layers, named as in the whole job\n"
     "  ombre slice part.vcad --dry-run                      size, memory and time; writes nothing\n"
     "  ombre slice part.vcad -o part/ --resume              go on after an interruption\n";
-
-void add_arguments(CLI::App& app, SliceArguments& a) {
-  add_job_arguments(app, a.job);
-  app.add_option("-o,--output", a.folder, "Folder for the layers (default: the design's name and _slices)")
-      ->type_name("DIR");
-  app.add_option("--layers", a.layers, "Only these layers, a:b as in Python (b excluded), a:, :b or a")
-      ->type_name("A:B");
-  add_threads(app, a.threads);
-  app.add_option("--memory", a.memory,
-                 "Most memory for layers in flight, with their images and what evaluating them takes (default 2G)")
-      ->type_name("SIZE");
-  CLI::Option* force =
-      app.add_flag("--force", a.force, "Replace the job in the folder, or write beside other files; those stay");
-  app.add_flag("--resume", a.resume, "Continue the job in the folder")->excludes(force);
-  app.add_flag("--dry-run", a.dry_run, "Say what the job would take, from a few layers; write nothing");
-  app.add_flag("--strict", a.strict, "End with exit code 3 as soon as a check fails");
-  app.add_option("--emit", a.emit, "Print an intermediate form to stdout, and slice nothing")
-      ->check(one_of(compile::emit_forms()))
-      ->type_name("FORM");
-}
-
-std::string output_folder(const SliceArguments& a) {
-  if (!a.folder.empty()) return a.folder;
-  return std::filesystem::path(a.job.design).stem().string() + "_slices";
-}
-
-compile::SliceOptions slice_options(const SliceArguments& a, const compile::Plan& plan) {
-  compile::SliceOptions options;
-  options.folder = output_folder(a);
-  if (a.force) options.use = compile::FolderUse::replace;
-  if (a.resume) options.use = compile::FolderUse::resume;
-  options.threads = a.threads;
-  options.memory_bytes = parse_memory(a.memory);
-  options.strict = a.strict;
-  options.stages = plan.stages;
-  if (a.layers.empty()) return options;
-  const int64_t count = plan.request.lattice.count[2];
-  options.layers = compile::parse_layer_range(a.layers, count);
-  if (!options.layers)
-    throw WrongArgument("--layers " + a.layers + " selects none of the " +
-                        format_count(static_cast<unsigned long long>(count)) +
-                        " layers, which are 0:" + std::to_string(count) + "; write for example --layers 0:10");
-  return options;
-}
 
 // The line for people, and a warning as soon as the layers to come are known to be too many for the disk.
 class SliceProgress : public Progress {
@@ -136,19 +84,19 @@ int write_slices(const compile::Plan& plan, const compile::SliceOptions& options
   }
 }
 
-int slice(const SliceArguments& a, Session& session) {
+int slice(const SliceChoices& a, Session& session) {
   Diagnostics diagnostics;
   const auto diagnosed = [&] {
     session.console.diagnose(diagnostics);
     return diagnostics.has_errors() ? wrong_input : done;
   };
-  auto wishes = plan_options(a.job, diagnostics);
+  auto wishes = plan_options(a.sampling, diagnostics, a.images);
   if (!wishes) return diagnosed();
-  wishes->threads = a.threads;
+  wishes->threads = a.work.threads;
   wishes->stop = &session.stop;
-  wishes->memory_bytes = parse_memory(a.memory);  // a slip is better told before a long load
+  wishes->memory_bytes = a.work.memory_bytes;
 
-  const compile::LoadedPtr loaded = load_design(a.job, session, diagnostics, a.threads);
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
   if (!loaded) return diagnosed();
   if (const design::Node* node = a.resume || a.emit == "json" ? design::find_host_function(loaded->design) : nullptr) {
     diagnostics.error(node->where(),
@@ -164,7 +112,7 @@ int slice(const SliceArguments& a, Session& session) {
   const std::optional<compile::Plan> plan = compile::plan_slice(loaded, *wishes, diagnostics);
   if (const int code = diagnosed(); !plan || code != done) return wrong_input;
 
-  const compile::SliceOptions options = slice_options(a, *plan);
+  const compile::SliceOptions options = compile::slice_options(a, *plan);
   tell_plan(session.console, plan->request, options);
   const StopFlag& stop = session.stop;
   return a.dry_run ? dry_run(*plan, options, session, stop) : write_slices(*plan, options, session, stop);
@@ -174,11 +122,11 @@ int slice(const SliceArguments& a, Session& session) {
 
 Command add_slice(CLI::App& program, OutputOptions& output) {
   CLI::App* app = program.add_subcommand("slice", "Write a printable slice stack: one PNG for each layer");
-  auto arguments = std::make_shared<SliceArguments>();
-  add_arguments(*app, *arguments);
+  auto arguments = std::make_shared<SliceChoices>();
+  add_options(*app, *arguments);
   add_output_options(*app, output);
   app->footer(slice_footer);
-  return {app, [arguments](Session& session) { return slice(*arguments, session); }};
+  return {app, [arguments](Session& session) { return slice(*arguments, session); }, SliceChoices::options().options()};
 }
 
 }  // namespace ombre::cli

@@ -28,6 +28,12 @@ std::string shades_text(const compile::ShadeMeaning& shades) {
 
 }  // namespace
 
+void warn_of_memory(const Console& console, const std::string& what, double bytes, size_t allowed) {
+  if (bytes <= static_cast<double>(allowed)) return;
+  console.warn(what + " takes up to " + format_bytes(bytes) + ", more than the --memory of " +
+               format_bytes(static_cast<double>(allowed)) + "; coarser voxels or cells take less");
+}
+
 std::string mm_text(double mm) { return format_rounded(mm, 6); }
 
 void tell_plan(const Console& console, const compile::SliceRequest& request, const compile::SliceOptions& options) {

@@ -16,6 +16,9 @@ void tell_report(const Console& console, const compile::SliceRequest& request, c
                  const compile::SliceReport& report);
 void tell_checks(const Console& console, const std::vector<compile::CheckReport>& checks);
 
+// Warns where `what`, without which the job cannot do, takes more memory than is allowed.
+void warn_of_memory(const Console& console, const std::string& what, double bytes, size_t allowed);
+
 // Up to six decimals.
 std::string mm_text(double mm);
 

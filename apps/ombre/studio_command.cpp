@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "base/error.h"
+#include "compile/bundle.h"
+#include "formats/file.h"
 #include "ombre/checks.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
@@ -22,6 +24,7 @@ namespace {
 struct StudioArguments {
   std::string place = ".";
   int port = 0;
+  double idle = 0;
   bool no_browser = false;
 };
 
@@ -31,6 +34,7 @@ constexpr const char* studio_footer =
     "Examples:\n"
     "  ombre studio                   the designs in this folder\n"
     "  ombre studio part.vcad         one of them\n"
+    "  ombre studio part.ombre        a bundle, unpacked into the folder part beside it\n"
     "  ombre studio --port 8899 --no-browser\n";
 
 #ifdef OMBRE_WITH_STUDIO
@@ -96,23 +100,52 @@ void tell_address(const studio::Address& address, const Console& console) {
   console.event("studio", {{"url", address.url()}, {"port", static_cast<double>(address.port)}});
 }
 
+// The design of a bundle, in the folder beside it with its name: that of an earlier call if it is there, with all that
+// was changed since. Throws WrongArgument and Error.
+std::filesystem::path opened_bundle(const std::filesystem::path& bundle, const Console& console) {
+  const std::filesystem::path folder = std::filesystem::path(bundle).replace_extension();
+  if (const auto known = compile::find_unpacked(folder)) {
+    console.say("The bundle was unpacked into " + folder.string() + " before; what is there is shown.\n");
+    return known->design;
+  }
+  if (std::filesystem::exists(folder))
+    throw WrongArgument(folder.string() + " is there, and is not this bundle unpacked; rename it, or the bundle");
+  Diagnostics diagnostics;
+  const auto unpacked =
+      compile::unpack_bundle(bundle.string(), formats::read_file(bundle.string()), folder, diagnostics);
+  console.diagnose(diagnostics);
+  if (!unpacked) {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
+    throw WrongArgument(bundle.string() + " cannot be opened");
+  }
+  return unpacked->design;
+}
+
 int run_studio(const StudioArguments& a, Session& session) {
   namespace fs = std::filesystem;
   std::error_code error;
-  const fs::path place = fs::weakly_canonical(a.place, error);
+  fs::path place = fs::weakly_canonical(a.place, error);
   studio::StudioOptions options;
   options.program = "ombre " OMBRE_VERSION;
   options.command = own_command();
+  if (has_display())
+    options.open_folder = [](const std::string& shown) { return studio::start_program({"xdg-open", shown}); };
   fs::path folder = place;
   if (!fs::is_directory(place)) {
     if (!fs::exists(place)) throw WrongArgument(a.place + " is neither a folder nor a file");
     folder = place.parent_path();
-    options.first_file = place.filename().string();
+    if (compile::is_bundle(a.place)) {
+      folder = fs::path(place).replace_extension();
+      place = opened_bundle(place, session.console);
+    }
+    options.first_file = place.lexically_relative(folder).generic_string();
   }
   studio::Studio studio(folder, options, session.cache);
   studio::ServerOptions server;
   server.port = static_cast<uint16_t>(a.port);
   server.token = chosen_token();
+  server.idle_seconds = a.idle;
   server.assets = studio::page_assets();
   std::optional<Signpost> signpost;
   studio::serve(studio, server, session.stop, [&](const studio::Address& address) {
@@ -142,6 +175,9 @@ Command add_studio(CLI::App& program, OutputOptions& output) {
   app->add_option("--port", arguments->port, "Of 127.0.0.1 (default: one that is free)")
       ->check(whole_between(0, 65535))
       ->type_name("N");
+  app->add_option("--idle", arguments->idle, "End after so many seconds without a page or a job (default: never)")
+      ->check(between(0.1, 1e9))
+      ->type_name("S");
   app->add_flag("--no-browser", arguments->no_browser, "Print the address, and open no browser");
   add_output_options(*app, output);
   app->footer(studio_footer);

@@ -12,37 +12,13 @@ namespace {
 constexpr double longest_side = 480;  // pixels of the volume's longest side
 constexpr uint32_t gap = 8;           // pixels between the planes
 
-// The values that are black and white.
-Interval shown_range(const formats::VoxelVolume& volume) {
-  constexpr size_t parts = 4096;
-  constexpr double left_out = 0.005;
-  const Interval all = sources::value_range(volume);
-  const double width = all.hi - all.lo;
-  if (!(width > 0)) return {all.lo, all.lo + 1};
-  return formats::visit_numbers(volume, [&](const auto& numbers) {
-    std::array<double, parts> counts{};
-    for (size_t n = 0; n < numbers.size(); ++n) {
-      const double share = (static_cast<double>(numbers[n]) - all.lo) / width;
-      counts[std::min(static_cast<size_t>(share * parts), parts - 1)] += 1;
-    }
-    const double few = left_out * static_cast<double>(numbers.size());
-    size_t first = 0, last = parts - 1;
-    for (double below = counts[0]; first < last && below <= few; below += counts[++first]) {
-    }
-    for (double above = counts[last]; last > first && above <= few; above += counts[--last]) {
-    }
-    const double step = width / parts;
-    return Interval(all.lo + static_cast<double>(first) * step, all.lo + static_cast<double>(last + 1) * step);
-  });
-}
-
 struct Plane {
   size_t right = 0, up = 1;  // axes of the volume
 };
 
 class Painter {
  public:
-  explicit Painter(const formats::VoxelVolume& volume) : volume_(volume), range_(shown_range(volume)) {
+  explicit Painter(const formats::VoxelVolume& volume) : volume_(volume), range_(sources::shown_range(volume)) {
     for (size_t axis = 0; axis < 3; ++axis) {
       double step = 1;
       if (const auto& map = volume.space_from_index) {

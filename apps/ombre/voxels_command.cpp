@@ -7,15 +7,15 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "compile/grid_choices.h"
 #include "compile/sparse_file.h"
 #include "compile/volume_files.h"
 #include "compile/vti_files.h"
-#include "ombre/arguments.h"
-#include "ombre/checks.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/free_space.h"
 #include "ombre/job_arguments.h"
+#include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
 #include "ombre/scan_files.h"
@@ -24,12 +24,7 @@
 namespace ombre::cli {
 namespace {
 
-struct VoxelsArguments {
-  JobArguments job;
-  std::string output, what, box;
-  int threads = 0;
-  bool gzip = false, force = false;
-};
+using compile::GridChoices;
 
 constexpr const char* voxels_footer =
     "Lengths are millimetres in the design's space.\n\n"
@@ -60,27 +55,11 @@ constexpr const char* voxels_footer =
     "  ombre voxels scan.nii -o small.nrrd --voxel 1 --box 0,0,0,50,50,40   a scan, on other voxels and cropped; its\n"
     "              number between voxels, or with --what nearest that of the nearest, for labels\n";
 
-void add_arguments(CLI::App& app, VoxelsArguments& a) {
-  add_voxel_arguments(app, a.job);
-  app.add_option("-o,--output", a.output, "The file to write; its ending says the format")
-      ->required()
-      ->type_name("FILE");
-  app.add_option(
-         "--what", a.what,
-         "What voxels hold: materials (default; .vdb, .nvdb: distance,fractions), fractions, distance, attributes\n"
-         "or names of attributes; several with commas")
-      ->type_name("WHAT");
-  app.add_option("--box", a.box, "Only the voxels that touch this box; mm")->type_name("X0,Y0,Z0,X1,Y1,Z1");
-  add_threads(app, a.threads);
-  app.add_flag("--gzip", a.gzip, "Compress the numbers of a .nrrd file");
-  app.add_flag("--force", a.force, "Replace files that are there, and write even if the disk seems too small");
-}
-
 // What the ending of the file asks for: dense numbers, or sparse grids.
 struct VtiFormat {};
 using Format = std::variant<exporting::VolumeFormat, vdb::FileFormat, VtiFormat>;
 
-Format chosen_format(const VoxelsArguments& a) {
+Format chosen_format(const GridChoices& a) {
   const std::string ending = to_lower(std::filesystem::path(a.output).extension().string());
   if (a.gzip && ending != ".nrrd")
     throw WrongArgument("--gzip is for .nrrd files; leave it out, or write -o part.nrrd");
@@ -96,55 +75,34 @@ Format chosen_format(const VoxelsArguments& a) {
 
 bool is_sparse(const Format& format) { return std::holds_alternative<vdb::FileFormat>(format); }
 
-std::string what_words() {
-  return "write materials, fractions, distance, attributes or an attribute's name, or several with commas";
-}
-
-compile::GridWishes chosen_grids(const VoxelsArguments& a, const Format& format) {
-  compile::GridWishes wishes;
-  wishes.narrow_band = is_sparse(format);
-  const std::string usual = is_scan(a.job.design) ? "number" : is_sparse(format) ? "distance,fractions" : "materials";
-  for (const std::string& word : split(a.what.empty() ? usual : a.what, ',')) {
-    const auto name = trim(word);
-    if (name.empty()) throw WrongArgument("--what " + a.what + " lacks a word; " + what_words());
-    if (name == "materials")
-      wishes.materials = true;
-    else if (name == "fractions")
-      wishes.fractions = true;
-    else if (name == "distance")
-      wishes.distance = true;
-    else if (name == "attributes")
-      wishes.all_attributes = true;
-    else
-      wishes.attributes.emplace_back(name);
-  }
-  return wishes;
-}
-
 std::string corner(Vec3 p) { return mm_text(p.x) + "," + mm_text(p.y) + "," + mm_text(p.z); }
 
-voxel::TileBox chosen_region(const VoxelsArguments& a, const voxel::Lattice& lattice) {
-  if (a.box.empty()) return {{0, 0, 0}, lattice.count};
-  if (const auto region = compile::region_over(lattice, parse_box(a.box))) return *region;
+voxel::TileBox chosen_region(const GridChoices& a, const voxel::Lattice& lattice) {
+  if (!a.box) return {{0, 0, 0}, lattice.count};
+  if (const auto region = compile::region_over(lattice, *a.box)) return *region;
   const Box box = lattice.box();
-  throw WrongArgument("--box " + a.box + " is beside the part, which lies from " + corner(box.lo) + " to " +
-                      corner(box.hi) + " mm");
+  throw WrongArgument("--box " + corner(a.box->lo) + "," + corner(a.box->hi) + " is beside the part, which lies from " +
+                      corner(box.lo) + " to " + corner(box.hi) + " mm");
 }
 
-void tell_plan(const Console& console, const compile::GridJob& job, const std::vector<std::string>& paths,
+void tell_plan(const Console& console, const compile::GridJob& job, int threads, const std::vector<std::string>& paths,
                const std::string& bytes) {
+  const compile::GridWork work = compile::size_grid_work(job, threads);
   const auto& pitch = job.request.lattice.pitch;
   const int64_t nx = job.region.size(0), ny = job.region.size(1), nz = job.region.size(2);
   console.say(std::to_string(nx) + " x " + std::to_string(ny) + " x " + std::to_string(nz) + " voxels of " +
               mm_text(pitch[0].mm()) + " x " + mm_text(pitch[1].mm()) + " x " + mm_text(pitch[2].mm()) + " mm, " +
-              bytes + " in " + join(paths, ", "));
+              bytes + " in " + join(paths, ", ") + "; at most " + format_bytes(work.memory_bytes) +
+              " of memory for slabs in flight");
+  warn_of_memory(console, "a slab of one layer", work.memory_bytes, job.memory_bytes);
   DataList files, names;
   for (const std::string& path : paths) files.emplace_back(path);
   for (const compile::Grid& grid : job.grids) names.emplace_back(grid.name);
   console.event("plan", {{"files", files},
                          {"grids", names},
                          {"voxels", DataList{number(nx), number(ny), number(nz)}},
-                         {"pitch_mm", DataList{pitch[0].mm(), pitch[1].mm(), pitch[2].mm()}}});
+                         {"pitch_mm", DataList{pitch[0].mm(), pitch[1].mm(), pitch[2].mm()}},
+                         {"memory_bytes", work.memory_bytes}});
 }
 
 void tell_report(const Console& console, const compile::GridReport& report) {
@@ -183,74 +141,81 @@ void refuse_small_disk(const std::string& path, uint64_t bytes) {
               "the same with --force");
 }
 
-int write_dense(const VoxelsArguments& a, const compile::GridJob& job, exporting::VolumeFormat format, Session& session,
+int write_dense(const GridChoices& a, const compile::GridJob& job, exporting::VolumeFormat format, Session& session,
                 const StopFlag& stop) {
   const std::vector<std::string> paths = compile::volume_paths(a.output, job.grids);
   refuse_to_overwrite_any(paths, format, a.force);
   const uint64_t bytes = compile::volume_bytes(job);
   const bool is_compressed = format == exporting::VolumeFormat::nrrd_gzip;
   if (!a.force && !is_compressed) refuse_small_disk(a.output, bytes);
-  tell_plan(session.console, job, paths, (is_compressed ? "at most " : "") + format_bytes(static_cast<double>(bytes)));
+  tell_plan(session.console, job, a.work.threads, paths,
+            (is_compressed ? "at most " : "") + format_bytes(static_cast<double>(bytes)));
   ProgressLine progress(session.console);
-  const compile::GridReport report = compile::write_volumes(job, paths, format, a.threads, &progress, &stop);
+  const compile::GridReport report = compile::write_volumes(job, paths, format, a.work.threads, &progress, &stop);
   progress.finish();
   tell_report(session.console, report);
   return done;
 }
 
-int write_sparse(const VoxelsArguments& a, const compile::GridJob& job, vdb::FileFormat format, Session& session,
+int write_sparse(const GridChoices& a, const compile::GridJob& job, vdb::FileFormat format, Session& session,
                  const StopFlag& stop) {
   refuse_to_overwrite(a.output, a.force);
-  tell_plan(session.console, job, {a.output}, "sparse");
+  tell_plan(session.console, job, a.work.threads, {a.output}, "sparse");
   ProgressLine progress(session.console);
-  const compile::GridReport report = compile::write_sparse(job, a.output, format, a.threads, &progress, &stop);
+  const compile::GridReport report = compile::write_sparse(job, a.output, format, a.work.threads, &progress, &stop);
   progress.finish();
   tell_report(session.console, report);
   return done;
 }
 
-int write_image_data(const VoxelsArguments& a, const compile::GridJob& job, Session& session, const StopFlag& stop) {
+int write_image_data(const GridChoices& a, const compile::GridJob& job, Session& session, const StopFlag& stop) {
   refuse_to_overwrite(a.output, a.force);
   const uint64_t bytes = compile::volume_bytes(job);
   if (!a.force) refuse_small_disk(a.output, bytes);
-  tell_plan(session.console, job, {a.output}, format_bytes(static_cast<double>(bytes)));
+  tell_plan(session.console, job, a.work.threads, {a.output}, format_bytes(static_cast<double>(bytes)));
   ProgressLine progress(session.console);
-  const compile::GridReport report = compile::write_vti(job, a.output, a.threads, &progress, &stop);
+  const compile::GridReport report = compile::write_vti(job, a.output, a.work.threads, &progress, &stop);
   progress.finish();
   tell_report(session.console, report);
   return done;
 }
 
-int write(const VoxelsArguments& a, const compile::GridJob& job, const Format& format, Session& session,
+int write(const GridChoices& a, const compile::GridJob& job, const Format& format, Session& session,
           const StopFlag& stop) {
   if (const auto* sparse = std::get_if<vdb::FileFormat>(&format)) return write_sparse(a, job, *sparse, session, stop);
   if (std::holds_alternative<VtiFormat>(format)) return write_image_data(a, job, session, stop);
   return write_dense(a, job, std::get<exporting::VolumeFormat>(format), session, stop);
 }
 
-std::optional<compile::GridJob> plan_job(const VoxelsArguments& a, const compile::GridWishes& wishes, Session& session,
+std::optional<compile::GridJob> plan_job(const GridChoices& a, const compile::GridWishes& wishes, Session& session,
                                          Diagnostics& diagnostics) {
-  auto options = plan_options(a.job, diagnostics);
+  auto options = plan_options(a.sampling, diagnostics);
   if (!options) return std::nullopt;
-  options->threads = a.threads;
+  options->threads = a.work.threads;
   options->stop = &session.stop;
-  if (is_scan(a.job.design) && !options->pitch[0])
+  options->memory_bytes = a.work.memory_bytes;
+  if (is_scan(a.design.design) && !options->pitch[0])
     throw WrongArgument(
         "how large the voxels of a scan are to be is not said; write for example --voxel 1 (mm; ombre info " +
-        a.job.design + " prints its own)");
-  const compile::LoadedPtr loaded = is_scan(a.job.design) ? load_scan(a.job, session, diagnostics, a.threads)
-                                                          : load_design(a.job, session, diagnostics, a.threads);
+        a.design.design + " prints its own)");
+  const compile::LoadedPtr loaded = is_scan(a.design.design)
+                                        ? load_scan(a.design, session, diagnostics, a.work.threads)
+                                        : load_design(a.design, session, diagnostics, a.work.threads);
   if (!loaded) return std::nullopt;
   const auto plan = compile::plan_slice(loaded, *options, diagnostics);
   if (!plan) return std::nullopt;
-  return compile::plan_grids(loaded, *plan, wishes, chosen_region(a, plan->request.lattice), diagnostics);
+  auto job = compile::plan_grids(loaded, *plan, wishes, chosen_region(a, plan->request.lattice), diagnostics);
+  if (job) job->memory_bytes = a.work.memory_bytes;
+  return job;
 }
 
-int voxels(const VoxelsArguments& a, Session& session) {
+int voxels(const GridChoices& a, Session& session) {
   // A slip is better told before a long load.
   const Format format = chosen_format(a);
-  const compile::GridWishes wishes = chosen_grids(a, format);
-  if (!a.box.empty()) parse_box(a.box);
+  const std::string usual = is_scan(a.design.design) ? "number"
+                            : is_sparse(format)      ? "distance,fractions"
+                                                     : "materials";
+  const compile::GridWishes wishes = a.wishes(usual, is_sparse(format));
   Diagnostics diagnostics;
   const auto job = plan_job(a, wishes, session, diagnostics);
   session.console.diagnose(diagnostics);
@@ -263,11 +228,11 @@ int voxels(const VoxelsArguments& a, Session& session) {
 
 Command add_voxels(CLI::App& program, OutputOptions& output) {
   CLI::App* app = program.add_subcommand("voxels", "Write a voxel grid for other programs");
-  auto arguments = std::make_shared<VoxelsArguments>();
-  add_arguments(*app, *arguments);
+  auto arguments = std::make_shared<GridChoices>();
+  add_options(*app, *arguments);
   add_output_options(*app, output);
   app->footer(voxels_footer);
-  return {app, [arguments](Session& session) { return voxels(*arguments, session); }};
+  return {app, [arguments](Session& session) { return voxels(*arguments, session); }, GridChoices::options().options()};
 }
 
 }  // namespace ombre::cli

@@ -96,6 +96,21 @@ std::string remark_behind(const SourceText& source, const SourceRange& value) {
 
 }  // namespace
 
+std::set<std::string> design_files(const design::Design& design) {
+  std::vector<design::NodePtr> roots;
+  for (const design::Part& part : design.parts) roots.push_back(part.solid);
+  std::set<std::string> files;
+  for (const design::Node* node : design::topological(roots)) {
+    const auto& parameters = node->type().parameters;
+    for (size_t n = 0; n < parameters.size(); ++n) {
+      if (parameters[n].kind != "file") continue;
+      const Data path = node->type().get(*node, n, false);
+      if (path.string() && !path.string()->empty()) files.insert(*path.string());
+    }
+  }
+  return files;
+}
+
 DataList list_of(Vec3 v) { return {v.x, v.y, v.z}; }
 
 DataList describe_variables(const SourcePtr& source) {

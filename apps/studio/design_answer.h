@@ -1,6 +1,9 @@
 // Answers of the studio about a design that was loaded.
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "base/data.h"
 #include "studio/designs.h"
 
@@ -12,6 +15,9 @@ DataList describe_variables(const SourcePtr& source);
 // "design" (a handle), "bounds_mm", "materials", "parts", "part_nodes", "attributes", "nodes", with their places in the
 // text that the page has.
 DataMembers describe_design(const OpenDesign& design, const SourcePtr& page_text);
+
+// The files that its nodes name, where they were found.
+std::set<std::string> design_files(const design::Design& design);
 
 DataList list_of(Vec3 v);
 

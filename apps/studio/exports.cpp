@@ -62,6 +62,7 @@ DataMembers Exports::describe(const Job& job) {
   return {{"id", number(job.id)},
           {"state", names[static_cast<size_t>(job.state)]},
           {"folder", job.request.name},
+          {"path", job.request.folder},
           {"file", job.request.file},
           {"printer", job.request.cutting.printer},
           {"dither", job.request.cutting.dither},
@@ -133,6 +134,12 @@ void Exports::resume(int64_t id) {
   }
   tell_(now);
   news_.notify_all();
+}
+
+bool Exports::is_at_work() const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(
+      jobs_, [](const JobPtr& job) { return job->state == State::working || job->state == State::waiting; });
 }
 
 DataList Exports::list() const {

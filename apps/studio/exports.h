@@ -37,6 +37,8 @@ class Exports {
   Exports(const Exports&) = delete;
   Exports& operator=(const Exports&) = delete;
 
+  bool is_at_work() const;  // or has jobs that wait
+
   // The new job. Throws RequestError when the folder's job is at work or waits already.
   DataMembers start(const ExportRequest& request);
   // Each throws RequestError when there is no such job, or it is in no state for that.

@@ -313,11 +313,12 @@ class Listener {
 // Looks around now and then, and ends the server when it is asked to stop.
 class Clock {
  public:
-  Clock(asio::io_context& context, Studio& studio, const StopFlag& stop)
-      : context_(context), timer_(context), studio_(studio), stop_(stop) {}
+  Clock(asio::io_context& context, Studio& studio, double idle_seconds, const StopFlag& stop)
+      : context_(context), timer_(context), studio_(studio), idle_seconds_(idle_seconds), stop_(stop) {}
 
   void tick() {
     if (stop_.requested()) return context_.stop();
+    if (idle_seconds_ > 0 && studio_.idle_seconds() > idle_seconds_) return context_.stop();
     if (++ticks_ % ticks_between_looks == 0) studio_.look_around();
     timer_.expires_after(duration(0.1));
     timer_.async_wait([this](error_code error) {
@@ -331,6 +332,7 @@ class Clock {
   asio::io_context& context_;
   asio::steady_timer timer_;
   Studio& studio_;
+  double idle_seconds_;
   const StopFlag& stop_;
   int ticks_ = 0;
 };
@@ -345,7 +347,7 @@ void serve(Studio& studio, const ServerOptions& options, const StopFlag& stop,
   Listener listener(*context, options.port);
   const Address address{listener.port(), options.token.empty() ? random_token() : options.token};
   const auto shared = std::make_shared<Shared>(Shared{studio, options, Guard(address.token, address.port), context});
-  Clock clock(*context, studio, stop);
+  Clock clock(*context, studio, options.idle_seconds, stop);
   listener.accept(shared);
   clock.tick();
   ready(address);

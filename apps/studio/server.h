@@ -25,7 +25,8 @@ struct ServerOptions {
   uint16_t port = 0;  // 0: one that is free
   std::string token;  // empty: a random one
   std::span<const Asset> assets;
-  ServerLimits limits;
+  ServerLimits limits = {};
+  double idle_seconds = 0;  // it ends after so long without a page or a job; 0: never
 };
 
 // The address at which the server listens.

@@ -232,6 +232,18 @@ TEST_F(ServerTest, AnswersWhileManyConnectionsAreOpen) {
   EXPECT_TRUE(callers.front()->is_closed());  // the oldest made room
 }
 
+TEST(Server, EndsWhenNobodyLooksAtIt) {
+  const TestFolder folder;
+  sources::SourceCache cache;
+  Studio studio(folder.path, {"ombre test", {}, "", 60}, cache);
+  const StopFlag none;
+  ServerOptions options;
+  options.idle_seconds = 0.3;
+  const Stopwatch watch;
+  serve(studio, options, none, [](const Address&) {});
+  EXPECT_GE(watch.seconds(), 0.3);
+}
+
 TEST_F(ServerTest, SaysThatAPortIsTaken) {
   start();
   const StopFlag none;

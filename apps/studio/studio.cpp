@@ -1,5 +1,7 @@
 #include "studio/studio.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <variant>
 
@@ -11,7 +13,9 @@
 #include "compile/find_printer.h"
 #include "compile/node_data.h"
 #include "compile/node_registry.h"
+#include "compile/turned.h"
 #include "lang/builtins.h"
+#include "studio/bundles.h"
 #include "studio/design_answer.h"
 #include "studio/python_design.h"
 #include "studio/scad_design.h"
@@ -32,6 +36,22 @@ DataList describe_printers() {
       list.emplace_back(DataMembers{{"name", name}, {"title", printer->title}});
   }
   return list;
+}
+
+DataList describe_palettes() {
+  DataList list;
+  for (const compile::Palette& palette : compile::palettes()) {
+    DataList colours;
+    for (const design::Rgba& colour : palette.colours)
+      colours.emplace_back(DataList{number(colour[0]), number(colour[1]), number(colour[2])});
+    list.emplace_back(DataMembers{{"name", std::string(palette.name)}, {"colours", std::move(colours)}});
+  }
+  return list;
+}
+
+DataMembers joined(DataMembers first, const DataMembers& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
 }
 
 DataList describe_nodes() {
@@ -72,10 +92,18 @@ const std::vector<Studio::Kind>& Studio::kinds() {
                                       {"probe", &Studio::show<probe_answer>},
                                       {"volume", &Studio::show<volume_answer>},
                                       {"measure", &Studio::show<measure_answer>},
+                                      {"scan", &Studio::scan},
+                                      {"plane", &Studio::plane},
+                                      {"voxel", &Studio::voxel},
+                                      {"bundle", &Studio::of_folder<bundle_answer>},
+                                      {"unbundle", &Studio::of_folder<unbundle_answer>},
+                                      {"examples", &Studio::of_folder<examples_answer>},
+                                      {"open_example", &Studio::of_folder<open_example_answer>},
                                       {"compare", &Studio::compare},
                                       {"estimate", &Studio::estimate},
                                       {"export", &Studio::start_export},
                                       {"change_export", &Studio::change_export},
+                                      {"open_folder", &Studio::open_folder},
                                       {"jobs", &Studio::jobs}};
   return list;
 }
@@ -84,6 +112,7 @@ Studio::Studio(const std::filesystem::path& folder, StudioOptions options, sourc
     : options_(std::move(options)),
       cache_(cache),
       workspace_(folder),
+      scans_(workspace_),
       exports_([this](const DataMembers& job) {
         tell_all("job", {{"job", job}});
       }),
@@ -142,6 +171,7 @@ void Studio::answer(const ClientPtr& client, const Request& request, const Kind&
   const auto fail = [&](const std::string& code, const std::string& message) {
     client->send(frame_of_error(request.id, code, message));
   };
+  has_answered_ = true;
   const StopFlag stop(&cancelled, options_.most_seconds);
   try {
     if (stop.requested()) throw Cancelled();
@@ -158,29 +188,68 @@ void Studio::answer(const ClientPtr& client, const Request& request, const Kind&
   }
 }
 
+// The allocator keeps what threads freed, each in a heap of its own, so that a server grows from edit to edit although
+// it holds no more.
+void Studio::give_memory_back() {
+  constexpr double seconds_between = 3;
+  if (!has_answered_ || given_back_.seconds() < seconds_between) return;
+  has_answered_ = false;
+  given_back_ = {};
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
+
 void Studio::look_around() {
+  give_memory_back();
   for (const Workspace::Change& change : workspace_.changes())
     tell_all("changed", {{"file", change.name}, {"version", change.version}});
 }
 
-Answer Studio::hello(const Request&, const StopFlag&) {
-  return {{{"program", options_.program},
-           {"folder", workspace_.root().string()},
-           {"file", options_.first_file},
-           {"files", texts(workspace_.list())},
-           {"printers", describe_printers()},
-           {"dithers", texts(voxel::dither_names())},
-           {"palettes", texts(compile::palette_names())},
-           {"nodes", describe_nodes()},
-           {"functions", describe_functions()}},
-          {}};
+// The files of the folder: designs, and the data beside them.
+DataMembers Studio::listed() const {
+  DataList data;
+  for (const Workspace::DataFile& file : workspace_.list_data())
+    data.emplace_back(DataMembers{{"name", file.name}, {"kind", std::string(name_of(file.kind))}});
+  return {{"files", texts(workspace_.list())}, {"data", std::move(data)}};
 }
 
-Answer Studio::list(const Request&, const StopFlag&) { return {{{"files", texts(workspace_.list())}}, {}}; }
+double Studio::idle_seconds() {
+  const bool is_at_work = exports_.is_at_work();
+  const std::lock_guard lock(mutex_);
+  if (is_at_work || !clients_.empty()) idle_ = {};
+  return idle_.seconds();
+}
 
+Answer Studio::hello(const Request&, const StopFlag&) {
+  Answer answer{{{"program", options_.program},
+                 {"folder", workspace_.root().string()},
+                 {"file", options_.first_file},
+                 {"opens_folders", options_.open_folder != nullptr},
+                 {"printers", describe_printers()},
+                 {"dithers", texts(voxel::dither_names())},
+                 {"palettes", describe_palettes()},
+                 {"nodes", describe_nodes()},
+                 {"functions", describe_functions()}},
+                {}};
+  const DataMembers files = listed();
+  answer.members.insert(answer.members.end(), files.begin(), files.end());
+  return answer;
+}
+
+Answer Studio::list(const Request&, const StopFlag&) { return {listed(), {}}; }
+
+// Of a scan and of results the text is a script that shows them.
 Answer Studio::open(const Request& request, const StopFlag&) {
-  FileText file = workspace_.read(request.text("file"));
-  return {{{"text", std::move(file.text)}, {"version", std::move(file.version)}}, {}};
+  const std::string& name = request.text("file");
+  const std::filesystem::path path = workspace_.path(name);
+  const DataKind kind = is_dicom_folder(path) ? DataKind::scan : data_kind(name);
+  const DataMembers of_kind{{"kind", std::string(name_of(kind))}, {"version", ""}};
+  if (kind == DataKind::scan) return {joined({{"text", script_for_scan(name, path)}}, of_kind), {}};
+  if (kind == DataKind::results) return {joined({{"text", script_for_results(name, path)}}, of_kind), {}};
+  FileText file = workspace_.read(name);
+  return {{{"text", std::move(file.text)}, {"version", std::move(file.version)}, {"kind", std::string(name_of(kind))}},
+          {}};
 }
 
 Answer Studio::save(const Request& request, const StopFlag&) {
@@ -211,6 +280,16 @@ compile::LoadedPtr Studio::read(const Request& request, const SourcePtr& text, c
   return load_python(text->name(), options_.command, options, diagnostics);
 }
 
+// Names the scans in the folder that the design reads.
+DataList Studio::scans_of(const design::Design& design) const {
+  std::set<std::string> names;
+  for (const std::string& file : design_files(design)) {
+    const std::string name = workspace_.name_of(file);
+    if (!name.empty() && (data_kind(name) == DataKind::scan || is_dicom_folder(file))) names.insert(name);
+  }
+  return {names.begin(), names.end()};
+}
+
 Answer Studio::load(const Request& request, const StopFlag& stop) {
   const std::string& file = request.text("file");
   const std::string path = workspace_.path(file).string();
@@ -225,16 +304,21 @@ Answer Studio::load(const Request& request, const StopFlag& stop) {
   options.cache = &cache_;
   Diagnostics diagnostics;
   const SourcePtr source = make_source(path, text);
-  const compile::LoadedPtr loaded = read(request, source, options, diagnostics);
+  compile::LoadedPtr loaded = read(request, source, options, diagnostics);
+  if (loaded && request.body.find("rotate")) {
+    const std::vector<double> angles = request.numbers("rotate", 3);
+    loaded = compile::turned(loaded, {angles[0], angles[1], angles[2]}, diagnostics);
+  }
   const auto bounds = loaded ? compile::design_box(loaded->design, diagnostics) : std::nullopt;
   const bool is_right = loaded && bounds && !diagnostics.has_errors();
   Answer answer;
   answer.members = {{"ok", is_right}, {"echo", std::move(echo)}};
-  if (has_ending(file, ".vcad") || has_ending(file, ".scad"))
+  if (!has_ending(file, ".py") && !has_ending(file, ".json"))
     answer.members.emplace_back("variables", describe_variables(source));
   if (is_right) {
     const DataMembers design = describe_design(*designs_.add(loaded, *bounds, options_.program), source);
     answer.members.insert(answer.members.end(), design.begin(), design.end());
+    answer.members.emplace_back("scans", scans_of(loaded->design));
   }
   answer.members.emplace_back("diagnostics", describe(diagnostics, source));
   return answer;
@@ -272,6 +356,14 @@ Answer Studio::change_export(const Request& request, const StopFlag&) {
     exports_.cancel(id);
   else
     throw RequestError("request", "\"to\" is pause, resume or cancel");
+  return {};
+}
+
+Answer Studio::open_folder(const Request& request, const StopFlag&) {
+  const std::filesystem::path folder = workspace_.path(request.text("folder"));
+  if (!std::filesystem::is_directory(folder)) throw RequestError("gone", folder.string() + " is no folder any more");
+  if (!options_.open_folder) throw RequestError("unsupported", "this studio has no display to open " + folder.string());
+  if (!options_.open_folder(folder.string())) throw Error("no program opens " + folder.string());
   return {};
 }
 

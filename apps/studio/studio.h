@@ -1,16 +1,20 @@
 // The studio apart from its connections: takes requests, sends answers and events.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "sources/source_cache.h"
 #include "studio/exports.h"
 #include "studio/messages.h"
+#include "studio/scans.h"
 #include "studio/work_queue.h"
 #include "studio/workspace.h"
 
@@ -30,6 +34,7 @@ struct StudioOptions {
   std::vector<std::string> command;  // the words that start Ombre's command line; empty: no designs in Python
   std::string first_file;            // that a page opens; empty: none
   double most_seconds = 60;          // that an answer may take
+  std::function<bool(const std::string& folder)> open_folder = nullptr;  // shows it to a person; empty: no display
 };
 
 // Thread-safe.
@@ -44,6 +49,8 @@ class Studio {
   void take(const ClientPtr& client, const std::string& text);
   // To be called a few times a second: tells clients which files others have changed.
   void look_around();
+  // How long it has had neither a client nor a job at work.
+  double idle_seconds();
 
  private:
   struct Kind;
@@ -60,10 +67,21 @@ class Studio {
   compile::LoadedPtr read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
                           Diagnostics& diagnostics);
   Answer load(const Request& request, const StopFlag& stop);
+  Answer scan(const Request& request, const StopFlag& stop) { return scans_.describe(request, stop); }
+  Answer plane(const Request& request, const StopFlag& stop) { return scans_.plane(request, stop); }
+  Answer voxel(const Request& request, const StopFlag& stop) { return scans_.voxel(request, stop); }
+  template <Answer (*answer)(const Workspace&, const Request&, const StopFlag&)>
+  Answer of_folder(const Request& request, const StopFlag& stop) {
+    return answer(workspace_, request, stop);
+  }
+  void give_memory_back();
+  DataMembers listed() const;
+  DataList scans_of(const design::Design& design) const;
   Answer compare(const Request& request, const StopFlag& stop);
   Answer estimate(const Request& request, const StopFlag& stop);
   Answer start_export(const Request& request, const StopFlag& stop);
   Answer change_export(const Request& request, const StopFlag& stop);
+  Answer open_folder(const Request& request, const StopFlag& stop);
   Answer jobs(const Request& request, const StopFlag& stop);
   template <Answer (*view)(OpenDesign&, const Request&, const StopFlag&)>
   Answer show(const Request& request, const StopFlag& stop) {
@@ -73,9 +91,12 @@ class Studio {
   StudioOptions options_;
   sources::SourceCache& cache_;
   Workspace workspace_;
+  Scans scans_;
   Designs designs_;
   std::mutex mutex_;
   std::set<ClientPtr> clients_;
+  Stopwatch idle_, given_back_;
+  std::atomic<bool> has_answered_ = false;
   Exports exports_;
   WorkQueue queue_;  // last, so that it ends first
 };

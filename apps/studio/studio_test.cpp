@@ -8,6 +8,7 @@
 #include <cmath>
 #include <condition_variable>
 #include <csignal>
+#include <cstring>
 #include <map>
 #include <mutex>
 
@@ -22,6 +23,18 @@ namespace {
 constexpr const char* ball =
     "radius = 3;  // [1:5]\n"
     "fgrade([\"0.5 + x / 6\", \"0.5 - x / 6\"], [red, blue]) sphere(radius);\n";
+
+std::string to_base64(const std::string& bytes) {
+  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (size_t n = 0; n < bytes.size(); n += 3) {
+    unsigned group = 0;
+    for (size_t k = 0; k < 3; ++k)
+      group = group << 8 | (n + k < bytes.size() ? static_cast<unsigned char>(bytes[n + k]) : 0);
+    for (size_t k = 0; k < 4; ++k) text += n + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
 
 // Remembers what it was sent.
 class Listener : public Client {
@@ -101,8 +114,11 @@ class StudioTest : public testing::Test {
   }
 
   TestFolder folder;
+  std::vector<std::string> opened;  // folders that were to be shown
   sources::SourceCache cache;
-  Studio studio{folder.path, {"ombre test", {}, "", 60}, cache};
+  Studio studio{folder.path,
+                {"ombre test", {}, "", 60, [this](const std::string& shown) { return opened.push_back(shown), true; }},
+                cache};
   std::shared_ptr<Listener> client = std::make_shared<Listener>();
   int last_ = 0;
 };
@@ -205,6 +221,152 @@ TEST_F(StudioTest, ComparesTwoVersions) {
   const Data same = compare(after, after);
   EXPECT_EQ(number_in(same, "gained_mm3") + number_in(same, "lost_mm3") + number_in(same, "changed_mm3"), 0);
   EXPECT_EQ(text(compare("d99", after), "error"), "gone");
+}
+
+// A scan of 3 x 2 x 2 voxels whose numbers are 100 k + 10 j + i.
+constexpr const char* scan =
+    "NRRD0004\ntype: int16\ndimension: 3\nsizes: 3 2 2\nencoding: ascii\nspace: RAS\n"
+    "space directions: (0.5,0,0) (0,1,0) (0,0,2)\nspace origin: (10,20,30)\n\n"
+    "0 1 2 10 11 12 100 101 102 110 111 112\n";
+
+TEST_F(StudioTest, ShowsPlanesOfAScan) {
+  folder.write("a.nrrd", scan);
+  const Data hello = ask("hello").first;
+  EXPECT_EQ(*hello.find("data"), Data(DataList{DataMembers{{"name", "a.nrrd"}, {"kind", "scan"}}}));
+  const Data found = ask("scan", R"("file": "a.nrrd")").first;
+  EXPECT_EQ(*found.find("count"), Data(DataList{3.0, 2.0, 2.0})) << print_json(found);
+  EXPECT_EQ(*found.find("steps_mm"), Data(DataList{0.5, 1.0, 2.0}));
+  EXPECT_EQ(number_in(found, "greatest"), 112);
+  const auto numbers = [&](int axis, int index, size_t count) {
+    const auto [plane, bytes] =
+        ask("plane", R"("file": "a.nrrd", "axis": )" + std::to_string(axis) + R"(, "index": )" + std::to_string(index));
+    EXPECT_EQ(bytes.size(), 4 * count) << print_json(plane);
+    std::vector<float> values(bytes.size() / 4);
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+  };
+  EXPECT_EQ(numbers(2, 1, 6), (std::vector<float>{100, 101, 102, 110, 111, 112}));
+  EXPECT_EQ(numbers(1, 0, 6), (std::vector<float>{0, 1, 2, 100, 101, 102}));
+  EXPECT_EQ(numbers(0, 2, 4), (std::vector<float>{2, 12, 102, 112}));
+  const Data voxel = ask("voxel", R"("file": "a.nrrd", "at": [2, 1, 0])").first;
+  EXPECT_EQ(number_in(voxel, "value"), 12);
+  EXPECT_EQ(*voxel.find("at_mm"), Data(DataList{11.0, 21.0, 30.0}));
+  EXPECT_EQ(text(ask("voxel", R"("file": "a.nrrd", "at": [3, 1, 0])").first, "error"), "request");
+  EXPECT_EQ(text(ask("plane", R"("file": "a.nrrd", "axis": 2, "index": 2)").first, "error"), "request");
+  EXPECT_EQ(text(ask("scan", R"("file": "../a.nrrd")").first, "error"), "name");
+  folder.write("b.nrrd", "no scan");
+  EXPECT_EQ(text(ask("scan", R"("file": "b.nrrd")").first, "error"), "failed");
+}
+
+// The scan is a solid from its level on; a design that reads it names it.
+TEST_F(StudioTest, ShowsAScanByAScript) {
+  folder.write("deep/a.nrrd", scan);
+  const Data opened = ask("open", R"("file": "deep/a.nrrd")").first;
+  EXPECT_EQ(text(opened, "kind"), "scan");
+  const Data loaded = ask("load", R"("file": "deep/a.nrrd", "definitions": ["level=60"], "text": )" +
+                                      print_json_line(text(opened, "text")))
+                          .first;
+  ASSERT_EQ(*loaded.find("ok"), Data(true)) << print_json(loaded);
+  EXPECT_EQ(*loaded.find("scans"), Data(DataList{"deep/a.nrrd"}));
+  const Data& level = loaded.find("variables")->list()->front();
+  EXPECT_EQ(number_in(level, "least"), 0);
+  EXPECT_EQ(number_in(level, "most"), 112);
+}
+
+// A beam under load: the colours span its stresses, which ombre info lists, and it is moved by its displacement.
+TEST_F(StudioTest, ShowsResults) {
+  std::filesystem::copy_file(std::filesystem::path(OMBRE_SOURCE_DIR) / "examples/models/bent_beam.vtu",
+                             folder.path / "beam.vtu");
+  const Data opened = ask("open", R"("file": "beam.vtu")").first;
+  EXPECT_EQ(text(opened, "kind"), "results") << print_json(opened);
+  const auto load_deformed = [&](const std::string& factor) {
+    return ask("load", R"("file": "beam.vtu", "definitions": ["deform=)" + factor + R"("], "text": )" +
+                           print_json_line(text(opened, "text")))
+        .first;
+  };
+  const Data loaded = load_deformed("0");
+  if (print_json(loaded).find("pugixml") != std::string::npos) GTEST_SKIP();
+  ASSERT_EQ(*loaded.find("ok"), Data(true)) << print_json(loaded);
+  const Data picture = ask("render", R"("width": 40, "height": 30, "by": "von_Mises_stress", "design": ")" +
+                                         text(loaded, "design") + '"')
+                           .first;
+  ASSERT_TRUE(picture.find("range")) << print_json(picture);
+  EXPECT_NEAR(*picture.find("range")->list()->at(0).number(), 1.1089, 1e-3);
+  EXPECT_NEAR(*picture.find("range")->list()->at(1).number(), 13.458, 1e-3);
+  const auto lowest = [](const Data& design) {
+    return *design.find("bounds_mm")->list()->at(0).list()->at(2).number();
+  };
+  EXPECT_NEAR(lowest(loaded), -2.5, 1e-6);
+  EXPECT_NEAR(lowest(load_deformed("10")), -2.5 - 10 * 0.36225, 0.05);
+}
+
+TEST_F(StudioTest, OpensFoldersOfItsOwn) {
+  folder.write("a_slices/job.json", "{}");
+  EXPECT_EQ(*ask("hello").first.find("opens_folders"), Data(true));
+  ask("open_folder", R"("folder": "a_slices")");
+  EXPECT_EQ(opened, std::vector<std::string>{(folder.path / "a_slices").string()});
+  EXPECT_EQ(text(ask("open_folder", R"("folder": "gone")").first, "error"), "gone");
+  EXPECT_EQ(text(ask("open_folder", R"("folder": "../a")").first, "error"), "name");
+  EXPECT_EQ(opened.size(), 1U);
+}
+
+// A turned design is the one that the script would turn, in its bounds and in what is sliced.
+TEST_F(StudioTest, TurnsDesigns) {
+  const Data loaded =
+      ask("load", R"("file": "a.vcad", "rotate": [90, 0, 0], "text": "rectprism((2, 4, 6), red);")").first;
+  ASSERT_EQ(*loaded.find("ok"), Data(true)) << print_json(loaded);
+  EXPECT_EQ(*loaded.find("bounds_mm"), Data(DataList{DataList{-1.0, -3.0, -2.0}, DataList{1.0, 3.0, 2.0}}));
+  const std::string turned = R"("printer": "generic", "design": ")" + text(loaded, "design") + '"';
+  const std::string written =
+      R"("printer": "generic", "design": ")" + load("rotate((90, 0, 0)) rectprism((2, 4, 6), red);") + '"';
+  EXPECT_EQ(*ask("plan", turned).first.find("count"), *ask("plan", written).first.find("count"));
+  const std::string tile = R"(, "layer": 10, "x": 0, "y": 0, "width": 64, "height": 64)";
+  EXPECT_EQ(ask("tile", turned + tile).second, ask("tile", written + tile).second);
+}
+
+TEST_F(StudioTest, MakesAndOpensBundles) {
+  folder.write("shapes/a.vcad", "include <b.vcad>\nsphere(r);\n");
+  folder.write("shapes/b.vcad", "r = 2;\n");
+  const auto [made, bytes] = ask("bundle", R"("file": "shapes/a.vcad")");
+  if (print_json(made).find("-DOMBRE_3MF=ON") != std::string::npos) GTEST_SKIP();
+  EXPECT_EQ(*made.find("files"), Data(DataList{"a.vcad", "b.vcad"})) << print_json(made);
+  const auto open = [&](const std::string& bundle) {
+    return ask("unbundle", R"("name": "gift.ombre", "bytes": ")" + to_base64(bundle) + '"').first;
+  };
+  EXPECT_EQ(text(open(bytes), "file"), "gift/a.vcad");
+  EXPECT_EQ(text(open(bytes), "file"), "gift_2/a.vcad");
+  EXPECT_EQ(folder.read("gift_2/b.vcad"), "r = 2;\n");
+  EXPECT_EQ(text(open(bytes.substr(0, bytes.size() / 2)), "error"), "design");
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "gift_3"));
+  EXPECT_EQ(text(ask("unbundle", R"("name": "../../x.ombre", "bytes": "!")").first, "error"), "request");
+  EXPECT_EQ(text(ask("bundle", R"("file": "../a.vcad")").first, "error"), "name");
+}
+
+// The gear is a mesh in a folder beside the example.
+TEST_F(StudioTest, OpensCopiesOfExamples) {
+  const Data examples = ask("examples").first;
+  ASSERT_TRUE(examples.find("examples")) << print_json(examples);
+  const DataList& list = *examples.find("examples")->list();
+  EXPECT_TRUE(std::ranges::any_of(list, [](const Data& e) {
+    return text(e, "name") == "gear" && text(e, "sentence").starts_with("A gear from a mesh");
+  }));
+  const Data opened = ask("open_example", R"("name": "gear")").first;
+  if (print_json(opened).find("-DOMBRE_3MF=ON") != std::string::npos) GTEST_SKIP();
+  EXPECT_EQ(text(opened, "file"), "gear/gear.vcad") << print_json(opened);
+  EXPECT_TRUE(std::filesystem::exists(folder.path / "gear/models/gear.stl"));
+  EXPECT_EQ(text(ask("open_example", R"("name": "../gear")").first, "error"), "name");
+  EXPECT_EQ(text(ask("open_example", R"("name": "nothing")").first, "error"), "name");
+}
+
+TEST_F(StudioTest, OpensTablesAsTheyAre) {
+  folder.write("history.csv", "round,change\n1,\n2,0.5\n");
+  const Data opened = ask("open", R"("file": "history.csv")").first;
+  EXPECT_EQ(text(opened, "kind"), "table");
+  EXPECT_EQ(text(opened, "text"), "round,change\n1,\n2,0.5\n");
+  EXPECT_EQ(
+      text(ask("save", R"("file": "history.csv", "text": "", "version": ")" + text(opened, "version") + '"').first,
+           "error"),
+      "name");
 }
 
 // Half red and half blue everywhere becomes three quarters red: a quarter of it is of another material.

@@ -87,7 +87,7 @@ DataList colour_list(const formats::Rgba& colour) {
 // Tiles show materials in their colours with x to the right and y up, whatever the printer's files do.
 compile::SliceRequest shown(const compile::SliceRequest& request) {
   compile::SliceRequest tile = request;
-  tile.format = voxel::ImageFormat::rgba;
+  tile.format = ImageFormat::rgba;
   tile.flip_x = tile.flip_y = false;
   tile.background = {0, 0, 0, 0};
   tile.files = {};
@@ -142,6 +142,7 @@ Answer picture_answer(OpenDesign& design, const Request& request, const StopFlag
     answer.bytes =
         formats::encode_png(static_cast<uint32_t>(picture.width), static_cast<uint32_t>(picture.height), made.rgba);
     answer.members = {{"pixel_mm", made.pixel_mm}};
+    if (made.range) answer.members.emplace_back("range", DataList{made.range->lo, made.range->hi});
   };
   if (!compile::take_pictures(*design.loaded, picture, stop, take, diagnostics) || diagnostics.has_errors())
     throw design_error(diagnostics);

@@ -54,25 +54,48 @@ Workspace::Workspace(const fs::path& folder) {
   if (error || !fs::is_directory(root_)) throw Error(folder.string() + " is no folder that the studio could show");
 }
 
-std::vector<std::string> Workspace::list() const {
-  std::vector<std::string> names;
+void Workspace::walk(const std::function<bool(const std::string& name, bool is_folder)>& take) const {
   std::error_code error;
   fs::recursive_directory_iterator files(root_, fs::directory_options::skip_permission_denied, error);
-  for (const fs::recursive_directory_iterator end; !error && files != end && names.size() < most_files;
-       files.increment(error)) {
-    const std::string own = files->path().filename().string();
+  for (const fs::recursive_directory_iterator end; !error && files != end; files.increment(error)) {
     std::error_code ignored;
-    if (files->is_directory(ignored)) {
-      const bool is_job = fs::exists(files->path() / "job.json", ignored);
-      if (own.starts_with('.') || is_job || files.depth() >= deepest_folder) files.disable_recursion_pending();
+    const std::string name = files->path().lexically_relative(root_).generic_string();
+    const bool is_sound = is_sound_name(name);
+    if (!files->is_directory(ignored)) {
+      if (is_sound && files->is_regular_file(ignored) && !take(name, false)) return;
       continue;
     }
-    const std::string name = files->path().lexically_relative(root_).generic_string();
-    if (!files->is_regular_file(ignored) || !is_design_name(name) || !is_sound_name(name)) continue;
-    names.push_back(name);
+    const bool is_job = fs::exists(files->path() / "job.json", ignored);
+    if (!is_sound || is_job || files.depth() >= deepest_folder || !take(name, true)) files.disable_recursion_pending();
   }
+}
+
+std::vector<std::string> Workspace::list() const {
+  std::vector<std::string> names;
+  walk([&](const std::string& name, bool is_folder) {
+    if (!is_folder && is_design_name(name)) names.push_back(name);
+    return names.size() < most_files;
+  });
   std::ranges::sort(names);
   return names;
+}
+
+std::vector<Workspace::DataFile> Workspace::list_data() const {
+  std::vector<DataFile> found;
+  walk([&](const std::string& name, bool is_folder) {
+    const bool is_series = is_folder && is_dicom_folder(root_ / name);
+    const DataKind kind = is_series ? DataKind::scan : is_folder ? DataKind::none : data_kind(name);
+    if (kind != DataKind::none) found.push_back({name, kind});
+    return !is_series && found.size() < most_files;
+  });
+  std::ranges::sort(found, {}, &DataFile::name);
+  return found;
+}
+
+std::string Workspace::name_of(const fs::path& file) const {
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(file, error);
+  return error || !is_within(whole, root_) ? "" : whole.lexically_relative(root_).generic_string();
 }
 
 fs::path Workspace::path(const std::string& name) const {

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "studio/data_files.h"
 
 namespace ombre::studio {
 
@@ -34,7 +37,15 @@ class Workspace {
   const std::filesystem::path& root() const { return root_; }
   // Designs and scripts, sorted; hidden folders and links to folders are left out.
   std::vector<std::string> list() const;
+  // Scans, results and tables likewise; a folder of DICOM files is one scan.
+  struct DataFile {
+    std::string name;
+    DataKind kind = DataKind::none;
+  };
+  std::vector<DataFile> list_data() const;
   std::filesystem::path path(const std::string& name) const;
+  // The name of a file at this path; empty where it is not in the folder.
+  std::string name_of(const std::filesystem::path& file) const;
   // Throws Error when it cannot be read, RequestError when it is too large or no text.
   FileText read(const std::string& name);
   // Replaces `version`, empty for a file that must not be there yet; the new version, or what is there instead.
@@ -54,6 +65,9 @@ class Workspace {
     uintmax_t bytes = 0;
     std::string version;
   };
+  // Calls with the names of files and folders that are not hidden, until it returns false for a file; a folder is
+  // entered if it returns true.
+  void walk(const std::function<bool(const std::string& name, bool is_folder)>& take) const;
   void note(const std::string& name, const std::filesystem::path& file, const std::string& version);
 
   std::filesystem::path root_;

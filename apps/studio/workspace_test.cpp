@@ -17,6 +17,18 @@ TEST(Workspace, ListsDesignsAndLeavesOutWhatIsHiddenOrAJob) {
   EXPECT_EQ(Workspace(folder.path).list(), (std::vector<std::string>{"a.scad", "b.vcad", "parts/c.vcad"}));
 }
 
+TEST(Workspace, ListsDataBesideDesigns) {
+  const TestFolder folder;
+  for (const char* name : {"a.vcad", "head.nii.gz", "seat.VTU", "deep/history.csv", "scan/1.dcm", "scan/2.dcm",
+                           "slices/job.json", "slices/b.csv", ".hidden/c.csv"})
+    folder.write(name, "x");
+  std::vector<std::string> found;
+  for (const Workspace::DataFile& file : Workspace(folder.path).list_data())
+    found.push_back(file.name + " " + std::string(name_of(file.kind)));
+  EXPECT_EQ(found,
+            (std::vector<std::string>{"deep/history.csv table", "head.nii.gz scan", "scan scan", "seat.VTU results"}));
+}
+
 TEST(Workspace, RefusesNamesThatLeadOut) {
   const TestFolder folder;
   folder.write("inside/a.vcad", "x");

@@ -1,6 +1,7 @@
 // From a design to outlines, layer by layer.
 #include "compile/contour_job.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/steady_pace.h"
@@ -74,9 +75,8 @@ std::optional<ContourPlan> plan_contours(const Loaded& loaded, const ContourRequ
   plan.tolerance_mm = fineness->tolerance_mm;
   plan.corners = corners_in_layers(*box, fineness->cell, height, request.z_mm);
   if (!is_sensible(plan, request, where, diagnostics)) return std::nullopt;
-  StageLoan loan;
-  loan.threads = request.threads;
-  loan.stop = request.stop;
+  plan.memory_bytes = request.memory_bytes;
+  const StageLoan loan{request.threads, request.memory_bytes, nullptr, request.stop};
   const design::Design design = with_stages(for_tolerance(loaded.design, fineness->tolerance_mm), loan);
   plan.stages = stages_of(design);
   auto program = build_regions(design, *box, request, diagnostics);
@@ -89,18 +89,27 @@ std::optional<ContourPlan> plan_contours(const Loaded& loaded, const ContourRequ
   return plan;
 }
 
+ContourWork size_contour_work(const ContourPlan& plan, int threads) {
+  const auto stages = static_cast<double>(plan.stages->memory_bytes({threads, plan.memory_bytes, nullptr, nullptr}));
+  // Each corner has a label and, as it is computed, a number. Borders take little.
+  const double layer = static_cast<double>(plan.corners.count[0]) * static_cast<double>(plan.corners.count[1]) *
+                       (sizeof(surface::Label) + sizeof(float));
+  const double allowed = (static_cast<double>(plan.memory_bytes) - stages) / layer;
+  const int wanted = threads > 0 ? threads : core_count();
+  ContourWork work{static_cast<int>(std::clamp(allowed, 1.0, static_cast<double>(wanted)))};
+  work.memory_bytes = stages + layer * work.threads;
+  return work;
+}
+
 void draw_contours(const ContourPlan& plan, int threads, const std::function<void(int64_t, const LayerRegions&)>& take,
                    Progress* progress, const StopFlag* stop) {
-  StageLoan loan;
-  loan.threads = threads;
-  loan.progress = progress;
-  loan.stop = stop;
-  plan.stages->prepare(loan);
+  plan.stages->prepare({threads, plan.memory_bytes, progress, stop});
+  const ContourWork work = size_contour_work(plan, threads);
   const surface::Outliner outliner(plan.partition, plan.corners, plan.tolerance_mm);
   const auto layers = static_cast<size_t>(plan.layers());
   const Stopwatch watch;
   run_ordered<LayerRegions>(
-      layers, threads, 2 * static_cast<size_t>(threads > 0 ? threads : core_count()),
+      layers, work.threads, 2 * static_cast<size_t>(work.threads),
       [&](size_t n) { return regions_of(plan, outliner.layer(static_cast<int64_t>(n), stop)); },
       [&](size_t n, const LayerRegions& regions) {
         if (stop && stop->requested()) throw Cancelled();

@@ -13,10 +13,11 @@
 namespace ombre::compile {
 
 struct ContourRequest : RegionRequest {
-  std::optional<Pitch> layer_height;  // else the design's own, else default_layer_height
-  std::optional<double> z_mm;         // one layer, whose middle this is; else all, as slicing has them
-  int threads = 0;                    // 0: all cores
-  const StopFlag* stop = nullptr;     // must live as long as the plan
+  std::optional<Pitch> layer_height;      // else the design's own, else default_layer_height
+  std::optional<double> z_mm;             // one layer, whose middle this is; else all, as slicing has them
+  int threads = 0;                        // 0: all cores
+  const StopFlag* stop = nullptr;         // must live as long as the plan
+  size_t memory_bytes = size_t{2} << 30;  // for layers in flight and stages; one at a time is always allowed
 };
 constexpr Pitch default_layer_height{1, 10};
 
@@ -34,6 +35,7 @@ struct ContourPlan {
   // Of cells in x and y. Along z they are layers, and borders are drawn in their middles.
   voxel::Lattice corners;
   JobStagesPtr stages;
+  size_t memory_bytes = 0;  // as requested
 
   int64_t layers() const { return corners.count[2]; }
   double middle_mm(int64_t layer) const { return corners.center(0, 0, layer).z; }
@@ -43,6 +45,13 @@ struct ContourPlan {
 
 // Nothing, and diagnostics, when the design is empty, or cannot be cut so, or z is beside it.
 std::optional<ContourPlan> plan_contours(const Loaded& loaded, const ContourRequest& request, Diagnostics& diagnostics);
+
+// How much of a job is in flight at once.
+struct ContourWork {
+  int threads = 1;
+  double memory_bytes = 0;  // the most that so many layers and stages take, once stages are prepared
+};
+ContourWork size_contour_work(const ContourPlan& plan, int threads);
 
 // Polygons of plan.regions, in their order. The result of layers does not depend on threads.
 using LayerRegions = std::vector<std::vector<surface::Polygon>>;

@@ -22,7 +22,7 @@ std::vector<std::string> examples() {
 // About a million voxels of the example, whatever its size.
 std::vector<MaterialId> slice_example(const LoadedPtr& loaded, voxel::Evaluator evaluator, voxel::Dither dither) {
   PlanOptions options;
-  options.evaluator.evaluator = evaluator;
+  options.evaluator = evaluator;
   options.dither = dither;
   Diagnostics diagnostics;
   auto plan = plan_slice(loaded, options, diagnostics);

@@ -149,7 +149,7 @@ std::optional<std::vector<Grid>> attribute_grids(const design::Design& design, c
   return grids;
 }
 
-std::vector<Grid> wished_grids(const SliceRequest& request, const GridWishes& wishes) {
+std::vector<Grid> wished_grids(const Sampling& request, const GridWishes& wishes) {
   std::vector<Grid> grids;
   if (wishes.materials) grids.push_back({GridKind::material, "material", std::nullopt});
   if (wishes.distance) grids.push_back({GridKind::distance, "distance", std::nullopt});
@@ -172,10 +172,7 @@ double layer_bytes(const GridJob& job) {
          sizeof(float);
 }
 
-std::vector<TileBox> slabs_of(const GridJob& job) {
-  const auto fitting = static_cast<int64_t>(slab_bytes / layer_bytes(job));
-  int64_t layers = slab_unit;
-  while (layers > 1 && layers > fitting) layers /= 2;
+std::vector<TileBox> slabs_of(const GridJob& job, int64_t layers) {
   std::vector<TileBox> slabs;
   for (int64_t k = job.region.lo[2]; k < job.region.hi[2];) {
     TileBox slab = job.region;
@@ -227,23 +224,31 @@ std::optional<TileBox> region_over(const voxel::Lattice& lattice, const Box& box
   return region;
 }
 
+GridWork size_grid_work(const GridJob& job, int threads) {
+  const auto stages = static_cast<double>(job.stages->memory_bytes({threads, job.memory_bytes, nullptr, nullptr}));
+  const double allowed = std::min(window_bytes, static_cast<double>(job.memory_bytes) - stages);
+  const double layer = layer_bytes(job);
+  GridWork work{slab_unit};
+  // A file takes a copy of a slab.
+  const auto slabs_in = [&](double bytes) { return bytes / (layer * static_cast<double>(work.slab_layers)) - 1; };
+  while (work.slab_layers > 1 && (slabs_in(slab_bytes) < 0 || slabs_in(allowed) < 1)) work.slab_layers /= 2;
+  const size_t wanted = 2 * static_cast<size_t>(threads > 0 ? threads : core_count());
+  work.window = static_cast<size_t>(std::clamp(slabs_in(allowed), 1.0, static_cast<double>(wanted)));
+  work.memory_bytes = stages + layer * static_cast<double>(work.slab_layers) * static_cast<double>(work.window + 1);
+  return work;
+}
+
 void each_slab(const GridJob& job, int threads, const std::function<void(const GridSlab&)>& take, Progress* progress,
                const StopFlag* stop) {
-  StageLoan loan;
-  loan.threads = threads;
-  loan.progress = progress;
-  loan.stop = stop;
-  job.stages->prepare(loan);
-  const std::vector<TileBox> slabs = slabs_of(job);
+  job.stages->prepare({threads, job.memory_bytes, progress, stop});
+  const GridWork work = size_grid_work(job, threads);
+  const std::vector<TileBox> slabs = slabs_of(job, work.slab_layers);
   const auto total = static_cast<uint64_t>(job.region.voxels());
-  const size_t wanted = 2 * static_cast<size_t>(threads > 0 ? threads : core_count());
-  const double bytes = layer_bytes(job) * static_cast<double>(slabs.front().size(2));
-  const size_t window = std::clamp<size_t>(static_cast<size_t>(window_bytes / bytes), 1, wanted);
   const Stopwatch watch;
   uint64_t done = 0;
   if (progress) progress->update(at_steady_pace(0, total, 0));
   run_ordered<GridSlab>(
-      slabs.size(), threads, window,
+      slabs.size(), threads, work.window,
       [&](size_t n) {
         return GridSlab{slabs[n], job.tiles(slabs[n], stop)};
       },

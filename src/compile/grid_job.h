@@ -42,7 +42,7 @@ constexpr double band_voxels = 3;
 using TileProducer = std::function<std::vector<voxel::FieldTile>(const voxel::TileBox& region, const StopFlag* stop)>;
 
 struct GridJob {
-  SliceRequest request;   // the lattice, the materials and what else decides the values
+  Sampling request;       // the lattice, the materials and what else decides the values
   voxel::TileBox region;  // the voxels that are wanted
   std::vector<Grid> grids;
   double band_mm = 0;     // of distances; 0: they are not cut off
@@ -50,7 +50,16 @@ struct GridJob {
   bool has_mark = false;  // behind the grids, tiles have 1 inside and 0 outside
   TileProducer tiles;
   JobStagesPtr stages;
+  size_t memory_bytes = size_t{2} << 30;  // for slabs in flight and stages; one layer at a time is always allowed
 };
+
+// How much of a job is in flight at once.
+struct GridWork {
+  int64_t slab_layers = 8;
+  size_t window = 1;        // slabs
+  double memory_bytes = 0;  // the most that these slabs and stages can take, once stages are prepared
+};
+GridWork size_grid_work(const GridJob& job, int threads);
 
 // As plan_slice, on a lattice that covers the box, which is bounded, in place of the design's own: designs on equal
 // boxes have equal lattices.

@@ -112,7 +112,7 @@ TEST(Grids, MaterialsAreWhatSlicingWrites) {
 TEST(Grids, DistanceOfASphereIsExact) {
   for (const auto evaluator : {voxel::Evaluator::batch, voxel::Evaluator::reference}) {
     PlanOptions options = pitch(0.21);
-    options.evaluator.evaluator = evaluator;
+    options.evaluator = evaluator;
     const Sampled grid =
         sample("root((-6, -5, -7), (6, 7, 5), (0.21, 0.21, 0.21)) { sphere(4); }", {distance(), options, {}, 2});
     const voxel::Lattice& lattice = grid.job.request.lattice;
@@ -203,7 +203,7 @@ TEST(Grids, BatchesAgreeWithTheReference) {
   for (const std::string& body : {graded, mesh, struts + "}"}) {
     GridWishes both{false, true, true, false};
     PlanOptions exact = pitch(0.31);
-    exact.evaluator.evaluator = voxel::Evaluator::reference;
+    exact.evaluator = voxel::Evaluator::reference;
     const Sampled fast = sample(body, {both, pitch(0.31), {}, 2}), slow = sample(body, {both, exact, {}, 2});
     for (size_t n = 0; n < fast.values[0].size(); ++n) ASSERT_NEAR(fast.values[0][n], slow.values[0][n], 1e-4) << body;
     for (size_t g = 1; g < fast.values.size(); ++g) {

@@ -25,14 +25,14 @@ Data sampling(const SliceRequest& request) {
     pitch_mm.emplace_back(lattice.pitch[axis].mm());
     voxels.push_back(number(lattice.count[axis]));
   }
-  return DataMembers{{"pitch", pitch},
-                     {"pitch_mm", pitch_mm},
-                     {"voxels", voxels},
-                     {"origin_mm", triple(lattice.origin)},
-                     {"size_mm", triple(lattice.box().size())},
-                     {"dither", std::string(voxel::name(request.dither))},
-                     {"evaluator", request.evaluator == voxel::Evaluator::batch ? "batch" : "reference"},
-                     {"seed", std::to_string(request.seed)}};  // text, since it may have 64 bits
+  DataMembers members{{"pitch", pitch},
+                      {"pitch_mm", pitch_mm},
+                      {"voxels", voxels},
+                      {"origin_mm", triple(lattice.origin)},
+                      {"size_mm", triple(lattice.box().size())}};
+  const DataMembers rules = SamplingRules::options().describe(request);
+  members.insert(members.end(), rules.begin(), rules.end());
+  return members;
 }
 
 Data images(const SliceRequest& request) {

@@ -32,7 +32,7 @@ const Data* member(const Data* object, const char* name) { return object ? objec
 
 struct JobSummary {
   exporting::SheetStyle style;
-  voxel::ImageFormat format = voxel::ImageFormat::indexed;
+  ImageFormat format = ImageFormat::indexed;
   std::vector<formats::Rgba> colours;  // of the materials, without void
   double origin_z_mm = 0, layer_mm = 0;
   size_t check_count = 0;
@@ -46,7 +46,7 @@ formats::Rgba read_colour(const Data& material, const std::string& path) {
   return rgba;
 }
 
-voxel::ImageFormat format(const Data* images, const std::string& path) {
+ImageFormat format(const Data* images, const std::string& path) {
   const Data* name = member(images, "format");
   const auto format = name && name->string() ? voxel::image_format(*name->string()) : std::nullopt;
   if (!format) throw Error(path + " is not a slice job");
@@ -72,7 +72,7 @@ JobSummary read_summary(const std::string& path) {
   for (const Data& material : *materials->list()) summary.colours.push_back(read_colour(material, path));
   const formats::Rgba background = summary.colours.front();
   summary.colours.erase(summary.colours.begin());
-  const bool is_mask = summary.format == voxel::ImageFormat::mask;
+  const bool is_mask = summary.format == ImageFormat::mask;
   summary.style.background = is_mask ? exporting::mask_off : exporting::shown(background, summary.format);
   summary.origin_z_mm = origin[2];
   summary.layer_mm = pitch[2];
@@ -88,8 +88,7 @@ exporting::SheetLayer sheet_layer(const JournalEntry& entry, const JobSummary& s
   layer.z_mm = summary.origin_z_mm + (static_cast<double>(entry.layer) + 0.5) * summary.layer_mm;
   for (size_t i = 0; i < entry.files.size(); ++i) {
     layer.images.push_back({(folder / entry.files[i].name).string(), std::nullopt});
-    if (summary.format == voxel::ImageFormat::mask && i < summary.colours.size())
-      layer.images.back().ink = summary.colours[i];
+    if (summary.format == ImageFormat::mask && i < summary.colours.size()) layer.images.back().ink = summary.colours[i];
   }
   return layer;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "compile/slice_work.h"
 
 namespace ombre::compile {
@@ -42,8 +43,19 @@ std::optional<LayerWindow> window_over(const voxel::Lattice& lattice, double x0,
   return LayerWindow{{x->first, y->first}, {x->second, y->second}};
 }
 
+double layer_memory_bytes(const SliceRequest& request, const std::optional<LayerWindow>& window) {
+  SliceRequest seen = request;
+  if (window)
+    for (size_t axis = 0; axis < 2; ++axis) seen.lattice.count[axis] = window->hi[axis] - window->lo[axis];
+  seen.lattice.count[2] = 1;
+  SliceOptions one;
+  one.threads = 1;
+  one.memory_bytes = 0;
+  return static_cast<double>(size_work(seen, one).memory_bytes);
+}
+
 LayerImages make_layer(const SliceRequest& request, const RegionProducer& regions, int64_t layer,
-                       const std::optional<LayerWindow>& window) {
+                       const std::optional<LayerWindow>& window, const StopFlag* stop) {
   SliceRequest kept = request;
   kept.drop_empty_layers = false;
   const auto& count = request.lattice.count;
@@ -51,7 +63,8 @@ LayerImages make_layer(const SliceRequest& request, const RegionProducer& region
   const LayerProducer producer = [&](int64_t begin, int64_t end, const StopFlag* stop) {
     return regions({{pixels.lo[0], pixels.lo[1], begin}, {pixels.hi[0], pixels.hi[1], end}}, stop);
   };
-  std::vector<EncodedLayer> made = make_slab(kept, producer, image_stack(kept), {layer, layer + 1});
+  std::vector<EncodedLayer> made = make_slab(kept, producer, image_stack(kept), {layer, layer + 1}, stop);
+  if (made.empty()) throw Cancelled();
   EncodedLayer& only = made.front();
   CheckSums checks(request);
   checks.add(only.entry.checks);

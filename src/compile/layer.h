@@ -35,9 +35,12 @@ struct LayerImages {
   std::vector<CheckReport> checks;  // those that failed
 };
 
+// The most that making the layer takes, beside stages.
+double layer_memory_bytes(const SliceRequest& request, const std::optional<LayerWindow>& window);
+
 // Without a window, the files that slicing writes for this layer (also where it would drop an empty one);
 // with one, those of their pixels, with counts and checks of the window.
 LayerImages make_layer(const SliceRequest& request, const RegionProducer& regions, int64_t layer,
-                       const std::optional<LayerWindow>& window);
+                       const std::optional<LayerWindow>& window, const StopFlag* stop = nullptr);
 
 }  // namespace ombre::compile

@@ -6,6 +6,7 @@
 #include "base/json.h"
 #include "base/tasks.h"
 #include "base/text.h"
+#include "compile/bundle.h"
 #include "compile/data_folder.h"
 #include "compile/design_sources.h"
 #include "compile/scad_words_design.h"
@@ -179,6 +180,7 @@ std::optional<design::MaterialTable> load_materials(const std::string& path, Dia
 }
 
 LoadedPtr load_design(const std::string& path, const LoadOptions& options, Diagnostics& diagnostics) {
+  if (is_bundle(path)) return load_bundle(path, options, diagnostics);
   sources::SourceCache own;
   sources::SourceCache& cache = options.cache ? *options.cache : own;
   return read_design(read_source(path, cache), options, cache, diagnostics);

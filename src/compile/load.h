@@ -52,21 +52,19 @@ std::optional<design::MaterialTable> load_materials(const std::string& path, Dia
 const std::vector<std::string>& emit_forms();
 std::string emit(const Loaded& loaded, const std::string& form);
 
-struct PlanOptions {
+struct PlanOptions : SamplingRules {
   std::string program;                        // "ombre 0.1.0", for job.json
   voxel::Printer printer;                     // whose conventions hold
   bool printer_given = false;                 // then its pitch goes before the design's own
   std::array<std::optional<Pitch>, 3> pitch;  // goes before both, axis by axis
-  voxel::Dither dither = voxel::Dither::stochastic;
-  voxel::EvaluatorOptions evaluator;
-  uint64_t seed = 0;
-  std::optional<voxel::ImageFormat> image;  // else the printer's
-  std::optional<voxel::Placement> place;    // else the printer's; center: the build plate, the part in its middle
-  bool whole_tray = false;                  // the build plate, the part where the design has it
-  int threads = 0;                          // that read the design; 0: all cores
-  size_t memory_bytes = size_t{2} << 30;    // of the job
-  const StopFlag* stop = nullptr;           // must live as long as the plan
-  std::optional<ValueChoice> value;         // shades of gray by this in place of materials
+  voxel::EvaluatorOptions speed;              // how the evaluator works, but for which it is
+  std::optional<ImageFormat> image;           // else the printer's
+  std::optional<voxel::Placement> place;      // else the printer's; center: the build plate, the part in its middle
+  bool whole_tray = false;                    // the build plate, the part where the design has it
+  int threads = 0;                            // that read the design; 0: all cores
+  size_t memory_bytes = size_t{2} << 30;      // of the job
+  const StopFlag* stop = nullptr;             // must live as long as the plan
+  std::optional<ValueChoice> value;           // shades of gray by this in place of materials
 };
 
 struct Plan {

@@ -68,7 +68,8 @@ size_t differences(const Voxels& a, const Voxels& b) {
 
 Voxels slice_as(const std::string& body, voxel::EvaluatorOptions options, const std::string& where = box) {
   PlanOptions plan;
-  plan.evaluator = options;
+  plan.evaluator = options.evaluator;
+  plan.speed = options;
   return slice_text(where + "{" + body + "}", plan, 5);
 }
 

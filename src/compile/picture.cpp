@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/error.h"
 #include "base/steady_pace.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
@@ -54,6 +55,8 @@ struct Shot {
   std::function<render::RayBand(int64_t begin, int64_t end)> cast;
 };
 
+constexpr int64_t most_rays = 2'000'000;  // of a band
+
 class Studio {
  public:
   Studio(const Loaded& loaded, const PictureRequest& request, const StageLoan& loan, Diagnostics& diagnostics)
@@ -71,7 +74,7 @@ class Studio {
       if (!shot) return false;
       stages_of(loaded_.design)->prepare(loan_);
       is_empty_ = true;
-      Picture picture{expose(*shot), shot->film.pixel_mm * static_cast<double>(request_.samples)};
+      Picture picture{expose(*shot), shot->film.pixel_mm * static_cast<double>(request_.samples), shown_range_};
       if (!mark(picture, frame)) return false;
       if (labels_) labels_->add_to(picture, shot->camera);
       take(frame, picture);
@@ -102,15 +105,13 @@ class Studio {
   bool choose_range() {
     options_.value = ValueColours{request_.by, {0, 1}, request_.palette};
     if (request_.by == part_label && !part_names(loaded_.design).empty()) return true;
-    if (request_.range) {
-      options_.value->range = *request_.range;
-      return true;
-    }
-    if (loaded_.design.materials.find(request_.by) || attribute_parts(loaded_.design, request_.by).size() >= 3)
-      return true;
+    const bool is_fraction = loaded_.design.materials.find(request_.by) != nullptr;
+    if (!is_fraction && attribute_parts(loaded_.design, request_.by).size() >= 3) return true;  // a colour
     const size_t errors = diagnostics_.error_count();
-    if (const auto range = value_range(loaded_.design, whole_, request_.by, diagnostics_))
-      options_.value->range = *range;
+    std::optional<Interval> range = request_.range;
+    if (!range && !is_fraction) range = value_range(loaded_.design, whole_, request_.by, diagnostics_);
+    if (range) options_.value->range = *range;
+    shown_range_ = options_.value->range;
     return diagnostics_.error_count() == errors;
   }
 
@@ -300,10 +301,7 @@ class Studio {
   }
 
   // Rows of pixels, so that large pictures fit into memory.
-  int64_t rows_at_once(int64_t samples) const {
-    constexpr int64_t most_rays = 2'000'000;
-    return std::max<int64_t>(1, most_rays / (width_ * samples * samples));
-  }
+  int64_t rows_at_once(int64_t samples) const { return std::max<int64_t>(1, most_rays / (width_ * samples * samples)); }
 
   uint64_t rows_in_all() const { return static_cast<uint64_t>(request_.frames) * static_cast<uint64_t>(height_); }
 
@@ -314,7 +312,8 @@ class Studio {
   Diagnostics& diagnostics_;
   Box whole_;
   SceneOptions options_;
-  int64_t width_ = 0, height_ = 0;  // of what is shown, pixels
+  std::optional<Interval> shown_range_;  // by colours
+  int64_t width_ = 0, height_ = 0;       // of what is shown, pixels
   int64_t samples_ = request_.samples;
   std::optional<PictureLabels> labels_;
   bool is_empty_ = true;  // the frame at work
@@ -322,6 +321,18 @@ class Studio {
   Stopwatch watch_;
   uint64_t rows_done_ = 0;
 };
+
+// Bands have always the same size, since their borders show in sums over translucent material.
+void check_memory(const PictureRequest& request) {
+  const double row = static_cast<double>(request.width * request.samples * request.samples);
+  const double rays = std::max<double>(most_rays, row) * sizeof(render::RayHit);
+  // The pixels, and the file that they become.
+  const double pixels = 2.0 * 4 * static_cast<double>(request.width) * static_cast<double>(request.height);
+  if (rays + pixels > static_cast<double>(request.memory_bytes))
+    throw Error("the picture takes about " + format_bytes(rays + pixels) + " of memory, more than the " +
+                format_bytes(static_cast<double>(request.memory_bytes)) +
+                " allowed; choose a smaller --size, or more --memory");
+}
 
 std::optional<CutSide> parse_side(std::string_view text) {
   const size_t sign = text.find_first_of("=<>");
@@ -355,10 +366,8 @@ std::optional<SliceView> parse_slice(std::string_view text) {
 
 bool take_pictures(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop,
                    const std::function<void(int, const Picture&)>& take, Diagnostics& diagnostics, Progress* progress) {
-  StageLoan loan;
-  loan.threads = request.threads;
-  loan.progress = progress;
-  loan.stop = &stop;
+  check_memory(request);
+  const StageLoan loan{request.threads, request.memory_bytes, progress, &stop};
   PictureRequest effective = request;
   const std::vector<std::string> attributes = attribute_names(loaded.design);
   const bool by_parts = request.by == "parts" && std::ranges::find(attributes, request.by) == attributes.end();

@@ -63,15 +63,17 @@ struct PictureRequest {
   MarkRequest marks;
   int frames = 1;  // around the part
   int threads = 0;
+  size_t memory_bytes = size_t{4} << 30;  // for rays, pixels and stages
 };
 
 struct Picture {
   std::vector<uint8_t> rgba;  // rows from the top
   double pixel_mm = 0;        // at the part's middle
+  std::optional<Interval> range;  // that the colours span, where they show an attribute of numbers or a fraction
 };
 
 // Calls `take` with each frame; progress counts rows of all frames. False, and diagnostics, when there is nothing to
-// see. Throws Cancelled, and Error where annotations cannot be drawn.
+// see. Throws Cancelled, and Error where annotations cannot be drawn or memory does not suffice.
 bool take_pictures(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop,
                    const std::function<void(int frame, const Picture&)>& take, Diagnostics& diagnostics,
                    Progress* progress = nullptr);

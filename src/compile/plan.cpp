@@ -138,7 +138,7 @@ void warn_of_features(const voxel::Printer& printer, const Vec3 size, const Sour
 
 // What looks alike in images of one channel.
 void warn_of_grays(const SliceRequest& request, const SourceRange& where, Diagnostics& diagnostics) {
-  if (request.format != voxel::ImageFormat::gray) return;
+  if (request.format != ImageFormat::gray) return;
   const auto gray = [&](formats::Rgba colour) { return static_cast<int>(exporting::shown(colour, request.format)[0]); };
   std::map<int, std::string> names{{gray(request.background), "void"}};
   // Each material has an image of its own, or all have one.
@@ -160,9 +160,7 @@ SliceRequest base_request(const PlanOptions& options, const voxel::Lattice& latt
   request.program = options.program;
   request.design_hash = design_hash.hex();
   request.lattice = lattice;
-  request.dither = options.dither;
-  request.seed = options.seed;
-  request.evaluator = options.evaluator.evaluator;
+  static_cast<SamplingRules&>(request) = options;
   if (request.evaluator == voxel::Evaluator::batch) request.evaluator = voxel::best_evaluator(lattice);
   return request;
 }
@@ -183,7 +181,7 @@ std::optional<Plan> plan_shades(const LoadedPtr& loaded, PlanOptions options, co
   const design::Design design = design_on(loaded->design, lattice, options);
   const auto meaning = shade_meaning(design, box, *options.value, diagnostics);
   if (!meaning) return std::nullopt;
-  options.image = voxel::ImageFormat::gray;
+  options.image = ImageFormat::gray;
   Plan plan;
   plan.stages = stages_of(design);
   plan.request = base_request(options, lattice, design::hash(loaded->design));
@@ -247,7 +245,7 @@ std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const Pla
                       "use fewer, or choose another printer");
     return std::nullopt;
   }
-  voxel::EvaluatorOptions how = options.evaluator;
+  voxel::EvaluatorOptions how = options.speed;
   how.evaluator = request.evaluator;
   auto evaluator =
       std::make_shared<const voxel::LayerEvaluator>(built->materials, *lattice, options.dither, options.seed, how);

@@ -11,6 +11,7 @@
 #include "base/interval.h"
 #include "base/progress.h"
 #include "compile/job_stages.h"
+#include "compile/sampling_rules.h"
 #include "formats/png.h"
 #include "voxel/lattice.h"
 #include "voxel/layers.h"
@@ -31,29 +32,24 @@ struct ShadeMeaning {
   int bits = 8;  // of a pixel: 8 or 16
 };
 
-// Everything that decides the bytes of a job, already resolved.
-struct SliceRequest {
+// Everything that decides the voxels of a job, already resolved.
+struct Sampling : SamplingRules {
   std::string program;      // "ombre 0.1.0"
   std::string design_hash;  // hex
-  std::string printer;      // the profile's name
   voxel::Lattice lattice;
-  voxel::Dither dither = voxel::Dither::stochastic;
-  voxel::Evaluator evaluator = voxel::Evaluator::batch;
-  uint64_t seed = 0;
-  std::vector<SliceMaterial> materials;  // those used, by ascending id, without void
-  voxel::ImageFormat format = voxel::ImageFormat::indexed;
-  formats::Rgba background{};
-  bool flip_x = false, flip_y = false;
-  voxel::NamePattern files;
-  int64_t first_index = 0;
-  bool drop_empty_layers = false;
-  std::optional<ShadeMeaning> shades;     // where images show a value; then materials are its shades
+  std::vector<SliceMaterial> materials;   // those used, by ascending id, without void
+  std::optional<ShadeMeaning> shades;     // where voxels show a value; then materials are its shades
   std::vector<std::string> check_texts;   // one for each check of the program: what failed, for people
   std::vector<std::string> check_places;  // and where in the design, "part.vcad:3:1"; decides no bytes
 };
 
+// Everything that decides the bytes of a job.
+struct SliceRequest : Sampling, voxel::Images {
+  std::string printer;  // the profile's name
+};
+
 // The conventions of a profile; `image` overrides its image format. Masks are always one for each material.
-void use_printer(SliceRequest& request, const voxel::Printer& printer, std::optional<voxel::ImageFormat> image);
+void use_printer(SliceRequest& request, const voxel::Printer& printer, std::optional<ImageFormat> image);
 
 // Layers [begin, end) of the whole job.
 struct LayerRange {

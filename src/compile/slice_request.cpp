@@ -21,15 +21,11 @@ int64_t position(int64_t number, int64_t count) {
 
 }  // namespace
 
-void use_printer(SliceRequest& request, const voxel::Printer& printer, std::optional<voxel::ImageFormat> image) {
+void use_printer(SliceRequest& request, const voxel::Printer& printer, std::optional<ImageFormat> image) {
   request.printer = printer.name;
-  request.format = image.value_or(printer.image);
-  request.background = printer.background;
-  request.flip_x = printer.flip_x;
-  request.flip_y = printer.flip_y;
-  request.files = request.format == voxel::ImageFormat::mask ? printer.files.with_material() : printer.files;
-  request.first_index = printer.first_index;
-  request.drop_empty_layers = printer.drop_empty_layers;
+  static_cast<voxel::Images&>(request) = printer;
+  if (image) request.format = *image;
+  if (request.format == ImageFormat::mask) request.files = request.files.with_material();
 }
 
 std::optional<LayerRange> parse_layer_range(std::string_view text, int64_t layer_count) {

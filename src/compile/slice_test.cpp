@@ -122,9 +122,9 @@ TEST_F(Slice, MemoryBoundsWhatIsInFlight) {
   }
   some.threads = 1;
   size_t before = 0;  // what is kept for error diffusion, and larger images, take memory
-  for (const auto& [dither, format] : {std::pair{voxel::Dither::stochastic, voxel::ImageFormat::indexed},
-                                       std::pair{voxel::Dither::diffusion, voxel::ImageFormat::indexed},
-                                       std::pair{voxel::Dither::diffusion, voxel::ImageFormat::rgba}}) {
+  for (const auto& [dither, format] : {std::pair{voxel::Dither::stochastic, ImageFormat::indexed},
+                                       std::pair{voxel::Dither::diffusion, ImageFormat::indexed},
+                                       std::pair{voxel::Dither::diffusion, ImageFormat::rgba}}) {
     request.dither = dither;
     request.format = format;
     EXPECT_GT(size_work(request, some).memory_bytes, before);

@@ -14,10 +14,10 @@ constexpr int64_t most_slab_layers = 8;  // what stays in the second-level cache
 
 // The most bits that a pixel takes in a file, where layers are noise.
 double pixel_bits(const SliceRequest& request) {
-  if (request.format == voxel::ImageFormat::mask) return 1;
+  if (request.format == ImageFormat::mask) return 1;
   const double information = std::log2(static_cast<double>(request.materials.size() + 1));
   // Four bytes for each pixel, coded one by one where no match is found.
-  if (request.format == voxel::ImageFormat::rgba) return std::min(32.0, 4 * information);
+  if (request.format == ImageFormat::rgba) return std::min(32.0, 4 * information);
   return std::min(8.0, information + 0.5);
 }
 
@@ -120,15 +120,8 @@ uint64_t EncodedLayer::bytes() const {
 }
 
 exporting::MaterialStack image_stack(const SliceRequest& request) {
-  exporting::MaterialStack stack;
+  exporting::MaterialStack stack{request, {}, request.lattice.pitch[0], request.lattice.pitch[1]};
   for (const SliceMaterial& material : request.materials) stack.materials.push_back({material.id, material.rgba});
-  stack.background = request.background;
-  stack.format = request.format;
-  stack.one_for_each = request.files.has_material();
-  stack.pitch_x = request.lattice.pitch[0];
-  stack.pitch_y = request.lattice.pitch[1];
-  stack.flip_x = request.flip_x;
-  stack.flip_y = request.flip_y;
   return stack;
 }
 

@@ -131,7 +131,7 @@ inline SliceRequest mask_request() {
   SliceRequest request = ball_request();
   voxel::Printer printer;
   printer.name = "vat";
-  use_printer(request, printer, voxel::ImageFormat::mask);
+  use_printer(request, printer, ImageFormat::mask);
   return request;
 }
 

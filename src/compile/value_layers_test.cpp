@@ -86,7 +86,7 @@ TEST(ValueLayers, TheRangeIsThatOfTheValues) {
   EXPECT_NEAR(plan.request.shades->range.lo, 2, 0.1);
   EXPECT_NEAR(plan.request.shades->range.hi, 8, 0.1);
   EXPECT_EQ(plan.request.shades->unit, "J");
-  EXPECT_EQ(plan.request.format, voxel::ImageFormat::gray);
+  EXPECT_EQ(plan.request.format, ImageFormat::gray);
 }
 
 TEST(ValueLayers, FractionsGoFromNoneToAll) {

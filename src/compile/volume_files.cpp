@@ -26,7 +26,7 @@ Data described(const SliceMaterial& material) {
       {"id", static_cast<double>(material.id)}, {"name", material.name}, {"rgba", colour(material.rgba)}};
 }
 
-Data all_materials(const SliceRequest& request) {
+Data all_materials(const Sampling& request) {
   DataList list;
   for (const SliceMaterial& material : request.materials) list.push_back(described(material));
   return list;
@@ -34,7 +34,7 @@ Data all_materials(const SliceRequest& request) {
 
 // What the numbers of a grid are.
 DataMembers about(const GridJob& job, const Grid& grid) {
-  const SliceRequest& request = job.request;
+  const Sampling& request = job.request;
   DataMembers members{{"program", request.program}, {"design_hash", request.design_hash}};
   const auto add = [&](const char* key, Data value) { members.emplace_back(key, std::move(value)); };
   switch (grid.kind) {

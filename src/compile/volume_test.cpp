@@ -62,7 +62,7 @@ TEST(Volume, LabelsAreCopiedVoxelForVoxel) {
   for (const voxel::Evaluator evaluator : {voxel::Evaluator::batch, voxel::Evaluator::reference}) {
     PlanOptions options;
     options.pitch = {Pitch::from_mm(0.5), Pitch::from_mm(0.25), Pitch::from_mm(1)};
-    options.evaluator.evaluator = evaluator;
+    options.evaluator = evaluator;
     const Voxels voxels = slice_text(solids, options);
     size_t seen = 0;
     for (int64_t k = 0; k < voxels.lattice.count[2]; ++k)

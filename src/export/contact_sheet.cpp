@@ -65,7 +65,7 @@ formats::PngImage read(const SheetLayer& layer, const SheetStyle& style) {
     require_size(next, image.file, picture.width, picture.height);
     lay_over(picture, image, next, style.background);
   }
-  first.format = formats::PngFormat::rgba;
+  first.format = ImageFormat::rgba;
   first.pixels = std::move(picture.rgba);
   return first;
 }

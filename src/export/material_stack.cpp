@@ -1,12 +1,8 @@
 // The images of a layer: one of all materials, or one of each.
 #include "export/material_stack.h"
 
-#include "export/png_stack.h"
-
 namespace ombre::exporting {
 namespace {
-
-using voxel::ImageFormat;
 
 // The layer with all but one material taken for void.
 RunLayer only(const RunLayer& layer, MaterialId material) {
@@ -26,41 +22,26 @@ formats::Palette palette(const MaterialStack& stack) {
   return palette;
 }
 
-formats::PngFormat png_format(ImageFormat format) {
-  switch (format) {
-    case ImageFormat::rgba:
-      return formats::PngFormat::rgba;
-    case ImageFormat::gray:
-      return formats::PngFormat::gray;
-    case ImageFormat::mask:
-      return formats::PngFormat::mask;
-    default:
-      return formats::PngFormat::indexed;
-  }
-}
-
-PngStack png_stack(const MaterialStack& stack) {
-  PngStack png;
-  png.palette = palette(stack);
-  png.format = png_format(stack.format);
-  png.pitch_x = stack.pitch_x;
-  png.pitch_y = stack.pitch_y;
-  png.flip_x = stack.flip_x;
-  png.flip_y = stack.flip_y;
-  return png;
+formats::PngLayout layout_of(const MaterialStack& stack) {
+  formats::PngLayout layout{stack};
+  layout.dots_per_metre_x = stack.pitch_x.dots_per_metre();
+  layout.dots_per_metre_y = stack.pitch_y.dots_per_metre();
+  return layout;
 }
 
 }  // namespace
 
 std::vector<std::string> MaterialStack::encode(const RunLayer& layer) const {
-  PngStack png = png_stack(*this);
-  if (!one_for_each) return {png.encode(layer)};
-  std::vector<std::string> files;
+  const formats::Palette colours = palette(*this);
+  formats::PngLayout layout = layout_of(*this);
+  if (!files.has_material()) return {formats::encode_png(layer, colours, layout)};
+  std::vector<std::string> images;
   for (const StackMaterial& material : materials) {
-    png.mask_of = material.id;
-    files.push_back(png.encode(format == ImageFormat::mask ? layer : only(layer, material.id)));
+    layout.mask_of = material.id;
+    images.push_back(
+        formats::encode_png(format == ImageFormat::mask ? layer : only(layer, material.id), colours, layout));
   }
-  return files;
+  return images;
 }
 
 std::string MaterialStack::encode_shades(const RunLayer& upper_bytes, const RunLayer& lower_bytes) const {

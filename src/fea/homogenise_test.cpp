@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "fea/homogenise_conductivity.h"
 #include "fea/test_models.h"
 
 namespace ombre::fea {
@@ -127,6 +128,56 @@ TEST(Homogenise, VoidBearsNothing) {
   EXPECT_NEAR(found.stiffness_mpa[2][2], 25, 1e-4);
   EXPECT_NEAR(found.stiffness_mpa[0][0], 0, 1e-4);
   EXPECT_FALSE(constants_of(found.stiffness_mpa));
+}
+
+Section conducting(double conductivity) { return {"one", {}, conductivity}; }
+
+// Across layers resistances add, along them conductances.
+TEST(Homogenise, LayersConductInSeriesAndParallel) {
+  const HomogenisedConductivity found = homogenise_conductivity(
+      periodic({3, 6, 8}, {conducting(15), conducting(0.2)}, [](Cell c) { return c[2] < 2 ? 0 : 1; }, {1, 2, 0.5}),
+      {1e-12});
+  const double along = 0.25 * 15 + 0.75 * 0.2, across = 1 / (0.25 / 15 + 0.75 / 0.2);
+  EXPECT_NEAR(found.conductivity[0][0], along, 1e-9);
+  EXPECT_NEAR(found.conductivity[1][1], along, 1e-9);
+  EXPECT_NEAR(found.conductivity[2][2], across, 1e-9);
+  EXPECT_NEAR(found.conductivity[0][2], 0, 1e-9);
+  EXPECT_NEAR(found.arithmetic_mean, along, 1e-12);
+  EXPECT_NEAR(found.harmonic_mean, across, 1e-12);
+}
+
+// Balls that conduct better than the matrix lie between the bounds of Hashin and Shtrikman (1962), of which the lower
+// one is also Maxwell's formula for thinly spread balls, and so close.
+TEST(Homogenise, ConductingBallsLieBetweenTheBoundsOfHashinAndShtrikman) {
+  constexpr int32_t n = 24;
+  size_t inside = 0;
+  const HomogenisedConductivity found =
+      homogenise_conductivity(periodic({n, n, n}, {conducting(10), conducting(1)},
+                                       [&](Cell c) {
+                                         double squares = 0;
+                                         for (const int32_t along : c)
+                                           squares += (along + 0.5 - n / 2.0) * (along + 0.5 - n / 2.0);
+                                         if (squares > 64) return 1;
+                                         ++inside;
+                                         return 0;
+                                       }),
+                              {1e-9});
+  const double f = static_cast<double>(inside) / (n * n * n), k = found.conductivity[1][1];
+  const double lower = 1 + f / (1 / (10 - 1.0) + (1 - f) / 3), upper = 10 + (1 - f) / (1 / (1 - 10.0) + f / 30);
+  EXPECT_GT(k, lower);
+  EXPECT_LT(k, upper);
+  EXPECT_LT(k, 1.03 * lower);
+  EXPECT_NEAR(found.conductivity[0][0], k, 1e-6);
+  EXPECT_NEAR(found.conductivity[2][2], k, 1e-6);
+}
+
+// Columns along z conduct along themselves alone.
+TEST(Homogenise, VoidConductsNothing) {
+  const HomogenisedConductivity found = homogenise_conductivity(
+      periodic({4, 4, 4}, {conducting(8)}, [](Cell c) { return c[0] < 2 && c[1] < 2 ? 0 : -1; }), {1e-12});
+  EXPECT_NEAR(found.conductivity[2][2], 2, 1e-9);
+  EXPECT_NEAR(found.conductivity[0][0], 0, 1e-9);
+  EXPECT_EQ(found.harmonic_mean, 0);
 }
 
 TEST(Homogenise, SameBitsOnAnyNumberOfThreads) {

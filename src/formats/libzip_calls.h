@@ -25,6 +25,7 @@ struct LibzipCalls {
   decltype(&zip_file_strerror) file_strerror = zip_file_strerror;
   decltype(&zip_file_add) file_add = zip_file_add;
   decltype(&zip_file_set_dostime) file_set_dostime = zip_file_set_dostime;
+  decltype(&zip_file_get_external_attributes) file_get_external_attributes = zip_file_get_external_attributes;
   decltype(&zip_set_file_compression) set_file_compression = zip_set_file_compression;
 
   // Sources of bytes.

@@ -6,21 +6,15 @@
 #include <string_view>
 #include <vector>
 
+#include "base/image_layout.h"
 #include "base/run.h"
 #include "formats/palette.h"
 
 namespace ombre::formats {
 
-// gray has the luminance of each material's colour. mask is white (1) where one material is, black elsewhere.
-// indexed images have as much of the palette as fits into the fewest bits that hold the layer.
-enum class PngFormat { rgba, indexed, gray, mask };
-
-struct PngLayout {
-  PngFormat format = PngFormat::indexed;
+struct PngLayout : ImageLayout {
   double dots_per_metre_x = 0, dots_per_metre_y = 0;  // rounded to whole dots; 0 writes none
-  // Unflipped, x grows to the right and image row 0 has the greatest y.
-  bool flip_x = false, flip_y = false;
-  MaterialId mask_of = 0;  // of a mask
+  MaterialId mask_of = 0;                             // of a mask
 };
 
 // The same layer gives the same bytes. Width and height must lie in 1 ... 1,000,000, and every
@@ -39,7 +33,7 @@ std::string encode_gray_png(uint32_t width, uint32_t height, const std::vector<u
 
 struct PngImage {
   uint32_t width = 0, height = 0;
-  PngFormat format = PngFormat::rgba;
+  ImageFormat format = ImageFormat::rgba;
   int bit_depth = 8;                                    // as stored; pixels take whole bytes whatever it is
   std::vector<Rgba> palette;                            // of indexed images
   std::vector<uint8_t> pixels;                          // rows from the top: an index, or 4 bytes of RGBA, a pixel

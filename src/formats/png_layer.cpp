@@ -17,11 +17,11 @@ namespace {
 
 constexpr size_t data_chunk_bytes = size_t{1} << 18;
 
-PngColours colour_type(PngFormat format) {
+PngColours colour_type(ImageFormat format) {
   switch (format) {
-    case PngFormat::rgba:
+    case ImageFormat::rgba:
       return PngColours::rgba;
-    case PngFormat::indexed:
+    case ImageFormat::indexed:
       return PngColours::indexed;
     default:
       return PngColours::gray;
@@ -32,15 +32,15 @@ PngColours colour_type(PngFormat format) {
 Samples samples(const Palette& palette, const PngLayout& layout) {
   Samples result;
   result.ids = palette.ids();
-  if (layout.format == PngFormat::indexed) result.bit_depth = palette.bit_depth();
-  if (layout.format == PngFormat::mask) result.bit_depth = 1;
+  if (layout.format == ImageFormat::indexed) result.bit_depth = palette.bit_depth();
+  if (layout.format == ImageFormat::mask) result.bit_depth = 1;
   for (const MaterialId id : palette.ids()) {
     const uint8_t entry = palette.entry(id);
     switch (layout.format) {
-      case PngFormat::indexed:
+      case ImageFormat::indexed:
         result.of[id] = entry;
         break;
-      case PngFormat::mask:
+      case ImageFormat::mask:
         result.of[id] = id == layout.mask_of;
         break;
       default:

@@ -156,7 +156,7 @@ PngImage decode_png(std::string_view bytes, const std::string& name, uint64_t mo
   image.height = png_get_image_height(reader.png, reader.info);
   check_size(reader, image.width, image.height, most_pixels, name);
   const bool indexed = png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE;
-  image.format = indexed ? PngFormat::indexed : PngFormat::rgba;
+  image.format = indexed ? ImageFormat::indexed : ImageFormat::rgba;
   image.bit_depth = reader.stored_bit_depth;
   if (indexed) image.palette = read_palette(reader);
   read_dots(reader, image);
@@ -171,7 +171,7 @@ PngImage decode_png(std::string_view bytes, const std::string& name, uint64_t mo
 
 Rgba PngImage::colour(uint32_t column, uint32_t row) const {
   const size_t pixel = size_t{row} * width + column;
-  if (format == PngFormat::indexed) {
+  if (format == ImageFormat::indexed) {
     const uint8_t index = pixels[pixel];
     return index < palette.size() ? palette[index] : Rgba{0, 0, 0, 255};  // as browsers show it
   }

@@ -40,8 +40,8 @@ Palette palette_of(int materials) {
 // What a reader should see of a material.
 Rgba seen(MaterialId id, const Palette& palette, const PngLayout& layout) {
   const Rgba colour = palette.colours()[palette.entry(id)];
-  const uint8_t gray = layout.format == PngFormat::mask ? id == layout.mask_of ? 255 : 0 : luminance(colour);
-  const bool is_coloured = layout.format == PngFormat::rgba || layout.format == PngFormat::indexed;
+  const uint8_t gray = layout.format == ImageFormat::mask ? id == layout.mask_of ? 255 : 0 : luminance(colour);
+  const bool is_coloured = layout.format == ImageFormat::rgba || layout.format == ImageFormat::indexed;
   return is_coloured ? colour : Rgba{gray, gray, gray, 255};
 }
 
@@ -49,14 +49,14 @@ void expect_same_voxels(const RunLayer& layer, const Palette& palette, const Png
   const PngImage image = decode_png(encode_png(layer, palette, layout), "test");
   ASSERT_EQ(image.width, layer.width());
   ASSERT_EQ(image.height, layer.height());
-  EXPECT_EQ(image.format == PngFormat::indexed, layout.format == PngFormat::indexed);
+  EXPECT_EQ(image.format == ImageFormat::indexed, layout.format == ImageFormat::indexed);
   std::vector<MaterialId> voxels(image.width);
   for (uint32_t row = 0; row < image.height; ++row) {
     layer.row(layout.flip_y ? row : image.height - 1 - row).unpack(voxels.data());
     for (uint32_t column = 0; column < image.width; ++column) {
       const MaterialId id = voxels[layout.flip_x ? image.width - 1 - column : column];
       ASSERT_EQ(image.colour(column, row), seen(id, palette, layout)) << column << ' ' << row;
-      if (layout.format == PngFormat::indexed) {
+      if (layout.format == ImageFormat::indexed) {
         ASSERT_EQ(image.pixels[size_t{row} * image.width + column], palette.entry(id));
       }
     }
@@ -65,7 +65,7 @@ void expect_same_voxels(const RunLayer& layer, const Palette& palette, const Png
 
 // In every format and direction.
 void expect_same_voxels(const RunLayer& layer, const Palette& palette) {
-  for (const PngFormat format : {PngFormat::indexed, PngFormat::rgba, PngFormat::gray, PngFormat::mask}) {
+  for (const ImageFormat format : {ImageFormat::indexed, ImageFormat::rgba, ImageFormat::gray, ImageFormat::mask}) {
     for (const int flips : {0, 1, 2, 3}) {
       PngLayout layout;
       layout.format = format;
@@ -208,7 +208,7 @@ TEST(Png, KeepsEveryVoxelWhereManyEdgesMove) {
 TEST(Png, DitheredRgbaLayersOfManyMaterialsTakeLittleMoreThanTheirEntropy) {
   constexpr uint32_t side = 1024;
   PngLayout rgba;
-  rgba.format = PngFormat::rgba;
+  rgba.format = ImageFormat::rgba;
   for (const int materials : {2, 3, 4, 7, 15}) {  // and void
     const double entropy = std::log2(materials + 1) * side * side / 8;
     const RunLayer layer = random_layer(side, side, materials, 1, 1);
@@ -232,7 +232,7 @@ TEST(Png, SmoothRgbaLayersTakeFewBytesForEachEdge) {
   }
   expect_same_voxels(layer, palette_of(1));
   PngLayout rgba;
-  rgba.format = PngFormat::rgba;
+  rgba.format = ImageFormat::rgba;
   EXPECT_LT(encode_png(layer, palette_of(1), rgba).size(), 3 * waves * height);
 }
 
@@ -270,7 +270,7 @@ TEST(Png, IdsNeedNotBeDense) {
 
 TEST(Png, VoidIsTransparentUnlessABackgroundIsAskedFor) {
   const RunLayer layer = random_layer(8, 8, 0, 8, 1);
-  for (const PngFormat format : {PngFormat::indexed, PngFormat::rgba}) {
+  for (const ImageFormat format : {ImageFormat::indexed, ImageFormat::rgba}) {
     PngLayout layout;
     layout.format = format;
     EXPECT_EQ(decode_png(encode_png(layer, Palette(), layout), "test").colour(3, 3), (Rgba{0, 0, 0, 0}));
@@ -301,7 +301,7 @@ TEST(Png, DitheredLayersTakeLittleMoreThanTheirEntropy) {
     const double entropy = -(share * std::log2(share) + (1 - share) * std::log2(1 - share)) * side * side / 8;
     EXPECT_LT(static_cast<double>(encode_png(layer, palette_of(2), {}).size()), 1.2 * entropy) << share;
     PngLayout rgba;
-    rgba.format = PngFormat::rgba;
+    rgba.format = ImageFormat::rgba;
     EXPECT_LT(static_cast<double>(encode_png(layer, palette_of(2), rgba).size()), 2.6 * entropy) << share;
   }
 }
@@ -329,7 +329,7 @@ TEST(Png, PicturesKeepTheirPixels) {
   std::vector<uint8_t> rgba(4 * 5 * 3);
   for (size_t i = 0; i < rgba.size(); ++i) rgba[i] = static_cast<uint8_t>(i * 11);
   const PngImage few = decode_png(encode_png(5, 3, rgba), "test");
-  EXPECT_EQ(few.format, PngFormat::indexed);
+  EXPECT_EQ(few.format, ImageFormat::indexed);
   for (uint32_t n = 0; n < 15; ++n)
     EXPECT_EQ(few.colour(n % 5, n / 5), (Rgba{rgba[4 * n], rgba[4 * n + 1], rgba[4 * n + 2], rgba[4 * n + 3]}));
 

@@ -49,6 +49,18 @@ void write_zip(const std::string& path, const std::vector<ZipEntry>&) {
   throw Error("cannot write " + path + ": " + missing + "; " + remedy + ", or write another format");
 }
 
+ZipReader::ZipReader(const std::string& name, std::string_view, Diagnostics& diagnostics, uint64_t ratio)
+    : name_(name), diagnostics_(diagnostics), ratio_(ratio) {
+  fail(diagnostics, name, std::string("zip archives cannot be read: ") + missing, remedy);
+}
+
+ZipReader::~ZipReader() = default;
+
+// Nobody has a reader of these builds.
+std::optional<size_t> ZipReader::find(const std::string&) const { return std::nullopt; }
+bool ZipReader::is_link(const std::string&) const { return false; }
+std::string ZipReader::read(const std::string&) { return ""; }
+
 }  // namespace ombre::formats
 
 #endif

@@ -169,8 +169,8 @@ void write_zip(const std::string& path, const std::vector<ZipEntry>& entries) {
 
 bool can_write_3mf() { return true; }
 
-ZipReader::ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
-    : name_(name), diagnostics_(diagnostics) {
+ZipReader::ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics, uint64_t ratio)
+    : name_(name), diagnostics_(diagnostics), ratio_(ratio) {
   zip_error_t error;
   libzip().error_init(&error);
   zip_source_t* const source = libzip().source_buffer_create(bytes.data(), bytes.size(), 0, &error);
@@ -211,9 +211,18 @@ void ZipReader::check(const std::string& entry, const struct zip_stat& stat) con
   if (stat.size > most_bytes - bytes_read_)
     fail_entry(entry, "has " + format_count(stat.size) + " bytes unpacked; of an archive at most " +
                           format_count(most_bytes) + " bytes are read");
-  if (stat.size > small_entry_bytes && stat.size / most_ratio > stat.comp_size)
-    fail_entry(entry, "is packed more tightly than " + format_count(most_ratio) + " to 1 (" + format_count(stat.size) +
+  if (stat.size > small_entry_bytes && stat.size / ratio_ > stat.comp_size)
+    fail_entry(entry, "is packed more tightly than " + format_count(ratio_) + " to 1 (" + format_count(stat.size) +
                           " bytes into " + format_count(stat.comp_size) + "), which is taken for an attack on memory");
+}
+
+bool ZipReader::is_link(const std::string& entry) const {
+  constexpr unsigned kind_mask = 0170000, link = 0120000, mode_shift = 16;
+  zip_uint8_t system = 0;
+  zip_uint32_t attributes = 0;
+  const auto index = find(entry);
+  if (!index || libzip().file_get_external_attributes(archive_, *index, 0, &system, &attributes) != 0) return false;
+  return system == ZIP_OPSYS_UNIX && (attributes >> mode_shift & kind_mask) == link;
 }
 
 std::string ZipReader::read(const std::string& entry) {

@@ -36,8 +36,8 @@ class ZipReader {
   static constexpr uint64_t most_entries = 10'000;
   static constexpr uint64_t most_ratio = 200, small_entry_bytes = uint64_t{16} << 20;
 
-  // `name` and the bytes must live as long.
-  ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+  // `name` and the bytes must live as long. `ratio` is how tightly files may be packed.
+  ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics, uint64_t ratio = most_ratio);
   ~ZipReader();
   ZipReader(const ZipReader&) = delete;
   ZipReader& operator=(const ZipReader&) = delete;
@@ -47,6 +47,8 @@ class ZipReader {
   // without / and ./ at the beginning. A name that fits exactly comes first.
   bool has(const std::string& entry) const { return find(entry).has_value(); }
   std::string read(const std::string& entry);
+  // Does the archive say that the entry is a symbolic link, as those of Unix can?
+  bool is_link(const std::string& entry) const;
 
  private:
   std::optional<size_t> find(const std::string& entry) const;
@@ -56,6 +58,7 @@ class ZipReader {
 
   const std::string& name_;
   Diagnostics& diagnostics_;
+  uint64_t ratio_;
   zip* archive_ = nullptr;
   std::vector<std::string> names_;        // as in the archive, by index
   std::map<std::string, size_t> by_key_;  // the first of each

@@ -133,7 +133,7 @@ struct Mesh : SolidOfParts {
     return {"mesh",
             "imported",
             "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF (with its beams) or AMF in "
-            "their own unit; or by the outer sides of a mesh of results, VTU, FRD or INP.",
+            "their own unit; or by the outer sides of a mesh of results, VTU, XDMF, FRD or INP.",
             {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
              {"material", &Mesh::material, "Its material; beside the file's materials, that of what has none there",
               mixable()},

@@ -34,6 +34,7 @@ FileStore::Content FileStore::content(const std::string& path) {
   const Stamp stamp = stamp_of(path);
   {
     const std::scoped_lock lock(mutex_);
+    asked_.insert(path);
     const auto known = known_.find(path);
     if (known != known_.end() && known->second.stamp == stamp) return {known->second.hash, nullptr};
   }
@@ -45,6 +46,11 @@ FileStore::Content FileStore::content(const std::string& path) {
   else
     known_.erase(path);
   return content;
+}
+
+std::vector<std::string> FileStore::paths() const {
+  const std::scoped_lock lock(mutex_);
+  return {asked_.begin(), asked_.end()};
 }
 
 std::shared_ptr<const std::string> FileStore::bytes(const std::string& path, const Content& content) {

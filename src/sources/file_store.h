@@ -7,8 +7,10 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/hash.h"
 
@@ -37,6 +39,8 @@ class FileStore {
   std::shared_ptr<const std::string> bytes(const std::string& path, const Content& content);
   // The same; large files stay on disk.
   FileView view(const std::string& path, const Content& content);
+  // The files whose contents were asked for, sorted.
+  std::vector<std::string> paths() const;
   // How often a file was read.
   size_t reads() const { return reads_; }
 
@@ -53,8 +57,9 @@ class FileStore {
   Content read(const std::string& path);
   Content look_at(const std::string& path);
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::map<std::string, Known> known_;
+  std::set<std::string> asked_;
   std::atomic<size_t> reads_ = 0;
 };
 

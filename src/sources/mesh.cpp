@@ -108,12 +108,20 @@ MadeParts parts_of(const std::string& path, formats::Mesh mesh, const Hash& all,
   return {};
 }
 
-MadeParts read_parts(const MeshRequest& request, std::string_view bytes, const Reader& reader) {
+// The file of a request, and the numbers of a grid where they are in another file.
+struct MeshFiles {
+  std::string_view bytes;
+  std::optional<formats::ResultsFile> numbers;
+  Hash content;  // of both
+};
+
+MadeParts read_parts(const MeshRequest& request, const MeshFiles& files, const Reader& reader) {
   const std::string& path = request.file.path;
-  auto mesh = sources::has_elements(path) ? sources::result_border(path, bytes, request.deform, reader.diagnostics)
-                                          : formats::read_mesh(path, bytes, reader.diagnostics);
-  const Hash& file = request.file.content;
-  const Hash content = request.deform == 0 ? file : sources::Key("deformed").add(file).add(request.deform).hash();
+  auto mesh = sources::has_elements(path)
+                  ? sources::result_border(path, files.bytes, files.numbers, request.deform, reader.diagnostics)
+                  : formats::read_mesh(path, files.bytes, reader.diagnostics);
+  const Hash content =
+      request.deform == 0 ? files.content : sources::Key("deformed").add(files.content).add(request.deform).hash();
   if (mesh) return parts_of(path, std::move(*mesh), content, request.use, reader);
   reader.diagnostics.note(reader.where, "the file is used here");
   return {};
@@ -162,15 +170,24 @@ std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading&
   if (deform != 0 && !sources::has_elements(file.path)) {
     loading.reader().diagnostics.error(loading.reader().where,
                                        "\"" + file.path + "\" has no results that could deform it",
-                                       "leave deform out, or take a .vtu or .frd file");
+                                       "leave deform out, or take a .vtu, .xdmf or .frd file");
     return nullptr;
   }
-  if (!loading.look_at(file)) return nullptr;
+  FilePath numbers{sources::numbers_beside(file.path), {}};
+  const bool has_numbers = !numbers.path.empty();
+  if (!loading.look_at(file) || (has_numbers && !loading.look_at(numbers))) return nullptr;
+  const Hash content =
+      has_numbers ? sources::Key("mesh and numbers").add(file.content).add(numbers.content).hash() : file.content;
   sources::Key key("mesh");
-  key.add(file.content).add(deform).add(sources::ending_of(file.path)).add(use.inside.text());
+  key.add(content).add(deform).add(sources::ending_of(file.path)).add(use.inside.text());
   sources::add_use(key, use, loading.reader());
-  return loading.cached<Result>(key.hash(), file.path,
-                                [&](const Reader& reader) { return read_parts(*this, *loading.bytes(file), reader); });
+  return loading.cached<Result>(key.hash(), file.path, [&](const Reader& reader) {
+    const auto bytes = loading.bytes(file);
+    const auto beside = has_numbers ? loading.bytes(numbers) : nullptr;
+    MeshFiles files{*bytes, std::nullopt, content};
+    if (beside) files.numbers = formats::ResultsFile{numbers.path, *beside};
+    return read_parts(*this, files, reader);
+  });
 }
 
 std::shared_ptr<const std::vector<MeshPart>> SolidsRequest::load(sources::Loading& loading) {

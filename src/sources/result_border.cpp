@@ -9,12 +9,20 @@ namespace ombre::sources {
 
 bool has_elements(const std::string& path) {
   const std::string ending = to_lower(std::filesystem::path(path).extension().string());
-  return ending == ".vtu" || ending == ".frd" || ending == ".inp";
+  return ending == ".vtu" || ending == ".xdmf" || ending == ".frd" || ending == ".inp";
 }
 
-std::optional<formats::Mesh> result_border(const std::string& name, std::string_view bytes, double deform,
+std::string numbers_beside(const std::string& path) {
+  std::filesystem::path beside(path);
+  if (to_lower(beside.extension().string()) != ".xdmf") return "";
+  std::error_code ignored;
+  return std::filesystem::exists(beside.replace_extension(".h5"), ignored) ? beside.string() : "";
+}
+
+std::optional<formats::Mesh> result_border(const std::string& name, std::string_view bytes,
+                                           const std::optional<formats::ResultsFile>& numbers, double deform,
                                            Diagnostics& diagnostics) {
-  auto results = formats::read_results(name, bytes, {}, diagnostics);
+  auto results = formats::read_results(name, bytes, numbers, diagnostics);
   if (!results) return std::nullopt;
   if (results->kinds.empty()) {
     diagnostics.error({make_source(name, ""), 0, 0}, "the file has no elements that enclose space");

@@ -7,15 +7,19 @@
 
 #include "base/diagnostic.h"
 #include "formats/mesh.h"
+#include "formats/results.h"
 
 namespace ombre::sources {
 
-// Does a file of this name hold a mesh of elements: .vtu, .frd, .inp?
+// Does a file of this name hold a mesh of elements: .vtu, .xdmf, .frd, .inp?
 bool has_elements(const std::string& path);
+// The file of HDF5 beside an .xdmf file that has its name; empty where there is none.
+std::string numbers_beside(const std::string& path);
 
 // The outer sides of a mesh of results, moved by its displacement times `deform`; closed where elements share nodes.
-// Nothing, and diagnostics, where the file is wrong or has no elements.
-std::optional<formats::Mesh> result_border(const std::string& name, std::string_view bytes, double deform,
+// `numbers` are those of an .xdmf file. Nothing, and diagnostics, where the file is wrong or has no elements.
+std::optional<formats::Mesh> result_border(const std::string& name, std::string_view bytes,
+                                           const std::optional<formats::ResultsFile>& numbers, double deform,
                                            Diagnostics& diagnostics);
 
 }  // namespace ombre::sources

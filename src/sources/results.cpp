@@ -2,25 +2,16 @@
 #include "formats/results.h"
 
 #include <cmath>
-#include <filesystem>
 
-#include "base/text.h"
 #include "import/result_source.h"
 #include "sources/loading.h"
+#include "sources/result_border.h"
 
 namespace ombre::design {
 namespace {
 
 using importing::ResultMesh;
 using sources::Loading;
-
-// The file of HDF5 that has the name of an .xdmf file; empty where there is none.
-std::string numbers_beside(const std::string& path) {
-  std::filesystem::path beside(path);
-  if (to_lower(beside.extension().string()) != ".xdmf") return "";
-  std::error_code ignored;
-  return std::filesystem::exists(beside.replace_extension(".h5"), ignored) ? beside.string() : "";
-}
 
 std::string names_of(const formats::Results& results) {
   std::string names;
@@ -138,7 +129,7 @@ program::SourceField source_of(const ResultsRequest& request, const LoadedResult
 
 std::shared_ptr<const ResultNumbers> ResultsRequest::load(Loading& loading) {
   if (!loading.find(file) || !loading.look_at(file)) return nullptr;
-  if (values.path.empty()) values.path = numbers_beside(file.path);
+  if (values.path.empty()) values.path = sources::numbers_beside(file.path);
   if (!values.path.empty() && (!loading.find(values) || !loading.look_at(values))) return nullptr;
   const auto loaded = results_of(*this, loading);
   const formats::ResultField* wanted = loaded ? field_of(loaded->results(), *this, loading.reader()) : nullptr;

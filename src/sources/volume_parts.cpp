@@ -179,6 +179,27 @@ Interval value_range(const formats::VoxelVolume& volume) {
   });
 }
 
+Interval shown_range(const formats::VoxelVolume& volume) {
+  constexpr size_t parts = 4096;
+  constexpr double left_out = 0.005;
+  const Interval all = value_range(volume);
+  const double width = all.hi - all.lo;
+  if (!(width > 0)) return {all.lo, all.lo + 1};
+  std::array<double, parts> counts{};
+  const double few = left_out * formats::visit_numbers(volume, [&](const auto& numbers) {
+                       for (size_t n = 0; n < numbers.size(); ++n) {
+                         const double share = (static_cast<double>(numbers[n]) - all.lo) / width;
+                         counts[std::min(static_cast<size_t>(share * parts), parts - 1)] += 1;
+                       }
+                       return static_cast<double>(numbers.size());
+                     });
+  size_t first = 0, last = parts - 1;
+  for (double below = counts[first]; first < last && below <= few; below += counts[first]) ++first;
+  for (double above = counts[last]; last > first && above <= few; above += counts[last]) --last;
+  const double step = width / parts;
+  return {all.lo + static_cast<double>(first) * step, all.lo + static_cast<double>(last + 1) * step};
+}
+
 double otsu_level(const formats::VoxelVolume& volume) {
   constexpr size_t parts = 256;
   std::array<double, parts> counts{};

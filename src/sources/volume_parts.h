@@ -35,6 +35,8 @@ formats::VoxelVolume read_volume_parts(const std::string& path, const VolumePart
                                        std::vector<std::string>& warnings);
 
 Interval value_range(const formats::VoxelVolume& volume);
+// From the number that 0.5 % of the voxels are below to the one that 0.5 % are above: what black and white show.
+Interval shown_range(const formats::VoxelVolume& volume);
 
 // Above which Otsu's method finds the brighter class (N. Otsu, A threshold selection method from gray-level histograms,
 // 1979), by 256 equal parts of the range: a level for volume_solid.

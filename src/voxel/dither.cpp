@@ -10,6 +10,11 @@ const std::vector<std::string>& dither_names() {
   return names;
 }
 
+const std::vector<std::string>& evaluator_names() {
+  static const std::vector<std::string> names{"batch", "reference"};
+  return names;
+}
+
 std::string_view name(Dither dither) { return dither_names()[static_cast<size_t>(dither)]; }
 
 std::optional<Dither> dither(std::string_view name) {

@@ -48,6 +48,8 @@ struct LayerResult {
 // Who computes values. Batches are floats, the reference is in double precision; voxels within rounding
 // of a boundary may differ.
 enum class Evaluator { batch, reference };
+// In the order of the values.
+const std::vector<std::string>& evaluator_names();
 
 struct EvaluatorOptions {
   Evaluator evaluator = Evaluator::batch;

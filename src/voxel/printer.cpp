@@ -60,9 +60,8 @@ class ProfileReader {
     read_text(members.required("source"), printer.source);
     if (const Data* pitch = members.required("pitch")) read_pitches(*pitch, printer.pitch);
     if (const Data* build = members.optional("build_mm")) read_build(*build, printer.build_mm);
-    printer.image = static_cast<ImageFormat>(choice(members.required("image"), image_format_names()));
-    printer.origin =
-        choice(members.optional("origin"), {"design", "center"}) == 1 ? Placement::center : Placement::design;
+    printer.format = static_cast<ImageFormat>(choice(members.required("image"), image_format_names()));
+    printer.origin = static_cast<Placement>(choice(members.optional("origin"), placement_names()));
     if (const Data* flip = members.optional("flip")) read_flip(*flip, printer);
     if (const Data* background = members.optional("background")) read_colour(*background, printer.background);
     if (const Data* files = members.optional("files")) read_pattern(*files, printer.files);
@@ -225,6 +224,11 @@ constexpr std::string_view material_place = "{material}";
 
 const std::vector<std::string>& image_format_names() {
   static const std::vector<std::string> names{"rgba", "indexed", "gray", "mask"};
+  return names;
+}
+
+const std::vector<std::string>& placement_names() {
+  static const std::vector<std::string> names{"design", "center"};
   return names;
 }
 

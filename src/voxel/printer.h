@@ -34,13 +34,15 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "base/image_layout.h"
 #include "base/pitch.h"
 #include "base/vec.h"
 
 namespace ombre::voxel {
 
-enum class ImageFormat { rgba, indexed, gray, mask };
 enum class Placement { design, center };
+// In the order of the values.
+const std::vector<std::string>& placement_names();
 
 // As profiles and command lines write them, in the order of ImageFormat.
 const std::vector<std::string>& image_format_names();
@@ -86,17 +88,19 @@ struct ForbiddenNeighbour {
   double within_mm = 0;
 };
 
-struct Printer {
+// Everything that decides the images of layers, but for the voxels and the materials' colours.
+struct Images : ImageLayout {
+  std::array<uint8_t, 4> background{};  // void's colour
+  NamePattern files;                    // with {material}: a file for each
+  int64_t first_index = 0;              // of the lowest layer
+  bool drop_empty_layers = false;
+};
+
+struct Printer : Images {
   std::string name, title, source;
   std::array<Pitch, 3> pitch;
   std::optional<Vec3> build_mm;
-  ImageFormat image = ImageFormat::rgba;
   Placement origin = Placement::design;
-  bool flip_x = false, flip_y = false;
-  std::array<uint8_t, 4> background{};
-  NamePattern files;
-  int64_t first_index = 0;
-  bool drop_empty_layers = false;
   int max_materials = 255;
   std::optional<SmallestFeature> smallest_feature;
   std::vector<ForbiddenNeighbour> forbidden_neighbours;

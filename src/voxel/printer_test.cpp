@@ -64,7 +64,7 @@ TEST(Printer, PolyJetPitchesAreExactRatios) {
   EXPECT_EQ(j750.pitch[1], (Pitch{127, 1500}));
   EXPECT_EQ(j750.pitch[2], (Pitch{27, 1000}));
   EXPECT_EQ(j750.build_mm, (Vec3{490, 390, 200}));
-  EXPECT_EQ(j750.image, ImageFormat::rgba);
+  EXPECT_EQ(j750.format, ImageFormat::rgba);
   EXPECT_EQ(j750.max_materials, 6);
   ASSERT_TRUE(j750.smallest_feature);
   EXPECT_EQ(j750.smallest_feature->fails_mm, 0.21);
@@ -73,7 +73,7 @@ TEST(Printer, PolyJetPitchesAreExactRatios) {
 TEST(Printer, GenericIsIndexedWithoutABuildBox) {
   const Printer generic = shipped("generic");
   EXPECT_EQ(generic.pitch[2], (Pitch{1, 10}));
-  EXPECT_EQ(generic.image, ImageFormat::indexed);
+  EXPECT_EQ(generic.format, ImageFormat::indexed);
   EXPECT_FALSE(generic.build_mm);
   EXPECT_EQ(generic.files.name(7), "slice_00007.png");
 }

@@ -90,7 +90,7 @@ Palette palette_of(uint32_t materials, uint8_t spread) {
 
 PngLayout layout_of(uint8_t bits, uint32_t materials) {
   PngLayout layout;
-  layout.format = static_cast<PngFormat>(bits % 4);
+  layout.format = static_cast<ImageFormat>(bits % 4);
   layout.flip_x = bits & 4;
   layout.flip_y = bits & 8;
   layout.mask_of = static_cast<MaterialId>((bits >> 4) % (materials + 1));
@@ -99,8 +99,8 @@ PngLayout layout_of(uint8_t bits, uint32_t materials) {
 
 Rgba seen(MaterialId id, const Palette& palette, const PngLayout& layout) {
   const Rgba colour = palette.colours()[palette.entry(id)];
-  if (layout.format == PngFormat::rgba || layout.format == PngFormat::indexed) return colour;
-  const uint8_t gray = layout.format == PngFormat::gray ? luminance(colour) : id == layout.mask_of ? 255 : 0;
+  if (layout.format == ImageFormat::rgba || layout.format == ImageFormat::indexed) return colour;
+  const uint8_t gray = layout.format == ImageFormat::gray ? luminance(colour) : id == layout.mask_of ? 255 : 0;
   return {gray, gray, gray, 255};
 }
 

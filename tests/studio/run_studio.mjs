@@ -3,12 +3,12 @@
 //     node tests/studio/run_studio.mjs build/release/apps/ombre/ombre chromium [--pictures FOLDER]
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { appendFileSync, copyFileSync, existsSync, mkdtempSync, readFileSync, realpathSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { inflateSync } from "node:zlib";
+import { gunzipSync, inflateSync } from "node:zlib";
 
 const source = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const require = createRequire(join(source, "apps/studio/web/package.json"));
@@ -25,23 +25,31 @@ fgrade(["0.5 + x / 40", "0.5 - x / 40"], [red, blue]) sphere(radius);
 `;
 writeFileSync(file, script);
 writeFileSync(join(folder, "box.scad"), "width = 4; // [1:9]\ncolor(\"red\") cube([width, 3, 2]);\n");
+for (const name of ["bent_beam.vtu", "two_lobes.nrrd"]) copyFileSync(join(source, "examples/models", name), join(folder, name));
+writeFileSync(join(folder, "history.csv"), "round,elements,change,greatest von Mises stress [MPa]\n1,256,,13.5\n2,256,0.25,11.75\n3,256,0.03125,11.5\n");
 writeFileSync(join(folder, "drop.py"), "import ombre\nroot = ombre.sphere(3, 'blue')\n");
 
-let server;
-async function startServer(port = 0, key = token) {
+async function serve(place, port, key) {
   const variables = { ...process.env, OMBRE_DATA: source, OMBRE_STUDIO_TOKEN: key };
-  server = spawn(ombre, ["studio", file, "--json", "--no-browser", "--port", String(port)], { env: variables, stdio: ["ignore", "pipe", "inherit"] });
+  const child = spawn(ombre, ["studio", place, "--json", "--no-browser", "--port", String(port)], { env: variables, stdio: ["ignore", "pipe", "inherit"] });
   const url = await new Promise((resolve, reject) => {
     let text = "";
-    server.once("exit", (code) => reject(new Error(`the server ended with ${code}`)));
-    server.stdout.on("data", (data) => {
+    child.once("exit", (code) => reject(new Error(`the server ended with ${code}`)));
+    child.stdout.on("data", (data) => {
       text += data;
       const found = /"url": ?"([^"]+)"/.exec(text);
       if (found) resolve(found[1]);
     });
   });
-  server.removeAllListeners("exit");
-  return url;
+  child.removeAllListeners("exit");
+  return { child, url };
+}
+
+let server;
+async function startServer(port = 0, key = token) {
+  const started = await serve(file, port, key);
+  server = started.child;
+  return started.url;
 }
 function stopServer(signal) {
   const ended = new Promise((resolve) => server.once("exit", resolve));
@@ -51,7 +59,12 @@ function stopServer(signal) {
 
 const url = await startServer();
 const port = new URL(url).port;
-const browser = await chromium.launch({ executablePath: browserPath, args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+const browser = await chromium.launch({ executablePath: browserPath, args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] }).catch(async (error) => {
+  await stopServer("SIGINT");
+  rmSync(folder, { recursive: true, force: true });
+  console.log(String(error).split("\n").slice(0, 4).join("\n"));
+  process.exit(1);
+});
 const context = await browser.newContext({ viewport: { width: 1400, height: 860 } });
 context.setDefaultTimeout(20000);
 const page = await context.newPage();
@@ -307,6 +320,19 @@ const checks = {
     await picture("job");
   },
 
+  async "turns the part on the tray"() {
+    await page.click("#tab-export");
+    await page.click("[aria-label='90 degrees more about y']");
+    await page.waitForSelector("summary:has-text('command line')");
+    await page.click("summary:has-text('command line')");
+    await page.waitForSelector("pre:has-text('--rotate 0,90,0')");
+    await status("[data-old=false][data-busy=false]");
+    await page.fill("[aria-label='Turn about y']", "0");
+    await page.keyboard.press("Enter");
+    await status("[data-old=false][data-busy=false]");
+    assert.equal(await page.innerText(".job[data-state=done] .path"), join(realpathSync(folder), "ball_slices"));
+  },
+
   async "a reload loses nothing"() {
     await page.reload();
     await isReady("slices");
@@ -390,12 +416,137 @@ const checks = {
     await isReady("surface");
   },
 
+  async "shows a scan in three planes, and what it makes of it"() {
+    await page.selectOption("select.file", "two_lobes.nrrd");
+    await page.waitForSelector(".plane canvas[data-state=ready] >> nth=2");
+    await page.waitForSelector(".scaninfo:has-text('0 to 200, uint8')");
+    // The crosshair begins in the middle, whose number ombre info and the file agree on.
+    const here = () => page.getAttribute(".scaninfo dd[data-value]", "data-value").then(Number);
+    await page.waitForSelector(".scaninfo:has-text('23, 18, 9')");
+    const bytes = readFileSync(join(source, "examples/models/two_lobes.nrrd"));
+    const numbers = bytes.subarray(bytes.indexOf("\n\n") + 2); // 46 x 37 x 19 bytes, unless they are packed
+    const unpacked = numbers.length === 46 * 37 * 19 ? numbers : gunzipSync(numbers);
+    assert.equal(await here(), unpacked[(9 * 37 + 18) * 46 + 23]);
+    await page.focus(".plane canvas >> nth=0");
+    await page.keyboard.press("Shift+ArrowRight");
+    await page.waitForSelector(".scaninfo:has-text('33, 18, 9')");
+    assert.equal(await here(), unpacked[(9 * 37 + 18) * 46 + 33]);
+    await page.hover(".plane canvas >> nth=1");
+    await page.waitForSelector(".scaninfo dt:has-text('pointer')");
+    const brightness = () =>
+      page.evaluate(() => {
+        const canvas = document.querySelector(".plane canvas");
+        const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+        return data.reduce((sum, v, n) => (n % 4 === 1 ? sum + v : sum), 0);
+      });
+    const before = await brightness();
+    await page.focus("#scan-level");
+    await page.keyboard.press("Home"); // a low level is bright
+    await page.waitForTimeout(100);
+    assert.ok((await brightness()) > before);
+    await picture("scan");
+    await page.click("#tab-surface");
+    await isReady("surface");
+    assert.equal((await alphaInMiddle("surface"))[3], 255);
+  },
+
+  async "shows results in colours, and moved by their displacement"() {
+    await page.selectOption("select.file", "bent_beam.vtu");
+    await page.waitForSelector(".colours");
+    await isReady("surface");
+    const [least, most] = (await page.getAttribute(".colours", "data-range")).split(",").map(Number);
+    assert.ok(Math.abs(least - 1.1089) < 0.001 && Math.abs(most - 13.458) < 0.001, `${least} to ${most}`); // as ombre info says
+    const before = await page.getAttribute(".surface canvas", "data-design");
+    await page.click("#tab-variables");
+    await page.fill("[aria-label='deform, exactly']", "10");
+    await until((old) => document.querySelector(".surface canvas").dataset.design !== old, before);
+    await page.fill("[aria-label='Value of the last colour']", "8");
+    await page.keyboard.press("Enter");
+    await isReady("surface");
+    await picture("results");
+  },
+
+  async "shows tables as charts, and their news"() {
+    await page.selectOption("select.file", "history.csv");
+    await page.waitForSelector("[data-column=change][data-points='2']"); // of the first round there is none
+    assert.match(await page.getAttribute("[data-column^=greatest] svg", "aria-label"), /by round: 3 points from 11\.5 to 13\.5, the last is 11\.5/);
+    appendFileSync(join(folder, "history.csv"), "4,256,0.015,11.4\n");
+    await page.waitForSelector("[data-column=change][data-points='3']");
+    await picture("charts");
+    await page.selectOption("select.file", "ball.vcad");
+    await page.click("#tab-surface");
+    await isReady("surface");
+  },
+
+  async "a bundle goes out and comes in again"() {
+    const [made] = await Promise.all([page.waitForEvent("download"), page.click("text=Download bundle")]);
+    assert.equal(made.suggestedFilename(), "ball.ombre");
+    const bundle = join(folder, "ball.ombre");
+    await made.saveAs(bundle);
+    await page.setInputFiles("[aria-label='Bundle to open']", bundle);
+    await status("[data-old=false][data-busy=false]");
+    await page.waitForSelector("option[value='ball/ball.vcad']", { state: "attached" });
+    assert.equal(await page.inputValue("select.file"), "ball/ball.vcad");
+    assert.equal(readFileSync(join(folder, "ball/ball.vcad"), "utf8"), onDisk());
+    writeFileSync(bundle, "no archive");
+    await page.setInputFiles("[aria-label='Bundle to open']", bundle);
+    await page.waitForSelector(".problems:has-text('this is no bundle')");
+    assert.ok(!existsSync(join(folder, "ball_2")));
+    rmSync(bundle);
+    await page.selectOption("select.file", "ball.vcad");
+    await isReady("surface");
+  },
+
+  async "makes pictures and turntables by keys"() {
+    const bytesOf = async (key) => {
+      const [made] = await Promise.all([page.waitForEvent("download", { timeout: 60000 }), page.keyboard.press(key)]);
+      return { name: made.suggestedFilename(), bytes: readFileSync(await made.path()) };
+    };
+    const png = await bytesOf("Alt+p");
+    assert.equal(png.name, "ball_surface.png");
+    const stage = await page.locator(".surface canvas").boundingBox();
+    assert.equal(png.bytes.readUInt32BE(16), Math.round(stage.width));
+    await page.setViewportSize({ width: 900, height: 420 }); // small pictures are made soon
+    const film = await bytesOf("Alt+t");
+    await page.setViewportSize({ width: 1400, height: 860 });
+    assert.equal(film.name, "ball_turntable.webm");
+    assert.equal(film.bytes.readUInt32BE(0), 0x1a45dfa3); // EBML
+    assert.ok(film.bytes.length > 5000, `${film.bytes.length} bytes`);
+    await page.keyboard.press("Alt+k");
+    await page.waitForSelector("dialog[open]");
+    await page.keyboard.press("Escape");
+    await page.keyboard.press("Alt+2");
+    await isReady("slices");
+    await page.keyboard.press("Alt+1");
+    await isReady("surface");
+  },
+
+  async "from an empty folder to a sliced example, by keys and names that are seen"() {
+    const empty = mkdtempSync(join(tmpdir(), "ombre-studio-new-"));
+    const { child, url: other } = await serve(empty, 0, token);
+    const fresh = await (await browser.newContext({ viewport: { width: 1400, height: 860 } })).newPage();
+    await fresh.goto(other);
+    await fresh.click("text=See examples");
+    await fresh.fill("input[type=search]", "knob");
+    await fresh.click("[aria-label='Open a copy of knob']");
+    await fresh.waitForSelector(".surface canvas[data-state=ready]");
+    await picture("example", fresh);
+    await fresh.keyboard.press("Alt+s");
+    await fresh.click("button.main:has-text('Slice')");
+    await fresh.waitForSelector(".job[data-state=done]");
+    assert.ok(existsSync(join(empty, "knob/knob_slices/job.json")));
+    await fresh.context().close();
+    child.kill("SIGINT");
+    await new Promise((resolve) => child.once("exit", resolve));
+    rmSync(empty, { recursive: true, force: true });
+  },
+
   async "axe finds nothing"() {
     await page.click("#tab-all");
     await page.evaluate(axeSource);
     for (const theme of ["light", "dark"]) {
       await page.selectOption("header select >> nth=1", theme);
-      for (const tab of theme === "light" ? ["reference", "variables", "materials", "export"] : ["export"]) {
+      for (const tab of theme === "light" ? ["reference", "examples", "variables", "materials", "export"] : ["export"]) {
         await page.click(`#tab-${tab}`);
         const found = await page.evaluate(() => axe.run());
         assert.deepEqual(found.violations.map((v) => `${theme} ${tab}: ${v.id} at ${v.nodes.map((n) => n.html.slice(0, 120)).join(" and ")}`), []);

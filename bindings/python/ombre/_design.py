@@ -314,7 +314,7 @@ class Design:
         return viewer_page(pictures, ", ".join(name for name, _ in self.parts))
 
     def show(self, path=None, **options):
-        """Shows the design: in a notebook there, else in the browser; without a display, `ombre.png` is written.
+        """Shows the design: in a notebook there, else in the studio; without a display, `ombre.png` is written.
 
         `path`, or the environment variable OMBRE_RENDER, names a .png or .html file to write in any case.
         """

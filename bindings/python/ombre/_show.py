@@ -54,12 +54,33 @@ def _write(path, data):
     print(f"written to {path}", file=sys.stderr)
 
 
-def show(design, path=None, **options):
-    """Shows a design: in a notebook its picture, with a display a page in the browser that turns it, else a file.
+def _open_studio(design):
+    """False where a page has to do: without the studio, and for designs that it cannot open."""
+    from ._errors import DesignError
+    from ._studio import show_in_studio
+    try:
+        url, _ = show_in_studio(design)
+    except (OSError, DesignError):
+        return False
+    # The address has a token, which others would see in the arguments of the browser.
+    with tempfile.NamedTemporaryFile("w", prefix="ombre_", suffix=".html", delete=False, encoding="utf-8") as file:
+        file.write(f'<!doctype html><meta http-equiv="refresh" content="0; url={html.escape(url)}">\n')
+    webbrowser.open("file://" + file.name)
+    print(f"the studio shows it at {url}", file=sys.stderr)
+    return True
 
-    `path`, or the environment variable OMBRE_RENDER, names a .png or .html file to write in any case.
+
+def show(design, path=None, **options):
+    """Shows a design: in a notebook its picture, with a display the studio in the browser, else a file.
+
+    `path`, or the environment variable OMBRE_RENDER, names a .png or .html file to write in any case. OMBRE_RENDER=studio
+    starts the studio without a display too, and prints its address.
     """
     path = path or os.environ.get("OMBRE_RENDER")
+    if path == "studio":
+        from ._studio import show_in_studio
+        print(f"the studio shows it at {show_in_studio(design)[0]}", file=sys.stderr)
+        return None
     if path:
         is_page = str(path).lower().endswith((".html", ".htm"))
         return _write(path, design.view(**options).encode() if is_page else design.render(**options))
@@ -68,6 +89,8 @@ def show(design, path=None, **options):
         return display(Image(data=design.render(**options)))
     if not _has_display():
         return _write("ombre.png", design.render(**options))
+    if not options and _open_studio(design):
+        return None
     with tempfile.NamedTemporaryFile("w", prefix="ombre_", suffix=".html", delete=False, encoding="utf-8") as file:
         file.write(design.view(**options))
     webbrowser.open("file://" + file.name)

@@ -11,8 +11,10 @@ from . import _solid
 from ._commands import keywords_of
 
 _head = '''# Generated from the registry of nodes; do not edit.
+import decimal
+import fractions
 import os
-from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
+from typing import Any, Callable, Iterator, Literal, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +27,7 @@ Material = Union[str, int, "Value"]
 Argument = Any
 Progress = Union[bool, Callable[[float], object], None]
 Option = Any
+Length = Union[float, str, decimal.Decimal, fractions.Fraction]
 
 __version__: str
 
@@ -136,8 +139,30 @@ def _docstring(text, indent):
     return f'{pad}"""' + ("\n" + pad).join(text.rstrip().splitlines()) + f'\n{pad}"""\n'
 
 
+# Types of options by the kinds of their values (src/options/values.h); each also takes the text of the command line.
+_option_kinds = {"flag": "bool", "file": "Path", "whole number": "Union[int, str]", "number": "Union[float, str]",
+                 "length": "Length", "lengths": "Union[Length, Sequence[Length]]",
+                 "resolutions": "Union[Length, Sequence[Length]]", "size of memory": "Union[int, str]",
+                 "numbers": "Union[str, Sequence[float]]", "2 numbers": "Union[str, Sequence[float]]",
+                 "4 numbers": "Union[str, Sequence[float]]", "6 numbers": "Union[str, Sequence[float]]"}
+
+
+def _option_type(option):
+    if option.get("choices"):
+        # Numbers among the words may be written as such.
+        kind = "Literal[" + ", ".join(f'"{c}"' + (f", {c}" if c.isdigit() else "") for c in option["choices"]) + "]"
+    else:
+        kind = _option_kinds.get(option.get("kind"), "Option")
+    return "Option" if option["is_list"] else kind if option["is_flag"] else f"Optional[{kind}]"
+
+
+def _options(command, without=()):
+    return "".join(f", {name}: {_option_type(option)}" + " = ..."
+                   for name, option in keywords_of(command).items() if name not in without)
+
+
 def _job(name, command, first, result, progress=True):
-    words = "".join(f", {option}: Option = ..." for option in keywords_of(command))
+    words = _options(command)
     bar = ", progress: Progress = ..." if progress else ""
     return (f"    def {name}(self, {first}{bar}{words}) -> {result}:\n" +
             _docstring(getattr(ombre.Design, name).__doc__, 8) + "        ...\n")
@@ -151,7 +176,7 @@ def _jobs():
     yield _job("fea", "fea", "path: Optional[Path] = ...", "dict[str, Any]")
     yield _job("write_voxels", "voxels", "path: Path", "dict[str, Any]")
     yield _job("render", "render", "path: Optional[Path] = ...", "Any", progress=False)
-    words = "".join(f", {o}: Option = ..." for o in keywords_of("voxels") if o not in ("voxel", "what"))
+    words = _options("voxels", ("voxel", "what"))
     for name, result in (("voxels", "Voxels"), ("volumes", "dict[str, float]"), ("volume", "float")):
         what = ", what: str = ..., progress: Progress = ..." if name == "voxels" else ""
         yield f"    def {name}(self, voxel: Union[float, str, Sequence[float], None] = ...{what}{words}) -> {result}: ...\n"

@@ -26,8 +26,9 @@ _jobs = {".stl": "mesh", ".obj": "mesh", ".ply": "mesh", ".off": "mesh", ".amf":
 def Render(root: Any, materials: Any = None, path: str | os.PathLike[str] | None = None, **options: Any) -> None:
     """Shows a part.
 
-    In a notebook its picture appears there; with a display, a page in the browser turns it; else a picture is written
-    to ombre.png. `path`, or the environment variable OMBRE_RENDER, names a .png or .html file to write in any case.
+    In a notebook its picture appears there; with a display the studio opens in the browser, or with options a page that
+    turns it; else a picture is written to ombre.png. `path`, or the environment variable OMBRE_RENDER, names a .png or
+    .html file to write in any case; OMBRE_RENDER=studio prints the address of the studio.
 
     Args:
         root: a node.

@@ -7,10 +7,10 @@ import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
 import { Annotation, EditorState } from "@codemirror/state";
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from "@codemirror/view";
 import { classHighlighter } from "@lezer/highlight";
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { complete, hover, vcad } from "./language";
-import { edited, reveal, save, setEditor, settle } from "./session";
-import { Diagnostic, state, useStore } from "./store";
+import { edited, keepAsDesign, newFile, reveal, save, setEditor, settle } from "./session";
+import { Diagnostic, set, state, useStore } from "./store";
 
 const fromElsewhere = Annotation.define<boolean>();
 
@@ -58,6 +58,7 @@ function makeEditor(parent: HTMLElement): EditorView {
       if (update.docChanged && !update.transactions.some((t) => t.annotation(fromElsewhere))) edited();
     }),
   ];
+  const extended = () => [...extensions, EditorState.readOnly.of(state.kind !== "")];
   const view: EditorView = new EditorView({ parent, state: EditorState.create({ extensions }) });
   setEditor({
     text: () => view.state.doc.toString(),
@@ -65,7 +66,7 @@ function makeEditor(parent: HTMLElement): EditorView {
       const isNew = view.state.doc.length === 0 && undoDepth(view.state) === 0;
       const head = Math.min(view.state.selection.main.head, text.length);
       if (isNew || view.dom.dataset.file !== state.file) {
-        view.setState(EditorState.create({ doc: text, extensions }));
+        view.setState(EditorState.create({ doc: text, extensions: extended() }));
         view.dom.dataset.file = state.file;
         return;
       }
@@ -97,6 +98,20 @@ function Conflict() {
   );
 }
 
+// Data is shown by a script that nobody wrote.
+function DataBar() {
+  const { kind, file } = useStore();
+  const [problem, setProblem] = useState("");
+  if (kind === "") return null;
+  return (
+    <div class="bar">
+      <span>{kind === "table" ? `The table ${file}` : `A script that shows ${file}`}</span>
+      {kind !== "table" && <button onClick={async () => setProblem(await keepAsDesign())}>Keep it as a design</button>}
+      {problem && <span class="error" role="alert">{problem}</span>}
+    </div>
+  );
+}
+
 function Problems() {
   const { diagnostics, problem, echo, saveProblem } = useStore();
   return (
@@ -119,6 +134,26 @@ function Problems() {
   );
 }
 
+// What to begin with in a folder without designs.
+function Welcome() {
+  const { status, files, file } = useStore();
+  if (status !== "open" || file) return null;
+  return (
+    <div class="bar">
+      <span>{files.length > 0 ? "Choose a design above, or make a new one." : "There is no design in this folder yet."}</span>
+      <button class="main" onClick={() => newFile(freeName()).then(() => set({ panel: "variables" }))}>Begin with a ball</button>
+      <button onClick={() => set({ panel: "examples" })}>See examples</button>
+    </div>
+  );
+}
+
+function freeName(): string {
+  for (let n = 1; ; ++n) {
+    const name = n === 1 ? "part.vcad" : `part_${n}.vcad`;
+    if (!state.files.includes(name)) return name;
+  }
+}
+
 export function EditorPane() {
   const host = useRef<HTMLDivElement>(null);
   useEffect(() => {
@@ -127,7 +162,9 @@ export function EditorPane() {
   }, []);
   return (
     <section class="editor" aria-label="Editor">
+      <Welcome />
       <Conflict />
+      <DataBar />
       <div class="code" ref={host} />
       <Problems />
     </section>

@@ -1,7 +1,8 @@
 // Beside the views: variables, materials, slicing, the reference of nodes.
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
+import { listExamples, openExample } from "./files";
 import { page } from "./language";
-import { changeJob, choosePlace, compare, estimate, forgetMark, insert, jobKey, markVersion, measure, resetVariables, setVariable, startExport, writeVariables } from "./session";
+import { changeJob, choosePlace, compare, estimate, forgetMark, insert, jobKey, markVersion, measure, openFolder, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
 import { PrinterChoice } from "./slices";
 import { Job, NodeType, Place, State, Value, Variable, set, state, useStore } from "./store";
 
@@ -43,7 +44,7 @@ function Control({ v, value }: { v: Variable; value: Value }) {
 }
 
 function Variables() {
-  const { variables, values, file } = useStore();
+  const { variables, values, file, kind } = useStore();
   const isChanged = Object.keys(values).length > 0;
   let section = "";
   return (
@@ -63,7 +64,7 @@ function Variables() {
       })}
       {variables.length > 0 && (
         <p class="controls">
-          <button disabled={!isChanged} onClick={writeVariables}>Write into the script</button>
+          <button disabled={!isChanged || kind !== ""} onClick={writeVariables}>Write into the script</button>
           <button disabled={!isChanged} onClick={resetVariables}>Reset</button>
         </p>
       )}
@@ -153,6 +154,7 @@ function JobRow({ job }: { job: Job }) {
         {may("done") && `${job.layers} layers`}
       </span>
       {job.message && <p class="error">{job.message}</p>}
+      {may("done") && job.path && <JobFolder job={job} />}
       <span class="controls">
         {may("working", "waiting") && <button onClick={() => changeJob(job, "pause")}>Pause</button>}
         {may("paused", "cancelled", "failed", "interrupted") && <button onClick={() => changeJob(job, "resume")}>Resume</button>}
@@ -168,6 +170,7 @@ function commandLine(folder: string): string {
   if (state.dither !== "stochastic") words.push("--dither", state.dither);
   if (state.place === "tray") words.push("--tray");
   else if (state.place) words.push("--place", state.place);
+  if (state.rotate.some((degrees) => degrees !== 0)) words.push("--rotate", state.rotate.join());
   for (const [name, value] of Object.entries(state.values)) words.push("-D", `'${name}=${JSON.stringify(value)}'`);
   return [...words, "-o", folder].join(" ");
 }
@@ -212,8 +215,41 @@ function PlaceChoice() {
   );
 }
 
+function Turns() {
+  const { rotate } = useStore();
+  const set = (axis: number, degrees: number) => turn(rotate.map((old, n) => (n === axis ? degrees : old)));
+  return (
+    <fieldset class="turns">
+      <legend title="About x first, then y, then z">Turn, degrees</legend>
+      {["x", "y", "z"].map((name, axis) => (
+        <span class="controls">
+          <label>
+            {name}
+            <input type="number" step="any" value={rotate[axis]} aria-label={`Turn about ${name}`} onChange={(e) => set(axis, +e.currentTarget.value || 0)} />
+          </label>
+          <button aria-label={`90 degrees more about ${name}`} onClick={() => set(axis, ((rotate[axis] + 270) % 360) - 180)}>+90</button>
+        </span>
+      ))}
+    </fieldset>
+  );
+}
+
+function JobFolder({ job }: { job: Job }) {
+  const { hello } = useStore();
+  const [isCopied, setCopied] = useState(false);
+  return (
+    <>
+      <code class="path">{job.path}</code>
+      <span class="controls">
+        <button onClick={() => navigator.clipboard.writeText(job.path).then(() => setCopied(true))}>{isCopied ? "Copied" : "Copy path"}</button>
+        {hello?.opens_folders && <button onClick={() => openFolder(job)}>Open folder</button>}
+      </span>
+    </>
+  );
+}
+
 function Export() {
-  const { plan, planProblem, jobs, file, design, isOld } = useStore();
+  const { plan, planProblem, jobs, file, kind, design, isOld } = useStore();
   const [given, setFolder] = useState("");
   const [replace, setReplace] = useState(false);
   const [problem, setProblem] = useState("");
@@ -223,6 +259,7 @@ function Export() {
     <div class="panelbody">
       <p class="controls"><PrinterChoice /></p>
       <p class="controls"><PlaceChoice /></p>
+      <Turns />
       {plan && (
         <p class="hint">
           {plan.title}: {plan.count[2]} layers of {plan.count[0]} × {plan.count[1]} pixels, {voxels.toLocaleString("en")} voxels
@@ -247,7 +284,7 @@ function Export() {
       <ul class="jobs" aria-label="Jobs">{jobs.map((job) => <JobRow job={job} />)}</ul>
       {plan && (
         <>
-          {!file.endsWith(".scad") && (
+          {!file.endsWith(".scad") && kind === "" && (
             <details>
               <summary>The same on the command line</summary>
               <pre tabIndex={0}>{commandLine(folder)}</pre>
@@ -304,11 +341,40 @@ function Reference() {
   );
 }
 
+function Examples() {
+  const [words, setWords] = useState("");
+  const [examples, setExamples] = useState<{ name: string; sentence: string }[]>([]);
+  const { status } = useStore();
+  useEffect(() => {
+    listExamples().then(setExamples);
+  }, [status]);
+  const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);
+  const found = examples.filter((e) => wanted.every((w) => `${e.name} ${e.sentence}`.toLowerCase().includes(w)));
+  return (
+    <div class="panelbody">
+      <label>
+        Search
+        <input type="search" value={words} onInput={(e) => setWords(e.currentTarget.value)} />
+      </label>
+      <p class="hint" role="status">{found.length} examples</p>
+      <ul class="examples">
+        {found.map((e) => (
+          <li>
+            <strong>{e.name}</strong> {e.sentence}
+            <button aria-label={`Open a copy of ${e.name}`} onClick={() => openExample(e.name)}>Open a copy</button>
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}
+
 const panels: { name: State["panel"]; title: string; body: () => any }[] = [
   { name: "variables", title: "Variables", body: Variables },
   { name: "materials", title: "Materials", body: Materials },
   { name: "export", title: "Slice", body: Export },
   { name: "reference", title: "Nodes", body: Reference },
+  { name: "examples", title: "Examples", body: Examples },
 ];
 
 export function Tabs<T extends string>({ label, tabs, chosen, choose }: { label: string; tabs: { name: T; title: string }[]; chosen: T; choose: (name: T) => void }) {

@@ -1,6 +1,6 @@
 // What the page does: opens, saves, evaluates, slices. Components call it; answers go into the store.
 import { Connection, Refused, Reply } from "./connection";
-import { Job, Mark, Place, Plan, Value, set, state } from "./store";
+import { DataFile, Job, Mark, Place, Plan, State, Value, set, state } from "./store";
 
 // What the session needs of the editor.
 export interface Editor {
@@ -36,11 +36,11 @@ async function greet() {
   const hello = (await connection.ask("hello").answer) as any;
   const isFirst = !state.hello;
   const printer = hello.printers.some((p: { name: string }) => p.name === state.printer) ? state.printer : "generic";
-  set({ status: "open", hello, files: hello.files, printer });
+  set({ status: "open", hello, files: hello.files, data: hello.data, printer });
   adoptJobs((await connection.ask("jobs").answer).jobs);
   if (!isFirst) return comeBack();
   const last = localStorage.getItem(`ombre:file:${hello.folder}`);
-  const first = hello.file || (last && hello.files.includes(last) ? last : hello.files.find((f: string) => f.endsWith(".vcad")));
+  const first = hello.file || (last && (hello.files.includes(last) || hello.data.some((d: DataFile) => d.name === last)) ? last : hello.files.find((f: string) => f.endsWith(".vcad")));
   if (first) await openFile(first);
 }
 
@@ -48,6 +48,7 @@ async function greet() {
 async function comeBack() {
   if (!state.file) return;
   const disk = await connection.ask("open", { file: state.file }).answer.catch(() => undefined);
+  if (disk && state.kind !== "") return showData(disk);
   if (disk && disk.version !== version) takeFromDisk(disk);
   if (!state.conflict && isDirty()) save();
   evaluate();
@@ -59,7 +60,7 @@ function fromDisk(text: string): string {
 }
 
 export function isDirty(): boolean {
-  return editor !== undefined && state.file !== "" && editor.text() !== savedText;
+  return editor !== undefined && state.file !== "" && state.kind === "" && editor.text() !== savedText;
 }
 
 export async function openFile(file: string) {
@@ -69,9 +70,13 @@ export async function openFile(file: string) {
     version = disk.version;
     savedText = fromDisk(disk.text);
     sentText = undefined;
-    set({ file, values: {}, conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], variables: [], plan: undefined,
+    const kind = disk.kind as State["kind"];
+    set({ file, kind, table: "", by: "", palette: "", range: undefined, rotate: [0, 0, 0], values: {}, conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], variables: [], plan: undefined,
           probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", problem: "", z: NaN, isOld: false });
     localStorage.setItem(`ombre:file:${state.hello?.folder}`, file);
+    if (kind === "scan") set({ view: "planes" });
+    if (kind === "results" && !["surface", "slices"].includes(state.view)) set({ view: "surface" });
+    if (kind !== "") return showData(disk);
     let text = savedText;
     const draft = JSON.parse(localStorage.getItem(draftKey(file)) ?? "null");
     if (draft && draft.text !== savedText) {
@@ -86,14 +91,38 @@ export async function openFile(file: string) {
   }
 }
 
-export async function newFile(name: string): Promise<string> {
+// A scan and results come with a script that shows them.
+function showData(disk: Reply) {
+  editor!.replace(disk.text);
+  if (state.kind === "table") set({ table: disk.text, design: undefined, isBusy: false });
+  else evaluate();
+}
+
+const firstText = "// A new design: lengths are mm, z is up.\nsize = 10;  // [2:40]\n\nfgrade([\"0.5 + x / size\", \"0.5 - x / size\"], [red, blue])\n  sphere(size / 2);\n";
+
+export async function newFile(name: string, text = firstText): Promise<string> {
   if (!/\.(vcad|scad|py)$/.test(name)) name += ".vcad";
-  const text = "// A new design: lengths are mm, z is up.\nsize = 10;  // [2:40]\n\nfgrade([\"0.5 + x / size\", \"0.5 - x / size\"], [red, blue])\n  sphere(size / 2);\n";
   const made = await connection.ask("save", { file: name, text, version: "" }).answer;
   if (!made.saved) throw new Error(`${name} is there already`);
-  set({ files: (await connection.ask("list").answer).files });
+  await listFiles();
   await openFile(name);
   return name;
+}
+
+export async function listFiles() {
+  const { files, data } = await connection.ask("list").answer;
+  set({ files, data });
+}
+
+// The script that shows a scan or results becomes a design beside it, which can be changed.
+export async function keepAsDesign(): Promise<string> {
+  const name = state.file.replace(/(\.nii)?\.[^./]*$/, "") + ".vcad";
+  try {
+    await newFile(name, editor!.text());
+    return "";
+  } catch (error) {
+    return (error as Error).message;
+  }
 }
 
 let saveTimer = 0;
@@ -168,9 +197,13 @@ async function heard(name: string, members: Reply) {
   await saving;
   if (members.file !== state.file) return evaluate(100);
   if (members.version === version) return;
-  if (members.version === "") return set({ conflict: {}, saved: "unsaved" });
+  if (members.version === "" && state.kind === "") return set({ conflict: {}, saved: "unsaved" });
   const disk = await connection.ask("open", { file: state.file }).answer;
   if (disk.version === version) return;
+  if (state.kind !== "") {
+    version = disk.version;
+    return showData(disk);
+  }
   takeFromDisk(disk);
   evaluate();
 }
@@ -222,19 +255,27 @@ function definitions(): string[] {
     .map(([name, value]) => `${name}=${JSON.stringify(value)}`);
 }
 
-let shown = { file: "", text: "", definitions: [] as string[] }; // what the design was made of
+// The number of results that is shown: the one that was, else the stress.
+function fieldToShow(attributes: { name: string }[]): string {
+  const names = attributes.map((a) => a.name);
+  if (names.includes(state.by)) return state.by;
+  return names.find((name) => /von_?mises/i.test(name)) ?? names.at(-1) ?? "";
+}
+
+let shown = { file: "", text: "", definitions: [] as string[], rotate: [0, 0, 0] }; // what the design was made of
 
 async function load(isRun = false) {
-  if (!editor || !state.file || !connection.isOpen) return;
+  if (!editor || !state.file || !connection.isOpen || state.kind === "table") return;
   if (isPython() && !isRun) return set({ isOld: state.design !== undefined, problem: "" });
   isLoading = true;
   isWanted = false;
   set({ isBusy: true });
-  const sent = { file: state.file, text: editor.text(), definitions: definitions() };
+  const sent = { file: state.file, text: editor.text(), definitions: definitions(), rotate: state.rotate };
   try {
     const reply = await connection.ask("load", { ...sent, ...(isRun ? { run: true } : {}) }, "load").answer;
     const change: any = { isBusy: false, problem: "", diagnostics: reply.diagnostics, echo: reply.echo, variables: reply.variables ?? [], isOld: !reply.ok };
     if (reply.ok) change.design = reply;
+    if (reply.ok && state.kind === "results") change.by = fieldToShow(reply.attributes);
     if (reply.ok) shown = sent;
     if (reply.ok && isNaN(state.z)) change.z = (reply.bounds_mm[0][2] + reply.bounds_mm[1][2]) / 2;
     set(change);
@@ -287,6 +328,16 @@ export function choosePlace(place: Place) {
   plan();
 }
 
+// Turns the part as it lies on the tray; the views show it so.
+export function turn(rotate: number[]) {
+  set({ rotate });
+  evaluate(150);
+}
+
+export async function openFolder(job: Job) {
+  await connection.ask("open_folder", { folder: job.folder }).answer.catch((error) => set({ problem: (error as Error).message }));
+}
+
 export async function estimate(): Promise<string> {
   const of = jobKey();
   try {
@@ -319,8 +370,8 @@ export function forgetMark() {
 // The server keeps few designs, so that the marked one may have to be made again.
 async function remake(mark: Mark): Promise<Mark> {
   if (mark.file.endsWith(".py")) throw new Error("the server has forgotten the marked version: mark another one");
-  const { file, text, definitions } = mark;
-  const reply = await connection.ask("load", { file, text, definitions }, "mark").answer;
+  const { file, text, definitions, rotate } = mark;
+  const reply = await connection.ask("load", { file, text, definitions, rotate }, "mark").answer;
   if (!reply.ok) throw new Error("the marked version can no longer be made; files that it reads have changed");
   const made = { ...mark, design: reply.design as string };
   if (state.mark === mark) set({ mark: made });
@@ -370,14 +421,15 @@ function setJobs(jobs: Job[]) {
 }
 
 function takeJob(job: Job) {
+  const before = state.jobs.find((known) => known.folder === job.folder);
   const others = state.jobs.filter((known) => known.folder !== job.folder);
-  setJobs([...others, job]);
+  setJobs([...others, { ...job, rotate: job.rotate ?? before?.rotate }]);
 }
 
 export async function startExport(folder: string, replace: boolean): Promise<string> {
   try {
     const reply = await about("export", { folder, file: state.file, replace, ...cutting() }, "");
-    takeJob(reply.job);
+    takeJob({ ...reply.job, rotate: state.rotate });
     return "";
   } catch (error) {
     return (error as Error).message;
@@ -389,6 +441,10 @@ export async function changeJob(job: Job, to: "pause" | "resume" | "cancel") {
     if (to === "cancel") return setJobs(state.jobs.filter((known) => known !== job));
     if (job.file && job.file !== state.file) return set({ problem: `open ${job.file} to go on with its layers` });
     set({ printer: job.printer, dither: job.dither, place: job.place ?? "" });
+    if (job.rotate && job.rotate.join() !== state.rotate.join()) {
+      set({ rotate: job.rotate });
+      await load();
+    }
     await plan();
     return startExport(job.folder, false);
   }

@@ -54,6 +54,14 @@ export interface Design {
   part_nodes: number[];
   attributes: { name: string; type: string; unit: string }[];
   nodes: GraphNode[];
+  scans: string[]; // files of the folder that it reads
+}
+
+// A file beside designs.
+export type DataKind = "scan" | "results" | "table";
+export interface DataFile {
+  name: string;
+  kind: DataKind;
 }
 
 export interface NodeType {
@@ -70,10 +78,11 @@ export interface Hello {
   program: string;
   folder: string;
   file: string;
+  opens_folders: boolean;
   files: string[];
   printers: { name: string; title: string }[];
   dithers: string[];
-  palettes: string[];
+  palettes: { name: string; colours: number[][] }[]; // from the least value to the greatest, mixed in linear light
   nodes: NodeType[];
   functions: { name: string; signature: string }[];
 }
@@ -92,6 +101,8 @@ export interface Plan {
 export interface Job {
   id: number;
   state: "waiting" | "working" | "paused" | "done" | "failed" | "cancelled" | "interrupted";
+  path: string; // of the folder, whole
+  rotate?: number[]; // which the page remembers
   folder: string;
   file: string;
   printer: string;
@@ -146,6 +157,7 @@ export interface Mark {
   file: string;
   text: string;
   definitions: string[];
+  rotate: number[];
   time: string;
 }
 
@@ -160,13 +172,16 @@ export interface Comparison {
   pitch_mm: number;
 }
 
-export type ViewName = "surface" | "slices" | "volume" | "graph";
+export type ViewName = "surface" | "slices" | "volume" | "graph" | "planes" | "chart";
 
 export interface State {
   status: "connecting" | "open" | "lost" | "refused";
   hello?: Hello;
   files: string[];
+  data: DataFile[];
   file: string;
+  kind: "" | DataKind; // of the file: a design, or data, whose text is not edited
+  table: string; // text of the table that is open
   saved: "saved" | "unsaved" | "saving" | "failed";
   saveProblem: string;
   conflict?: { text?: string; version?: string }; // what the disk has; no text: it is gone
@@ -183,10 +198,13 @@ export interface State {
   perspective: boolean;
   by: string;
   palette: string;
+  range?: [number, number]; // of the values that colours span; nothing: those of the design
+  shownRange?: { of: string; range: [number, number] }; // of the last picture
   opacity: Record<string, number>;
   printer: string;
   dither: string;
   place: Place;
+  rotate: number[]; // degrees about x, then y, then z: how the part lies
   estimate?: Estimate;
   plan?: Plan;
   planProblem: string;
@@ -199,8 +217,10 @@ export interface State {
   comparisonProblem: string;
   jobs: Job[];
   view: ViewName | "all";
-  panel: "variables" | "materials" | "export" | "reference";
+  panel: "variables" | "materials" | "export" | "reference" | "examples";
   theme: "system" | "light" | "dark";
+  turntable?: number; // the share of one under way that is made
+  showsKeys: boolean;
 }
 
 // What a person chose of the page, which stays when it is loaded again.
@@ -211,7 +231,10 @@ const listeners = new Set<() => void>();
 export let state: State = {
   status: "connecting",
   files: [],
+  data: [],
   file: "",
+  kind: "",
+  table: "",
   saved: "saved",
   saveProblem: "",
   isOld: false,
@@ -228,6 +251,7 @@ export let state: State = {
   printer: "generic",
   dither: "stochastic",
   place: "",
+  rotate: [0, 0, 0],
   planProblem: "",
   z: NaN,
   comparisonProblem: "",
@@ -235,6 +259,7 @@ export let state: State = {
   view: "surface",
   panel: "variables",
   theme: "system",
+  showsKeys: false,
   ...known,
 };
 

@@ -5,65 +5,85 @@ import { Refused } from "./connection";
 import { CutControls, cutMembers } from "./cuts";
 import { moveByKeys, moveByPointer } from "./navigation";
 import { about, connection } from "./session";
-import { set, state, useStore } from "./store";
+import { Camera, set, state, useStore } from "./store";
 
 const steps = [
+  { share: 0.1, samples: 1 }, // of designs that take long alone
   { share: 0.3, samples: 1 },
   { share: 1, samples: 1 },
   { share: 1, samples: 2 },
 ];
 
+const longMilliseconds = 120; // of the second step
+
 // Pictures of equal keys differ in size alone.
 function pictureKey(): string {
-  const { design, camera, cut, perspective, by, palette, opacity } = state;
-  return JSON.stringify([design?.design, camera, cut, perspective, by, palette, opacity]);
+  const { design, camera, cut, perspective, by, palette, range, opacity } = state;
+  return JSON.stringify([design?.design, camera, cut, perspective, by, palette, range, opacity]);
+}
+
+// What a range of values belongs to.
+const coloursKey = () => `${state.design?.design} ${state.by}`;
+
+// The range that is set, or the one that the server found for the same colours before.
+function colourMembers(): Record<string, unknown> {
+  const { by, palette, range, shownRange } = state;
+  if (!by) return {};
+  const known = range ?? (shownRange?.of === coloursKey() ? shownRange.range : undefined);
+  return { by, palette, ...(known ? { range: known } : {}) };
+}
+
+function noteRange(of: string, range: [number, number] | undefined) {
+  if (range && !state.range && (state.shownRange?.of !== of || state.shownRange.range.join() !== range.join())) set({ shownRange: { of, range } });
+}
+
+// What a request for a picture from this camera says, apart from its size.
+export function renderMembers(camera: Camera): Record<string, unknown> {
+  return {
+    azimuth: camera.azimuth,
+    elevation: camera.elevation,
+    target: camera.target,
+    height_mm: camera.height,
+    perspective: fieldOfView(),
+    ...cutMembers(state.cut),
+    ...colourMembers(),
+    opacity: state.opacity,
+  };
 }
 
 async function drawOne(canvas: HTMLCanvasElement, step: (typeof steps)[0]) {
-  const { camera, cut, by, palette, opacity } = state;
+  const { camera } = state;
   if (!camera) return;
+  const colours = coloursKey();
   const ratio = Math.min(devicePixelRatio, 2) * step.share;
   const width = Math.max(1, Math.round(canvas.clientWidth * ratio)),
     height = Math.max(1, Math.round(canvas.clientHeight * ratio));
   const started = performance.now();
-  const reply = await about(
-    "render",
-    {
-      width,
-      height,
-      samples: step.samples,
-      azimuth: camera.azimuth,
-      elevation: camera.elevation,
-      target: camera.target,
-      height_mm: camera.height,
-      perspective: fieldOfView(),
-      ...cutMembers(cut),
-      ...(by ? { by, palette } : {}),
-      opacity,
-    },
-    "surface",
-  );
+  const reply = await about("render", { width, height, samples: step.samples, ...renderMembers(camera) }, "surface");
+  noteRange(colours, reply.range);
   const picture = await createImageBitmap(new Blob([reply.bytes as BlobPart], { type: "image/png" }));
   canvas.width = Math.round(canvas.clientWidth * Math.min(devicePixelRatio, 2));
   canvas.height = Math.round(canvas.clientHeight * Math.min(devicePixelRatio, 2));
   const context = canvas.getContext("2d")!;
   context.imageSmoothingEnabled = true;
   context.drawImage(picture, 0, 0, canvas.width, canvas.height);
+  picture.close();
   canvas.dataset.milliseconds = String(Math.round(performance.now() - started));
 }
 
 // One picture after the other, each finer, until something changes. A small picture is finished before the next is
 // begun, so that something is seen while the camera moves; a finer one gives way at once.
 class Drawer {
+  private first = 0;
   private step = 0;
   private key = "";
   private isAtWork = false;
   constructor(private canvas: HTMLCanvasElement) {}
 
   async go() {
-    if (this.isAtWork && (this.step === 0 || pictureKey() === this.key)) return;
+    if (this.isAtWork && (this.step === this.first || pictureKey() === this.key)) return;
     if (this.isAtWork) {
-      this.step = 0;
+      this.step = this.first;
       this.key = "";
       return connection.cancelLane("surface");
     }
@@ -78,7 +98,7 @@ class Drawer {
 
   private isLeft(): boolean {
     if (!state.design || !state.camera || this.canvas.clientWidth === 0 || !connection.isOpen) return false;
-    if (pictureKey() !== this.key) this.step = 0;
+    if (pictureKey() !== this.key) this.step = this.first;
     this.key = pictureKey();
     return this.step < steps.length;
   }
@@ -88,7 +108,9 @@ class Drawer {
       design = state.design!.design;
     this.canvas.dataset.state = "drawing";
     try {
+      const begun = performance.now();
       await drawOne(this.canvas, steps[this.step]);
+      if (this.step === 1) this.first = performance.now() - begun > longMilliseconds ? 0 : 1;
       this.canvas.dataset.design = design;
       this.tell("");
       if (this.key !== key) return;
@@ -128,6 +150,32 @@ export function Legend() {
         </li>
       ))}
     </ul>
+  );
+}
+
+const shortNumber = (value: number) => String(+value.toPrecision(4));
+
+// The values that colours stand for, and numbers to set them by.
+function ColourLegend() {
+  const { by, palette, range, shownRange, design, hello } = useStore();
+  const known = range ?? (shownRange?.of === coloursKey() ? shownRange.range : undefined);
+  if (!by || !known) return null;
+  const colours = (hello?.palettes.find((p) => p.name === palette) ?? hello?.palettes[0])?.colours ?? [];
+  const unit = design?.attributes.find((a) => a.name === by)?.unit;
+  const change = (end: number, text: string) => {
+    const made = known.map((v, n) => (n === end ? +text : v)) as [number, number];
+    if (text !== "" && made[0] < made[1]) set({ range: made });
+  };
+  return (
+    <div class="colours" role="group" aria-label="Colours" data-range={known.join()}>
+      <span>{by}{unit && unit !== "1" ? `, ${unit}` : ""}</span>
+      <span class="ramp" style={{ background: `linear-gradient(in srgb-linear to right, ${colours.map((c) => `rgb(${c.join(",")})`).join(",")})` }} />
+      <span class="controls">
+        <input type="number" step="any" aria-label="Value of the first colour" value={shortNumber(known[0])} onChange={(e) => change(0, e.currentTarget.value)} />
+        <button disabled={!range} onClick={() => set({ range: undefined })}>all</button>
+        <input type="number" step="any" aria-label="Value of the last colour" value={shortNumber(known[1])} onChange={(e) => change(1, e.currentTarget.value)} />
+      </span>
+    </div>
   );
 }
 
@@ -187,7 +235,7 @@ export function SurfaceView() {
         <CutControls />
         <label>
           Colour by
-          <select value={by} onChange={(e) => set({ by: e.currentTarget.value })}>
+          <select value={by} onChange={(e) => set({ by: e.currentTarget.value, range: undefined })}>
             <option value="">materials</option>
             {design?.materials.map((m) => <option value={m.name}>fraction of {m.name}</option>)}
             {design?.attributes.map((a) => <option value={a.name}>{a.name}</option>)}
@@ -197,7 +245,7 @@ export function SurfaceView() {
           <label>
             Palette
             <select value={palette} onChange={(e) => set({ palette: e.currentTarget.value })}>
-              {hello?.palettes.map((name, n) => <option value={n === 0 ? "" : name}>{name}</option>)}
+              {hello?.palettes.map((p, n) => <option value={n === 0 ? "" : p.name}>{p.name}</option>)}
             </select>
           </label>
         )}
@@ -206,7 +254,7 @@ export function SurfaceView() {
         <canvas ref={canvas} tabIndex={0} role="img" aria-label={`The design from outside${design ? `, materials ${design.materials.map((m) => m.name).join(", ")}` : ""}. Arrows turn it, with Shift they move it, plus and minus zoom.`}
                 {...pointer} onKeyDown={moveByKeys} />
         <p class="viewproblem" role="status"></p>
-        <Legend />
+        {by ? <ColourLegend /> : <Legend />}
         {camera && <ScaleBar pixelMm={camera.height / height} />}
       </div>
     </section>

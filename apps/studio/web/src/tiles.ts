@@ -4,7 +4,8 @@ import { about, connection, cutting } from "./session";
 import { Plan, state } from "./store";
 
 export const tileSize = 256; // pixels
-const mostKept = 600,
+const mostPlans = 50,
+  mostKept = 600,
   mostAtOnce = 6;
 
 export interface Tile {
@@ -34,6 +35,7 @@ export class Tiles {
 
   private async askPlan(key: string, level: number) {
     this.plans.set(key, "asked");
+    while (this.plans.size > mostPlans) this.plans.delete(this.plans.keys().next().value!);
     try {
       const design = state.design!.design;
       this.plans.set(key, { ...((await about("plan", { ...cutting(), level }, "")) as unknown as Plan), design });

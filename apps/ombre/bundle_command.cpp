@@ -1,0 +1,76 @@
+// ombre bundle: a design with the files that it reads, in one file.
+#include <filesystem>
+#include <memory>
+
+#include "base/text.h"
+#include "compile/bundle.h"
+#include "ombre/command_line.h"
+#include "ombre/commands.h"
+#include "ombre/interrupt.h"
+#include "ombre/overwrite.h"
+
+namespace ombre::cli {
+namespace {
+
+struct BundleArguments {
+  std::string design, materials, output;
+  bool force = false;
+};
+
+int write_bundle(const BundleArguments& a, Session& session) {
+  namespace fs = std::filesystem;
+  const fs::path design(a.design);
+  if (to_lower(design.extension().string()) == ".py")
+    throw WrongArgument(a.design +
+                        " is a Python script, which may read anything; write its design into a file first: " +
+                        "ombre slice " + a.design + " --emit json > " + design.stem().string() + ".json");
+  if (compile::is_bundle(a.design)) throw WrongArgument(a.design + " is a bundle already");
+  const std::string output = a.output.empty() ? design.stem().string() + std::string(compile::bundle_ending) : a.output;
+  if (!compile::is_bundle(output))
+    throw WrongArgument("-o " + output + ": bundles end in .ombre; write for example -o " +
+                        fs::path(output).replace_extension(".ombre").string());
+  refuse_to_overwrite(output, a.force);
+  Diagnostics diagnostics;
+  compile::LoadOptions options{a.materials, {}};
+  options.stop = &session.stop;
+  std::optional<compile::BundleContents> contents;
+  {
+    const QuitAtOnce quits;
+    contents = compile::write_bundle(a.design, output, options, diagnostics);
+  }
+  session.console.diagnose(diagnostics);
+  if (!contents) return wrong_input;
+  session.console.say("written to " + output + ": " + join(contents->files, ", "));
+  for (const std::string& file : contents->left_outside)
+    session.console.say("not in it: " + file + ", which belongs to the system");
+  session.console.event("bundle",
+                        {{"file", output},
+                         {"design", contents->design},
+                         {"files", DataList(contents->files.begin(), contents->files.end())},
+                         {"left_outside", DataList(contents->left_outside.begin(), contents->left_outside.end())}});
+  return done;
+}
+
+}  // namespace
+
+Command add_bundle(CLI::App& program, OutputOptions& output) {
+  CLI::App* app = program.add_subcommand("bundle", "Put a design and the files that it reads into one file");
+  auto arguments = std::make_shared<BundleArguments>();
+  app->add_option("design", arguments->design, "The design: a .vcad, .scad or .json file")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("--materials", arguments->materials, "Materials file, which is in the bundle too")->type_name("FILE");
+  app->add_option("-o,--output", arguments->output, "The bundle to write (default: the design's name with .ombre)")
+      ->type_name("FILE");
+  app->add_flag("--force", arguments->force, "Replace the bundle if it is there");
+  add_output_options(*app, output);
+  app->footer(
+      "A bundle is a zip archive, which opens by itself wherever a design is expected.\n\n"
+      "Examples:\n"
+      "  ombre bundle part.vcad                 part.ombre\n"
+      "  ombre slice part.ombre --printer j750\n"
+      "  ombre studio part.ombre\n");
+  return {app, [arguments](Session& session) { return write_bundle(*arguments, session); }};
+}
+
+}  // namespace ombre::cli

@@ -1,0 +1,150 @@
+#include "ombre/fea_report.h"
+
+#include <algorithm>
+
+#include "base/json.h"
+#include "base/text.h"
+#include "fea/mesh_elastic.h"
+#include "fea/node_matrix.h"
+
+namespace ombre::cli {
+namespace {
+
+std::string text_of(Vec3 v, int digits = 4) {
+  return "(" + format_rounded(v.x, digits) + ", " + format_rounded(v.y, digits) + ", " + format_rounded(v.z, digits) +
+         ")";
+}
+
+Data triple(Vec3 v) { return DataList{v.x, v.y, v.z}; }
+
+std::string element_text(const fea::MeshView& mesh) {
+  if (const fea::Bricks* bricks = mesh.bricks())
+    return counted(mesh.count(), "brick") + " of " + format_rounded(bricks->size_mm.x) + " x " +
+           format_rounded(bricks->size_mm.y) + " x " + format_rounded(bricks->size_mm.z) + " mm";
+  return format_count(mesh.count()) + " tetrahedra " + mesh.shape().name;
+}
+
+void tell_quality(const Console& console, const compile::TetraModel& made) {
+  const fea::MeshQuality& quality = made.quality;
+  console.say("edges of " + format_rounded(quality.mean_edge_mm, 3) + " mm on average; dihedral angles from " +
+              format_rounded(quality.least_dihedral, 3) + " to " + format_rounded(quality.most_dihedral, 4) +
+              " degrees, aspect at most " + format_rounded(quality.worst_aspect, 3) + ", " +
+              format_count(quality.inverted) + " inverted; the surface has " + format_rounded(made.surface_mm3, 6) +
+              " mm3");
+  console.event("quality", {{"mean_edge_mm", quality.mean_edge_mm},
+                            {"least_dihedral_degrees", quality.least_dihedral},
+                            {"most_dihedral_degrees", quality.most_dihedral},
+                            {"worst_aspect", quality.worst_aspect},
+                            {"inverted", static_cast<double>(quality.inverted)},
+                            {"surface_mm3", made.surface_mm3}});
+}
+
+std::string solved_text(const FeaArguments& a, size_t iterations, double seconds) {
+  const std::string way = a.solver == "calculix" ? "by CalculiX"
+                          : iterations == 0      ? "directly"
+                                                 : "in " + counted(iterations, "iteration");
+  return "solved " + way + " and " + format_rounded(seconds, 3) + " s";
+}
+
+void tell_solution(const FeaArguments& a, const Console& console, const fea::MeshView& mesh,
+                   const fea::Solution& solution, double seconds) {
+  size_t far = 0, strong = 0;
+  for (size_t n = 0; n < solution.displacement_mm.size(); ++n)
+    if (length(solution.displacement_mm[n]) > length(solution.displacement_mm[far])) far = n;
+  std::vector<double> mises;
+  for (const auto& stress : solution.stress_mpa) mises.push_back(fea::von_mises(stress));
+  strong = static_cast<size_t>(std::ranges::max_element(mises) - mises.begin());
+  Vec3 reaction;
+  for (const fea::Prescribed& here : solution.reactions_n) reaction[here.axis] += here.value;
+  const Vec3 u = solution.displacement_mm[far];
+  console.say(solved_text(a, solution.iterations, seconds));
+  console.say("moves by at most " + format_rounded(length(u)) + " mm, " + text_of(u) + " at " +
+              text_of(mesh.node(far)));
+  console.say("von Mises stress at most " + format_rounded(mises[strong]) + " MPa, at " +
+              text_of(mesh.centroid(strong)));
+  console.say("the supports hold with " + text_of(reaction, 5) + " N; strain energy " +
+              format_rounded(solution.energy_mj, 5) + " mJ");
+  console.event("solution", {{"iterations", static_cast<double>(solution.iterations)},
+                             {"residual", solution.residual},
+                             {"seconds", seconds},
+                             {"greatest_displacement_mm", triple(u)},
+                             {"greatest_displacement_at_mm", triple(mesh.node(far))},
+                             {"greatest_von_mises_mpa", mises[strong]},
+                             {"greatest_von_mises_at_mm", triple(mesh.centroid(strong))},
+                             {"reaction_n", triple(reaction)},
+                             {"strain_energy_mj", solution.energy_mj}});
+}
+
+void tell_conduction(const FeaArguments& a, const Console& console, const Case& here, const fea::Conduction& found,
+                     double seconds) {
+  const bool is_heat = here.conditions.physics == fea::Physics::heat;
+  const fea::ModelView model = here.view();
+  const auto [least, most] = std::ranges::minmax_element(found.value);
+  std::vector<double> flux;
+  for (const Vec3& v : found.flux) flux.push_back(length(v));
+  const auto strong = static_cast<size_t>(std::ranges::max_element(flux) - flux.begin());
+  double enters = 0, leaves = found.lost_w;
+  const auto add = [&](double flow) { flow > 0 ? enters += flow : leaves -= flow; };
+  for (const fea::Prescribed& flow : found.flows) add(flow.value);
+  for (const fea::Prescribed& flow : here.conditions.forces) add(flow.value);
+  const std::string unit = is_heat ? " C" : " V", flow_unit = is_heat ? " W" : " A";
+  console.say(solved_text(a, found.iterations, seconds));
+  console.say(std::string(is_heat ? "temperatures" : "potentials") + " from " + format_rounded(*least) + " to " +
+              format_rounded(*most) + unit + ", the latter at " +
+              text_of(model.mesh.node(static_cast<size_t>(most - found.value.begin()))));
+  console.say(std::string(is_heat ? "heat flux" : "current density") + " at most " + format_rounded(flux[strong]) +
+              flow_unit + "/mm2, at " + text_of(model.mesh.centroid(strong)));
+  console.say(format_rounded(enters, 5) + flow_unit + " enter, " + format_rounded(leaves, 5) + flow_unit + " leave");
+  console.event("solution", {{"iterations", static_cast<double>(found.iterations)},
+                             {"residual", found.residual},
+                             {"seconds", seconds},
+                             {is_heat ? "least_temperature_c" : "least_potential_v", *least},
+                             {is_heat ? "greatest_temperature_c" : "greatest_potential_v", *most},
+                             {is_heat ? "greatest_flux_w_mm2" : "greatest_density_a_mm2", flux[strong]},
+                             {is_heat ? "enters_w" : "enters_a", enters},
+                             {is_heat ? "leaves_w" : "leaves_a", leaves}});
+}
+
+}  // namespace
+
+double Case::solve_bytes() const {
+  const fea::ModelView model = view();
+  if (const fea::Bricks* bricks = model.mesh.bricks())
+    return is_mechanics() ? fea::solve_bytes(*bricks) : fea::conduct_bytes(*bricks);
+  return fea::system_bytes(model.mesh, is_mechanics() ? 3 : 1);
+}
+
+std::string counted(size_t count, const std::string& what) {
+  return format_count(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+void tell_model(const Console& console, const Case& here) {
+  const fea::ModelView model = here.view();
+  const double bytes = here.solve_bytes(), volume = model.mesh.total_volume_mm3();
+  console.say(element_text(model.mesh) + ", " + format_count(model.mesh.node_count()) + " nodes, " +
+              counted(model.sections.size(), "section") + ", " + format_rounded(volume, 6) +
+              " mm3; solving takes about " + format_bytes(bytes));
+  DataList sections;
+  for (const fea::Section& section : model.sections) {
+    if (here.is_mechanics())
+      sections.push_back(DataMembers{{"name", section.name},
+                                     {"modulus_mpa", section.elastic.modulus_mpa},
+                                     {"poissons_ratio", section.elastic.poissons_ratio}});
+    else
+      sections.push_back(DataMembers{{"name", section.name}, {"conductivity", section.conductivity}});
+  }
+  console.event("model", {{here.tetrahedra() ? "tetrahedra" : "bricks", static_cast<double>(model.mesh.count())},
+                          {"nodes", static_cast<double>(model.mesh.node_count())},
+                          {"sections", sections},
+                          {"volume_mm3", volume},
+                          {"memory_bytes", bytes}});
+  if (here.tetrahedra()) tell_quality(console, *here.tetrahedra());
+}
+
+void tell_results(const FeaArguments& a, const Console& console, const Case& here, const compile::FeaResults& results,
+                  double seconds) {
+  if (results.solution) tell_solution(a, console, here.view().mesh, *results.solution, seconds);
+  if (results.conduction) tell_conduction(a, console, here, *results.conduction, seconds);
+}
+
+}  // namespace ombre::cli

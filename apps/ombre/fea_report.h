@@ -1,0 +1,36 @@
+// What ombre fea says of models and results, as lines and as events.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "compile/fea_job.h"
+#include "compile/tetra_job.h"
+#include "ombre/command_line.h"
+#include "ombre/fea_arguments.h"
+
+namespace ombre::cli {
+
+// A model of bricks or tetrahedra with its supports and loads.
+struct Case {
+  std::variant<fea::Model, compile::TetraModel> made;
+  fea::Conditions conditions;
+
+  fea::ModelView view() const {
+    if (const auto* bricks = std::get_if<fea::Model>(&made)) return *bricks;
+    return std::get<compile::TetraModel>(made).model;
+  }
+  const compile::TetraModel* tetrahedra() const { return std::get_if<compile::TetraModel>(&made); }
+  bool is_mechanics() const { return conditions.physics == fea::Physics::mechanics; }
+  // Bricks have a solver of their own.
+  double solve_bytes() const;
+};
+
+void tell_model(const Console& console, const Case& here);
+void tell_results(const FeaArguments& arguments, const Console& console, const Case& here,
+                  const compile::FeaResults& results, double seconds);
+
+// "1 round", "12,092 rounds".
+std::string counted(size_t count, const std::string& what);
+
+}  // namespace ombre::cli

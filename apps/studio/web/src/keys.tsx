@@ -1,0 +1,72 @@
+// Keys of the page as a whole, and the list of all keys.
+import { useEffect, useRef } from "preact/hooks";
+import { downloadBundle } from "./files";
+import { makeTurntable, takePicture } from "./pictures";
+import { State, set, useStore } from "./store";
+
+const views: State["view"][] = ["surface", "slices", "volume", "graph", "all", "planes"];
+const panels: State["panel"][] = ["variables", "materials", "export", "reference", "examples"];
+
+const focusOn = (selector: string) => document.querySelector<HTMLElement>(selector)?.focus();
+
+// With Alt, so that letters stay those of the script.
+const actions: Record<string, () => void> = {
+  KeyE: () => focusOn(".cm-content"),
+  KeyV: () => focusOn(".views canvas, .views .stage"),
+  KeyS: () => {
+    set({ panel: "export" });
+    setTimeout(() => focusOn(".panel"));
+  },
+  KeyP: takePicture,
+  KeyT: makeTurntable,
+  KeyB: downloadBundle,
+  KeyK: () => set({ showsKeys: true }),
+};
+
+export function listenToKeys() {
+  addEventListener("keydown", (event) => {
+    if (!event.altKey || event.ctrlKey || event.metaKey) return;
+    const number = /^Digit(\d)$/.exec(event.code);
+    const chosen = number ? +number[1] - 1 : -1;
+    if (number && event.shiftKey && panels[chosen]) set({ panel: panels[chosen] });
+    else if (number && !event.shiftKey && views[chosen]) set({ view: views[chosen] });
+    else if (actions[event.code] && !event.shiftKey) actions[event.code]();
+    else return;
+    event.preventDefault();
+  });
+}
+
+const list: [string, string][] = [
+  ["Alt 1 to 5", "surface, slices, volume, graph, all four"],
+  ["Alt Shift 1 to 5", "variables, materials, slicing, nodes, examples"],
+  ["Alt E, Alt V, Alt S", "to the script, to the view, to slicing"],
+  ["Alt P", "a picture of the view, as PNG"],
+  ["Alt T", "a turntable, as WebM; again: stop it"],
+  ["Alt B", "the design with its files as a bundle"],
+  ["Ctrl S, Ctrl F, Ctrl Space", "in the script: save, find, complete"],
+  ["Escape, then Tab", "in the script: leave it"],
+  ["arrows, Shift arrows, + -, Home", "in a view: turn, move, zoom, show all"],
+  ["Page Up, Page Down, Enter", "in slices: the layer above or below, what is in the middle"],
+];
+
+export function KeysDialog() {
+  const { showsKeys } = useStore();
+  const dialog = useRef<HTMLDialogElement>(null);
+  useEffect(() => {
+    if (showsKeys) dialog.current!.showModal();
+  }, [showsKeys]);
+  return (
+    <dialog ref={dialog} aria-label="Keys" onClose={() => set({ showsKeys: false })}>
+      <h2>Keys</h2>
+      <dl class="keys">
+        {list.map(([keys, what]) => (
+          <>
+            <dt>{keys}</dt>
+            <dd>{what}</dd>
+          </>
+        ))}
+      </dl>
+      <form method="dialog"><button>Close</button></form>
+    </dialog>
+  );
+}

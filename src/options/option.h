@@ -1,0 +1,188 @@
+// Options of jobs as data. A job is a plain struct, and a row for each of its members says how the option is called,
+// what it means and what it takes. Command line, help, completion, Python's keywords and stubs and job.json come from
+// these rows.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/data.h"
+#include "options/values.h"
+
+namespace ombre::options {
+
+enum class Takes { nothing, one, several };
+
+// Numbers, ends included.
+struct Limits {
+  double least = 0, most = 0;
+  bool is_whole = false;
+};
+
+struct Option {
+  std::string names;        // "-o,--output"; what has no dashes goes by its place
+  std::string help;         // a sentence, or its beginning
+  std::string placeholder;  // of its value: "FILE"
+  std::string kind;         // of its value, as in values.h; "word" where there are choices, "flag"
+  Takes takes = Takes::one;
+  std::vector<std::string> choices = {};  // the words that it takes; empty: any
+  std::optional<Limits> limits = {};
+  bool is_required = false;
+  std::vector<std::string> needs = {}, excludes = {};  // names of other options of the job
+
+  // Sets the member of the job at this address; of flags there are no texts. Throws WrongValue.
+  std::function<void(void* job, const std::vector<std::string>& texts)> set = nullptr;
+  // What the member of the job at this address is. Empty for members that job.json does not hold.
+  std::function<Data(const void* job)> value = nullptr;
+
+  // The first long name: "--output".
+  std::string name() const;
+};
+
+// What is wrong with a text that an option's choices or limits do not allow: `"x" is not a number from 0 to 1`. Empty
+// if nothing is.
+std::string problem(const std::vector<std::string>& choices, const std::string& text);
+std::string problem(const Limits& limits, const std::string& text);
+// "0 to 120"
+std::string range_text(const Limits& limits);
+
+// One row, or the rows of a group, of the options of a Job.
+template <class Job>
+struct Row {
+  std::vector<Option> options;
+
+  Row required() && {
+    options.front().is_required = true;
+    return std::move(*this);
+  }
+  Row needs(std::string name) && {
+    options.front().needs.push_back(std::move(name));
+    return std::move(*this);
+  }
+  Row excludes(std::vector<std::string> names) && {
+    options.front().excludes = std::move(names);
+    return std::move(*this);
+  }
+  Row between(double least, double most) && {
+    options.front().limits = Limits{least, most, options.front().kind == "whole number"};
+    return std::move(*this);
+  }
+};
+
+template <class Job>
+class Spec {
+ public:
+  Spec(std::initializer_list<Row<Job>> rows) {
+    for (const Row<Job>& row : rows) options_.insert(options_.end(), row.options.begin(), row.options.end());
+  }
+  const std::vector<Option>& options() const { return options_; }
+
+  // What job.json holds of the job, in the order of the rows.
+  DataMembers describe(const Job& job) const {
+    DataMembers members;
+    for (const Option& option : options_)
+      if (option.value) members.emplace_back(option.name().substr(2), option.value(&job));
+    return members;
+  }
+
+ private:
+  std::vector<Option> options_;
+};
+
+template <class T>
+void assign(T& member, T value) {
+  member = std::move(value);
+}
+template <class T>
+void assign(std::optional<T>& member, T value) {
+  member = std::move(value);
+}
+
+// An option with a value: its member has the kind's type, maybe as an optional.
+template <class Job, class Member, class T>
+Row<Job> option(std::string names, Member Job::*member, const Kind<T>& kind, std::string help,
+                std::string placeholder) {
+  Option made{std::move(names), std::move(help), std::move(placeholder), kind.name};
+  made.set = [member, read = kind.read, name = made.name()](void* job, const std::vector<std::string>& texts) {
+    assign(static_cast<Job*>(job)->*member, read(texts.front(), name));
+  };
+  if constexpr (std::is_same_v<Member, uint64_t>)  // as text, since it may have 64 bits
+    made.value = [member](const void* job) { return std::to_string(static_cast<const Job*>(job)->*member); };
+  return {{made}};
+}
+
+// One that may be repeated.
+template <class Job, class T>
+Row<Job> list(std::string names, std::vector<T> Job::*member, const Kind<T>& kind, std::string help,
+              std::string placeholder) {
+  Option made{std::move(names), std::move(help), std::move(placeholder), kind.name, Takes::several};
+  made.set = [member, read = kind.read, name = made.name()](void* job, const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) (static_cast<Job*>(job)->*member).push_back(read(text, name));
+  };
+  return {{made}};
+}
+
+template <class Job>
+Row<Job> flag(std::string names, bool Job::*member, std::string help) {
+  Option made{std::move(names), std::move(help), "", "flag", Takes::nothing};
+  made.set = [member](void* job, const std::vector<std::string>&) { static_cast<Job*>(job)->*member = true; };
+  return {{made}};
+}
+
+template <class T>
+struct ChosenType {
+  using type = T;
+};
+template <class T>
+struct ChosenType<std::optional<T>> {
+  using type = T;
+};
+
+// One of the words: a member that is a text gets the word; an enumeration, whose values are in the order of the words,
+// its value.
+template <class Job, class Member>
+Row<Job> choice(std::string names, Member Job::*member, const std::vector<std::string>& words, std::string help,
+                std::string placeholder) {
+  using Chosen = typename ChosenType<Member>::type;
+  Option made{std::move(names), std::move(help), std::move(placeholder), "word", Takes::one, words};
+  made.set = [member, words](void* job, const std::vector<std::string>& texts) {
+    Member& chosen = static_cast<Job*>(job)->*member;
+    if constexpr (std::is_same_v<Chosen, std::string>)
+      chosen = texts.front();
+    else
+      chosen = static_cast<Chosen>(std::find(words.begin(), words.end(), texts.front()) - words.begin());
+  };
+  if constexpr (std::is_enum_v<Member>)
+    made.value = [member, words](const void* job) {
+      return words[static_cast<size_t>(static_cast<const Job*>(job)->*member)];
+    };
+  return {{made}};
+}
+
+// The options of a part that several jobs have.
+template <class Job, class Part>
+Row<Job> group(Part Job::*part, const Spec<Part>& spec) {
+  Row<Job> row{spec.options()};
+  for (Option& option : row.options) {
+    option.set = [part, set = option.set](void* job, const std::vector<std::string>& texts) {
+      set(&(static_cast<Job*>(job)->*part), texts);
+    };
+    if (option.value)
+      option.value = [part, value = option.value](const void* job) {
+        return value(&(static_cast<const Job*>(job)->*part));
+      };
+  }
+  return row;
+}
+template <class Job, class Part>
+Row<Job> group(Part Job::*part) {
+  return group(part, Part::options());
+}
+
+}  // namespace ombre::options

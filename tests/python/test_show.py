@@ -1,0 +1,78 @@
+"""Designs that scripts put before the studio, without a browser."""
+import json
+import stat
+import tempfile
+import time
+import urllib.parse
+
+import ombre
+import pytest
+
+from ombre import _studio
+
+ball = ombre.Design(ball=ombre.sphere(3, "red"))
+block = ombre.Design(block=ombre.cube(4, "blue"))
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """Of temporary files, so that no server of anybody else is met."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    return tmp_path
+
+
+def show(design):
+    try:
+        return _studio.show_in_studio(design, idle_seconds=4)
+    except OSError as error:
+        if "without the studio" in str(error):
+            pytest.skip("the studio was not built")
+        raise
+
+
+def wait_for_end(url):
+    end = time.monotonic() + 15
+    while _studio._is_alive(url) and time.monotonic() < end:
+        time.sleep(0.1)
+    return not _studio._is_alive(url)
+
+
+def test_a_server_shows_one_design_after_the_other_and_ends_by_itself(folder):
+    url, was_there = show(ball)
+    assert not was_there
+    assert urllib.parse.urlsplit(url).hostname == "127.0.0.1"
+    again, was_there = show(block)
+    assert (again, was_there) == (url, True)
+    [shown] = folder.glob("ombre-show-*/shown.json")
+    assert json.loads(shown.read_text()) == json.loads(block.to_json())
+    assert stat.S_IMODE(shown.parent.stat().st_mode) == 0o700
+    assert wait_for_end(url)
+
+
+def test_a_server_that_ended_is_started_again(folder):
+    first, _ = show(ball)
+    assert wait_for_end(first)
+    second, was_there = show(ball)
+    assert not was_there and second != first
+    assert wait_for_end(second)
+
+
+def test_a_token_is_needed(folder):
+    url, _ = show(ball)
+    assert not _studio._is_alive(url.replace("token=", "token=00"))
+    assert wait_for_end(url)
+
+
+def test_show_prints_the_address(folder, monkeypatch, capfd):
+    monkeypatch.setenv("OMBRE_RENDER", "studio")
+    url = show(ball)[0]
+    ball.show()
+    assert url in capfd.readouterr().err
+    assert wait_for_end(url)
+
+
+def test_a_folder_of_somebody_else_is_refused(folder):
+    import os
+    (folder / f"ombre-show-{os.getuid()}").mkdir(mode=0o755)
+    with pytest.raises(OSError, match="not a folder of this user alone"):
+        _studio.show_in_studio(ball)
