@@ -67,8 +67,8 @@ struct PictureRequest {
 };
 
 struct Picture {
-  std::vector<uint8_t> rgba;  // rows from the top
-  double pixel_mm = 0;        // at the part's middle
+  std::vector<uint8_t> rgba;      // rows from the top
+  double pixel_mm = 0;            // at the part's middle
   std::optional<Interval> range;  // that the colours span, where they show an attribute of numbers or a fraction
 };
 

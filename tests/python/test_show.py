@@ -23,7 +23,7 @@ def folder(tmp_path, monkeypatch):
 
 def show(design):
     try:
-        return _studio.show_in_studio(design, idle_seconds=4)
+        return _studio.show_in_studio(design, idle_seconds=3)
     except OSError as error:
         if "without the studio" in str(error):
             pytest.skip("the studio was not built")

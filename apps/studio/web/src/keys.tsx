@@ -37,7 +37,7 @@ export function listenToKeys() {
 }
 
 const list: [string, string][] = [
-  ["Alt 1 to 5", "surface, slices, volume, graph, all four"],
+  ["Alt 1 to 6", "surface, slices, volume, graph, all four, the scan"],
   ["Alt Shift 1 to 5", "variables, materials, slicing, nodes, examples"],
   ["Alt E, Alt V, Alt S", "to the script, to the view, to slicing"],
   ["Alt P", "a picture of the view, as PNG"],
