@@ -186,11 +186,8 @@ int write(const GridChoices& a, const compile::GridJob& job, const Format& forma
 
 std::optional<compile::GridJob> plan_job(const GridChoices& a, const compile::GridWishes& wishes, Session& session,
                                          Diagnostics& diagnostics) {
-  auto options = plan_options(a.sampling, diagnostics);
+  const auto options = plan_options(a.sampling, a.work, session, diagnostics);
   if (!options) return std::nullopt;
-  options->threads = a.work.threads;
-  options->stop = &session.stop;
-  options->memory_bytes = a.work.memory_bytes;
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
   if (!loaded) return std::nullopt;
   const auto plan = compile::plan_slice(loaded, *options, diagnostics);
