@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "compile/find_printer.h"
 #include "compile/load.h"
 #include "voxel/layers.h"
 
@@ -28,23 +29,23 @@ const std::map<std::string, std::string> designs{
      "(x + sin(i), y + cos(i), z + 0.5), 0.1, i % 2 == 0 ? \"red\" : \"blue\"); }"},
 };
 
-std::optional<compile::Plan> plan(const std::string& text, const voxel::EvaluatorOptions& evaluator) {
+std::optional<compile::Plan> plan(const std::string& text, compile::PlanOptions options) {
   const std::string path = "/tmp/ombre_evaluate_bench.vcad";
   std::ofstream(path) << text;
   Diagnostics diagnostics;
   const compile::LoadedPtr loaded = compile::load_design(path, {}, diagnostics);
   std::remove(path.c_str());
   if (!loaded) return std::nullopt;
-  compile::PlanOptions options;
-  options.evaluator = evaluator.evaluator;
-  options.speed = evaluator;
-  for (auto& pitch : options.pitch) pitch = Pitch::parse("0.01");
   return compile::plan_slice(loaded, options, diagnostics);
 }
 
 // Every fourth slab of eight layers.
 void evaluate(benchmark::State& state, const std::string& text, const voxel::EvaluatorOptions& evaluator) {
-  const auto job = plan(text, evaluator);
+  compile::PlanOptions options;
+  options.evaluator = evaluator.evaluator;
+  options.speed = evaluator;
+  for (auto& pitch : options.pitch) pitch = Pitch::parse("0.01");
+  const auto job = plan(text, options);
   if (!job) return state.SkipWithError("the design is wrong");
   const auto& count = job->request.lattice.count;
   int64_t voxels = 0;
@@ -57,10 +58,27 @@ void evaluate(benchmark::State& state, const std::string& text, const voxel::Eva
   state.SetItemsProcessed(voxels);
 }
 
+// What a preview takes once the design is planned: 256 x 256 pixels in the middle of a printer's whole tray.
+void preview(benchmark::State& state, const std::string& text) {
+  Diagnostics diagnostics;
+  compile::PlanOptions options;
+  options.printer = compile::find_printer("j750", diagnostics).value();
+  options.printer_given = true;
+  options.place = voxel::Placement::center;
+  const auto job = plan(text, options);
+  if (!job) return state.SkipWithError("the design is wrong");
+  const auto& count = job->request.lattice.count;
+  const int64_t x = count[0] / 2 - 128, y = count[1] / 2 - 128, z = count[2] / 2;
+  for (auto _ : state) benchmark::DoNotOptimize(job->regions({{x, y, z}, {x + 256, y + 256, z + 1}}, nullptr));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   for (const auto& [name, text] : designs) {
+    benchmark::RegisterBenchmark((name + "/preview").c_str(), [text](benchmark::State& state) {
+      preview(state, text);
+    })->Unit(benchmark::kMillisecond);
     for (const std::string& set : voxel::instruction_sets()) {
       voxel::EvaluatorOptions options;
       options.instruction_set = set;

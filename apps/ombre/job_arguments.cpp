@@ -13,6 +13,17 @@ std::optional<compile::PlanOptions> plan_options(const compile::SamplingOptions&
   return compile::plan_options("ombre " OMBRE_VERSION, sampling, images, diagnostics);
 }
 
+std::optional<compile::PlanOptions> plan_options(const compile::SamplingOptions& sampling,
+                                                 const compile::WorkOptions& work, const Session& session,
+                                                 Diagnostics& diagnostics, const compile::ImageOptions& images) {
+  auto options = plan_options(sampling, diagnostics, images);
+  if (!options) return std::nullopt;
+  options->threads = work.threads;
+  options->memory_bytes = work.memory_bytes;
+  options->stop = &session.stop;
+  return options;
+}
+
 compile::LoadedPtr load_design(const DesignArguments& a, Session& session, Diagnostics& diagnostics, int threads) {
   compile::LoadOptions options{a.materials, a.definitions};
   options.echo = [&](const std::string& text) { session.console.say(text); };

@@ -18,6 +18,11 @@ void add_design_arguments(CLI::App& app, DesignArguments& arguments);
 std::optional<compile::PlanOptions> plan_options(const compile::SamplingOptions& sampling, Diagnostics& diagnostics,
                                                  const compile::ImageOptions& images = {});
 
+// The same for a job of this session.
+std::optional<compile::PlanOptions> plan_options(const compile::SamplingOptions& sampling,
+                                                 const compile::WorkOptions& work, const Session& session,
+                                                 Diagnostics& diagnostics, const compile::ImageOptions& images = {});
+
 // On up to `threads` threads; 0: all cores. Null, and diagnostics, when the design is wrong.
 compile::LoadedPtr load_design(const DesignArguments& arguments, Session& session, Diagnostics& diagnostics,
                                int threads = 0);

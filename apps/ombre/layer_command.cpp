@@ -121,13 +121,10 @@ int write_layer(const LayerChoices& a, const compile::Plan& plan, Session& sessi
 
 // Ctrl-C stops the loading in good order; after it there is nothing to put in order.
 std::optional<compile::Plan> plan_job(const LayerChoices& a, Session& session, Diagnostics& diagnostics) {
-  auto wishes = plan_options(a.sampling, diagnostics, a.images);
-  if (!wishes) return std::nullopt;
-  wishes->threads = a.work.threads;
-  wishes->memory_bytes = a.work.memory_bytes;
-  wishes->stop = &session.stop;
+  const auto options = plan_options(a.sampling, a.work, session, diagnostics, a.images);
+  if (!options) return std::nullopt;
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
-  return loaded ? compile::plan_slice(loaded, *wishes, diagnostics) : std::nullopt;
+  return loaded ? compile::plan_slice(loaded, *options, diagnostics) : std::nullopt;
 }
 
 int layer(const LayerChoices& a, Session& session) {

@@ -90,11 +90,8 @@ int slice(const SliceChoices& a, Session& session) {
     session.console.diagnose(diagnostics);
     return diagnostics.has_errors() ? wrong_input : done;
   };
-  auto wishes = plan_options(a.sampling, diagnostics, a.images);
-  if (!wishes) return diagnosed();
-  wishes->threads = a.work.threads;
-  wishes->stop = &session.stop;
-  wishes->memory_bytes = a.work.memory_bytes;
+  const auto options_of_plan = plan_options(a.sampling, a.work, session, diagnostics, a.images);
+  if (!options_of_plan) return diagnosed();
 
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
   if (!loaded) return diagnosed();
@@ -109,7 +106,7 @@ int slice(const SliceChoices& a, Session& session) {
     session.console.print(compile::emit(*loaded, a.emit));
     return diagnosed();
   }
-  const std::optional<compile::Plan> plan = compile::plan_slice(loaded, *wishes, diagnostics);
+  const std::optional<compile::Plan> plan = compile::plan_slice(loaded, *options_of_plan, diagnostics);
   if (const int code = diagnosed(); !plan || code != done) return wrong_input;
 
   const compile::SliceOptions options = compile::slice_options(a, *plan);

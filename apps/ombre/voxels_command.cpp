@@ -189,11 +189,8 @@ int write(const GridChoices& a, const compile::GridJob& job, const Format& forma
 
 std::optional<compile::GridJob> plan_job(const GridChoices& a, const compile::GridWishes& wishes, Session& session,
                                          Diagnostics& diagnostics) {
-  auto options = plan_options(a.sampling, diagnostics);
+  const auto options = plan_options(a.sampling, a.work, session, diagnostics);
   if (!options) return std::nullopt;
-  options->threads = a.work.threads;
-  options->stop = &session.stop;
-  options->memory_bytes = a.work.memory_bytes;
   if (is_scan(a.design.design) && !options->pitch[0])
     throw WrongArgument(
         "how large the voxels of a scan are to be is not said; write for example --voxel 1 (mm; ombre info " +

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 
-#include "compile/slice.h"
+#include "compile/slice_request.h"
 
 namespace ombre::compile {
 

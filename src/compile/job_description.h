@@ -7,7 +7,7 @@
 
 #include "base/data.h"
 #include "compile/job_journal.h"
-#include "compile/slice.h"
+#include "compile/slice_request.h"
 
 namespace ombre::compile {
 

@@ -15,7 +15,7 @@
 
 #include "compile/job_journal.h"
 #include "compile/layer_files.h"
-#include "compile/slice.h"
+#include "compile/slice_request.h"
 #include "export/output_file.h"
 
 namespace ombre::compile {

@@ -16,7 +16,19 @@ struct DesignOptions {
   std::vector<std::string> definitions;
   std::optional<Vec3> rotate = {};  // degrees about x, then y, then z
 
-  static const options::Spec<DesignOptions>& options();
+  static const options::Spec<DesignOptions>& options() {
+    using namespace options;
+    static const options::Spec<DesignOptions> spec{
+        option("design", &DesignOptions::design, kind::file, "The design: a .vcad, .scad, .json, .ombre or .py file",
+               "FILE")
+            .required(),
+        option("--materials", &DesignOptions::materials, kind::file, "Materials file (see: ombre materials)", "FILE"),
+        options::list("-D,--define", &DesignOptions::definitions, kind::text,
+                      "Set a variable of the design; may be repeated", "NAME=VALUE"),
+        option("--rotate", &DesignOptions::rotate, kind::angles, "Turn the design about x, then y, then z; degrees",
+               "X,Y,Z")};
+    return spec;
+  }
 };
 
 // Which voxels.
@@ -28,7 +40,23 @@ struct SamplingOptions {
   std::optional<voxel::Placement> place;
   bool tray = false;
 
-  static const options::Spec<SamplingOptions>& options();
+  static const options::Spec<SamplingOptions>& options() {
+    using namespace options;
+    static const options::Spec<SamplingOptions> spec{
+        option("--printer", &SamplingOptions::printer, kind::text,
+               "Printer profile: a name, or the path of a .json file", "NAME"),
+        option("--voxel", &SamplingOptions::voxel, kind::voxel, "Voxel size: one length, or x,y,z; mm", "X,Y,Z"),
+        option("--dpi", &SamplingOptions::dpi, kind::dpi, "Resolution in dots per inch: x and y alike, x,y or x,y,z",
+               "X,Y")
+            .excludes({"--voxel"}),
+        option("--layer-height", &SamplingOptions::layer_height, kind::layer_height, "Voxel size along z; mm", "MM"),
+        group(&SamplingOptions::rules),
+        choice("--place", &SamplingOptions::place, voxel::placement_names(),
+               "Layers cover the design's own box, or the build plate with the part in its middle", "design|center"),
+        flag("--tray", &SamplingOptions::tray, "Layers cover the printer's whole build box, the design where it stands")
+            .excludes({"--place"})};
+    return spec;
+  }
 };
 
 // Which images of them.
@@ -38,7 +66,23 @@ struct ImageOptions {
   std::optional<Interval> range;
   std::string bits = "8";
 
-  static const options::Spec<ImageOptions>& options();
+  static const options::Spec<ImageOptions>& options() {
+    using namespace options;
+    static const options::Spec<ImageOptions> spec{
+        choice("--format", &ImageOptions::format, voxel::image_format_names(),
+               "Image format: " + words_text(voxel::image_format_names()) + " (default: the printer's)", "FORMAT"),
+        option("--by,--gray,--grey", &ImageOptions::by, kind::text,
+               "Images in shades of gray by an attribute or a material's fraction, black outside, in place of\n"
+               "materials",
+               "NAME"),
+        option("--range", &ImageOptions::range, kind::range,
+               "The values that are black and white (default: those of the design)", "LO,HI")
+            .needs("--by"),
+        choice("--bits", &ImageOptions::bits, {"8", "16"}, "Of a gray pixel: 8 (default, 256 shades) or 16 (65,536)",
+               "8|16")
+            .needs("--by")};
+    return spec;
+  }
 };
 
 inline constexpr size_t usual_memory = size_t{2} << 30;
@@ -49,8 +93,16 @@ struct WorkOptions {
   size_t memory_bytes = usual_memory;
 
   // `memory` says what the memory is for, with a full stop left out.
-  static options::Spec<WorkOptions> options(const std::string& memory);
-  static options::Row<WorkOptions> threads_option();
+  static options::Spec<WorkOptions> options(const std::string& memory) {
+    using namespace options;
+    return {threads_option(), option("--memory", &WorkOptions::memory_bytes, kind::memory, memory, "SIZE")};
+  }
+  static options::Row<WorkOptions> threads_option() {
+    using namespace options;
+    return option("--threads", &WorkOptions::threads, kind::whole,
+                  "Threads (default: all cores); never changes a result", "N")
+        .between(1, 1024);
+  }
 };
 
 // Nothing, and diagnostics, when there is no such printer. Throws options::WrongValue for what does not go together.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "compile/slice.h"
+#include "compile/slice_request.h"
 
 namespace ombre::compile {
 

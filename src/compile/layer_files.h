@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "compile/slice.h"
+#include "compile/slice_request.h"
 
 namespace ombre::compile {
 

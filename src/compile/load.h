@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/pitch.h"
 #include "compile/job_stages.h"
-#include "compile/slice.h"
+#include "compile/slice_request.h"
 #include "compile/value_layers.h"
 #include "design/design.h"
 #include "sources/source_cache.h"

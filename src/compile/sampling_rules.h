@@ -12,7 +12,18 @@ struct SamplingRules {
   voxel::Evaluator evaluator = voxel::Evaluator::batch;
   uint64_t seed = 0;
 
-  static const options::Spec<SamplingRules>& options();
+  static const options::Spec<SamplingRules>& options() {
+    using namespace options;
+    static const options::Spec<SamplingRules> spec{
+        choice("--dither", &SamplingRules::dither, voxel::dither_names(),
+               "How a mixture becomes one material a voxel: stochastic (default), blue-noise, diffusion or threshold",
+               "MODE"),
+        choice("--evaluator", &SamplingRules::evaluator, voxel::evaluator_names(),
+               "Who computes values: batch (default, floats, fast) or reference (double precision, slow)", "NAME"),
+        option("--seed", &SamplingRules::seed, kind::seed,
+               "Seed of the dithering (default 0); equal seeds give equal files", "N")};
+    return spec;
+  }
 };
 
 }  // namespace ombre::compile

@@ -17,7 +17,27 @@ struct SliceChoices {
   bool force = false, resume = false, dry_run = false, strict = false;
   std::string emit;
 
-  static const options::Spec<SliceChoices>& options();
+  static const options::Spec<SliceChoices>& options() {
+    using namespace options;
+    static const options::Spec<SliceChoices> spec{
+        group(&SliceChoices::design),
+        group(&SliceChoices::sampling),
+        group(&SliceChoices::images),
+        option("-o,--output", &SliceChoices::folder, kind::file,
+               "Folder for the layers (default: the design's name and _slices)", "DIR"),
+        option("--layers", &SliceChoices::layers, kind::text,
+               "Only these layers, a:b as in Python (b excluded), a:, :b or a", "A:B"),
+        group(&SliceChoices::work,
+              WorkOptions::options("Most memory for layers in flight, with their images and what evaluating them takes "
+                                   "(default 2G)")),
+        flag("--force", &SliceChoices::force, "Replace the job in the folder, or write beside other files; those stay"),
+        flag("--resume", &SliceChoices::resume, "Continue the job in the folder").excludes({"--force"}),
+        flag("--dry-run", &SliceChoices::dry_run, "Say what the job would take, from a few layers; write nothing"),
+        flag("--strict", &SliceChoices::strict, "End with exit code 3 as soon as a check fails"),
+        choice("--emit", &SliceChoices::emit, emit_forms(), "Print an intermediate form to stdout, and slice nothing",
+               "FORM")};
+    return spec;
+  }
   // The folder that was chosen, or one that has the design's name.
   std::string output_folder() const;
 };
@@ -35,7 +55,24 @@ struct LayerChoices {
   WorkOptions work;
   bool force = false;
 
-  static const options::Spec<LayerChoices>& options();
+  static const options::Spec<LayerChoices>& options() {
+    using namespace options;
+    static const options::Spec<LayerChoices> spec{
+        group(&LayerChoices::design),
+        group(&LayerChoices::sampling),
+        group(&LayerChoices::images),
+        option("-o,--output", &LayerChoices::output, kind::file,
+               "The image to write, - for stdout (default: the names of the design and of the layer's file)", "FILE"),
+        option("--z", &LayerChoices::z_mm, kind::height, "The layer at this height of the design; mm", "MM"),
+        option("--index", &LayerChoices::index, kind::text, "The layer of this number: 0 is the lowest, -1 the highest",
+               "N")
+            .excludes({"--z"}),
+        option("--box", &LayerChoices::box, kind::rectangle, "Only the pixels that touch this box; mm", "X0,Y0,X1,Y1"),
+        group(&LayerChoices::work,
+              WorkOptions::options("Most memory for the layer, its image and stages (default 2G)")),
+        flag("--force", &LayerChoices::force, "Replace the image if it is there")};
+    return spec;
+  }
 };
 
 }  // namespace ombre::compile

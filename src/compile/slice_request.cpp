@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "compile/slice.h"
+#include "compile/slice_request.h"
 
 namespace ombre::compile {
 namespace {

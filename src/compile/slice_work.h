@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compile/job_journal.h"
-#include "compile/slice.h"
+#include "compile/slice_request.h"
 #include "export/material_stack.h"
 
 namespace ombre::compile {

@@ -10,7 +10,8 @@ namespace {
 
 using design::StageValues;
 
-constexpr int64_t most_sweep_slab = 8;
+constexpr int64_t most_sweep_slab = 8;        // layers
+constexpr double most_slab_bytes = 64 << 20;  // so that a stop flag is seen soon
 
 // One layer of a slab.
 StageValues layer_of(const StageValues& slab, int64_t k) {
@@ -32,11 +33,17 @@ SweepSource::SweepSource(LatticeFrame frame, std::shared_ptr<const design::Sweep
       stage_(std::move(stage)),
       table_(LatticeSource::frame().cells, LatticeSource::frame().channels.size()) {}
 
+double SweepSource::bytes_of_slab(int64_t layers) const {
+  const IndexBox& cells = frame().cells;
+  return static_cast<double>(cells.size(0)) * static_cast<double>(cells.size(1)) * static_cast<double>(layers) *
+         sizeof(float) * static_cast<double>(input().channels().size());
+}
+
 // Slabs that wait for their turn hold values; those that are made hold them twice.
 double SweepSource::bytes(int64_t layers, size_t window, size_t threads) const {
   const IndexBox& cells = frame().cells;
   const auto columns = static_cast<double>(cells.size(0)) * static_cast<double>(cells.size(1));
-  const double layer = columns * sizeof(float) * static_cast<double>(input().channels().size());
+  const double layer = bytes_of_slab(1);
   const double table = columns * sizeof(uint32_t) * static_cast<double>(frame().channels.size());
   return columns * stage_->bytes_of_column() + table + layer +
          layer * static_cast<double>(layers) * static_cast<double>(window + threads);
@@ -49,6 +56,7 @@ SweepSource::Slabs SweepSource::slabs_for(const StageLoan& loan) const {
   slabs.layers = most_sweep_slab;
   const auto allowed = static_cast<double>(loan.memory_bytes);
   const auto is_too_much = [&] { return bytes(slabs.layers, slabs.window, slabs.threads) > allowed; };
+  while (slabs.layers > 1 && bytes_of_slab(slabs.layers) > most_slab_bytes) --slabs.layers;
   while (slabs.window > slabs.threads && is_too_much()) --slabs.window;
   while (slabs.layers > 1 && is_too_much()) --slabs.layers;
   while (slabs.window > 1 && is_too_much()) slabs.threads = --slabs.window;

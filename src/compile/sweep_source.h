@@ -26,6 +26,7 @@ class SweepSource final : public PreparedSource {
     size_t window = 1, threads = 1;
   };
   Slabs slabs_for(const StageLoan& loan) const;
+  double bytes_of_slab(int64_t layers) const;
   double bytes(int64_t layers, size_t window, size_t threads) const;
 
   std::shared_ptr<const design::SweepStage> stage_;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/interval.h"
-#include "compile/slice.h"
+#include "compile/slice_request.h"
 #include "design/design.h"
 
 namespace ombre::compile {

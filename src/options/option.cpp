@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "base/text.h"
 
@@ -11,6 +12,11 @@ std::string Option::name() const {
   for (const std::string& name : split(names, ','))
     if (name.starts_with("--")) return name;
   return names;
+}
+
+std::string words_text(const std::vector<std::string>& words) {
+  if (words.size() < 2) return join(words, "");
+  return join(std::span(words).first(words.size() - 1), ", ") + " or " + words.back();
 }
 
 std::string range_text(const Limits& limits) {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "surface/contour.h"
+#include "surface/contour_types.h"
 
 namespace ombre::surface {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "base/tasks.h"
 
 namespace ombre::surface {
@@ -57,21 +58,24 @@ CellPlace unit_beside(const CrossedEdge& edge, size_t corner) {
   return unit;
 }
 
-std::vector<ListedEdge> crossed_edges(const CellTree& tree, bool only_near_growth, int threads) {
+std::vector<ListedEdge> crossed_edges(const CellTree& tree, bool only_near_growth, int threads, const StopFlag* stop) {
   std::vector<uint32_t> leaves;
   leaves.reserve(tree.leaves().size());
   for (uint32_t n = 0; n < tree.leaves().size(); ++n)
     if (tree.leaves()[n].is_near_growth || !only_near_growth) leaves.push_back(n);
-  return crossed_edges(tree, leaves, threads);
+  return crossed_edges(tree, leaves, threads, stop);
 }
 
-std::vector<ListedEdge> crossed_edges(const CellTree& tree, const std::vector<uint32_t>& leaves, int threads) {
+std::vector<ListedEdge> crossed_edges(const CellTree& tree, const std::vector<uint32_t>& leaves, int threads,
+                                      const StopFlag* stop) {
   constexpr size_t piece = 4096;
   std::vector<std::vector<ListedEdge>> pieces((leaves.size() + piece - 1) / piece);
   run_parallel(pieces.size(), threads, [&](size_t p) {
+    if (stop && stop->requested()) return;
     const Lister lister(tree);
     for (size_t n = p * piece; n < std::min((p + 1) * piece, leaves.size()); ++n) lister.list(leaves[n], pieces[p]);
   });
+  if (stop && stop->requested()) throw Cancelled();
   std::vector<ListedEdge> all;
   for (const auto& part : pieces) all.insert(all.end(), part.begin(), part.end());
   return all;

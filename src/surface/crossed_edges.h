@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/progress.h"
 #include "surface/cell_tree.h"
 
 namespace ombre::surface {
@@ -28,9 +29,11 @@ struct ListedEdge {
 };
 
 // The edges that all leaves list, or those near growth, in order of the leaves, then axes. Leaves around them are
-// CellTree::none where the tree has no cell of the grid.
-std::vector<ListedEdge> crossed_edges(const CellTree& tree, bool only_near_growth, int threads);
+// CellTree::none where the tree has no cell of the grid. Throws Cancelled.
+std::vector<ListedEdge> crossed_edges(const CellTree& tree, bool only_near_growth, int threads,
+                                      const StopFlag* stop = nullptr);
 // Those of these leaves.
-std::vector<ListedEdge> crossed_edges(const CellTree& tree, const std::vector<uint32_t>& leaves, int threads);
+std::vector<ListedEdge> crossed_edges(const CellTree& tree, const std::vector<uint32_t>& leaves, int threads,
+                                      const StopFlag* stop = nullptr);
 
 }  // namespace ombre::surface

@@ -14,6 +14,7 @@
 namespace ombre::surface {
 namespace {
 
+constexpr uint32_t leaves_between_looks = 4096;       // at the stop flag
 constexpr int32_t block_units = 16 * units_per_cell;  // along each axis of a block that shares a shortened program
 
 struct EdgeKey {
@@ -30,12 +31,13 @@ struct EdgeKeyHash {
 class CrossingList {
  public:
   CrossingList(const CellTree& tree, const std::vector<Crossing>& before, const std::vector<uint32_t>& leaves,
-               int threads)
+               int threads, const StopFlag* stop)
       : tree_(tree), before_(before), leaves_(leaves) {
     note_before();
-    const std::vector<ListedEdge> listed = crossed_edges(tree, !before.empty(), threads);
+    const std::vector<ListedEdge> listed = crossed_edges(tree, !before.empty(), threads, stop);
     auto next = listed.begin();
     for (uint32_t n = 0; n < tree.leaves().size(); ++n) {
+      if (n % leaves_between_looks == 0 && stop && stop->requested()) throw Cancelled();
       take_over(n);
       for (; next != listed.end() && next->leaf == n; ++next) list(next->edge);
     }
@@ -200,14 +202,14 @@ std::vector<Crossing> find(const Partition& partition, const CellTree& tree, Cro
 
 std::vector<Crossing> find_crossings(const Partition& partition, const CellTree& tree, int threads, Progress* progress,
                                      const StopFlag* stop) {
-  return find(partition, tree, CrossingList(tree, {}, {}, threads), threads, progress, stop);
+  return find(partition, tree, CrossingList(tree, {}, {}, threads, stop), threads, progress, stop);
 }
 
 std::vector<Crossing> find_crossings_after_growth(const Partition& partition, const CellTree& tree,
                                                   const std::vector<Crossing>& before,
                                                   const std::vector<uint32_t>& leaves, int threads,
                                                   const StopFlag* stop) {
-  return find(partition, tree, CrossingList(tree, before, leaves, threads), threads, nullptr, stop);
+  return find(partition, tree, CrossingList(tree, before, leaves, threads, stop), threads, nullptr, stop);
 }
 
 }  // namespace ombre::surface

@@ -1,7 +1,7 @@
 // Edges in which a surface meets itself.
 #pragma once
 
-#include "surface/contour.h"
+#include "surface/contour_types.h"
 
 namespace ombre::surface {
 

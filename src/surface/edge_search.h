@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "surface/crossings.h"
 #include "surface/point_asker.h"
 
 namespace ombre::surface {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "surface/contour.h"
+#include "surface/contour_types.h"
 
 namespace ombre::surface {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "surface/clusters.h"
-#include "surface/contour.h"
+#include "surface/contour_types.h"
 
 namespace ombre::surface {
 

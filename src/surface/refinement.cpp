@@ -64,10 +64,10 @@ void refine(CellTree& tree, Growth first, const std::vector<CrossedEdge>& hidden
   tree.grow(first, ask);
   for (Growth more = growth_within(tree, hidden); !more.is_empty(); more = growth_within(tree, hidden))
     tree.grow(more, ask);
-  tree.grow_on(growth_around(tree, crossed_edges(tree, true, threads), true), ask,
+  tree.grow_on(growth_around(tree, crossed_edges(tree, true, threads, stop), true), ask,
                [&](const std::vector<uint32_t>& grown) {
                  const bool may_cut = tree.leaves().size() < most_leaves;
-                 return growth_around(tree, crossed_edges(tree, grown, threads), may_cut);
+                 return growth_around(tree, crossed_edges(tree, grown, threads, stop), may_cut);
                });
 }
 
