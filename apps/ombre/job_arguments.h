@@ -16,6 +16,7 @@ namespace ombre::cli {
 struct DesignArguments {
   std::string design, materials;
   std::vector<std::string> definitions;
+  std::vector<std::string> needed = {};  // variables that a command sets later, so that a script must have them
 };
 void add_design_arguments(CLI::App& app, DesignArguments& arguments);
 
