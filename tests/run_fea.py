@@ -224,6 +224,45 @@ def tetrahedra_reach_the_surface(folder):
     expect(max(len(field) for line in deck.splitlines() for field in line.split(",")) <= 40, "a long field")
 
 
+def tetrahedra_of_any_size_come_to_an_end(folder):
+    """Two balls that meet in a groove, with volumes by calculus: whatever the size, the mesher must not go on for ever where
+    slivers cannot be mended; a mesh may be too coarse for the curves, but no tetrahedron is inside out."""
+    if not has_tetrahedra(folder):
+        return
+    folder.write("balls.vcad", "union() { sphere(2, red); translate(2.5, 0, 0) sphere(2, red); }")
+    folder.write("slab.vcad", "rectprism((20, 5, 2), red);")
+    folder.write("held.json", json.dumps({**PULL, "supports": [{"on": {"where": "1"}, "fix": "xyz"}], "loads": []}))
+
+    def mesh(design, size):
+        events = folder.events(design, "--study", "held.json", "--elements", "tet4", "--size", size, "-o", "held.inp", "--force")
+        expect(events["quality"]["inverted"] == 0, str(events["quality"]))
+        return events["model"]["volume_mm3"]
+
+    cap = math.pi * 0.75**2 * (3 * 2 - 0.75) / 3
+    balls = 2 * (4 / 3 * math.pi * 2**3 - cap)
+    for size, share in (("0.75", 0.04), ("1.25", 0.06), ("2", 0.1), ("2.5", 0.12), ("3.75", 0.18)):
+        near(mesh("balls.vcad", size), balls, share * balls, f"the balls' volume at {size}")
+    near(mesh("slab.vcad", "3.75"), 20 * 5 * 2, 0.1, "the slab's volume")
+
+
+def designs_with_rough_edges_come_to_an_end(folder):
+    """Slivers of a surface are no edges; and where edges lie too close together, a warning says that they are cut off."""
+    if not has_tetrahedra(folder):
+        return
+    colours = {name: RED for name in ("red", "clear", "cyan", "magenta")}
+    folder.write("held.json", json.dumps({**PULL, "materials": colours, "supports": [{"on": {"where": "1"}, "fix": "xyz"}],
+                                          "loads": []}))
+
+    def mesh(design, size):
+        result = folder.run(program.SOURCE / "examples" / design, "--study", "held.json", "--elements", "tet4", "--size", size,
+                            "-o", "held.inp", "--force")
+        expect(" 0 inverted" in result.stdout + result.stderr, result.stderr)
+        return result.stderr
+
+    expect("cut off" not in mesh("two_lobes.vcad", "3"), "edges of two lobes are cut off")
+    expect("sharp edges are cut off by up to 1.2 mm" in mesh("mug.vcad", "6"), "no warning")
+
+
 def adaptive_meshes_cost_less(folder):
     """Fig. 7 of the 2025 paper: a graded bar; small elements where the mixture is even."""
     if not has_tetrahedra(folder):
@@ -402,10 +441,12 @@ def wrong_use_of_rounds_is_told(folder):
     expect("-o part.vtu" in error("--rounds", "3", "--follow", "moved", "-o", "x.csv"), "no results")
     expect("--rounds 5" in error("--follow", "moved", "-o", "x.vtu"), "no rounds")
     expect("--rounds 5" in error("-o", "x.csv", "--solve"), "a history of one")
-    result = folder.run("cube.vcad", "--study", "pull.json", "--cell", "2.5", "--rounds", "3", "--follow", "moved", "-o", "x.vtu")
-    expect('no variable "moved"' in result.stderr and "nothing changes any more after 1 round" in result.stdout + result.stderr,
-           result.stderr)
-    expect((folder.path / "x_1.vtu").exists() and not (folder.path / "x_2.vtu").exists(), "files")
+    # Before anything is solved.
+    folder.write("misspelt.vcad", FOLLOWING)
+    result = folder.run("misspelt.vcad", "--study", "pull.json", "--cell", "2.5", "--rounds", "3", "--follow", "movd", "-o", "x.vtu",
+                        status=1)
+    expect('no variable "movd"' in result.stderr and 'did you mean "moved"' in result.stderr, result.stderr)
+    expect(not (folder.path / "x_1.vtu").exists(), "a file is written")
 
 
 def wrong_use_is_told(folder):
@@ -473,6 +514,7 @@ def main():
 
     checks = [bars_stretch_by_hookes_law, results_are_in_the_grid, mixtures_are_drawn_or_mixed,
               moduli_come_from_attributes, decks_are_complete, tetrahedra_reach_the_surface,
+              tetrahedra_of_any_size_come_to_an_end, designs_with_rough_edges_come_to_an_end,
               adaptive_meshes_cost_less, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix,
               a_hook_holds_its_coat, a_mug_cools, materials_that_are_nowhere_need_no_properties, results_are_in_xdmf, rounds_follow_their_results,
               wrong_use_of_rounds_is_told, wrong_use_is_told,

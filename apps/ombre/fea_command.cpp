@@ -241,6 +241,7 @@ void tell_change(const Console& console, int round, std::optional<double> change
 int run_rounds(FeaArguments a, Session& session) {
   const Stopwatch watch;
   const std::vector<std::string> definitions = a.design.definitions;
+  a.design.needed = {a.follow};
   RoundHistory history;
   RoundModel before;
   DataList files;

@@ -25,7 +25,8 @@ bool is_scan(const std::string& path) {
   return std::ranges::any_of(endings, [&](const char* ending) { return name.ends_with(ending); });
 }
 
-compile::LoadedPtr load_scan(const compile::DesignOptions& arguments, Session& session, Diagnostics& diagnostics, int threads) {
+compile::LoadedPtr load_scan(const compile::DesignOptions& arguments, Session& session, Diagnostics& diagnostics,
+                             int threads) {
   const fs::path path = fs::absolute(arguments.design).lexically_normal();
   const fs::path file = path.has_filename() ? path : path.parent_path();
   const std::string name = print_json_line(Data(file.filename().string()));

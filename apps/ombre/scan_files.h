@@ -12,6 +12,7 @@ namespace ombre::cli {
 bool is_scan(const std::string& path);
 // The numbers of a volume as a design: a solid that fills the grid, with the attributes "number", linear between
 // voxels, and "nearest". Null, and diagnostics, when it cannot be read.
-compile::LoadedPtr load_scan(const compile::DesignOptions& arguments, Session& session, Diagnostics& diagnostics, int threads);
+compile::LoadedPtr load_scan(const compile::DesignOptions& arguments, Session& session, Diagnostics& diagnostics,
+                             int threads);
 
 }  // namespace ombre::cli

@@ -14,7 +14,8 @@ namespace ombre::compile {
 struct DesignOptions {
   std::string design, materials;
   std::vector<std::string> definitions;
-  std::optional<Vec3> rotate = {};  // degrees about x, then y, then z
+  std::vector<std::string> needed = {};  // variables that the command sets later, so that a script must have them
+  std::optional<Vec3> rotate = {};       // degrees about x, then y, then z
 
   static const options::Spec<DesignOptions>& options() {
     using namespace options;

@@ -63,6 +63,7 @@ std::optional<design::Design> run_script(const SourcePtr& source, const LoadOpti
   run.stop = options.stop;
   run.read_file = [&](const std::string& name) { return sources::read_included(name, cache); };
   run.threads = options.threads > 0 ? options.threads : core_count();
+  run.needed = options.needed;
   for (const std::string& text : options.definitions)
     if (auto definition = parse_definition(text, diagnostics)) run.definitions.push_back(std::move(*definition));
   if (!materials || diagnostics.has_errors()) return std::nullopt;

@@ -23,6 +23,7 @@ namespace ombre::compile {
 struct LoadOptions {
   std::string materials;                                   // path of a materials file; empty: the default set
   std::vector<std::string> definitions;                    // "name=value", set before the script runs
+  std::vector<std::string> needed = {};                    // variables that a script must have
   std::function<void(const std::string&)> echo = nullptr;  // where the script's echo goes; may be empty
   const StopFlag* stop = nullptr;
   int threads = 0;                        // 0: all cores

@@ -11,9 +11,10 @@ namespace {
 
 constexpr double sharp_cosine = 0.766;   // of 40 degrees, between normals
 constexpr double corner_cosine = 0.766;  // between a line's directions before and after a point
-// Lengths, as multiples of the element size: the shortest line that ends nowhere; how far fixed points are from each
-// other, and from the lowest one.
-constexpr double least_length = 0.5, spacing = 0.7, reach = 2;
+// Lengths, as multiples of the element size: the shortest line that ends nowhere, and lines that hang together of which
+// one does; lines whose ends are one corner; how far fixed points are from each other, and from the lowest one.
+constexpr double least_length = 0.5, least_open_length = 4, join_length = 0.05;
+constexpr double spacing = 0.7, reach = 2;
 
 using Key = std::array<double, 3>;
 using Edge = std::pair<uint32_t, uint32_t>;  // the lesser point first
@@ -80,11 +81,16 @@ class EdgeFinder {
       ++degrees_[a], ++degrees_[b];
     }
     // Open lines begin where not two edges meet; what is left then are rings.
+    std::vector<Vertices> lines;
     for (uint32_t n = 0; n < neighbours_.size(); ++n)
       if (degrees_[n] != 2)
-        while (!neighbours_[n].empty()) keep(line_from(n));
+        while (!neighbours_[n].empty()) lines.push_back(line_from(n));
     for (uint32_t n = 0; n < neighbours_.size(); ++n)
-      while (!neighbours_[n].empty()) keep(line_from(n));
+      while (!neighbours_[n].empty()) lines.push_back(line_from(n));
+    drop_scraps(lines);
+    join_near_corners(lines);
+    for (const Vertices& line : lines) keep(line);
+    drop_doubled();
     return std::move(found_);
   }
 
@@ -195,11 +201,55 @@ class EdgeFinder {
     return line;
   }
 
-  void keep(const std::vector<uint32_t>& line) {
+  double length_of(const Vertices& line) const {
     double sum = 0;
     for (size_t n = 0; n + 1 < line.size(); ++n) sum += length(points_.all[line[n + 1]] - points_.all[line[n]]);
-    const bool ends_nowhere = degrees_[line.front()] == 1 || degrees_[line.back()] == 1;
-    if (sum < least_length * size_mm_ && ends_nowhere) return;
+    return sum;
+  }
+
+  bool ends_nowhere(const Vertices& line) const { return degrees_[line.front()] == 1 || degrees_[line.back()] == 1; }
+
+  // Rough surfaces have short sharp edges here and there, and no mesh needs them: drops short lines that end nowhere,
+  // and all lines that hang together where some end nowhere and they are short together.
+  void drop_scraps(std::vector<Vertices>& lines) {
+    std::vector<uint32_t> parents(points_.all.size());
+    std::iota(parents.begin(), parents.end(), 0U);
+    for (const Vertices& line : lines) {
+      const uint32_t a = root_in(parents, line.front()), b = root_in(parents, line.back());
+      parents[std::max(a, b)] = std::min(a, b);
+    }
+    std::map<uint32_t, double> lengths;
+    std::map<uint32_t, bool> is_open;
+    for (const Vertices& line : lines) {
+      const uint32_t root = root_in(parents, line.front());
+      lengths[root] += length_of(line);
+      is_open[root] |= ends_nowhere(line);
+    }
+    std::erase_if(lines, [&](const Vertices& line) {
+      const uint32_t root = root_in(parents, line.front());
+      if (is_open[root] && lengths[root] < least_open_length * size_mm_) return true;
+      return ends_nowhere(line) && length_of(line) < least_length * size_mm_;
+    });
+  }
+
+  // Makes one corner of the two ends of lines that are far shorter than elements, which would have to be as small.
+  void join_near_corners(std::vector<Vertices>& lines) {
+    std::vector<uint32_t> parents(points_.all.size());
+    std::iota(parents.begin(), parents.end(), 0U);
+    const auto is_short = [&](const Vertices& line) { return length_of(line) < join_length * size_mm_; };
+    for (const Vertices& line : lines) {
+      if (!is_short(line)) continue;
+      const uint32_t a = root_in(parents, line.front()), b = root_in(parents, line.back());
+      parents[std::max(a, b)] = std::min(a, b);
+    }
+    std::erase_if(lines, is_short);
+    for (Vertices& line : lines) {
+      line.front() = root_in(parents, line.front());
+      line.back() = root_in(parents, line.back());
+    }
+  }
+
+  void keep(const Vertices& line) {
     std::vector<Vec3> points;
     for (const uint32_t n : line) points.push_back(points_.all[n]);
     const bool is_ring = line.front() == line.back();
@@ -213,7 +263,21 @@ class EdgeFinder {
     } else {
       simple = simplified(points);
     }
+    if (is_ring && simple.size() < 4) return;  // there and back
     split(simple, is_ring);
+  }
+
+  // Slivers of the surface have rings so thin that, made simpler, their sides are the same line. They are no edges.
+  void drop_doubled() {
+    using Ends = std::pair<Key, Key>;
+    const auto key = [](Vec3 p) { return Key{p.x, p.y, p.z}; };
+    const auto ends = [&](const std::vector<Vec3>& line) -> Ends {
+      return std::minmax(key(line.front()), key(line.back()));
+    };
+    std::map<Ends, int> counts;
+    for (const auto& line : found_.lines)
+      if (line.size() == 2) ++counts[ends(line)];
+    std::erase_if(found_.lines, [&](const auto& line) { return line.size() == 2 && counts[ends(line)] > 1; });
   }
 
   static ptrdiff_t farthest_from_first(const std::vector<Vec3>& points) {

@@ -16,7 +16,8 @@ struct SharpEdges {
 // Edges of the bodies whose triangles' normals differ by more than some forty degrees; lines go from one corner to the
 // next, where others meet or they turn sharply, and leave out points within the tolerance. What bodies share is there
 // once. Lines that are shorter than half the size of elements and end nowhere are
-// left out.
+// left out, and so are those of rough places: lines that hang together, some of which end nowhere, shorter together
+// than four sizes. The ends of lines far shorter than elements become one corner.
 SharpEdges find_sharp_edges(const std::vector<surface::Body>& bodies, double tolerance_mm, double size_mm);
 
 }  // namespace ombre::compile

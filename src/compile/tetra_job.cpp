@@ -21,8 +21,9 @@ namespace {
 constexpr double cell_share = 0.5, tolerance_share = 0.01, most_cells_along = 500, least_sizes_along = 8;
 // Measured: of the size's third power a tetrahedron has so much, and asks for the region so many times.
 constexpr double volume_of_cube = 0.115, questions_of_element = 60;
-constexpr double most_questions = 300;  // of an expected element: then the mesher does not come to an end
+constexpr double most_questions = 400;  // of an expected element: then the mesher does not come to an end
 constexpr double bytes_of_element = 700;
+constexpr double rough_share = 0.2;  // of the size: how far faces may lie from a surface whose edges are cut off
 constexpr double least_share = 0.9;  // of the surface's volume that tetrahedra fill
 constexpr double draws = 16777216;   // 2^24
 
@@ -141,7 +142,8 @@ class TetraMaker {
     return false;
   }
 
-  // Again with points on all faces, where much of the volume was not found.
+  // Again with points on all faces, where much of the volume was not found; without sharp edges where they lie so close
+  // together or are so rough that there is no end.
   solids::Tetrahedra mesh(ElementSize& size, const Box& box, double volume_mm3) {
     std::vector<surface::Body> bodies;
     for (const RegionBody& body : surface_) bodies.push_back(body.body);
@@ -163,11 +165,31 @@ class TetraMaker {
     alone.threads = 1;
     stages_of(design_)->lend(alone);
     if (progress_) progress_->preparing("tetrahedra", {0, 1});
-    solids::Tetrahedra made = solids::make_tetrahedra(wanted);
+    const auto make = [&] {
+      questions_ = 0;
+      return solids::make_tetrahedra(wanted);
+    };
+    const auto add_face_points = [&] {
+      wanted.fixed_points.insert(wanted.fixed_points.end(), edges.face_points.begin(), edges.face_points.end());
+    };
+    solids::Tetrahedra made;
+    try {
+      made = make();
+    } catch (const Error& failure) {
+      if (wanted.sharp_edges.empty()) throw;
+      wanted.sharp_edges.clear();
+      wanted.distance_share = rough_share;
+      add_face_points();
+      made = make();
+      diagnostics_.warning({loaded_->source, 0, 0},
+                           "sharp edges are cut off by up to " + format_rounded(rough_share * size.least_mm(), 2) +
+                               " mm, since with them " + failure.what(),
+                           "choose a smaller --size, or bricks");
+      return made;
+    }
     if (volume_of(made) > least_share * volume_mm3) return made;
-    wanted.fixed_points.insert(wanted.fixed_points.end(), edges.face_points.begin(), edges.face_points.end());
-    questions_ = 0;
-    return solids::make_tetrahedra(wanted);
+    add_face_points();
+    return make();
   }
 
   static double volume_of(const solids::Tetrahedra& made) {
@@ -184,7 +206,7 @@ class TetraMaker {
     if (++questions_ % look_each != 0) return;
     if (static_cast<double>(questions_) > most_questions * (plan_.elements + 5000))
       throw Error("the tetrahedra become far too many and too small, about " + format_rounded(plan_.elements, 2) +
-                  " were expected: choose another --size, since sharp edges may lie too close together for this one");
+                  " were expected: sharp edges may lie too close together for this size");
     if (stop_ && stop_->requested()) throw Cancelled();
     if (!progress_) return;
     const auto total = static_cast<uint64_t>(plan_.elements * questions_of_element) + look_each;

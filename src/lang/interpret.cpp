@@ -29,14 +29,11 @@ Interpreter::Interpreter(const Program& program, Vocabulary& vocabulary, const O
   special("$preview", false);
 }
 
-// A definition whose name the script does not have is a slip of the pen.
-void Interpreter::warn_of_unused(const Definition& definition, const Unit& main) {
+// A name that is to be set, and that the script does not have, is a slip of the pen.
+void Interpreter::tell_missing(Severity severity, const std::string& name, const std::string& what, const Unit& main) {
   std::vector<std::string> names;
   for (const ast::Assign* assignment : main.plan.assignments) names.emplace_back(*assignment->name.symbol);
-  report({Severity::warning,
-          {},
-          "the design has no variable \"" + definition.name + "\" that -D could set",
-          did_you_mean(definition.name, names)});
+  report({severity, {}, "the design has no variable \"" + name + "\" " + what, did_you_mean(name, names)});
 }
 
 Interpreter::Nodes Interpreter::run() {
@@ -44,9 +41,12 @@ Interpreter::Nodes Interpreter::run() {
   try {
     const Unit& main = program_.units.front();
     for (const Definition& definition : options_.definitions) {
-      if (!program_.names->contains(definition.name)) warn_of_unused(definition, main);
+      if (!program_.names->contains(definition.name))
+        tell_missing(Severity::warning, definition.name, "that -D could set", main);
       overrides_[program_.names->intern(definition.name)] = from_data(definition.value, meter_);
     }
+    for (const std::string& name : options_.needed)
+      if (!program_.names->contains(name)) tell_missing(Severity::error, name, "that could get what is found", main);
     const ScopePtr& scope = unit_scope(main);
     try {
       run_actions(main.plan, scope, nodes);

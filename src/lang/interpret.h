@@ -21,6 +21,7 @@ struct Definition {
 
 struct Options {
   std::vector<Definition> definitions;
+  std::vector<std::string> needed;  // variables that the script must have, since they are set later
   Limits limits;
   int threads = 1;                               // with more than one, long lists are read ahead of their evaluation
   const StopFlag* stop = nullptr;                // checked now and then; Cancelled is thrown

@@ -103,7 +103,7 @@ class Interpreter {
   // --- statements.cpp
   const ScopePtr& unit_scope(const Unit& unit);
   void assign(const ast::Plan& plan, const ScopePtr& scope, bool is_main);
-  void warn_of_unused(const Definition& definition, const Unit& main);
+  void tell_missing(Severity severity, const std::string& name, const std::string& what, const Unit& main);
   // `ends`, where it is given, gets the size of `out` after each statement that makes solids, however many.
   void run_block(const ast::Block& block, const ScopePtr& outer, Nodes& out, std::vector<size_t>* ends = nullptr);
   void run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out, std::vector<size_t>* ends = nullptr);

@@ -1,9 +1,10 @@
 // Mixtures of materials that show a colour.
 //
 // Small droplets side by side look like the mean of their light, so what materials can show together is the convex hull
-// of their colours in linear light. Of the mixtures that show a colour, the one is taken in which brightness varies least
-// from droplet to droplet (D. Shaked, N. Arad, A. Fitzhugh and I. Sobel, "Color Diffusion: Error-Diffusion for Color
-// Halftones", HP Laboratories 1996). Colours beyond the hull give way to the nearest of the hull, in linear light.
+// of their colours in linear light. Of the mixtures that show a colour, the one is taken in which brightness varies
+// least from droplet to droplet (D. Shaked, N. Arad, A. Fitzhugh and I. Sobel, "Color Diffusion: Error-Diffusion for
+// Color Halftones", HP Laboratories 1996). Colours beyond the hull give way to the nearest of the hull, in linear
+// light.
 #pragma once
 
 #include <vector>

@@ -6,9 +6,12 @@
 #include <CGAL/Mesh_domain_with_polyline_features_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Random.h>
+#include <CGAL/exude_mesh_3.h>
 #include <CGAL/make_mesh_3.h>
+#include <CGAL/perturb_mesh_3.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -25,10 +28,16 @@ using Triangulation = CGAL::Mesh_triangulation_3<Domain, CGAL::Default, CGAL::Se
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
 using Usual = CGAL::Mesh_criteria_3<Triangulation>;
 
-// Shares of the element size: radii of the balls around facets and cells, so that the mean edge has about the size, and
-// how far facets may lie from the surface.
-constexpr double facet_share = 0.8, cell_share = 0.8, distance_share = 0.05;
+// Shares of the element size: radii of the balls around facets and cells, so that the mean edge has about the size; how
+// far edges may lie from sharp edges.
+constexpr double facet_share = 0.8, cell_share = 0.8;
+// Balls around points of sharp edges, in all and for each of their sizes; lines that cross would have no end of them.
+constexpr double most_balls = 20'000, most_balls_of_size = 50;
+constexpr double edge_distance_share = 0.03;
 constexpr double least_angle = 25, most_radius_to_edge = 2.2;
+// Angles between faces of slivers are less than this; how many questions may be asked to mend them.
+constexpr double sliver_degrees = 12;
+constexpr uint64_t questions_to_mend = 500'000, questions_to_mend_of_cell = 100;
 // How near to the surface its points lie, as a share of the size.
 constexpr double surface_error = 1e-4;
 
@@ -37,6 +46,20 @@ Vec3 vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
 // Facets and cells with a shorter edge, in sizes, are left as they are: where surfaces meet in a sharp angle that is no
 // protected edge, refinement would not end.
 constexpr double least_edge = 0.03;
+
+// Counts what the mesher asks, and stops it by Enough where it asks more than is allowed.
+class Questions {
+ public:
+  struct Enough {};
+  void allow(uint64_t more) { left_ = more; }
+  void allow_all() { left_ = std::numeric_limits<uint64_t>::max(); }
+  void count() {
+    if (left_-- == 0) throw Enough();
+  }
+
+ private:
+  uint64_t left_ = std::numeric_limits<uint64_t>::max();
+};
 
 // A size that depends on the point, as criteria ask for it.
 struct Sizing {
@@ -49,6 +72,73 @@ struct Sizing {
     return share * (*size_mm)({p.x(), p.y(), p.z()});
   }
 };
+
+// The same along sharp edges, where balls around their points must also follow bends.
+struct EdgeSizing {
+  using FT = Geometry::FT;
+  using Point_3 = Point;
+  const Domain* domain;
+  const TetrahedraRequest* request;
+  const std::vector<std::vector<double>>* longest_mm;  // of chords, for each point of each line
+  uint64_t* left;                                      // how many times more it may be asked
+  template <class P, class Index>
+  FT operator()(const P& p, int dimension, const Index& index) const {
+    if ((*left)-- == 0) throw Error("sharp edges lie too close together for this size");
+    const Vec3 at = {p.x(), p.y(), p.z()};
+    const double size = request->size_mm(at);
+    if (dimension != 1) return std::min(size, at_corner(at));
+    const auto line = static_cast<size_t>(domain->curve_index(index)) - 1;
+    return std::min(size, on_line(at, request->sharp_edges[line], (*longest_mm)[line]));
+  }
+
+  double at_corner(Vec3 at) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (size_t line = 0; line < request->sharp_edges.size(); ++line) {
+      if (request->sharp_edges[line].front() == at) least = std::min(least, (*longest_mm)[line].front());
+      if (request->sharp_edges[line].back() == at) least = std::min(least, (*longest_mm)[line].back());
+    }
+    return least;
+  }
+
+  static double on_line(Vec3 at, const Polyline& line, const std::vector<double>& longest_mm) {
+    double nearest = std::numeric_limits<double>::infinity(), found = nearest;
+    for (size_t n = 0; n + 1 < line.size(); ++n) {
+      const Vec3 along = line[n + 1] - line[n];
+      const double share = std::clamp(dot(at - line[n], along) / dot(along, along), 0.0, 1.0);
+      const double off = length(at - line[n] - share * along);
+      if (off < nearest) nearest = off, found = std::min(longest_mm[n], longest_mm[n + 1]);
+    }
+    return found;
+  }
+};
+
+// How far a chord from a point of a line may reach in one direction until the line is farther than `most_off_mm` from
+// it.
+double longest_chord(const Polyline& line, size_t from, ptrdiff_t step, double most_off_mm) {
+  const auto is_on = [&](ptrdiff_t n) { return n >= 0 && n < static_cast<ptrdiff_t>(line.size()); };
+  const auto point = [&](ptrdiff_t n) { return line[static_cast<size_t>(n)]; };
+  double reached = std::numeric_limits<double>::infinity();
+  const auto begin = static_cast<ptrdiff_t>(from);
+  for (ptrdiff_t end = begin + step; is_on(end); end += step) {
+    const Vec3 chord = point(end) - point(begin);
+    for (ptrdiff_t n = begin + step; n != end; n += step) {
+      const Vec3 away = point(n) - point(begin);
+      const double share = dot(chord, chord) > 0 ? std::clamp(dot(away, chord) / dot(chord, chord), 0.0, 1.0) : 0;
+      if (length(away - share * chord) > most_off_mm) return reached;
+    }
+    reached = length(chord);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+std::vector<double> longest_chords(const Polyline& line, const std::function<double(Vec3)>& size_mm) {
+  std::vector<double> found;
+  for (size_t n = 0; n < line.size(); ++n) {
+    const double most_off = edge_distance_share * size_mm(line[n]);
+    found.push_back(std::min(longest_chord(line, n, 1, most_off), longest_chord(line, n, -1, most_off)));
+  }
+  return found;
+}
 
 // Is an edge between these corners of a cell too short to refine what has it?
 template <size_t count>
@@ -159,13 +249,38 @@ Tetrahedra in_order(const Complex& complex) {
   return made;
 }
 
+// Moves nodes of slivers, then gives nodes weights. Some slivers between protected balls cannot be mended, and the
+// search for a better place, which tries chance, would go on for many minutes, so that it has so many questions; where
+// they are not enough its work is dropped, and less is wanted. (CGAL's own limit is one of time, so that each run would
+// give another mesh; 0 is none.)
+void mend_slivers(const Domain& domain, Questions& questions, Complex& complex) {
+  namespace params = CGAL::parameters;
+  for (const double share : {1.0, 0.5, 0.25}) {
+    Complex moved(complex);
+    questions.allow(questions_to_mend + questions_to_mend_of_cell * complex.number_of_cells());
+    try {
+      CGAL::perturb_mesh_3(moved, domain, params::time_limit = 0, params::sliver_bound = share * sliver_degrees);
+    } catch (const Questions::Enough&) {
+      continue;
+    }
+    complex = std::move(moved);
+    break;
+  }
+  questions.allow_all();
+  CGAL::exude_mesh_3(complex, params::time_limit = 0, params::sliver_bound = sliver_degrees);
+}
+
 Tetrahedra make(const TetrahedraRequest& request) {
   namespace params = CGAL::parameters;
   CGAL::get_default_random() = CGAL::Random(0);
   CGAL::Random random(0);
   const Box& box = request.box;
   const Geometry::Iso_cuboid_3 around(Point(box.lo.x, box.lo.y, box.lo.z), Point(box.hi.x, box.hi.y, box.hi.z));
-  const auto region = [&](const Point& p) { return static_cast<int>(request.region(vec(p))); };
+  Questions questions;
+  const auto region = [&](const Point& p) {
+    questions.count();
+    return static_cast<int>(request.region(vec(p)));
+  };
   Domain domain(params::function = region, params::bounding_object = around, params::p_rng = &random,
                 params::relative_error_bound = surface_error * request.least_size_mm / length(box.size()));
   std::vector<std::vector<Point>> edges;
@@ -175,18 +290,22 @@ Tetrahedra make(const TetrahedraRequest& request) {
   }
   domain.add_features(edges.begin(), edges.end());
   for (const Vec3& p : request.fixed_points) domain.add_corner(Point(p.x, p.y, p.z));
-  const Sizing edge{&request.size_mm, 1}, facet{&request.size_mm, facet_share}, cell{&request.size_mm, cell_share},
-      distance{&request.size_mm, distance_share};
+  std::vector<std::vector<double>> longest_mm;
+  for (const Polyline& line : request.sharp_edges) longest_mm.push_back(longest_chords(line, request.size_mm));
+  double all_mm = 0;
+  for (const Polyline& line : request.sharp_edges)
+    for (size_t n = 0; n + 1 < line.size(); ++n) all_mm += length(line[n + 1] - line[n]);
+  auto left = static_cast<uint64_t>(most_balls + most_balls_of_size * all_mm / request.least_size_mm);
+  const EdgeSizing edge{&domain, &request, &longest_mm, &left};
+  const Sizing facet{&request.size_mm, facet_share}, cell{&request.size_mm, cell_share},
+      distance{&request.size_mm, request.distance_share};
   const Usual usual(params::edge_size = edge, params::facet_angle = least_angle, params::facet_size = facet,
                     params::facet_distance = distance, params::cell_radius_edge_ratio = most_radius_to_edge,
                     params::cell_size = cell);
   const Criteria criteria(usual, request.size_mm);
-  // 0 is no limit. By default the steps that mend slivers stop after as many seconds as meshing took, so that each run
-  // would give another mesh.
-  const Complex complex =
-      CGAL::make_mesh_3<Complex>(domain, criteria, params::features(domain), params::no_lloyd(), params::no_odt(),
-                                 params::perturb(params::time_limit = 0, params::sliver_bound = 12),
-                                 params::exude(params::time_limit = 0, params::sliver_bound = 12));
+  Complex complex = CGAL::make_mesh_3<Complex>(domain, criteria, params::features(domain), params::no_lloyd(),
+                                               params::no_odt(), params::no_perturb(), params::no_exude());
+  mend_slivers(domain, questions, complex);
   return in_order(complex);
 }
 

@@ -33,9 +33,7 @@ std::string make_and_pack(Make* make, const TetrahedraRequest& request) {
 }
 
 std::string explain(HelperFailure) {
-  return "the mesher of tetrahedra crashed, most likely since sharp edges cross or touch each other: choose another "
-         "size "
-         "of elements, or use bricks";
+  return "the mesher of tetrahedra crashed, most likely since sharp edges cross or touch each other";
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ struct TetrahedraRequest {
   std::vector<Polyline> sharp_edges;
   // Points of the surface that become nodes, for closed surfaces without sharp edges, which are not found otherwise.
   std::vector<Vec3> fixed_points;
+  double distance_share = 0.05;           // how far faces may lie from the surface, in sizes
   size_t memory_bytes = size_t{8} << 30;  // most that the mesher may take
   const StopFlag* stop = nullptr;         // may be null
 };
