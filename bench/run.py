@@ -7,7 +7,7 @@
     ./dev bench --against main          this build and another commit's, in turns
     ./dev bench --scaling               what threads gain, beside copies of the program that share nothing
 
-docs/performance.md explains rows and columns. Nothing is asserted: figures are for this machine, now.
+docs/developer/performance.md explains rows and columns. Nothing is asserted: figures are for this machine, now.
 """
 import argparse
 import json

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Simulations of the paper of OpenVCAD (2025), as docs/simulation-studies.md shows them.
+"""Simulations of the paper of OpenVCAD (2025), as docs/user/simulation-studies.md shows them.
 
     python3 bench/simulation_studies.py lattice build/release/apps/ombre/ombre      Section 3.3.1 and Fig. 8
     python3 bench/simulation_studies.py lattice ... --calculix                      rule 2 by CalculiX, too

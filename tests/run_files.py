@@ -343,10 +343,10 @@ def bundles_slice_as_their_designs_do(job):
 
 def reference_is_up_to_date(job):
     printed = program.run([job.ombre, "nodes", "--markdown"]).stdout
-    reference = program.SOURCE / "docs" / "nodes.md"
+    reference = program.SOURCE / "docs" / "reference" / "nodes.md"
     found = reference.read_text(encoding="utf-8") if reference.exists() else ""
-    expect(found == printed, "docs/nodes.md is not what the program prints; write it anew with\n"
-                             f"{job.ombre} nodes --markdown > docs/nodes.md")
+    expect(found == printed, "docs/reference/nodes.md is not what the program prints; write it anew with\n"
+                             f"{job.ombre} nodes --markdown > docs/reference/nodes.md")
 
 
 def examples_of_nodes_slice(job):

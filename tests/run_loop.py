@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The seat of the examples: solved soft, graded by what moved, and solved again, as docs/simulation-loop.md tells.
+"""The seat of the examples: solved soft, graded by what moved, and solved again, as docs/user/simulation-loop.md tells.
 
     python3 tests/run_loop.py build/dev/apps/ombre/ombre
 """

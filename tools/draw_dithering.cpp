@@ -1,4 +1,4 @@
-// Draws the pictures of docs/dithering.md and prints its figures:
+// Draws the pictures of docs/user/dithering.md and prints its figures:
 // ninja -C build/dev draw_dithering && build/dev/tools/draw_dithering docs
 #include <array>
 #include <cstdio>

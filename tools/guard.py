@@ -9,7 +9,7 @@
     ./dev guard record FILE --only 'gear|say-'         jobs whose "DESIGN JOB" holds this regular expression
     ./dev guard record FILE --program PATH/ombre       another build
 
-tools/guard_jobs.py has the table of designs and jobs; docs/guard.md says more.
+tools/guard_jobs.py has the table of designs and jobs; docs/developer/guard.md says more.
 """
 import argparse
 import collections

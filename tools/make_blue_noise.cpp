@@ -11,7 +11,7 @@
 //
 // The second keeps voxels of one material from standing on each other. With coupling 0 the layers know
 // nothing of each other; with coupling 1 and `beside` as wide as `in_layer` they lose their own blue. The
-// figures do both well: see docs/dithering.md.
+// figures do both well: see docs/user/dithering.md.
 //
 // The file holds each voxel's rank, 16 bits, the low byte first; x runs fastest, then y, then z.
 #include <algorithm>

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws examples/pictures/NAME.png for every example, and the pictures of the documents; writes docs/examples.md.
+# Draws examples/pictures/NAME.png for every example, and the pictures of the documents; writes docs/user/examples.md.
 #
 #   tools/make_pictures.sh PATH_OF_OMBRE [NAME ...]
 set -euo pipefail
@@ -57,9 +57,9 @@ draw_layers() {
 
 # What an example's first lines say of it, and its picture.
 describe() {
-  printf '\n## [%s](../%s)\n\n' "$1" "$(design "$1")"
+  printf '\n## [%s](../../%s)\n\n' "$1" "$(design "$1")"
   sed -n '/^\/\//!q; s/^\/\/ \?//; s/[*<]/\\&/g; s/^\(From\|After\|Try\):/\n&/; p' "$(design "$1")"
-  printf '\n![%s](../examples/pictures/%s.png)\n' "$1" "$1"
+  printf '\n![%s](../../examples/pictures/%s.png)\n' "$1" "$1"
 }
 
 # The bodies of a gear's bands, one above the other.
@@ -79,10 +79,10 @@ draw_seat() {
   local study=examples/studies/rider.json
   "$ombre" fea examples/seat.vcad --study "$study" --cell 4 --solve --tolerance 1e-5 -o "$scratch/soft.vtu" --force --quiet
   "$ombre" render "$scratch/soft.vtu" --by displacement --deform 5 --legend --from -35,30 --size 640x400 \
-    -o docs/seat_moved.png --force --quiet
-  echo docs/seat_moved.png
-  render seat docs/seat_graded.png 640x400 -D "moved=$scratch/soft.vtu" --from -35,30
-  render seat docs/seat_slice.png 640x260 -D "moved=$scratch/soft.vtu" --slice y=0
+    -o docs/user/seat_moved.png --force --quiet
+  echo docs/user/seat_moved.png
+  render seat docs/user/seat_graded.png 640x400 -D "moved=$scratch/soft.vtu" --from -35,30
+  render seat docs/user/seat_slice.png 640x260 -D "moved=$scratch/soft.vtu" --slice y=0
 }
 
 mkdir -p examples/pictures
@@ -98,17 +98,17 @@ if [[ $# -eq 0 || " $* " == *" docs "* ]]; then
     for file in examples/*.vcad; do describe "$(basename "$file" .vcad)"; done
     printf '\n# OpenSCAD scripts\n\nDesigns as they are usual there; [openscad.md](openscad.md) says what Ombre does with them.\n'
     for file in examples/openscad/*.scad; do describe "$(basename "$file" .scad)"; done
-  } >docs/examples.md
-  echo docs/examples.md
+  } >docs/user/examples.md
+  echo docs/user/examples.md
   render graded_wing docs/hero.png 1000x360 --from -20,35 --aa 3
-  render gear docs/picture_labels.png 480x320 --annotate
-  render traffic_light docs/picture_names.png 480x360 --by parts --outlines parts --names parts --legend
-  render knob docs/picture_slice.png 480x320 --slice x=0 --annotate
-  render mug docs/picture_perspective.png 480x320 --perspective 70 --from 40,35
-  render knob docs/picture_translucent.png 480x320 --opacity magenta=0.1
-  render soft_actuator docs/picture_box.png 480x320 --box=-2,-2,-1,0,2,1 --background "#203040"
-  draw_bands docs/mesh_bands.png
-  draw_layers graded_wing docs/wing_layers.png 6 --layers 18:48
-  draw_layers knob docs/knob_layers.png 8 --voxel 0.2
+  render gear docs/user/picture_labels.png 480x320 --annotate
+  render traffic_light docs/user/picture_names.png 480x360 --by parts --outlines parts --names parts --legend
+  render knob docs/user/picture_slice.png 480x320 --slice x=0 --annotate
+  render mug docs/user/picture_perspective.png 480x320 --perspective 70 --from 40,35
+  render knob docs/user/picture_translucent.png 480x320 --opacity magenta=0.1
+  render soft_actuator docs/user/picture_box.png 480x320 --box=-2,-2,-1,0,2,1 --background "#203040"
+  draw_bands docs/user/mesh_bands.png
+  draw_layers graded_wing docs/user/wing_layers.png 6 --layers 18:48
+  draw_layers knob docs/user/knob_layers.png 8 --voxel 0.2
   draw_seat
 fi

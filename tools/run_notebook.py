@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs a notebook and writes it with what its cells gave, without times and counts that differ from run to run.
 
-    python3 tools/run_notebook.py docs/tutorial.ipynb [-o OUT.ipynb]
+    python3 tools/run_notebook.py docs/user/tutorial.ipynb [-o OUT.ipynb]
 """
 import argparse
 

@@ -101,7 +101,8 @@ int show_node(const std::string& wanted, Session& session) {
 std::string reference() {
   std::string text =
       "# Nodes\n\nMade by `ombre nodes --markdown`; `ombre nodes NAME` shows one. Lengths are mm, angles degrees.\n"
-      "\"Number or field\" means that an expression in quotes or a [value](values.md) may stand for the number.\n";
+      "\"Number or field\" means that an expression in quotes or a [value](../user/values.md) may stand for the "
+      "number.\n";
   std::string category;
   for (const auto& type : compile::node_registry().types()) {
     if (type->category != category) text += "\n## " + type->category + "\n";

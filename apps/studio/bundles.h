@@ -7,7 +7,7 @@
 
 namespace ombre::studio {
 
-// Each answers one kind of request (docs/studio-api.md). They throw RequestError, Error and Cancelled.
+// Each answers one kind of request (docs/reference/studio-api.md). They throw RequestError, Error and Cancelled.
 
 // "bundle": a design as it is on the disk, with what it reads.
 Answer bundle_answer(const Workspace& workspace, const Request& request, const StopFlag& stop);

@@ -1,4 +1,5 @@
-// What page and server say to each other: JSON objects, and bytes behind some of the answers (docs/studio-api.md).
+// What page and server say to each other: JSON objects, and bytes behind some of the answers
+// (docs/reference/studio-api.md).
 #pragma once
 
 #include <optional>

@@ -34,7 +34,7 @@ class Scans {
 
   explicit Scans(const Workspace& workspace) : workspace_(workspace) {}
 
-  // Each answers one kind of request (docs/studio-api.md). They throw RequestError, Error and Cancelled.
+  // Each answers one kind of request (docs/reference/studio-api.md). They throw RequestError, Error and Cancelled.
 
   // "scan": its size, its place and the range of its values.
   Answer describe(const Request& request, const StopFlag& stop);

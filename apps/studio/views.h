@@ -7,7 +7,7 @@
 
 namespace ombre::studio {
 
-// Each answers one kind of request (docs/studio-api.md). They throw RequestError, Error and Cancelled.
+// Each answers one kind of request (docs/reference/studio-api.md). They throw RequestError, Error and Cancelled.
 
 // "render": a picture from a camera, with cuts, as PNG.
 Answer picture_answer(OpenDesign& design, const Request& request, const StopFlag& stop);

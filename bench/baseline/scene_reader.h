@@ -1,4 +1,4 @@
-// Design files (docs/design-file.md) as trees of the published method, so that both programs are given the
+// Design files (docs/reference/design-file.md) as trees of the published method, so that both programs are given the
 // same design.
 #pragma once
 

@@ -1,6 +1,6 @@
 // Mathematical expressions in strings: parsed, checked, printed, lowered to fields.
 //
-// The dialect is the one that designs know from ExprTk: see docs/expressions.md.
+// The dialect is the one that designs know from ExprTk: see docs/user/expressions.md.
 #pragma once
 
 #include <array>

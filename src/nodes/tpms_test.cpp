@@ -60,7 +60,7 @@ void expect_thickness(const std::string& name, double thickness, double toleranc
   EXPECT_LT(worst, tolerance * thickness) << name;
 }
 
-// What docs/lattices.md promises: thin against the curvature of the surface.
+// What docs/user/lattices.md promises: thin against the curvature of the surface.
 TEST(Tpms, ThicknessIsInMillimetres) {
   for (const std::string name : {"gyroid", "schwarz_p", "schwarz_d"}) {
     expect_thickness(name, 0.05, 0.04);

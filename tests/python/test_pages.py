@@ -10,7 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def designs(page):
-    text = (ROOT / "docs" / page).read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "user" / page).read_text(encoding="utf-8")
     # Kernels are shown before what they are for.
     return [block for block in re.findall(r"```openscad\n(.*?)```", text, re.S) if "..." not in block]
 

@@ -196,7 +196,7 @@ def test_older_and_newer_names_are_one():
 
 
 def test_the_manual_runs(run_program, tmp_path):
-    manual = (here.parents[1] / "docs" / "pyvcad.md").read_text(encoding="utf-8")
+    manual = (here.parents[1] / "docs" / "user" / "pyvcad.md").read_text(encoding="utf-8")
     script = re.search(r"```python\n(.*?)```", manual, re.S)[1]
     (tmp_path / "bar.py").write_text(script)
     run_program("slice", "bar.py", "--voxel", 0.5, "-o", "layers")
@@ -205,7 +205,7 @@ def test_the_manual_runs(run_program, tmp_path):
 
 
 def test_the_manual_lists_what_is_missing():
-    manual = (here.parents[1] / "docs" / "pyvcad.md").read_text(encoding="utf-8")
+    manual = (here.parents[1] / "docs" / "user" / "pyvcad.md").read_text(encoding="utf-8")
     missing = manual[manual.index("## What is missing"):manual.index("## What is different")]
     for name in pv.__all__:
         is_missing = getattr(pv, name).__module__ == "pyvcad._missing" if isinstance(getattr(pv, name), type) else False

@@ -413,7 +413,7 @@ def test_inp_writer(tmp_path):
 
 def test_the_manual_runs(capsys):
     """The stress is 5 times the distance from (8, 2, 2), so 20 at the middle, where the modulus is 500."""
-    manual = (pathlib.Path(__file__).resolve().parents[2] / "docs" / "pyvcad.md").read_text(encoding="utf-8")
+    manual = (pathlib.Path(__file__).resolve().parents[2] / "docs" / "user" / "pyvcad.md").read_text(encoding="utf-8")
     script = re.search(r"```python\n(import numpy.*?)```", manual, re.S)[1]
     names = {}
     exec(compile(script, "manual.py", "exec"), names)

@@ -19,7 +19,7 @@ def test_tutorial_gives_what_it_shows():
     pytest.importorskip("nbclient")
     pytest.importorskip("ipykernel")
     import run_notebook
-    path = sources / "docs" / "tutorial.ipynb"
+    path = sources / "docs" / "user" / "tutorial.ipynb"
     shown, run = nbformat.read(path, as_version=4), run_notebook.run(path)
     assert texts(run) == texts(shown), "the notebook shows other results: python3 tools/run_notebook.py " + str(path)
     assert sum("image/png" in output.get("data", {}) for cell in run.cells for output in cell.get("outputs", [])) == 4

@@ -1,4 +1,4 @@
-"""The interface of pyvcad, over Ombre: its scripts run unchanged. docs/pyvcad.md says what is different.
+"""The interface of pyvcad, over Ombre: its scripts run unchanged. docs/user/pyvcad.md says what is different.
 
     import pyvcad as pv
 
