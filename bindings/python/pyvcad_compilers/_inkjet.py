@@ -7,7 +7,7 @@ import os
 import struct
 import tempfile
 import time
-from typing import Any
+from typing import Any, Literal
 
 import ombre
 from pyvcad._arguments import number
@@ -64,7 +64,7 @@ class _InkjetCompiler(_AttributeCompiler):
         design = self._tree()._ombre_design_(self._materials)
         prepared = time.monotonic()
         os.makedirs(self._folder, exist_ok=True)
-        dither = "stochastic" if self._mode.name == "STOCHASTIC" else "diffusion"
+        dither: Literal["stochastic", "diffusion"] = "stochastic" if self._mode.name == "STOCHASTIC" else "diffusion"
         with tempfile.TemporaryDirectory(prefix="ombre_", dir=self._folder) as folder:
             job = os.path.join(folder, "job")
             self._share(0.0)
