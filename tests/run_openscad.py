@@ -219,6 +219,23 @@ def check_vase(ombre):
         return "" if tools == {"0", "1"} else f"the slicer uses the tools {tools}"
 
 
+def check_bytes(ombre):
+    """The triangles are the same wherever the script lies and whatever the environment is, which move the heap's blocks."""
+    script = "".join(f"hull() {{ translate([{x}, 0, {z}]) sphere(d=5, $fn=24); translate([0, 0, 12]) sphere(d=5, $fn=24); }}\n"
+                     for x, z in ((0, 0), (6, 20), (-6, 20)))
+    made = set()
+    with tempfile.TemporaryDirectory() as scratch:
+        for n, length in enumerate((1, 40, 80, 120, 200)):
+            folder = pathlib.Path(scratch) / ("f" * length)
+            folder.mkdir()
+            (folder / "hulls.scad").write_text(script)
+            subprocess.run([ombre, "scad", folder / "hulls.scad", "-o", folder / "hulls.stl"], check=True, timeout=100,
+                           env={**program.environment(), "OMBRE_UNUSED": "x" * (100 * n)}, capture_output=True)
+            made.add((folder / "hulls.stl").read_bytes())
+    if len(made) > 1:
+        raise AssertionError(f"{len(made)} different files of one script")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("ombre")
@@ -234,7 +251,7 @@ def main():
     if not arguments.names:
         checks += [("a .csg file is a script", lambda: check_rounds(ombre)), ("options", lambda: check_options(ombre)),
                    ("meshes", lambda: check_meshes(ombre)), ("words", lambda: check_words(ombre)),
-                   ("vase", lambda: check_vase(ombre))]
+                   ("vase", lambda: check_vase(ombre)), ("bytes", lambda: check_bytes(ombre))]
     return program.check_all(checks)
 
 

@@ -21,6 +21,7 @@ NORMALISED = [
     (r"[\d.,e+-]+ ?[kMG]? voxels/s", "SPEED voxels/s", "how fast a job was"),
     (r"(?m)^(about|more than) .*; nothing was written$", "ESTIMATE",
      "what a dry run expects from the layers that it had time for, and memory, which grows with the threads"),
+    (r"at most [\d.]+ \w+ of memory", "at most MEMORY", "what voxels and contours may take, which grows with the threads"),
     (r"(?m)^\d+%  .*\n", "", "progress, which slow jobs tell"),
     (r'\{"event":"progress",.*\}\n', "", "the same for programs"),
     (r'\{"event":"estimate",.*\}', '{"event":"estimate"}', "the same for programs"),

@@ -1,4 +1,6 @@
 // Convex hulls, and triangles between the rings of plane regions.
+#include "solids/cgal_boxes.h"
+
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>

@@ -1,4 +1,6 @@
 // The kernel by CGAL: exact coordinates, booleans by corefinement, Nef polyhedra where that fails.
+#include "solids/cgal_boxes.h"
+
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>

@@ -1,4 +1,6 @@
 // Nef polyhedra: booleans where surfaces touch themselves, and cutting into convex pieces.
+#include "solids/cgal_boxes.h"
+
 #include <CGAL/Nef_polyhedron_3.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h>

@@ -1,4 +1,6 @@
 // Surface meshes from triangles, also where more than two of them share an edge.
+#include "solids/cgal_boxes.h"
+
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
