@@ -8,7 +8,11 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/convex_hull_3.h>
 
+#include <algorithm>
+#include <array>
 #include <deque>
+#include <map>
+#include <numeric>
 
 #include "solids/cgal_body.h"
 
@@ -67,6 +71,85 @@ Triangulation triangulation_of(std::span<const Ring> rings) {
   return triangles;
 }
 
+// For each face of a hull of triangles, the number of the facet that it belongs to with those in its plane.
+std::vector<uint32_t> facets_of(const QuickMesh& mesh) {
+  std::vector<uint32_t> facet(mesh.num_faces());
+  std::iota(facet.begin(), facet.end(), 0);
+  const auto root = [&](uint32_t n) {
+    while (facet[n] != n) n = facet[n] = facet[facet[n]];
+    return n;
+  };
+  for (const auto edge : mesh.edges()) {
+    const auto h = mesh.halfedge(edge), o = mesh.opposite(h);
+    const auto &p = mesh.point(mesh.source(h)), &q = mesh.point(mesh.target(h));
+    const auto &r = mesh.point(mesh.target(mesh.next(h))), &s = mesh.point(mesh.target(mesh.next(o)));
+    // A triangle without an area lies in the planes of all its neighbours.
+    if (CGAL::collinear(p, q, r) || CGAL::collinear(p, q, s) || !CGAL::coplanar(p, q, r, s)) continue;
+    const uint32_t a = root(mesh.face(h)), b = root(mesh.face(o));
+    facet[std::max(a, b)] = std::min(a, b);
+  }
+  for (uint32_t n = 0; n < facet.size(); ++n) facet[n] = root(n);
+  return facet;
+}
+
+// Numbers of points around a facet.
+using Outline = std::vector<uint32_t>;
+
+// Without those on the line between their neighbours, from the least number on.
+Outline corners_of(const Outline& outline, std::span<const Vec3> points) {
+  const auto at = [&](size_t n) {
+    const Vec3& p = points[outline[n % outline.size()]];
+    return Quick::Point_3(p.x, p.y, p.z);
+  };
+  Outline corners;
+  for (size_t n = 0; n < outline.size(); ++n)
+    if (!CGAL::collinear(at(n + outline.size() - 1), at(n), at(n + 1))) corners.push_back(outline[n]);
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+// The facets of a hull, by the first of equal points. CGAL's own triangles of a facet, and points on facets and edges
+// that are no corners, follow from addresses in memory.
+std::vector<Outline> outlines_of(const QuickMesh& mesh, std::span<const Vec3> points) {
+  const auto key = [](const auto& x, const auto& y, const auto& z) { return std::array<double, 3>{x, y, z}; };
+  std::map<std::array<double, 3>, uint32_t> first;
+  for (uint32_t n = 0; n < points.size(); ++n) first.emplace(key(points[n].x, points[n].y, points[n].z), n);
+  const auto number = [&](auto vertex) {
+    const Quick::Point_3& p = mesh.point(vertex);
+    return first.at(key(p.x(), p.y(), p.z()));
+  };
+  const std::vector<uint32_t> facet = facets_of(mesh);
+  std::map<uint32_t, std::map<uint32_t, uint32_t>> next;  // around each facet
+  for (const auto h : mesh.halfedges())
+    if (facet[mesh.face(h)] != facet[mesh.face(mesh.opposite(h))])
+      next[facet[mesh.face(h)]][number(mesh.source(h))] = number(mesh.target(h));
+  std::vector<Outline> outlines;
+  for (const auto& [ignored, steps] : next) {
+    Outline outline{steps.begin()->first};
+    while (outline.size() < steps.size()) outline.push_back(steps.at(outline.back()));
+    Outline corners = corners_of(outline, points);
+    if (corners.size() > 2) outlines.push_back(std::move(corners));
+  }
+  std::ranges::sort(outlines);
+  return outlines;
+}
+
+TriangleMesh by_facets(const QuickMesh& mesh, std::span<const Vec3> points) {
+  const std::vector<Outline> outlines = outlines_of(mesh, points);
+  std::map<uint32_t, uint32_t> place;
+  for (const Outline& outline : outlines)
+    for (const uint32_t n : outline) place.emplace(n, 0);
+  TriangleMesh result;
+  for (auto& [n, to] : place) {
+    to = static_cast<uint32_t>(result.points.size());
+    result.points.push_back(points[n]);
+  }
+  for (const Outline& outline : outlines)
+    for (size_t n = 2; n < outline.size(); ++n)
+      result.triangles.push_back({place[outline[0]], place[outline[n - 1]], place[outline[n]]});
+  return result;
+}
+
 }  // namespace
 
 TriangleMesh hull_of(std::span<const Vec3> points) {
@@ -83,18 +166,7 @@ TriangleMesh hull_of(std::span<const Vec3> points) {
   if (fourth >= all.size()) return result;
   QuickMesh mesh;
   CGAL::convex_hull_3(all.begin(), all.end(), mesh);
-  std::vector<uint32_t> number(mesh.num_vertices());
-  for (const auto vertex : mesh.vertices()) {
-    const Quick::Point_3& p = mesh.point(vertex);
-    number[vertex] = static_cast<uint32_t>(result.points.size());
-    result.points.push_back({p.x(), p.y(), p.z()});
-  }
-  for (const auto face : mesh.faces()) {
-    std::vector<uint32_t> corners;
-    for (const auto vertex : vertices_around_face(mesh.halfedge(face), mesh)) corners.push_back(number[vertex]);
-    for (size_t n = 2; n < corners.size(); ++n) result.triangles.push_back({corners[0], corners[n - 1], corners[n]});
-  }
-  return result;
+  return by_facets(mesh, points);
 }
 
 PlaneTriangles triangulate_rings(std::span<const Ring> rings) {
