@@ -85,6 +85,9 @@ const std::vector<Studio::Kind>& Studio::kinds() {
                                       {"list", &Studio::list},
                                       {"open", &Studio::open},
                                       {"save", &Studio::save},
+                                      {"presets", &Studio::presets},
+                                      {"save_preset", &Studio::save_preset},
+                                      {"delete_preset", &Studio::delete_preset},
                                       {"load", &Studio::load},
                                       {"render", &Studio::show<picture_answer>},
                                       {"plan", &Studio::show<plan_answer>},
@@ -113,6 +116,7 @@ Studio::Studio(const std::filesystem::path& folder, StudioOptions options, sourc
       cache_(cache),
       workspace_(folder),
       scans_(workspace_),
+      presets_(workspace_),
       exports_([this](const DataMembers& job) {
         tell_all("job", {{"job", job}});
       }),
@@ -266,6 +270,28 @@ Answer Studio::save(const Request& request, const StopFlag&) {
   const std::string version = std::get<std::string>(saved);
   tell_all("changed", {{"file", name}, {"version", version}});
   return {{{"saved", true}, {"version", version}}, {}};
+}
+
+Answer Studio::presets(const Request& request, const StopFlag&) {
+  return {{{"presets", presets_.list(request.text("file"))}}, {}};
+}
+
+Answer Studio::save_preset(const Request& request, const StopFlag&) {
+  const Data* values = request.body.find("values");
+  if (!values || !values->members())
+    throw RequestError("request", "the request needs \"values\", an object: {\"width\": 3}");
+  const std::string& file = request.text("file");
+  return tell_presets(file, presets_.save(file, request.text("name"), *values->members(), request.flag("replace")));
+}
+
+Answer Studio::delete_preset(const Request& request, const StopFlag&) {
+  const std::string& file = request.text("file");
+  return tell_presets(file, presets_.remove(file, request.text("name")));
+}
+
+Answer Studio::tell_presets(const std::string& file, DataList presets) {
+  tell_all("presets", {{"file", file}, {"presets", presets}});
+  return {{{"presets", std::move(presets)}}, {}};
 }
 
 // A Python script is run when a person asks for it, not while it is typed: it may do anything.

@@ -168,6 +168,20 @@ TEST_F(StudioTest, LoadsWithVariables) {
   EXPECT_EQ(number_in(nodes.front(), "line"), 2);
 }
 
+TEST_F(StudioTest, KeepsPresets) {
+  const Data saved = ask("save_preset", R"("file": "a.vcad", "name": "large", "values": {"radius": 4.5})").first;
+  const Data expected(DataList{DataMembers{{"name", "large"}, {"values", DataMembers{{"radius", "4.5"}}}}});
+  EXPECT_EQ(*saved.find("presets"), expected);
+  const Data told = client->wait([](const Data& data) { return data.find("event") != nullptr; }).first;
+  EXPECT_EQ(text(told, "event") + text(told, "file"), "presetsa.vcad");
+  EXPECT_EQ(*told.find("presets"), expected);
+  EXPECT_EQ(*ask("presets", R"("file": "a.vcad")").first.find("presets"), expected);
+  EXPECT_EQ(text(ask("save_preset", R"("file": "a.vcad", "name": "large", "values": {})").first, "error"), "exists");
+  EXPECT_EQ(text(ask("save_preset", R"("file": "a.vcad", "name": "large")").first, "error"), "request");
+  EXPECT_EQ(*ask("delete_preset", R"("file": "a.vcad", "name": "large")").first.find("presets"), Data(DataList{}));
+  EXPECT_EQ(text(ask("presets", R"("file": "../a.vcad")").first, "error"), "name");
+}
+
 TEST_F(StudioTest, ShowsOpenScadScripts) {
   const auto load_script = [&](const std::string& script) {
     return ask("load", R"("file": "a.scad", "definitions": ["size=4"], "text": )" + print_json_line(script)).first;

@@ -35,7 +35,7 @@ class Workspace {
   explicit Workspace(const std::filesystem::path& folder);
 
   const std::filesystem::path& root() const { return root_; }
-  // Designs and scripts, sorted; hidden folders and links to folders are left out.
+  // Designs and scripts, sorted; presets, hidden folders and links to folders are left out.
   std::vector<std::string> list() const;
   // Scans, results and tables likewise; a folder of DICOM files is one scan.
   struct DataFile {

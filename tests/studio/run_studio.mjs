@@ -179,6 +179,47 @@ const checks = {
     await untilOnDisk("radius = 12.5;");
   },
 
+  async "keeps presets beside the script"() {
+    const presetsFile = join(folder, "ball.presets.json");
+    const setRadius = (value) => page.fill("[aria-label='radius, exactly']", value);
+    const radius = () => page.inputValue("[aria-label='radius, exactly']");
+    const savePreset = async (name, button) => {
+      await page.click("text=Save as a preset");
+      await page.fill("[aria-label='Name of the preset']", name);
+      await page.click(`.presets button:text-is('${button}')`);
+      await page.waitForSelector("text=Save as a preset");
+    };
+    await setRadius("7");
+    await savePreset("small", "Save");
+    await setRadius("18.5");
+    await page.waitForSelector(".preset option:has-text('small (changed)')", { state: "attached" });
+    await savePreset("large", "Save");
+    assert.deepEqual(JSON.parse(readFileSync(presetsFile)), { parameterSets: { small: { radius: "7" }, large: { radius: "18.5" } }, fileFormatVersion: "1" });
+    const before = await page.getAttribute(".surface canvas", "data-design");
+    await page.selectOption(".preset", "small");
+    assert.equal(await radius(), "7");
+    await until((old) => document.querySelector(".surface canvas").dataset.design !== old, before);
+    await setRadius("8");
+    await savePreset("small", "Replace");
+    assert.equal(JSON.parse(readFileSync(presetsFile)).parameterSets.small.radius, "8");
+    await picture("presets");
+    await page.selectOption(".preset", "large");
+    assert.equal(await radius(), "18.5");
+    await page.click("text=Delete preset");
+    await until(() => document.querySelectorAll(".preset option").length === 2);
+    assert.equal(JSON.parse(readFileSync(presetsFile)).parameterSets.large, undefined);
+    writeFileSync(presetsFile, "mine");
+    await page.reload();
+    await page.waitForSelector(".presets:has-text('ball.presets.json is no file of presets')");
+    assert.ok(await page.isDisabled("text=Save as a preset"));
+    assert.equal(readFileSync(presetsFile, "utf8"), "mine");
+    rmSync(presetsFile);
+    await page.focus(".preset");
+    await page.waitForSelector("button:not([disabled]):has-text('Save as a preset')");
+    await isReady("surface");
+    assert.equal(await radius(), "12.5");
+  },
+
   async "opacity shows through"() {
     await page.click("#tab-materials");
     await isReady("surface");
@@ -209,7 +250,7 @@ const checks = {
     assert.match(cells[3], /cm³/);
     await page.click("text=Forget the mark");
     await page.click("#tab-variables");
-    await page.click("text=Reset");
+    await page.click("button:text-is('Reset')");
     await page.click("#tab-materials");
   },
 

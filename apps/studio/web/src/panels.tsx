@@ -3,6 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { listExamples, openExample } from "./files";
 import { page } from "./language";
 import { changeJob, choosePlace, compare, estimate, forgetMark, insert, jobKey, markVersion, measure, openFolder, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
+import { Presets } from "./presets";
 import { PrinterChoice } from "./slices";
 import { Job, NodeType, Place, State, Value, Variable, set, state, useStore } from "./store";
 
@@ -50,6 +51,7 @@ function Variables() {
   return (
     <div class="panelbody">
       {variables.length === 0 && <p>{file ? "The script has no top-level variables with plain values." : "No design is open."}</p>}
+      {variables.length > 0 && <Presets key={file} />}
       {variables.map((v) => {
         const heading = v.section && v.section !== section ? v.section : "";
         section = v.section ?? section;

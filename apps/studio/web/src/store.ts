@@ -29,6 +29,12 @@ export interface Variable {
   to: number;
 }
 
+// Values of variables under a name, as texts, as the file beside the script has them.
+export interface Preset {
+  name: string;
+  values: Record<string, string>;
+}
+
 export interface Material {
   name: string;
   colour: number[];
@@ -193,6 +199,9 @@ export interface State {
   echo: string[];
   variables: Variable[];
   values: Record<string, Value>; // set by sliders, in place of the text's
+  presets: Preset[]; // of the script
+  preset: string; // that was chosen last; empty: none
+  presetsProblem: string;
   camera?: Camera;
   cut?: Cut;
   perspective: boolean;
@@ -244,6 +253,9 @@ export let state: State = {
   echo: [],
   variables: [],
   values: {},
+  presets: [],
+  preset: "",
+  presetsProblem: "",
   perspective: false,
   by: "",
   palette: "",
