@@ -85,6 +85,7 @@ const std::vector<Studio::Kind>& Studio::kinds() {
                                       {"list", &Studio::list},
                                       {"open", &Studio::open},
                                       {"save", &Studio::save},
+                                      {"files_ending_in", &Studio::files_ending_in},
                                       {"presets", &Studio::presets},
                                       {"save_preset", &Studio::save_preset},
                                       {"delete_preset", &Studio::delete_preset},
@@ -270,6 +271,22 @@ Answer Studio::save(const Request& request, const StopFlag&) {
   const std::string version = std::get<std::string>(saved);
   tell_all("changed", {{"file", name}, {"version", version}});
   return {{{"saved", true}, {"version", version}}, {}};
+}
+
+// Names as a script writes them, from its own folder on.
+Answer Studio::files_ending_in(const Request& request, const StopFlag&) {
+  const std::string& script = request.text("file");
+  const std::filesystem::path from = std::filesystem::path(workspace_.name_of(workspace_.path(script))).parent_path();
+  std::vector<std::string> endings = request.texts("endings");
+  for (std::string& ending : endings) {
+    if (ending.size() < 2 || ending.front() != '.')
+      throw RequestError("request", "\"endings\" is a list of endings, [\".stl\"]");
+    ending = to_lower(ending);
+  }
+  DataList files;
+  for (const std::string& name : workspace_.list_ending_in(endings))
+    if (name != script) files.emplace_back(std::filesystem::path(name).lexically_relative(from).generic_string());
+  return {{{"files", std::move(files)}}, {}};
 }
 
 Answer Studio::presets(const Request& request, const StopFlag&) {

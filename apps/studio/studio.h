@@ -65,6 +65,7 @@ class Studio {
   Answer list(const Request& request, const StopFlag& stop);
   Answer open(const Request& request, const StopFlag& stop);
   Answer save(const Request& request, const StopFlag& stop);
+  Answer files_ending_in(const Request& request, const StopFlag& stop);
   Answer presets(const Request& request, const StopFlag& stop);
   Answer save_preset(const Request& request, const StopFlag& stop);
   Answer delete_preset(const Request& request, const StopFlag& stop);

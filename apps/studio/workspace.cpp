@@ -93,6 +93,17 @@ std::vector<Workspace::DataFile> Workspace::list_data() const {
   return found;
 }
 
+std::vector<std::string> Workspace::list_ending_in(const std::vector<std::string>& endings) const {
+  std::vector<std::string> names;
+  walk([&](const std::string& name, bool is_folder) {
+    const auto is_of_name = [lower = to_lower(name)](const std::string& ending) { return lower.ends_with(ending); };
+    if (!is_folder && std::ranges::any_of(endings, is_of_name)) names.push_back(name);
+    return names.size() < most_files;
+  });
+  std::ranges::sort(names);
+  return names;
+}
+
 std::string Workspace::name_of(const fs::path& file) const {
   std::error_code error;
   const fs::path whole = fs::weakly_canonical(file, error);

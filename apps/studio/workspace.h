@@ -43,6 +43,8 @@ class Workspace {
     DataKind kind = DataKind::none;
   };
   std::vector<DataFile> list_data() const;
+  // Those whose names end so (".stl", in small letters), sorted.
+  std::vector<std::string> list_ending_in(const std::vector<std::string>& endings) const;
   std::filesystem::path path(const std::string& name) const;
   // The name of a file at this path; empty where it is not in the folder.
   std::string name_of(const std::filesystem::path& file) const;

@@ -1,5 +1,6 @@
 // What the page does: opens, saves, evaluates, slices. Components call it; answers go into the store.
 import { Connection, Refused, Reply } from "./connection";
+import { listFileChoices } from "./filechoice";
 import { hearPresets, listPresets } from "./presets";
 import { DataFile, Job, Mark, Place, Plan, State, Value, set, state } from "./store";
 
@@ -73,7 +74,7 @@ export async function openFile(file: string) {
     savedText = fromDisk(disk.text);
     sentText = undefined;
     const kind = disk.kind as State["kind"];
-    set({ file, kind, table: "", by: "", palette: "", range: undefined, rotate: [0, 0, 0], values: {}, presets: [], preset: "", presetsProblem: "", conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], variables: [], plan: undefined,
+    set({ file, kind, table: "", by: "", palette: "", range: undefined, rotate: [0, 0, 0], values: {}, filesByEnding: {}, presets: [], preset: "", presetsProblem: "", conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], variables: [], plan: undefined,
           probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", problem: "", z: NaN, isOld: false });
     localStorage.setItem(`ombre:file:${state.hello?.folder}`, file);
     listPresets();
@@ -288,6 +289,7 @@ async function load(isRun = false) {
     if (reply.ok && isNaN(state.z)) change.z = (reply.bounds_mm[0][2] + reply.bounds_mm[1][2]) / 2;
     set(change);
     editor.setDiagnostics();
+    listFileChoices();
     if (reply.ok) plan();
   } catch (error) {
     const refused = error as Refused;

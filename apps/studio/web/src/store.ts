@@ -41,15 +41,19 @@ export interface Material {
   density?: number;
 }
 
-export interface GraphNode {
-  id: number;
+// A node, and where its call stands in the script, if it does.
+export interface NodeCall {
   type: string;
-  category: string;
-  inputs: number[];
-  values: number[];
   from?: number;
   to?: number;
   line?: number;
+}
+
+export interface GraphNode extends NodeCall {
+  id: number;
+  category: string;
+  inputs: number[];
+  values: number[];
 }
 
 export interface Design {
@@ -128,6 +132,7 @@ export interface Probe {
   composition: Record<string, number>;
   attributes: Record<string, number>;
   parts: string[];
+  nodes: NodeCall[]; // from the outermost to the innermost solid that holds the point
   voxel: { index?: number[]; material?: string };
 }
 
@@ -200,6 +205,7 @@ export interface State {
   variables: Variable[];
   values: Record<string, Value>; // set by sliders, in place of the text's
   presets: Preset[]; // of the script
+  filesByEnding: Record<string, string[]>; // that the script may read, as it names them
   preset: string; // that was chosen last; empty: none
   presetsProblem: string;
   camera?: Camera;
@@ -254,6 +260,7 @@ export let state: State = {
   variables: [],
   values: {},
   presets: [],
+  filesByEnding: {},
   preset: "",
   presetsProblem: "",
   perspective: false,
