@@ -56,7 +56,7 @@ Data read_presets(const fs::path& path) {
 }
 
 void write_presets(const fs::path& path, const Data& file) {
-  const std::string text = print_json(file) + "\n";
+  const std::string text = print_json(file);
   if (text.size() > Presets::most_bytes)
     throw RequestError("size", "the presets would have more than " +
                                    format_bytes(static_cast<double>(Presets::most_bytes)) + "; delete some first");

@@ -632,11 +632,15 @@ const checks = {
 
   async "axe finds nothing"() {
     await page.click("#tab-all");
+    await isReady("slices");
+    await page.click(".slices canvas");
+    await page.waitForSelector(".probe .calls");
     await page.evaluate(axeSource);
     for (const theme of ["light", "dark"]) {
       await page.selectOption("header select >> nth=1", theme);
       for (const tab of theme === "light" ? ["reference", "examples", "variables", "materials", "export"] : ["export"]) {
         await page.click(`#tab-${tab}`);
+        if (tab === "variables") await page.click("text=Save as a preset");
         const found = await page.evaluate(() => axe.run());
         assert.deepEqual(found.violations.map((v) => `${theme} ${tab}: ${v.id} at ${v.nodes.map((n) => n.html.slice(0, 120)).join(" and ")}`), []);
       }

@@ -30,9 +30,10 @@ export async function listPresets() {
 }
 
 async function savePreset(name: string, replace: boolean): Promise<string> {
+  const file = state.file;
   const values = Object.fromEntries(state.variables.map((v) => [v.name, state.values[v.name] ?? v.value]));
   const problem = await ask("save_preset", { name, values, replace });
-  if (!problem) set({ preset: name });
+  if (!problem && file === state.file) set({ preset: name });
   return problem;
 }
 
@@ -56,7 +57,7 @@ const isSame = (a: Value, b: Value) => JSON.stringify(a) === JSON.stringify(b);
 function valuesOf(preset: Preset): Record<string, Value> {
   const values: Record<string, Value> = {};
   for (const v of state.variables) {
-    const value = v.name in preset.values ? valueOf(v, preset.values[v.name]) : undefined;
+    const value = Object.hasOwn(preset.values, v.name) ? valueOf(v, preset.values[v.name]) : undefined;
     if (value !== undefined && !isSame(value, v.value)) values[v.name] = value;
   }
   return values;
