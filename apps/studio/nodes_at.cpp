@@ -45,7 +45,7 @@ class Descent {
  private:
   NodePtr input_around(const Node& node) {
     if (shows_its_input(node)) {
-      around_.push_back(&node);
+      around_.insert(around_.begin(), &node);
       return node.inputs().front();
     }
     return node.inputs().size() < 2 ? nullptr
@@ -54,8 +54,7 @@ class Descent {
 
   // The solid where the nodes above put it.
   NodePtr placed(NodePtr solid) const {
-    for (auto above = around_.rbegin(); above != around_.rend(); ++above)
-      solid = (*above)->type().with_inputs(**above, {solid});
+    for (const Node* above : around_) solid = above->type().with_inputs(*above, {solid});
     return solid;
   }
 
@@ -93,7 +92,7 @@ class Descent {
   const design::Design& design_;
   const Vec3 point_;
   const StopFlag& stop_;
-  std::vector<const Node*> path_, around_;  // around_: those of the path that move what lies below them
+  std::vector<const Node*> path_, around_;  // around_: those that show their input, the innermost first
 };
 
 }  // namespace
