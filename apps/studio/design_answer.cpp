@@ -45,15 +45,11 @@ class NodeLister {
 
   DataMembers describe_one(const design::Node& node, size_t id) {
     DataMembers members{{"id", number(id)},
-                        {"type", node.type().name},
                         {"category", node.type().category},
                         {"inputs", numbers(node.inputs())},
                         {"values", numbers(node.values())}};
-    const SourceRange& where = node.where();
-    if (!where.source || where.source->name() != source_->name()) return members;
-    members.emplace_back("from", offsets_.at(where.begin));
-    members.emplace_back("to", offsets_.at(where.end));
-    members.emplace_back("line", number(where.source->place(where.begin).line));
+    const DataMembers call = describe_call(node, source_, offsets_);
+    members.insert(members.end(), call.begin(), call.end());
     return members;
   }
 
@@ -95,6 +91,17 @@ std::string remark_behind(const SourceText& source, const SourceRange& value) {
 }
 
 }  // namespace
+
+DataMembers describe_call(const design::Node& node, const SourcePtr& page_text, const PageOffsets& offsets) {
+  DataMembers members{{"type", node.type().name}};
+  const SourceRange& where = node.where();
+  if (where.begin == where.end) return members;  // no call: a script's union of all that it shows, say
+  if (!where.source || where.source->name() != page_text->name()) return members;
+  members.emplace_back("from", offsets.at(where.begin));
+  members.emplace_back("to", offsets.at(where.end));
+  members.emplace_back("line", number(where.source->place(where.begin).line));
+  return members;
+}
 
 std::set<std::string> design_files(const design::Design& design) {
   std::vector<design::NodePtr> roots;

@@ -16,6 +16,9 @@ DataList describe_variables(const SourcePtr& source);
 // text that the page has.
 DataMembers describe_design(const OpenDesign& design, const SourcePtr& page_text);
 
+// "type", and where its call stands in the page's text: "from", "to", "line", if it does.
+DataMembers describe_call(const design::Node& node, const SourcePtr& page_text, const PageOffsets& offsets);
+
 // The files that its nodes name, where they were found.
 std::set<std::string> design_files(const design::Design& design);
 

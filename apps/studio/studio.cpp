@@ -85,6 +85,10 @@ const std::vector<Studio::Kind>& Studio::kinds() {
                                       {"list", &Studio::list},
                                       {"open", &Studio::open},
                                       {"save", &Studio::save},
+                                      {"files_ending_in", &Studio::files_ending_in},
+                                      {"presets", &Studio::presets},
+                                      {"save_preset", &Studio::save_preset},
+                                      {"delete_preset", &Studio::delete_preset},
                                       {"load", &Studio::load},
                                       {"render", &Studio::show<picture_answer>},
                                       {"plan", &Studio::show<plan_answer>},
@@ -113,6 +117,7 @@ Studio::Studio(const std::filesystem::path& folder, StudioOptions options, sourc
       cache_(cache),
       workspace_(folder),
       scans_(workspace_),
+      presets_(workspace_),
       exports_([this](const DataMembers& job) {
         tell_all("job", {{"job", job}});
       }),
@@ -266,6 +271,44 @@ Answer Studio::save(const Request& request, const StopFlag&) {
   const std::string version = std::get<std::string>(saved);
   tell_all("changed", {{"file", name}, {"version", version}});
   return {{{"saved", true}, {"version", version}}, {}};
+}
+
+// Names as a script writes them, from its own folder on.
+Answer Studio::files_ending_in(const Request& request, const StopFlag&) {
+  const std::string& script = request.text("file");
+  const std::filesystem::path from = std::filesystem::path(workspace_.name_of(workspace_.path(script))).parent_path();
+  std::vector<std::string> endings = request.texts("endings");
+  for (std::string& ending : endings) {
+    if (ending.size() < 2 || ending.front() != '.')
+      throw RequestError("request", "\"endings\" is a list of endings, [\".stl\"]");
+    ending = to_lower(ending);
+  }
+  DataList files;
+  for (const std::string& name : workspace_.list_ending_in(endings))
+    if (name != script) files.emplace_back(std::filesystem::path(name).lexically_relative(from).generic_string());
+  return {{{"files", std::move(files)}}, {}};
+}
+
+Answer Studio::presets(const Request& request, const StopFlag&) {
+  return {{{"presets", presets_.list(request.text("file"))}}, {}};
+}
+
+Answer Studio::save_preset(const Request& request, const StopFlag&) {
+  const Data* values = request.body.find("values");
+  if (!values || !values->members())
+    throw RequestError("request", "the request needs \"values\", an object: {\"width\": 3}");
+  const std::string& file = request.text("file");
+  return tell_presets(file, presets_.save(file, request.text("name"), *values->members(), request.flag("replace")));
+}
+
+Answer Studio::delete_preset(const Request& request, const StopFlag&) {
+  const std::string& file = request.text("file");
+  return tell_presets(file, presets_.remove(file, request.text("name")));
+}
+
+Answer Studio::tell_presets(const std::string& file, DataList presets) {
+  tell_all("presets", {{"file", file}, {"presets", presets}});
+  return {{{"presets", std::move(presets)}}, {}};
 }
 
 // A Python script is run when a person asks for it, not while it is typed: it may do anything.

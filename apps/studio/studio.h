@@ -14,6 +14,7 @@
 #include "sources/source_cache.h"
 #include "studio/exports.h"
 #include "studio/messages.h"
+#include "studio/presets.h"
 #include "studio/scans.h"
 #include "studio/work_queue.h"
 #include "studio/workspace.h"
@@ -64,6 +65,11 @@ class Studio {
   Answer list(const Request& request, const StopFlag& stop);
   Answer open(const Request& request, const StopFlag& stop);
   Answer save(const Request& request, const StopFlag& stop);
+  Answer files_ending_in(const Request& request, const StopFlag& stop);
+  Answer presets(const Request& request, const StopFlag& stop);
+  Answer save_preset(const Request& request, const StopFlag& stop);
+  Answer delete_preset(const Request& request, const StopFlag& stop);
+  Answer tell_presets(const std::string& file, DataList presets);
   compile::LoadedPtr read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
                           Diagnostics& diagnostics);
   Answer load(const Request& request, const StopFlag& stop);
@@ -92,6 +98,7 @@ class Studio {
   sources::SourceCache& cache_;
   Workspace workspace_;
   Scans scans_;
+  Presets presets_;
   Designs designs_;
   std::mutex mutex_;
   std::set<ClientPtr> clients_;

@@ -168,6 +168,32 @@ TEST_F(StudioTest, LoadsWithVariables) {
   EXPECT_EQ(number_in(nodes.front(), "line"), 2);
 }
 
+TEST_F(StudioTest, ListsFilesAsAScriptNamesThem) {
+  for (const char* name : {"a.stl", "parts/b.STL", "parts/deep/c.obj", "other/d.stl", "parts/.hidden.stl", "e.png"})
+    folder.write(name, "");
+  const auto names = [&](const std::string& members) { return *ask("files_ending_in", members).first.find("files"); };
+  EXPECT_EQ(names(R"("file": "a.vcad", "endings": [".stl"])"), Data(DataList{"a.stl", "other/d.stl", "parts/b.STL"}));
+  EXPECT_EQ(names(R"("file": "parts/a.vcad", "endings": [".STL", ".obj"])"),
+            Data(DataList{"../a.stl", "../other/d.stl", "b.STL", "deep/c.obj"}));
+  EXPECT_EQ(names(R"("file": "a.vcad", "endings": [])"), Data(DataList{}));
+  EXPECT_EQ(text(ask("files_ending_in", R"("file": "a.vcad", "endings": ["stl"])").first, "error"), "request");
+  EXPECT_EQ(text(ask("files_ending_in", R"("file": "../a.vcad", "endings": [".stl"])").first, "error"), "name");
+}
+
+TEST_F(StudioTest, KeepsPresets) {
+  const Data saved = ask("save_preset", R"("file": "a.vcad", "name": "large", "values": {"radius": 4.5})").first;
+  const Data expected(DataList{DataMembers{{"name", "large"}, {"values", DataMembers{{"radius", "4.5"}}}}});
+  EXPECT_EQ(*saved.find("presets"), expected);
+  const Data told = client->wait([](const Data& data) { return data.find("event") != nullptr; }).first;
+  EXPECT_EQ(text(told, "event") + text(told, "file"), "presetsa.vcad");
+  EXPECT_EQ(*told.find("presets"), expected);
+  EXPECT_EQ(*ask("presets", R"("file": "a.vcad")").first.find("presets"), expected);
+  EXPECT_EQ(text(ask("save_preset", R"("file": "a.vcad", "name": "large", "values": {})").first, "error"), "exists");
+  EXPECT_EQ(text(ask("save_preset", R"("file": "a.vcad", "name": "large")").first, "error"), "request");
+  EXPECT_EQ(*ask("delete_preset", R"("file": "a.vcad", "name": "large")").first.find("presets"), Data(DataList{}));
+  EXPECT_EQ(text(ask("presets", R"("file": "../a.vcad")").first, "error"), "name");
+}
+
 TEST_F(StudioTest, ShowsOpenScadScripts) {
   const auto load_script = [&](const std::string& script) {
     return ask("load", R"("file": "a.scad", "definitions": ["size=4"], "text": )" + print_json_line(script)).first;
@@ -416,6 +442,37 @@ TEST_F(StudioTest, PicturesAreCutByWedgesAndBoxes) {
   EXPECT_EQ(alpha(box, 12, 12), 0);
   const std::string wrong = R"("design": ")" + design + R"(", "width": 40, "height": 40, "box": [0, 0, 0, 1, 1, -1])";
   EXPECT_EQ(text(ask("render", wrong).first, "error"), "request");
+}
+
+TEST_F(StudioTest, SaysWhichCallsMadeAPoint) {
+  const std::string script =
+      "translate(10, 0, 0) union() {\n"
+      "  material(red) rotate(0, 0, 90) rectprism((2, 8, 2));\n"  // |x - 10| < 4, |y| < 1
+      "  difference() {\n"
+      "    sphere(3, blue);\n"
+      "    sphere(1, red);\n"
+      "  }\n"
+      "  array_linear(3, (0, 5, 0)) sphere(1, green);\n"
+      "}\n"
+      "offset(1) union() { cube(2, red); translate(1, 0, 0) cube(2, red); }\n";
+  const std::string design = load(script);
+  const auto calls = [&](const std::string& at) {
+    const Data probed = ask("probe", R"("at": )" + at + R"(, "design": ")" + design + '"').first;
+    std::string path;
+    for (const Data& node : *probed.find("nodes")->list()) {
+      path += " " + text(node, "type");
+      if (!node.find("from")) continue;
+      const auto from = static_cast<size_t>(number_in(node, "from"));
+      EXPECT_EQ(script.substr(from, text(node, "type").size()), text(node, "type")) << print_json(node);
+      path += std::to_string(static_cast<int>(number_in(node, "line")));
+    }
+    return path;
+  };
+  EXPECT_EQ(calls("[13.5, 0.5, 0]"), " union translate1 union1 material2 rotate2 rectprism2");
+  EXPECT_EQ(calls("[10, 2.5, 0]"), " union translate1 union1 difference3 sphere4");
+  EXPECT_EQ(calls("[10, 10.5, 0]"), " union translate1 union1 array_linear7 sphere7");
+  EXPECT_EQ(calls("[-1.5, 0, 0]"), " union offset9");
+  EXPECT_EQ(calls("[30, 0, 0]"), "");
 }
 
 // What tiles and probes show is what the job writes.

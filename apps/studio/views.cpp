@@ -13,6 +13,7 @@
 #include "compile/slice.h"
 #include "formats/png.h"
 #include "studio/design_answer.h"
+#include "studio/nodes_at.h"
 
 namespace ombre::studio {
 namespace {
@@ -193,12 +194,19 @@ Answer probe_answer(OpenDesign& design, const Request& request, const StopFlag& 
   const compile::ProbeResult& result = results->front();
   DataList parts;
   for (const std::string& part : result.parts) parts.emplace_back(part);
+  const compile::Loaded& loaded = *design.loaded;
+  const PageOffsets offsets(loaded.source->text());
+  DataList nodes;
+  if (result.inside)
+    for (const design::Node* node : nodes_at(loaded.design, point, stop))
+      nodes.emplace_back(describe_call(*node, loaded.source, offsets));
   return {{{"at", list_of(point)},
            {"inside", result.inside},
            {"distance_mm", result.distance},
            {"composition", members_of(result.composition)},
            {"attributes", members_of(result.attributes)},
            {"parts", std::move(parts)},
+           {"nodes", std::move(nodes)},
            {"voxel", voxel_at(design, request, point, stop)}},
           {}};
 }

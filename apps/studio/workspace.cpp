@@ -9,6 +9,7 @@
 #include "export/output_file.h"
 #include "formats/file.h"
 #include "studio/messages.h"
+#include "studio/presets.h"
 
 namespace ombre::studio {
 namespace {
@@ -73,7 +74,7 @@ void Workspace::walk(const std::function<bool(const std::string& name, bool is_f
 std::vector<std::string> Workspace::list() const {
   std::vector<std::string> names;
   walk([&](const std::string& name, bool is_folder) {
-    if (!is_folder && is_design_name(name)) names.push_back(name);
+    if (!is_folder && is_design_name(name) && !is_presets_file(root_ / name)) names.push_back(name);
     return names.size() < most_files;
   });
   std::ranges::sort(names);
@@ -90,6 +91,17 @@ std::vector<Workspace::DataFile> Workspace::list_data() const {
   });
   std::ranges::sort(found, {}, &DataFile::name);
   return found;
+}
+
+std::vector<std::string> Workspace::list_ending_in(const std::vector<std::string>& endings) const {
+  std::vector<std::string> names;
+  walk([&](const std::string& name, bool is_folder) {
+    const auto is_of_name = [lower = to_lower(name)](const std::string& ending) { return lower.ends_with(ending); };
+    if (!is_folder && std::ranges::any_of(endings, is_of_name)) names.push_back(name);
+    return names.size() < most_files;
+  });
+  std::ranges::sort(names);
+  return names;
 }
 
 std::string Workspace::name_of(const fs::path& file) const {

@@ -35,7 +35,7 @@ class Workspace {
   explicit Workspace(const std::filesystem::path& folder);
 
   const std::filesystem::path& root() const { return root_; }
-  // Designs and scripts, sorted; hidden folders and links to folders are left out.
+  // Designs and scripts, sorted; presets, hidden folders and links to folders are left out.
   std::vector<std::string> list() const;
   // Scans, results and tables likewise; a folder of DICOM files is one scan.
   struct DataFile {
@@ -43,6 +43,8 @@ class Workspace {
     DataKind kind = DataKind::none;
   };
   std::vector<DataFile> list_data() const;
+  // Those whose names end so (".stl", in small letters), sorted.
+  std::vector<std::string> list_ending_in(const std::vector<std::string>& endings) const;
   std::filesystem::path path(const std::string& name) const;
   // The name of a file at this path; empty where it is not in the folder.
   std::string name_of(const std::filesystem::path& file) const;

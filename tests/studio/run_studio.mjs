@@ -3,7 +3,7 @@
 //     node tests/studio/run_studio.mjs build/release/apps/ombre/ombre chromium [--pictures FOLDER]
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { appendFileSync, copyFileSync, existsSync, mkdtempSync, readFileSync, realpathSync, rmSync, writeFileSync } from "node:fs";
+import { appendFileSync, copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, realpathSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
@@ -28,6 +28,10 @@ writeFileSync(join(folder, "box.scad"), "width = 4; // [1:9]\ncolor(\"red\") cub
 for (const name of ["bent_beam.vtu", "two_lobes.nrrd"]) copyFileSync(join(source, "examples/models", name), join(folder, name));
 writeFileSync(join(folder, "history.csv"), "round,elements,change,greatest von Mises stress [MPa]\n1,256,,13.5\n2,256,0.25,11.75\n3,256,0.03125,11.5\n");
 writeFileSync(join(folder, "drop.py"), "import ombre\nroot = ombre.sphere(3, 'blue')\n");
+
+const solid = (side) => `OFF\n4 4 0\n0 0 0\n${side} 0 0\n0 ${side} 0\n0 0 ${side}\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n`;
+writeFileSync(join(folder, "small.off"), solid(4));
+writeFileSync(join(folder, "picked.vcad"), 'shape = "small.off";\nother = "";  // [*.off, *.obj]\nversion = "no.file";\nmesh(shape, red);\n');
 
 async function serve(place, port, key) {
   const variables = { ...process.env, OMBRE_DATA: source, OMBRE_STUDIO_TOKEN: key };
@@ -179,6 +183,47 @@ const checks = {
     await untilOnDisk("radius = 12.5;");
   },
 
+  async "keeps presets beside the script"() {
+    const presetsFile = join(folder, "ball.presets.json");
+    const setRadius = (value) => page.fill("[aria-label='radius, exactly']", value);
+    const radius = () => page.inputValue("[aria-label='radius, exactly']");
+    const savePreset = async (name, button) => {
+      await page.click("text=Save as a preset");
+      await page.fill("[aria-label='Name of the preset']", name);
+      await page.click(`.presets button:text-is('${button}')`);
+      await page.waitForSelector("text=Save as a preset");
+    };
+    await setRadius("7");
+    await savePreset("small", "Save");
+    await setRadius("18.5");
+    await page.waitForSelector(".preset option:has-text('small (changed)')", { state: "attached" });
+    await savePreset("large", "Save");
+    assert.deepEqual(JSON.parse(readFileSync(presetsFile)), { parameterSets: { small: { radius: "7" }, large: { radius: "18.5" } }, fileFormatVersion: "1" });
+    const before = await page.getAttribute(".surface canvas", "data-design");
+    await page.selectOption(".preset", "small");
+    assert.equal(await radius(), "7");
+    await until((old) => document.querySelector(".surface canvas").dataset.design !== old, before);
+    await setRadius("8");
+    await savePreset("small", "Replace");
+    assert.equal(JSON.parse(readFileSync(presetsFile)).parameterSets.small.radius, "8");
+    await picture("presets");
+    await page.selectOption(".preset", "large");
+    assert.equal(await radius(), "18.5");
+    await page.click("text=Delete preset");
+    await until(() => document.querySelectorAll(".preset option").length === 2);
+    assert.equal(JSON.parse(readFileSync(presetsFile)).parameterSets.large, undefined);
+    writeFileSync(presetsFile, "mine");
+    await page.reload();
+    await page.waitForSelector(".presets:has-text('ball.presets.json is no file of presets')");
+    assert.ok(await page.isDisabled("text=Save as a preset"));
+    assert.equal(readFileSync(presetsFile, "utf8"), "mine");
+    rmSync(presetsFile);
+    await page.focus(".preset");
+    await page.waitForSelector("button:not([disabled]):has-text('Save as a preset')");
+    await isReady("surface");
+    assert.equal(await radius(), "12.5");
+  },
+
   async "opacity shows through"() {
     await page.click("#tab-materials");
     await isReady("surface");
@@ -209,7 +254,7 @@ const checks = {
     assert.match(cells[3], /cm³/);
     await page.click("text=Forget the mark");
     await page.click("#tab-variables");
-    await page.click("text=Reset");
+    await page.click("button:text-is('Reset')");
     await page.click("#tab-materials");
   },
 
@@ -283,6 +328,9 @@ const checks = {
       probed.push({ voxel, material, shown });
     }
     await picture("slices");
+    assert.match(await page.innerText(".probe .calls"), /^sphere line 3\s+fgrade line 3$/);
+    await page.click(".probe .calls button:has-text('fgrade')");
+    assert.equal(await page.evaluate(() => getSelection().toString().slice(0, 6)), "fgrade");
   },
 
   async "estimates jobs, also in the middle of the tray"() {
@@ -416,6 +464,27 @@ const checks = {
     await isReady("surface");
   },
 
+  async "chooses files for variables"() {
+    await page.selectOption("select.file", "picked.vcad");
+    await page.waitForSelector("select#variable-shape");
+    await isReady("surface");
+    assert.equal(await page.inputValue("#variable-shape"), "small.off");
+    assert.deepEqual(await page.locator("#variable-other option").allInnerTexts(), ["choose…", "small.off"]);
+    assert.equal(await page.getAttribute("#variable-version", "type"), "text"); // no file ends so
+    mkdirSync(join(folder, "more"));
+    writeFileSync(join(folder, "more/large.off"), solid(8));
+    await page.focus("#variable-shape");
+    await page.waitForSelector("#variable-shape option[value='more/large.off']", { state: "attached" });
+    const before = await page.getAttribute(".surface canvas", "data-design");
+    await page.selectOption("#variable-shape", "more/large.off");
+    await until((old) => document.querySelector(".surface canvas").dataset.design !== old, before);
+    await page.click("#tab-materials");
+    await page.waitForSelector(".panel:has-text('8 × 8 × 8 mm')");
+    await page.click("#tab-variables");
+    await page.selectOption("select.file", "ball.vcad");
+    await isReady("surface");
+  },
+
   async "shows a scan in three planes, and what it makes of it"() {
     await page.selectOption("select.file", "two_lobes.nrrd");
     await page.waitForSelector(".plane canvas[data-state=ready] >> nth=2");
@@ -541,13 +610,37 @@ const checks = {
     rmSync(empty, { recursive: true, force: true });
   },
 
+  async "nothing moves by itself for people who want less motion"() {
+    const moving = () =>
+      page.evaluate(() => {
+        const moves = (style) => style.animationName !== "none" || style.transitionDuration.split(",").some((time) => parseFloat(time) > 0);
+        const all = [...document.querySelectorAll("*")];
+        return all.filter((e) => [undefined, "::before", "::after"].some((part) => moves(getComputedStyle(e, part)))).map((e) => `${e.tagName} ${e.className}`);
+      });
+    await page.emulateMedia({ reducedMotion: "no-preference" });
+    await editor.click();
+    assert.ok((await moving()).some((name) => name.includes("cm-cursorLayer"))); // the cursor blinks
+    await page.emulateMedia({ reducedMotion: "reduce" });
+    for (const tab of ["all", "materials", "export", "reference", "examples", "variables"]) {
+      await page.click(`#tab-${tab}`);
+      await editor.click();
+      assert.deepEqual(await moving(), [], tab);
+      assert.equal(await page.evaluate(() => document.getAnimations().length), 0);
+    }
+    await page.emulateMedia({ reducedMotion: null });
+  },
+
   async "axe finds nothing"() {
     await page.click("#tab-all");
+    await isReady("slices");
+    await page.click(".slices canvas");
+    await page.waitForSelector(".probe .calls");
     await page.evaluate(axeSource);
     for (const theme of ["light", "dark"]) {
       await page.selectOption("header select >> nth=1", theme);
       for (const tab of theme === "light" ? ["reference", "examples", "variables", "materials", "export"] : ["export"]) {
         await page.click(`#tab-${tab}`);
+        if (tab === "variables") await page.click("text=Save as a preset");
         const found = await page.evaluate(() => axe.run());
         assert.deepEqual(found.violations.map((v) => `${theme} ${tab}: ${v.id} at ${v.nodes.map((n) => n.html.slice(0, 120)).join(" and ")}`), []);
       }

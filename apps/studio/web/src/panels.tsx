@@ -1,8 +1,10 @@
 // Beside the views: variables, materials, slicing, the reference of nodes.
 import { useEffect, useState } from "preact/hooks";
+import { FileMenu, mayNameFile } from "./filechoice";
 import { listExamples, openExample } from "./files";
 import { page } from "./language";
 import { changeJob, choosePlace, compare, estimate, forgetMark, insert, jobKey, markVersion, measure, openFolder, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
+import { Presets } from "./presets";
 import { PrinterChoice } from "./slices";
 import { Job, NodeType, Place, State, Value, Variable, set, state, useStore } from "./store";
 
@@ -17,6 +19,7 @@ function Control({ v, value }: { v: Variable; value: Value }) {
   const id = `variable-${v.name}`;
   const change = (next: Value) => setVariable(v.name, next);
   if (v.kind === "boolean") return <input id={id} type="checkbox" checked={value as boolean} onChange={(e) => change(e.currentTarget.checked)} />;
+  if (mayNameFile(v)) return <FileMenu id={id} v={v} value={value as string} change={change} />;
   if (v.kind === "choice")
     return (
       <select id={id} value={JSON.stringify(value)} onChange={(e) => change(JSON.parse(e.currentTarget.value))}>
@@ -50,6 +53,7 @@ function Variables() {
   return (
     <div class="panelbody">
       {variables.length === 0 && <p>{file ? "The script has no top-level variables with plain values." : "No design is open."}</p>}
+      {variables.length > 0 && <Presets key={file} />}
       {variables.map((v) => {
         const heading = v.section && v.section !== section ? v.section : "";
         section = v.section ?? section;

@@ -1,5 +1,7 @@
 // What the page does: opens, saves, evaluates, slices. Components call it; answers go into the store.
 import { Connection, Refused, Reply } from "./connection";
+import { listFileChoices } from "./filechoice";
+import { hearPresets, listPresets } from "./presets";
 import { DataFile, Job, Mark, Place, Plan, State, Value, set, state } from "./store";
 
 // What the session needs of the editor.
@@ -48,6 +50,7 @@ async function greet() {
 async function comeBack() {
   if (!state.file) return;
   const disk = await connection.ask("open", { file: state.file }).answer.catch(() => undefined);
+  listPresets();
   if (disk && state.kind !== "") return showData(disk);
   if (disk && disk.version !== version) takeFromDisk(disk);
   if (!state.conflict && isDirty()) save();
@@ -71,9 +74,10 @@ export async function openFile(file: string) {
     savedText = fromDisk(disk.text);
     sentText = undefined;
     const kind = disk.kind as State["kind"];
-    set({ file, kind, table: "", by: "", palette: "", range: undefined, rotate: [0, 0, 0], values: {}, conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], variables: [], plan: undefined,
+    set({ file, kind, table: "", by: "", palette: "", range: undefined, rotate: [0, 0, 0], values: {}, filesByEnding: {}, presets: [], preset: "", presetsProblem: "", conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], variables: [], plan: undefined,
           probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", problem: "", z: NaN, isOld: false });
     localStorage.setItem(`ombre:file:${state.hello?.folder}`, file);
+    listPresets();
     if (kind === "scan") set({ view: "planes" });
     if (kind === "results" && !["surface", "slices"].includes(state.view)) set({ view: "surface" });
     if (kind !== "") return showData(disk);
@@ -193,6 +197,7 @@ export function settle(mine: boolean) {
 
 async function heard(name: string, members: Reply) {
   if (name === "job") return takeJob(members.job);
+  if (name === "presets") return hearPresets(members.file, members.presets);
   if (name !== "changed") return;
   await saving;
   if (members.file !== state.file) return evaluate(100);
@@ -219,13 +224,17 @@ export function evaluate(after = 0) {
 }
 
 export function setVariable(name: string, value: Value) {
-  set({ values: { ...state.values, [name]: value } });
+  setValues({ ...state.values, [name]: value });
+}
+
+export function setValues(values: State["values"]) {
+  set({ values });
   if (isLoading) isWanted = true;
   else load();
 }
 
 export function resetVariables() {
-  set({ values: {} });
+  set({ values: {}, preset: "" });
   evaluate();
 }
 
@@ -280,6 +289,7 @@ async function load(isRun = false) {
     if (reply.ok && isNaN(state.z)) change.z = (reply.bounds_mm[0][2] + reply.bounds_mm[1][2]) / 2;
     set(change);
     editor.setDiagnostics();
+    listFileChoices();
     if (reply.ok) plan();
   } catch (error) {
     const refused = error as Refused;

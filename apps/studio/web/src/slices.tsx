@@ -1,8 +1,8 @@
 // Layers at the printer's resolution: pixels are those of the job's files.
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { length } from "./camera";
-import { choosePrinter, probe } from "./session";
-import { Plan, set, state, useStore } from "./store";
+import { choosePrinter, probe, reveal } from "./session";
+import { NodeCall, Plan, set, state, useStore } from "./store";
 import { Legend, ScaleBar } from "./surface";
 import { Tile, Tiles, tileSize } from "./tiles";
 
@@ -103,6 +103,26 @@ class Painter {
 
 const percent = (share: number) => `${+(100 * share).toPrecision(3)} %`;
 
+const mostCalls = 4;
+
+// The calls of the script that made what is at the point, the innermost first: each leads there.
+function Calls({ nodes }: { nodes: NodeCall[] }) {
+  const calls = nodes.filter((node) => node.from !== undefined).reverse().slice(0, mostCalls);
+  if (calls.length === 0) return null;
+  return (
+    <>
+      <dt>made by</dt>
+      <dd class="calls">
+        {calls.map((node) => (
+          <button onClick={() => reveal(node.from!, node.to!)} title="Show it in the script">
+            {node.type} <span class="quiet">line {node.line}</span>
+          </button>
+        ))}
+      </dd>
+    </>
+  );
+}
+
 function ProbeCard() {
   const { probe, probeBefore } = useStore();
   if (!probe) return null;
@@ -121,6 +141,7 @@ function ProbeCard() {
           <dd>{value}</dd>
         </>
       ))}
+      <Calls nodes={probe.nodes} />
     </dl>
   );
 }

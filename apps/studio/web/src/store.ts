@@ -29,21 +29,31 @@ export interface Variable {
   to: number;
 }
 
+// Values of variables under a name, as texts, as the file beside the script has them.
+export interface Preset {
+  name: string;
+  values: Record<string, string>;
+}
+
 export interface Material {
   name: string;
   colour: number[];
   density?: number;
 }
 
-export interface GraphNode {
-  id: number;
+// A node, and where its call stands in the script, if it does.
+export interface NodeCall {
   type: string;
-  category: string;
-  inputs: number[];
-  values: number[];
   from?: number;
   to?: number;
   line?: number;
+}
+
+export interface GraphNode extends NodeCall {
+  id: number;
+  category: string;
+  inputs: number[];
+  values: number[];
 }
 
 export interface Design {
@@ -122,6 +132,7 @@ export interface Probe {
   composition: Record<string, number>;
   attributes: Record<string, number>;
   parts: string[];
+  nodes: NodeCall[]; // from the outermost to the innermost solid that holds the point
   voxel: { index?: number[]; material?: string };
 }
 
@@ -193,6 +204,10 @@ export interface State {
   echo: string[];
   variables: Variable[];
   values: Record<string, Value>; // set by sliders, in place of the text's
+  presets: Preset[]; // of the script
+  filesByEnding: Record<string, string[]>; // that the script may read, as it names them
+  preset: string; // that was chosen last; empty: none
+  presetsProblem: string;
   camera?: Camera;
   cut?: Cut;
   perspective: boolean;
@@ -244,6 +259,10 @@ export let state: State = {
   echo: [],
   variables: [],
   values: {},
+  presets: [],
+  filesByEnding: {},
+  preset: "",
+  presetsProblem: "",
   perspective: false,
   by: "",
   palette: "",
