@@ -20,7 +20,7 @@ struct Convergence {
 class Gradients {
  public:
   Gradients(const BrickOperator& stiffness, const SolveOptions& options, Progress* progress, const StopFlag* stop)
-      : stiffness_(stiffness), options_(options), progress_(progress), stop_(stop), multigrid_(stiffness) {}
+      : stiffness_(stiffness), options_(options), progress_(progress), stop_(stop), multigrid_(stiffness, stop) {}
 
   // Adds to the displacements `x` what balances the forces `residual`, which are 0 where it is held. Throws Error when
   // it does not converge, and Cancelled.

@@ -138,11 +138,12 @@ struct Multigrid::Level {
   double spectrum = 0;                 // the greatest eigenvalue of diagonal^-1 stiffness, about
   Vector residual, step, forces, below, coarse_forces, coarse_displacements;
 
-  void find_spectrum() {
+  void find_spectrum(const StopFlag* stop) {
     const Vector& inverse = fine->inverse_diagonal();
     Vector vector(fine->size());
     for (size_t n = 0; n < vector.size(); ++n) vector[n] = inverse[n] > 0 ? noise(n) : 0;
     for (int round = 0; round < power_rounds; ++round) {
+      if (stop && stop->requested()) throw Cancelled();
       const double norm = std::sqrt(dot(vector, vector, fine->threads()));
       if (!(norm > 0)) break;
       for (double& x : vector) x /= norm;
@@ -220,7 +221,7 @@ struct Multigrid::Level {
   }
 };
 
-Multigrid::Multigrid(const BrickOperator& finest) {
+Multigrid::Multigrid(const BrickOperator& finest, const StopFlag* stop) : stop_(stop) {
   levels_.push_back(std::make_unique<Level>());
   levels_.back()->fine = &finest;
   while (levels_.back()->fine->bricks().node_count() > most_direct_nodes) {
@@ -236,7 +237,7 @@ Multigrid::Multigrid(const BrickOperator& finest) {
     next->fine = next->own.get();
     levels_.push_back(std::move(next));
   }
-  for (auto& level : levels_) level->find_spectrum();
+  for (auto& level : levels_) level->find_spectrum(stop);
   Level& last = *levels_.back();
   if (last.fine->bricks().node_count() <= most_direct_nodes) last.direct = factor_of(*last.fine);
 }
@@ -254,7 +255,11 @@ void Multigrid::cycle(size_t number, const Vector& forces, Vector& displacements
         level.direct->solve(Eigen::Map<const Eigen::VectorXd>(forces.data(), size));
     return;
   }
+  const auto stop_if_asked = [this] {
+    if (stop_ && stop_->requested()) throw Cancelled();
+  };
   level.smooth(forces, displacements, true);
+  stop_if_asked();
   if (number + 1 < levels_.size()) {
     const BrickOperator& coarse = *levels_[number + 1]->fine;
     level.subtract_forces(forces, displacements);
@@ -262,6 +267,7 @@ void Multigrid::cycle(size_t number, const Vector& forces, Vector& displacements
     cycle(number + 1, level.coarse_forces, level.coarse_displacements);
     level.add_from(coarse, displacements);
   }
+  stop_if_asked();
   level.smooth(forces, displacements, false);
 }
 

@@ -5,14 +5,15 @@
 #include <memory>
 #include <vector>
 
+#include "base/progress.h"
 #include "fea/brick_operator.h"
 
 namespace ombre::fea {
 
 class Multigrid {
  public:
-  // The operator must live as long.
-  explicit Multigrid(const BrickOperator& finest);
+  // The operator must live as long, and `stop` if given: it and apply() throw Cancelled soon after a request.
+  explicit Multigrid(const BrickOperator& finest, const StopFlag* stop = nullptr);
   ~Multigrid();
 
   // About the displacements that these forces make: one V-cycle, a symmetric and positive operator.
@@ -23,6 +24,7 @@ class Multigrid {
   struct Level;
   void cycle(size_t level, const Vector& forces, Vector& displacements);
 
+  const StopFlag* stop_;
   std::vector<std::unique_ptr<Level>> levels_;
 };
 

@@ -17,6 +17,8 @@ let editor: Editor | undefined;
 let version = ""; // of the text that was opened or saved last
 let savedText = "";
 let sentText: string | undefined; // of a save whose answer may have been lost
+let ownTexts: string[] = []; // that this window saved last
+const mostOwnTexts = 8;
 let saving: Promise<void> = Promise.resolve();
 let usesCrlf = false;
 
@@ -73,6 +75,7 @@ export async function openFile(file: string) {
     version = disk.version;
     savedText = fromDisk(disk.text);
     sentText = undefined;
+    ownTexts = [];
     const kind = disk.kind as State["kind"];
     set({ file, kind, table: "", by: "", palette: "", range: undefined, rotate: [0, 0, 0], values: {}, filesByEnding: {}, presets: [], preset: "", presetsProblem: "", conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], variables: [], plan: undefined,
           probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", problem: "", z: NaN, isOld: false });
@@ -151,12 +154,15 @@ async function saveNow() {
     text = editor.text();
   set({ saved: "saving" });
   sentText = text;
+  ownTexts = [...ownTexts.slice(-mostOwnTexts), text];
   try {
     const reply = await connection.ask("save", { file, text: usesCrlf ? text.replaceAll("\n", "\r\n") : text, version }).answer;
     if (file !== state.file) return;
     const onDisk = reply.saved || reply.text === undefined ? undefined : fromDisk(reply.text);
-    version = reply.saved || onDisk === text || onDisk === savedText ? reply.version : version;
-    if (onDisk === savedText && onDisk !== text) return await saveNow(); // another window saved the same text as this one
+    const isOwn = onDisk !== undefined && (onDisk === savedText || ownTexts.includes(onDisk));
+    version = reply.saved || onDisk === text || isOwn ? reply.version : version;
+    // What this window or another one with the same text saved a moment ago is nobody else's change.
+    if (isOwn && onDisk !== text) return await saveNow();
     if (!reply.saved && onDisk !== text) return set({ saved: "unsaved", conflict: { text: reply.text, version: reply.version } });
     savedText = text;
     if (editor.text() === text) localStorage.removeItem(draftKey(file));
@@ -172,6 +178,7 @@ function takeFromDisk(disk: Reply) {
     savedText = sentText;
     return;
   }
+  if (isDirty() && ownTexts.includes(fromDisk(disk.text))) return; // news of an earlier save of this window
   if (isDirty()) return set({ conflict: { text: disk.text, version: disk.version }, saved: "unsaved" });
   version = disk.version;
   savedText = fromDisk(disk.text);
