@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/error.h"
+
 namespace ombre::fea {
 namespace {
 
