@@ -1,4 +1,4 @@
-// What the command line of ombre fea says.
+// The options of ombre fea, as the command line gives them.
 #pragma once
 
 #include <string>

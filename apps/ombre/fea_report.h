@@ -1,4 +1,4 @@
-// What ombre fea says of models and results, as lines and as events.
+// Tells people and programs about the models and results of ombre fea, in lines and in events.
 #pragma once
 
 #include <string>

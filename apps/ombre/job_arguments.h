@@ -14,11 +14,11 @@ namespace ombre::cli {
 using DesignArguments = compile::DesignOptions;
 void add_design_arguments(CLI::App& app, DesignArguments& arguments);
 
-// As compile::plan_options, by this program.
+// Makes plan options as compile::plan_options does, in the name of this program.
 std::optional<compile::PlanOptions> plan_options(const compile::SamplingOptions& sampling, Diagnostics& diagnostics,
                                                  const compile::ImageOptions& images = {});
 
-// The same for a job of this session.
+// Makes plan options for a job of this session: with its threads, memory and stop flag.
 std::optional<compile::PlanOptions> plan_options(const compile::SamplingOptions& sampling,
                                                  const compile::WorkOptions& work, const Session& session,
                                                  Diagnostics& diagnostics, const compile::ImageOptions& images = {});
