@@ -9,13 +9,13 @@
 namespace ombre::formats {
 namespace {
 
-// "C3D10M", "DC3D4": the number of nodes of solid elements; nothing for other types.
+// "C3D10M", "DC3D4": the number of nodes of solid elements; nothing for other types. Types of solids have one or two digits.
 std::optional<size_t> solid_nodes(std::string_view type) {
   const size_t at = type.find("c3d");
   if (at == std::string_view::npos) return std::nullopt;
   std::string_view digits = type.substr(at + 3);
   digits = digits.substr(0, digits.find_first_not_of("0123456789"));
-  const auto count = parse_number(digits);
+  const auto count = digits.size() <= 2 ? parse_number(digits) : std::nullopt;
   return count ? std::optional(static_cast<size_t>(*count)) : std::nullopt;
 }
 
