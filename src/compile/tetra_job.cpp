@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/point_text.h"
 #include "base/text.h"
 #include "compile/build.h"
 #include "compile/mesh_job.h"
@@ -187,9 +188,20 @@ class TetraMaker {
                            "choose a smaller --size, or bricks");
       return made;
     }
-    if (volume_of(made) > least_share * volume_mm3) return made;
-    add_face_points();
-    return make();
+    if (!(volume_of(made) > least_share * volume_mm3)) {
+      add_face_points();
+      made = make();
+    }
+    warn_of_left_out(made.edges_left_out);
+    return made;
+  }
+
+  void warn_of_left_out(const std::vector<solids::Polyline>& edges) {
+    for (const solids::Polyline& line : edges)
+      diagnostics_.warning({loaded_->source, 0, 0},
+                           "the sharp edge through " + format_point(line[line.size() / 2]) +
+                               " is cut off, since others lie too close to it for elements of this size",
+                           "choose a smaller --size, or bricks");
   }
 
   static double volume_of(const solids::Tetrahedra& made) {

@@ -242,6 +242,7 @@ TEST(Results, WrongDecksAndTablesAreTold) {
   says(with("7, 9\n", "77, 9\n"), "", "names node 77");
   says(with("4, 5, 7, 9, 10", "4, 5, 7"), "", "has 2 nodes");
   says(with("C3D4H", "C3D6"), "", "not read");
+  says(with("C3D4H", "C3D" + std::string(30, '8')), "", "no solid elements");
   says(with("0,0,3", "0,zero,3"), "", "\"zero\"");
   says("*NODE\n1,0,0,0\n", "", "no solid elements");
   says(deck, "node,v\n11,1\n", "a.csv:2:1: error: the mesh has no node 11");

@@ -23,7 +23,32 @@ namespace {
 
 using Geometry = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Geometry::Point_3;
-using Domain = CGAL::Mesh_domain_with_polyline_features_3<CGAL::Labeled_mesh_domain_3<Geometry>>;
+
+// A sharp edge for whose balls there is no end.
+struct EndlessEdge {
+  size_t line;
+};
+
+// Counts the balls along sharp edges. Where lines come near to each other, or cross, balls become ever smaller.
+class Domain : public CGAL::Mesh_domain_with_polyline_features_3<CGAL::Labeled_mesh_domain_3<Geometry>> {
+ public:
+  using Base = CGAL::Mesh_domain_with_polyline_features_3<CGAL::Labeled_mesh_domain_3<Geometry>>;
+  using Base::Base;
+
+  void allow_balls(std::vector<uint64_t> of_line) { left_ = std::move(of_line); }
+
+  Point construct_point_on_curve(const Point& from, const Curve_index& curve, FT distance) const {
+    count_ball(curve);
+    return Base::construct_point_on_curve(from, curve, distance);
+  }
+  void count_ball(const Curve_index& curve) const {
+    const auto line = static_cast<size_t>(curve) - 1;
+    if (left_[line]-- == 0) throw EndlessEdge{line};
+  }
+
+ private:
+  mutable std::vector<uint64_t> left_;  // for each line
+};
 using Triangulation = CGAL::Mesh_triangulation_3<Domain, CGAL::Default, CGAL::Sequential_tag>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
 using Usual = CGAL::Mesh_criteria_3<Triangulation>;
@@ -31,9 +56,12 @@ using Usual = CGAL::Mesh_criteria_3<Triangulation>;
 // Shares of the element size: radii of the balls around facets and cells, so that the mean edge has about the size; how
 // far edges may lie from sharp edges.
 constexpr double facet_share = 0.8, cell_share = 0.8;
-// Balls around points of sharp edges, in all and for each of their sizes; lines that cross would have no end of them.
-constexpr double most_balls = 20'000, most_balls_of_size = 50;
+// Balls around points of a sharp edge, in all and for each of their sizes along it.
+constexpr double most_balls = 2000, most_balls_of_size = 50;
 constexpr double edge_distance_share = 0.03;
+// How far facets may lie from the surface beside sharp edges that are left out, and how many of these there may be.
+constexpr double rough_distance_share = 0.2;
+constexpr size_t most_edges_left_out = 12;
 constexpr double least_angle = 25, most_radius_to_edge = 2.2;
 // Angles between faces of slivers are less than this; how many questions may be asked to mend them.
 constexpr double sliver_degrees = 12;
@@ -42,6 +70,12 @@ constexpr uint64_t questions_to_mend = 500'000, questions_to_mend_of_cell = 100;
 constexpr double surface_error = 1e-4;
 
 Vec3 vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+double distance_to_segment(Vec3 at, Vec3 from, Vec3 to) {
+  const Vec3 along = to - from;
+  const double share = std::clamp(dot(at - from, along) / dot(along, along), 0.0, 1.0);
+  return length(at - from - share * along);
+}
 
 // Facets and cells with a shorter edge, in sizes, are left as they are: where surfaces meet in a sharp angle that is no
 // protected edge, refinement would not end.
@@ -73,6 +107,27 @@ struct Sizing {
   }
 };
 
+// How far facets may lie from the surface: farther beside sharp edges that are left out, where there is no end of facets
+// otherwise.
+struct DistanceSizing {
+  using FT = Geometry::FT;
+  using Point_3 = Point;
+  const TetrahedraRequest* request;
+  const std::vector<Polyline>* left_out;
+  template <class P, class Index>
+  FT operator()(const P& p, int /*dimension*/, const Index& /*index*/) const {
+    const Vec3 at = {p.x(), p.y(), p.z()};
+    const double size = request->size_mm(at);
+    const auto is_near = [&](const Polyline& line) {
+      for (size_t n = 0; n + 1 < line.size(); ++n)
+        if (distance_to_segment(at, line[n], line[n + 1]) < size) return true;
+      return false;
+    };
+    const bool is_rough = std::any_of(left_out->begin(), left_out->end(), is_near);
+    return size * std::max(request->distance_share, is_rough ? rough_distance_share : 0);
+  }
+};
+
 // The same along sharp edges, where balls around their points must also follow bends.
 struct EdgeSizing {
   using FT = Geometry::FT;
@@ -80,13 +135,12 @@ struct EdgeSizing {
   const Domain* domain;
   const TetrahedraRequest* request;
   const std::vector<std::vector<double>>* longest_mm;  // of chords, for each point of each line
-  uint64_t* left;                                      // how many times more it may be asked
   template <class P, class Index>
   FT operator()(const P& p, int dimension, const Index& index) const {
-    if ((*left)-- == 0) throw Error("sharp edges lie too close together for this size");
     const Vec3 at = {p.x(), p.y(), p.z()};
     const double size = request->size_mm(at);
     if (dimension != 1) return std::min(size, at_corner(at));
+    domain->count_ball(domain->curve_index(index));
     const auto line = static_cast<size_t>(domain->curve_index(index)) - 1;
     return std::min(size, on_line(at, request->sharp_edges[line], (*longest_mm)[line]));
   }
@@ -103,9 +157,7 @@ struct EdgeSizing {
   static double on_line(Vec3 at, const Polyline& line, const std::vector<double>& longest_mm) {
     double nearest = std::numeric_limits<double>::infinity(), found = nearest;
     for (size_t n = 0; n + 1 < line.size(); ++n) {
-      const Vec3 along = line[n + 1] - line[n];
-      const double share = std::clamp(dot(at - line[n], along) / dot(along, along), 0.0, 1.0);
-      const double off = length(at - line[n] - share * along);
+      const double off = distance_to_segment(at, line[n], line[n + 1]);
       if (off < nearest) nearest = off, found = std::min(longest_mm[n], longest_mm[n + 1]);
     }
     return found;
@@ -155,31 +207,27 @@ bool is_small(const Triangulation& triangulation, Triangulation::Cell_handle cel
 }
 
 // The usual criteria, but for what has become small.
-struct LimitedFacets {
+struct LimitedFacets : Usual::Facet_criteria {
   using Base = Usual::Facet_criteria;
-  using Facet_quality = Base::Facet_quality;
-  using Is_facet_bad = Base::Is_facet_bad;
-
-  Base base;
   const std::function<double(Vec3)>* size_mm;
+
+  LimitedFacets(const Base& base, const std::function<double(Vec3)>& size) : Base(base), size_mm(&size) {}
 
   Is_facet_bad operator()(const Triangulation& triangulation, const Triangulation::Facet& facet) const {
     std::array<int, 3> corners{};
     for (int n = 0; n < 3; ++n) corners[static_cast<size_t>(n)] = (facet.second + n + 1) % 4;
-    return is_small(triangulation, facet.first, corners, *size_mm) ? Is_facet_bad() : base(triangulation, facet);
+    return is_small(triangulation, facet.first, corners, *size_mm) ? Is_facet_bad() : Base::operator()(triangulation, facet);
   }
 };
-struct LimitedCells {
+struct LimitedCells : Usual::Cell_criteria {
   using Base = Usual::Cell_criteria;
-  using Cell_quality = Base::Cell_quality;
-  using Is_cell_bad = Base::Is_cell_bad;
-
-  Base base;
   const std::function<double(Vec3)>* size_mm;
+
+  LimitedCells(const Base& base, const std::function<double(Vec3)>& size) : Base(base), size_mm(&size) {}
 
   Is_cell_bad operator()(const Triangulation& triangulation, const Triangulation::Cell_handle& cell) const {
     const bool is_fine = is_small(triangulation, cell, std::array{0, 1, 2, 3}, *size_mm);
-    return is_fine ? Is_cell_bad() : base(triangulation, cell);
+    return is_fine ? Is_cell_bad() : Base::operator()(triangulation, cell);
   }
 };
 
@@ -191,8 +239,8 @@ class Criteria {
 
   Criteria(const Usual& usual, const std::function<double(Vec3)>& size_mm)
       : edges_(usual.edge_criteria_object()),
-        facets_{usual.facet_criteria_object(), &size_mm},
-        cells_{usual.cell_criteria_object(), &size_mm} {}
+        facets_(usual.facet_criteria_object(), size_mm),
+        cells_(usual.cell_criteria_object(), size_mm) {}
 
   const Edge_criteria& edge_criteria_object() const { return edges_; }
   const Facet_criteria& facet_criteria_object() const { return facets_; }
@@ -270,7 +318,13 @@ void mend_slivers(const Domain& domain, Questions& questions, Complex& complex) 
   CGAL::exude_mesh_3(complex, params::time_limit = 0, params::sliver_bound = sliver_degrees);
 }
 
-Tetrahedra make(const TetrahedraRequest& request) {
+double length_of(const Polyline& line) {
+  double sum = 0;
+  for (size_t n = 0; n + 1 < line.size(); ++n) sum += length(line[n + 1] - line[n]);
+  return sum;
+}
+
+Tetrahedra make_with(const TetrahedraRequest& request, const std::vector<Polyline>& left_out) {
   namespace params = CGAL::parameters;
   CGAL::get_default_random() = CGAL::Random(0);
   CGAL::Random random(0);
@@ -284,21 +338,21 @@ Tetrahedra make(const TetrahedraRequest& request) {
   Domain domain(params::function = region, params::bounding_object = around, params::p_rng = &random,
                 params::relative_error_bound = surface_error * request.least_size_mm / length(box.size()));
   std::vector<std::vector<Point>> edges;
+  std::vector<std::vector<double>> longest_mm;
+  std::vector<uint64_t> balls;
   for (const Polyline& line : request.sharp_edges) {
     edges.emplace_back();
     for (const Vec3& p : line) edges.back().emplace_back(p.x, p.y, p.z);
+    longest_mm.push_back(longest_chords(line, request.size_mm));
+    balls.push_back(
+        static_cast<uint64_t>(most_balls + most_balls_of_size * length_of(line) / request.least_size_mm));
   }
+  domain.allow_balls(std::move(balls));
   domain.add_features(edges.begin(), edges.end());
   for (const Vec3& p : request.fixed_points) domain.add_corner(Point(p.x, p.y, p.z));
-  std::vector<std::vector<double>> longest_mm;
-  for (const Polyline& line : request.sharp_edges) longest_mm.push_back(longest_chords(line, request.size_mm));
-  double all_mm = 0;
-  for (const Polyline& line : request.sharp_edges)
-    for (size_t n = 0; n + 1 < line.size(); ++n) all_mm += length(line[n + 1] - line[n]);
-  auto left = static_cast<uint64_t>(most_balls + most_balls_of_size * all_mm / request.least_size_mm);
-  const EdgeSizing edge{&domain, &request, &longest_mm, &left};
-  const Sizing facet{&request.size_mm, facet_share}, cell{&request.size_mm, cell_share},
-      distance{&request.size_mm, request.distance_share};
+  const EdgeSizing edge{&domain, &request, &longest_mm};
+  const Sizing facet{&request.size_mm, facet_share}, cell{&request.size_mm, cell_share};
+  const DistanceSizing distance{&request, &left_out};
   const Usual usual(params::edge_size = edge, params::facet_angle = least_angle, params::facet_size = facet,
                     params::facet_distance = distance, params::cell_radius_edge_ratio = most_radius_to_edge,
                     params::cell_size = cell);
@@ -307,6 +361,23 @@ Tetrahedra make(const TetrahedraRequest& request) {
                                                params::no_odt(), params::no_perturb(), params::no_exude());
   mend_slivers(domain, questions, complex);
   return in_order(complex);
+}
+
+// Again without each sharp edge for whose balls there is no end.
+Tetrahedra make(TetrahedraRequest request) {
+  std::vector<Polyline> left_out;
+  while (true) {
+    try {
+      Tetrahedra made = make_with(request, left_out);
+      made.edges_left_out = std::move(left_out);
+      return made;
+    } catch (const EndlessEdge& endless) {
+      const auto place = request.sharp_edges.begin() + static_cast<ptrdiff_t>(endless.line);
+      left_out.push_back(std::move(*place));
+      request.sharp_edges.erase(place);
+    }
+    if (left_out.size() > most_edges_left_out) throw Error("sharp edges lie too close together for this size");
+  }
 }
 
 }  // namespace

@@ -29,6 +29,8 @@ std::string make_and_pack(Make* make, const TetrahedraRequest& request) {
   packer.add_list(made.points);
   packer.add_list(made.nodes);
   packer.add_list(made.regions);
+  packer.add(uint64_t{made.edges_left_out.size()});
+  for (const Polyline& line : made.edges_left_out) packer.add_list(line);
   return packer.take();
 }
 
@@ -48,6 +50,8 @@ Tetrahedra make_tetrahedra(const TetrahedraRequest& request) {
   made.points = unpacker.get_list<Vec3>();
   made.nodes = unpacker.get_list<std::array<uint32_t, 4>>();
   made.regions = unpacker.get_list<uint32_t>();
+  made.edges_left_out.resize(unpacker.get<uint64_t>());
+  for (Polyline& line : made.edges_left_out) line = unpacker.get_list<Vec3>();
   return made;
 }
 

@@ -34,6 +34,7 @@ struct Tetrahedra {
   std::vector<Vec3> points;  // mm
   std::vector<std::array<uint32_t, 4>> nodes;
   std::vector<uint32_t> regions;  // of each tetrahedron
+  std::vector<Polyline> edges_left_out;  // sharp edges that lie too close to others for the size: cut off
 };
 
 // Delaunay refinement of the volume (CGAL's Mesh_3, after Rineau and Yvinec, 2007; sharp edges after Cheng, Dey and
