@@ -22,7 +22,7 @@ namespace {
 constexpr double cell_share = 0.5, tolerance_share = 0.01, most_cells_along = 500, least_sizes_along = 8;
 // Measured: of the size's third power a tetrahedron has so much, and asks for the region so many times.
 constexpr double volume_of_cube = 0.115, questions_of_element = 60;
-constexpr double most_questions = 400;  // of an expected element: then the mesher does not come to an end
+constexpr double most_questions = 400;  // of an expected element: then refinement would not end
 constexpr double bytes_of_element = 700;
 constexpr double rough_share = 0.2;  // of the size: how far faces may lie from a surface whose edges are cut off
 constexpr double least_share = 0.9;  // of the surface's volume that tetrahedra fill
@@ -157,6 +157,7 @@ class TetraMaker {
     };
     wanted.size_mm = [&size](Vec3 p) { return size.at(p); };
     wanted.least_size_mm = size.least_mm();
+    wanted.most_questions = static_cast<uint64_t>(most_questions * (plan_.elements + 5000));
     wanted.sharp_edges = std::move(edges.lines);
     wanted.fixed_points = std::move(edges.smooth_points);
     if (request_.memory_bytes > 0) wanted.memory_bytes = request_.memory_bytes;
@@ -216,9 +217,6 @@ class TetraMaker {
   void count_question() {
     constexpr uint64_t look_each = 1024;
     if (++questions_ % look_each != 0) return;
-    if (static_cast<double>(questions_) > most_questions * (plan_.elements + 5000))
-      throw Error("the tetrahedra become far too many and too small, about " + format_rounded(plan_.elements, 2) +
-                  " were expected: sharp edges may lie too close together for this size");
     if (stop_ && stop_->requested()) throw Cancelled();
     if (!progress_) return;
     const auto total = static_cast<uint64_t>(plan_.elements * questions_of_element) + look_each;

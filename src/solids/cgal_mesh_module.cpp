@@ -24,18 +24,27 @@ namespace {
 using Geometry = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Geometry::Point_3;
 
-// A sharp edge for whose balls there is no end.
-struct EndlessEdge {
-  size_t line;
+// Balls around points of a sharp edge, in all and for each of their sizes along it.
+constexpr double most_balls = 2000, most_balls_of_size = 50;
+// Where refinement does not end, lines with so many balls for each size along them are left out.
+constexpr double crowded_balls_of_size = 8;
+
+// Sharp edges with which refinement does not end.
+struct EndlessEdges {
+  std::vector<size_t> lines;  // in ascending order
 };
 
-// Counts the balls along sharp edges. Where lines come near to each other, or cross, balls become ever smaller.
+// Counts the balls that protect sharp edges. Where lines come near to each other, or cross, balls become ever smaller.
 class Domain : public CGAL::Mesh_domain_with_polyline_features_3<CGAL::Labeled_mesh_domain_3<Geometry>> {
  public:
   using Base = CGAL::Mesh_domain_with_polyline_features_3<CGAL::Labeled_mesh_domain_3<Geometry>>;
   using Base::Base;
 
-  void allow_balls(std::vector<uint64_t> of_line) { left_ = std::move(of_line); }
+  // How many balls each line would have if each were of the wanted size.
+  void expect_balls(std::vector<double> of_line) {
+    expected_ = std::move(of_line);
+    count_.assign(expected_.size(), 0);
+  }
 
   Point construct_point_on_curve(const Point& from, const Curve_index& curve, FT distance) const {
     count_ball(curve);
@@ -43,11 +52,24 @@ class Domain : public CGAL::Mesh_domain_with_polyline_features_3<CGAL::Labeled_m
   }
   void count_ball(const Curve_index& curve) const {
     const auto line = static_cast<size_t>(curve) - 1;
-    if (left_[line]-- == 0) throw EndlessEdge{line};
+    if (static_cast<double>(++count_[line]) > most_balls + most_balls_of_size * expected_[line])
+      throw EndlessEdges{{line}};
+  }
+
+  // The lines with the smallest balls; at least one.
+  std::vector<size_t> crowded_lines() const {
+    const auto crowd = [&](size_t line) { return static_cast<double>(count_[line]) / (1 + expected_[line]); };
+    double most = 0;
+    for (size_t line = 0; line < count_.size(); ++line) most = std::max(most, crowd(line));
+    std::vector<size_t> found;
+    for (size_t line = 0; line < count_.size(); ++line)
+      if (crowd(line) >= std::min(most, crowded_balls_of_size)) found.push_back(line);
+    return found;
   }
 
  private:
-  mutable std::vector<uint64_t> left_;  // for each line
+  std::vector<double> expected_;
+  mutable std::vector<uint64_t> count_;
 };
 using Triangulation = CGAL::Mesh_triangulation_3<Domain, CGAL::Default, CGAL::Sequential_tag>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
@@ -56,15 +78,13 @@ using Usual = CGAL::Mesh_criteria_3<Triangulation>;
 // Shares of the element size: radii of the balls around facets and cells, so that the mean edge has about the size; how
 // far edges may lie from sharp edges.
 constexpr double facet_share = 0.8, cell_share = 0.8;
-// Balls around points of a sharp edge, in all and for each of their sizes along it.
-constexpr double most_balls = 2000, most_balls_of_size = 50;
 constexpr double edge_distance_share = 0.03;
-// How far facets may lie from the surface beside sharp edges that are left out, and how many of these there may be.
+// How far facets may lie from the surface beside sharp edges that are left out.
 constexpr double rough_distance_share = 0.2;
-constexpr size_t most_edges_left_out = 12;
+constexpr int most_attempts = 8;  // to find the edges that are to be left out
 constexpr double least_angle = 25, most_radius_to_edge = 2.2;
-// Angles between faces of slivers are less than this; how many questions may be asked to mend them.
-constexpr double sliver_degrees = 12;
+// Angles between faces that are wanted one after the other; how many questions may be asked for each.
+constexpr std::array sliver_degrees = {1.0, 2.0, 4.0, 8.0, 12.0};
 constexpr uint64_t questions_to_mend = 500'000, questions_to_mend_of_cell = 100;
 // How near to the surface its points lie, as a share of the size.
 constexpr double surface_error = 1e-4;
@@ -298,24 +318,23 @@ Tetrahedra in_order(const Complex& complex) {
 }
 
 // Moves nodes of slivers, then gives nodes weights. Some slivers between protected balls cannot be mended, and the
-// search for a better place, which tries chance, would go on for many minutes, so that it has so many questions; where
-// they are not enough its work is dropped, and less is wanted. (CGAL's own limit is one of time, so that each run would
-// give another mesh; 0 is none.)
+// search for a better place, which tries chance, would go on for many minutes. So each wanted angle has so many
+// questions, and where they are not enough the mesh stays as the angle before left it. (CGAL's own limit is one of time,
+// so that each run would give another mesh; 0 is none.)
 void mend_slivers(const Domain& domain, Questions& questions, Complex& complex) {
   namespace params = CGAL::parameters;
-  for (const double share : {1.0, 0.5, 0.25}) {
+  for (const double degrees : sliver_degrees) {
     Complex moved(complex);
     questions.allow(questions_to_mend + questions_to_mend_of_cell * complex.number_of_cells());
     try {
-      CGAL::perturb_mesh_3(moved, domain, params::time_limit = 0, params::sliver_bound = share * sliver_degrees);
+      CGAL::perturb_mesh_3(moved, domain, params::time_limit = 0, params::sliver_bound = degrees);
     } catch (const Questions::Enough&) {
-      continue;
+      break;
     }
     complex = std::move(moved);
-    break;
   }
   questions.allow_all();
-  CGAL::exude_mesh_3(complex, params::time_limit = 0, params::sliver_bound = sliver_degrees);
+  CGAL::exude_mesh_3(complex, params::time_limit = 0, params::sliver_bound = sliver_degrees.back());
 }
 
 double length_of(const Polyline& line) {
@@ -339,15 +358,14 @@ Tetrahedra make_with(const TetrahedraRequest& request, const std::vector<Polylin
                 params::relative_error_bound = surface_error * request.least_size_mm / length(box.size()));
   std::vector<std::vector<Point>> edges;
   std::vector<std::vector<double>> longest_mm;
-  std::vector<uint64_t> balls;
+  std::vector<double> balls;
   for (const Polyline& line : request.sharp_edges) {
     edges.emplace_back();
     for (const Vec3& p : line) edges.back().emplace_back(p.x, p.y, p.z);
     longest_mm.push_back(longest_chords(line, request.size_mm));
-    balls.push_back(
-        static_cast<uint64_t>(most_balls + most_balls_of_size * length_of(line) / request.least_size_mm));
+    balls.push_back(length_of(line) / request.least_size_mm);
   }
-  domain.allow_balls(std::move(balls));
+  domain.expect_balls(std::move(balls));
   domain.add_features(edges.begin(), edges.end());
   for (const Vec3& p : request.fixed_points) domain.add_corner(Point(p.x, p.y, p.z));
   const EdgeSizing edge{&domain, &request, &longest_mm};
@@ -357,27 +375,39 @@ Tetrahedra make_with(const TetrahedraRequest& request, const std::vector<Polylin
                     params::facet_distance = distance, params::cell_radius_edge_ratio = most_radius_to_edge,
                     params::cell_size = cell);
   const Criteria criteria(usual, request.size_mm);
-  Complex complex = CGAL::make_mesh_3<Complex>(domain, criteria, params::features(domain), params::no_lloyd(),
-                                               params::no_odt(), params::no_perturb(), params::no_exude());
+  questions.allow(request.most_questions);
+  const auto refine = [&] {
+    return CGAL::make_mesh_3<Complex>(domain, criteria, params::features(domain), params::no_lloyd(), params::no_odt(),
+                                      params::no_perturb(), params::no_exude());
+  };
+  Complex complex;
+  try {
+    complex = refine();
+  } catch (const Questions::Enough&) {
+    throw EndlessEdges{domain.crowded_lines()};
+  }
   mend_slivers(domain, questions, complex);
   return in_order(complex);
 }
 
-// Again without each sharp edge for whose balls there is no end.
+// Again without the sharp edges with which there is no end.
 Tetrahedra make(TetrahedraRequest request) {
   std::vector<Polyline> left_out;
-  while (true) {
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
     try {
       Tetrahedra made = make_with(request, left_out);
       made.edges_left_out = std::move(left_out);
       return made;
-    } catch (const EndlessEdge& endless) {
-      const auto place = request.sharp_edges.begin() + static_cast<ptrdiff_t>(endless.line);
-      left_out.push_back(std::move(*place));
-      request.sharp_edges.erase(place);
+    } catch (const EndlessEdges& endless) {
+      if (endless.lines.empty()) break;
+      for (auto line = endless.lines.rbegin(); line != endless.lines.rend(); ++line) {
+        const auto place = request.sharp_edges.begin() + static_cast<ptrdiff_t>(*line);
+        left_out.push_back(std::move(*place));
+        request.sharp_edges.erase(place);
+      }
     }
-    if (left_out.size() > most_edges_left_out) throw Error("sharp edges lie too close together for this size");
   }
+  throw Error("the tetrahedra become far too many and too small: sharp edges may lie too close together for this size");
 }
 
 }  // namespace
