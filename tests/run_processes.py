@@ -50,23 +50,28 @@ JOBS = {
     "layer_of_supports": (SUPPORTS, ["layer", "--voxel", "0.02", "--z", "0", "-o", "out.png"], (0.3, 2)),
     # Its solver looks between iterations, each of which takes longer with more bricks.
     "fea": (FOAM, ["fea", "--study", "study.json", "--cell", "1", "--solve", "-o", "out.vtu"], (0.3, 1)),
+    "tetrahedra": (FOAM, ["fea", "--study", "study.json", "--elements", "tet4", "--size", "0.6", "-o", "out.vtu"], (0.3, 8)),
 }
 # Of work after the interrupt, which a machine under load does not make more.
 MOST_SECONDS = 0.3
 
 
-def busy_seconds(process):
+def busy_seconds(pid):
     """The seconds of work that each thread of the process has done; libraries may keep threads that do none."""
     seconds = []
-    for stat in pathlib.Path(f"/proc/{process.pid}/task").glob("*/stat"):
+    for stat in pathlib.Path(f"/proc/{pid}/task").glob("*/stat"):
         words = stat.read_text().rpartition(")")[2].split()
         seconds.append((int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK"))
     return seconds
 
 
+def helpers_of(pid):
+    return [child for children in pathlib.Path(f"/proc/{pid}/task").glob("*/children") for child in children.read_text().split()]
+
+
 def stop(process):
     """Interrupts the process. Returns the seconds of work that it does until it ends."""
-    before = sum(busy_seconds(process))
+    before = sum(sum(busy_seconds(pid)) for pid in (process.pid, *helpers_of(process.pid)))
     process.send_signal(signal.SIGINT)
     end = time.monotonic() + 20
     pid = 0
@@ -90,7 +95,7 @@ def check_job(job, name):
                               cwd=job.folder, env=program.environment(), stdout=subprocess.DEVNULL,
                               stderr=subprocess.PIPE, text=True) as process:
             time.sleep(moment)
-            busy = busy_seconds(process)
+            busy = busy_seconds(process.pid)
             if process.poll() is not None:
                 raise AssertionError(f"it has ended within {moment} s: " + process.stderr.read())
             seconds = stop(process)

@@ -86,9 +86,9 @@ class Mesher {
     options.corners = corners_over(*box, fineness->cell);
     options.tolerance_mm = made.tolerance_mm;
     options.join_flat = request_.join_flat;
-    options.threads = request_.threads;
+    options.workers = {request_.threads, stop_};
     options.memory_bytes = request_.memory_bytes;
-    const surface::RegionSurface surface = surface::contour(program->partition, options, progress_, stop_);
+    const surface::RegionSurface surface = surface::contour(program->partition, options, progress_);
     made.report = surface.report;
     add_bodies(design, *program, *box, surface, made, diagnostics_);
     return made;

@@ -198,11 +198,14 @@ class TetraMaker {
   }
 
   void warn_of_left_out(const std::vector<solids::Polyline>& edges) {
-    for (const solids::Polyline& line : edges)
-      diagnostics_.warning({loaded_->source, 0, 0},
-                           "the sharp edge through " + format_point(line[line.size() / 2]) +
-                               " is cut off, since others lie too close to it for elements of this size",
-                           "choose a smaller --size, or bricks");
+    if (edges.empty()) return;
+    const bool is_one = edges.size() == 1;
+    diagnostics_.warning({loaded_->source, 0, 0},
+                         (is_one ? "a sharp edge is" : std::to_string(edges.size()) + " sharp edges are") +
+                             " cut off, since others lie too close for elements of this size; " +
+                             (is_one ? "it" : "the first") + " goes through " +
+                             format_point(edges[0][edges[0].size() / 2]),
+                         "choose a smaller --size, or bricks");
   }
 
   static double volume_of(const solids::Tetrahedra& made) {

@@ -62,6 +62,24 @@ TEST_F(Tetra, SharpEdgesAreKept) {
   EXPECT_EQ(corners, 8U);
 }
 
+// Two cubes, the upper turned by 30 degrees: their edges cross 0.03 mm
+// apart.
+TEST_F(Tetra, EdgesThatLieTooCloseAreLeftOut) {
+  const LoadedPtr loaded = design_of(
+      "union() { rectprism((10, 10, 10), red); translate(0, 0, 0.03) rotate(0, 0, 30) rectprism((10, 10, 10), red); }");
+  Diagnostics diagnostics;
+  const auto made = tetra_model(loaded, any_study(), of_size(2.5), diagnostics);
+  ASSERT_TRUE(made) << to_text(diagnostics);
+  EXPECT_NE(to_text(diagnostics).find("sharp edges are cut off, since others lie too close"), std::string::npos)
+      << to_text(diagnostics);
+  // Two squares turned by t have s^2 * 2 / (1 + sin t + cos t) of s^2 in common.
+  const double common = 100 * 2 / (1 + std::sin(std::numbers::pi / 6) + std::cos(std::numbers::pi / 6));
+  const double wanted = 2000 - 9.97 * common;
+  EXPECT_NEAR(made->surface_mm3, wanted, 0.001 * wanted);
+  EXPECT_NEAR(fea::MeshView(made->model.mesh).total_volume_mm3(), wanted, 0.03 * wanted);
+  EXPECT_EQ(made->quality.inverted, 0U);
+}
+
 // Round surfaces apart from each other, one inside of another, are all found.
 TEST_F(Tetra, SmoothSurfacesAreAllFound) {
   const auto made = tetrahedra_of(

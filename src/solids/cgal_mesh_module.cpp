@@ -127,8 +127,8 @@ struct Sizing {
   }
 };
 
-// How far facets may lie from the surface: farther beside sharp edges that are left out, where there is no end of facets
-// otherwise.
+// How far facets may lie from the surface: farther beside sharp edges that are left out, where there is no end of
+// facets otherwise.
 struct DistanceSizing {
   using FT = Geometry::FT;
   using Point_3 = Point;
@@ -236,7 +236,8 @@ struct LimitedFacets : Usual::Facet_criteria {
   Is_facet_bad operator()(const Triangulation& triangulation, const Triangulation::Facet& facet) const {
     std::array<int, 3> corners{};
     for (int n = 0; n < 3; ++n) corners[static_cast<size_t>(n)] = (facet.second + n + 1) % 4;
-    return is_small(triangulation, facet.first, corners, *size_mm) ? Is_facet_bad() : Base::operator()(triangulation, facet);
+    return is_small(triangulation, facet.first, corners, *size_mm) ? Is_facet_bad()
+                                                                   : Base::operator()(triangulation, facet);
   }
 };
 struct LimitedCells : Usual::Cell_criteria {
@@ -319,8 +320,8 @@ Tetrahedra in_order(const Complex& complex) {
 
 // Moves nodes of slivers, then gives nodes weights. Some slivers between protected balls cannot be mended, and the
 // search for a better place, which tries chance, would go on for many minutes. So each wanted angle has so many
-// questions, and where they are not enough the mesh stays as the angle before left it. (CGAL's own limit is one of time,
-// so that each run would give another mesh; 0 is none.)
+// questions, and where they are not enough the mesh stays as the angle before left it. (CGAL's own limit is one of
+// time, so that each run would give another mesh; 0 is none.)
 void mend_slivers(const Domain& domain, Questions& questions, Complex& complex) {
   namespace params = CGAL::parameters;
   for (const double degrees : sliver_degrees) {

@@ -23,7 +23,7 @@ struct TetrahedraRequest {
   std::vector<Polyline> sharp_edges;
   // Points of the surface that become nodes, for closed surfaces without sharp edges, which are not found otherwise.
   std::vector<Vec3> fixed_points;
-  double distance_share = 0.05;           // how far faces may lie from the surface, in sizes
+  double distance_share = 0.05;  // how far faces may lie from the surface, in sizes
   // How often `region` may be asked until sharp edges are left out, with which refinement does not end.
   uint64_t most_questions = 10'000'000;
   size_t memory_bytes = size_t{8} << 30;  // most that the mesher may take
@@ -35,7 +35,7 @@ struct TetrahedraRequest {
 struct Tetrahedra {
   std::vector<Vec3> points;  // mm
   std::vector<std::array<uint32_t, 4>> nodes;
-  std::vector<uint32_t> regions;  // of each tetrahedron
+  std::vector<uint32_t> regions;         // of each tetrahedron
   std::vector<Polyline> edges_left_out;  // sharp edges that lie too close to others for the size: cut off
 };
 

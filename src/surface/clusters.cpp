@@ -4,7 +4,6 @@
 #include <bit>
 #include <numeric>
 
-#include "base/tasks.h"
 #include "surface/vertex_place.h"
 
 namespace ombre::surface {
@@ -54,8 +53,8 @@ bool borders_are_simple(uint16_t crossed) {
 class LevelBuilder {
  public:
   LevelBuilder(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh, double tolerance_mm,
-               int threads, ClusterList& list)
-      : tree_(tree), mesh_(mesh), tolerance_mm_(tolerance_mm), threads_(threads), list_(list), clusters_(list.all) {
+               const Workers& workers, ClusterList& list)
+      : tree_(tree), mesh_(mesh), tolerance_mm_(tolerance_mm), workers_(workers), list_(list), clusters_(list.all) {
     for (const DualVertex& vertex : mesh.vertices) {
       euler_.push_back(1);
       may_join_.push_back(vertex.parts_two);
@@ -83,6 +82,7 @@ class LevelBuilder {
     std::erase_if(quads_, [&](const LevelQuad& q) { return std::max(q.u, q.v) < level - 1; });
     gather();
     note_points();
+    workers_.check_stop();
     note_crossed_edges();
     make_clusters();
     for (uint32_t& top : tops_)
@@ -139,8 +139,9 @@ class LevelBuilder {
     candidates_.clear();
     candidates_.reserve(static_cast<size_t>(std::ranges::count_if(fresh_, [&](uint32_t c) { return group_[c] == c; })));
     number_.assign(clusters_.size(), Cluster::none);
-    for (const uint32_t c : fresh_) {
-      const uint32_t g = find(c);
+    for (size_t n = 0; n < fresh_.size(); ++n) {
+      workers_.check_stop_at(n);
+      const uint32_t c = fresh_[n], g = find(c);
       if (number_[g] == Cluster::none) {
         number_[g] = static_cast<uint32_t>(candidates_.size());
         candidates_.emplace_back();
@@ -187,8 +188,8 @@ class LevelBuilder {
   std::vector<Quadric::Least> find_least() const {
     constexpr size_t piece = 4096;
     std::vector<Quadric::Least> least(candidates_.size());
-    run_parallel((least.size() + piece - 1) / piece, threads_, [&](size_t p) {
-      for (size_t n = p * piece; n < std::min((p + 1) * piece, least.size()); ++n)
+    workers_.in_pieces(least.size(), piece, [&](size_t begin, size_t end) {
+      for (size_t n = begin; n < end; ++n)
         if (!candidates_[n].is_blocked) least[n] = candidates_[n].planes.least();
     });
     return least;
@@ -199,6 +200,7 @@ class LevelBuilder {
     std::vector<uint32_t> made;
     const std::vector<Quadric::Least> leasts = find_least();
     for (size_t n = 0; n < candidates_.size(); ++n) {
+      workers_.check_stop_at(n);
       const Candidate& candidate = candidates_[n];
       const Quadric::Least& least = leasts[n];
       if (candidate.is_blocked) continue;
@@ -228,7 +230,7 @@ class LevelBuilder {
   const CellTree& tree_;
   const DualMesh& mesh_;
   double tolerance_mm_;
-  int threads_;
+  const Workers& workers_;
   ClusterList& list_;
   std::vector<Cluster>& clusters_;
   int level_ = 0;
@@ -246,7 +248,7 @@ class LevelBuilder {
 }  // namespace
 
 Clusters::Clusters(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh,
-                   double tolerance_mm, int threads)
+                   double tolerance_mm, const Workers& workers)
     : vertices_(mesh.vertices.size()) {
   int lowest = grid_level;
   for (const DualVertex& vertex : mesh.vertices) {
@@ -257,7 +259,7 @@ Clusters::Clusters(const CellTree& tree, const std::vector<Crossing>& crossings,
     lowest = std::min<int>(lowest, leaf.level);
   }
   if (tolerance_mm > 0) {
-    LevelBuilder builder(tree, crossings, mesh, tolerance_mm, threads, list_);
+    LevelBuilder builder(tree, crossings, mesh, tolerance_mm, workers, list_);
     const auto& count = tree.lattice().count;
     const auto longest = static_cast<uint64_t>(std::max({count[0], count[1], count[2]}));
     // What hangs together in the whole grid ends there.

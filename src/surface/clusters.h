@@ -30,7 +30,7 @@ class Clusters {
  public:
   // Clusters keep within about tolerance_mm of the planes at their crossings; 0: none are made.
   Clusters(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh, double tolerance_mm,
-           int threads);
+           const Workers& workers);
 
   // What stands for a vertex now.
   uint32_t of(uint32_t vertex) const { return stands_for_[vertex]; }

@@ -33,17 +33,17 @@ size_t most_leaves(size_t grid_leaves, size_t memory_bytes) {
 
 class CellRefiner {
  public:
-  CellRefiner(const Partition& partition, const ContourOptions& options, Progress* progress, const StopFlag* stop)
+  CellRefiner(const Partition& partition, const ContourOptions& options, Progress* progress)
       : partition_(partition),
         options_(options),
         progress_(progress),
-        stop_(stop),
-        tree_(find_mixed_cells(partition.label, options.corners, options.threads, progress, stop)),
+        tree_(find_mixed_cells(partition.label, options.corners, options.workers.threads, progress,
+                               options.workers.stop)),
         most_leaves_(most_leaves(tree_.leaves().size(), options.memory_bytes)),
-        crossings_(find_crossings(partition, tree_, options.threads, progress, stop)),
-        mesh_(make_dual_mesh(tree_, crossings_, options.threads)),
-        check_(partition, options, stop),
-        intersections_(options.threads) {}
+        crossings_(find_crossings(partition, tree_, options.workers.threads, progress, options.workers.stop)),
+        mesh_(make_dual_mesh(tree_, crossings_, options.workers)),
+        check_(partition, options),
+        intersections_(options.workers) {}
 
   RegionSurface make() {
     for (int round = 0, finished = 0;; ++round) {
@@ -54,7 +54,7 @@ class CellRefiner {
         const Growth coarse = maker.coarse_cells();
         if (cut(coarse, round == 0 ? hidden_edges(maker) : std::vector<CrossedEdge>())) continue;
       }
-      maker.finish(partition_, stop_);
+      maker.finish(partition_);
       // What was mended may lie too far off.
       if (++finished < rounds_of_finishing(maker) && cut(maker.far_cells(), {})) continue;
       maker.undo_far_moves();
@@ -78,10 +78,11 @@ class CellRefiner {
     if (cells.is_empty() && hidden.empty()) return false;
     if (tree_.leaves().size() >= most_leaves_) return false;
     const std::vector<Leaf> before = tree_.leaves();
-    refine(tree_, cells, hidden, most_leaves_, partition_, options_.threads, stop_);
+    refine(tree_, cells, hidden, most_leaves_, partition_, options_.workers.threads, options_.workers.stop);
     const std::vector<uint32_t> numbers = numbers_after_growth(before, tree_.leaves());
-    crossings_ = find_crossings_after_growth(partition_, tree_, crossings_, numbers, options_.threads, stop_);
-    mesh_ = make_dual_mesh_after_growth(tree_, crossings_, mesh_, numbers, options_.threads);
+    crossings_ = find_crossings_after_growth(partition_, tree_, crossings_, numbers, options_.workers.threads,
+                                             options_.workers.stop);
+    mesh_ = make_dual_mesh_after_growth(tree_, crossings_, mesh_, numbers, options_.workers);
     check_.renumber(crossings_);
     intersections_.renumber(crossings_);
     return true;
@@ -90,7 +91,6 @@ class CellRefiner {
   const Partition& partition_;
   const ContourOptions& options_;
   Progress* progress_;
-  const StopFlag* stop_;
   CellTree tree_;
   size_t most_leaves_;
   std::vector<Crossing> crossings_;
@@ -101,10 +101,10 @@ class CellRefiner {
 
 }  // namespace
 
-RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress,
-                      const StopFlag* stop) {
-  RegionSurface surface = CellRefiner(partition, options, progress, stop).make();
-  surface.report.lost = find_lost_parts(partition, surface, options.corners, options.threads, stop);
+RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress) {
+  RegionSurface surface = CellRefiner(partition, options, progress).make();
+  surface.report.lost =
+      find_lost_parts(partition, surface, options.corners, options.workers.threads, options.workers.stop);
   return surface;
 }
 

@@ -14,7 +14,6 @@ constexpr double bytes_per_mixed_cell = 850;
 // samples, or where a look at finer cells finds borders that they do not see, until there are millions more.
 // Regions of more than two meet in shared vertices. What is thinner than a quarter of a cell may be lost; the report
 // says where. Throws Cancelled.
-RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress = nullptr,
-                      const StopFlag* stop = nullptr);
+RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress = nullptr);
 
 }  // namespace ombre::surface

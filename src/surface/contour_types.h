@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "surface/partition.h"
+#include "surface/workers.h"
 #include "voxel/lattice.h"
 
 namespace ombre::surface {
@@ -41,7 +42,7 @@ struct ContourOptions {
   voxel::Lattice corners;   // the cells' corners; its outermost points count as void
   double tolerance_mm = 0;  // cells are cut where the surface would lie farther off; at least 0
   bool join_flat = true;    // flat cells are joined within the tolerance
-  int threads = 0;
+  Workers workers;
   size_t memory_bytes = 0;  // 0: no limit; else fewer cells are cut, and grids that are too large throw Error
 };
 

@@ -32,7 +32,7 @@ class CrossingList {
  public:
   CrossingList(const CellTree& tree, const std::vector<Crossing>& before, const std::vector<uint32_t>& leaves,
                int threads, const StopFlag* stop)
-      : tree_(tree), before_(before), leaves_(leaves) {
+      : tree_(tree), before_(before), leaves_(leaves), stop_(stop) {
     note_before();
     const std::vector<ListedEdge> listed = crossed_edges(tree, !before.empty(), threads, stop);
     auto next = listed.begin();
@@ -59,11 +59,13 @@ class CrossingList {
   }
 
   void note_before() {
-    for (uint32_t n = 0; n < before_.size(); ++n)
+    for (uint32_t n = 0; n < before_.size(); ++n) {
+      if (n % leaves_between_looks == 0 && stop_ && stop_->requested()) throw Cancelled();
       if (same_leaf(before_[n]) == CellTree::none)
         known_.emplace(EdgeKey(before_[n].edge), n);
       else
         same_.push_back(n);
+    }
   }
 
   void take_over(uint32_t leaf) {
@@ -90,6 +92,7 @@ class CrossingList {
   const std::vector<uint32_t>& leaves_;
   std::unordered_map<EdgeKey, uint32_t, EdgeKeyHash> known_;
   std::vector<uint32_t> same_;  // numbers before, of crossings with the same leaf
+  const StopFlag* stop_;
   size_t next_ = 0;
 };
 

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "base/assert.h"
-#include "base/tasks.h"
 #include "surface/cell_parts.h"
 #include "surface/leaf_parts.h"
 #include "surface/vertex_place.h"
@@ -73,10 +72,10 @@ class TouchedLeaves {
 
 class DualMeshMaker {
  public:
-  DualMeshMaker(const CellTree& tree, const std::vector<Crossing>& crossings, int threads)
+  DualMeshMaker(const CellTree& tree, const std::vector<Crossing>& crossings, const Workers& workers)
       : tree_(tree),
         crossings_(crossings),
-        threads_(threads),
+        workers_(workers),
         touched_(tree, crossings),
         parts_(tree.leaves().size()),
         first_vertex_(tree.leaves().size()) {}
@@ -84,7 +83,10 @@ class DualMeshMaker {
   DualMesh make() {
     add_vertices();
     mesh_.quads.reserve(crossings_.size());
-    for (uint32_t n = 0; n < crossings_.size(); ++n) add_quad(n);
+    for (uint32_t n = 0; n < crossings_.size(); ++n) {
+      workers_.check_stop_at(n);
+      add_quad(n);
+    }
     return std::move(mesh_);
   }
 
@@ -99,10 +101,11 @@ class DualMeshMaker {
     constexpr size_t piece = 4096;
     const size_t leaves = tree_.leaves().size();
     std::vector<std::vector<Part>> pieces((leaves + piece - 1) / piece);
-    run_parallel(pieces.size(), threads_, [&](size_t p) {
-      for (size_t n = p * piece; n < std::min((p + 1) * piece, leaves); ++n) {
-        first_vertex_[n] = static_cast<uint32_t>(pieces[p].size());
-        find_parts(static_cast<uint32_t>(n), pieces[p]);
+    workers_.in_pieces(leaves, piece, [&](size_t begin, size_t end) {
+      std::vector<Part>& found = pieces[begin / piece];
+      for (size_t n = begin; n < end; ++n) {
+        first_vertex_[n] = static_cast<uint32_t>(found.size());
+        find_parts(static_cast<uint32_t>(n), found);
       }
     });
     mesh_.vertices.reserve(leaves);
@@ -161,7 +164,7 @@ class DualMeshMaker {
 
   const CellTree& tree_;
   const std::vector<Crossing>& crossings_;
-  int threads_;
+  const Workers& workers_;
   TouchedLeaves touched_;
   std::vector<CellParts> parts_;  // of the others
   std::vector<uint32_t> first_vertex_;
@@ -181,27 +184,28 @@ void take_over_places(const CellTree& tree, const DualMesh& before, const std::v
 }
 
 template <class Which>
-void find_places(const CellTree& tree, DualMesh& mesh, int threads, const Which& is_unknown) {
+void find_places(const CellTree& tree, DualMesh& mesh, const Workers& workers, const Which& is_unknown) {
   constexpr size_t piece = 8192;
-  run_parallel((mesh.vertices.size() + piece - 1) / piece, threads, [&](size_t p) {
-    for (size_t n = p * piece; n < std::min((p + 1) * piece, mesh.vertices.size()); ++n)
+  workers.in_pieces(mesh.vertices.size(), piece, [&](size_t begin, size_t end) {
+    for (size_t n = begin; n < end; ++n)
       if (is_unknown(mesh.vertices[n])) mesh.vertices[n].at = place_of(mesh.vertices[n], tree);
   });
 }
 
 }  // namespace
 
-DualMesh make_dual_mesh(const CellTree& tree, const std::vector<Crossing>& crossings, int threads) {
-  DualMesh mesh = DualMeshMaker(tree, crossings, threads).make();
-  find_places(tree, mesh, threads, [](const DualVertex&) { return true; });
+DualMesh make_dual_mesh(const CellTree& tree, const std::vector<Crossing>& crossings, const Workers& workers) {
+  DualMesh mesh = DualMeshMaker(tree, crossings, workers).make();
+  find_places(tree, mesh, workers, [](const DualVertex&) { return true; });
   return mesh;
 }
 
 DualMesh make_dual_mesh_after_growth(const CellTree& tree, const std::vector<Crossing>& crossings,
-                                     const DualMesh& before, const std::vector<uint32_t>& leaves, int threads) {
-  DualMesh mesh = DualMeshMaker(tree, crossings, threads).make();
+                                     const DualMesh& before, const std::vector<uint32_t>& leaves,
+                                     const Workers& workers) {
+  DualMesh mesh = DualMeshMaker(tree, crossings, workers).make();
   take_over_places(tree, before, leaves, mesh);
-  find_places(tree, mesh, threads, [&](const DualVertex& vertex) { return tree.leaves()[vertex.leaf].is_near_growth; });
+  find_places(tree, mesh, workers, [&](const DualVertex& vertex) { return tree.leaves()[vertex.leaf].is_near_growth; });
   return mesh;
 }
 

@@ -7,6 +7,7 @@
 #include "surface/crossings.h"
 #include "surface/normal_spread.h"
 #include "surface/quadric.h"
+#include "surface/workers.h"
 
 namespace ombre::surface {
 
@@ -30,10 +31,12 @@ struct DualMesh {
   std::vector<DualQuad> quads;
 };
 
-DualMesh make_dual_mesh(const CellTree& tree, const std::vector<Crossing>& crossings, int threads);
+// Throws Cancelled.
+DualMesh make_dual_mesh(const CellTree& tree, const std::vector<Crossing>& crossings, const Workers& workers);
 
 // The same after the tree grew from `before`. `leaves` are the numbers that leaves have now.
 DualMesh make_dual_mesh_after_growth(const CellTree& tree, const std::vector<Crossing>& crossings,
-                                     const DualMesh& before, const std::vector<uint32_t>& leaves, int threads);
+                                     const DualMesh& before, const std::vector<uint32_t>& leaves,
+                                     const Workers& workers);
 
 }  // namespace ombre::surface

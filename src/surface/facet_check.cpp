@@ -151,11 +151,11 @@ std::vector<T> renumbered(const std::vector<T>& before, const std::vector<Crossi
 
 // Of the places, in steps: far ones have many facets within a long reach. At most `most_mm`.
 double farthest_from_facets(std::vector<Vec3> places, const QuadSurface& surface, double reach_mm, double most_mm,
-                            int threads) {
+                            const Workers& workers) {
   double farthest = 0;
   while (!places.empty()) {
     std::vector<Vec3> beyond;
-    const std::vector<double> distances = distances_to_facets(places, surface, reach_mm, threads);
+    const std::vector<double> distances = distances_to_facets(places, surface, reach_mm, workers);
     for (size_t n = 0; n < places.size(); ++n) {
       if (distances[n] <= reach_mm)
         farthest = std::max(farthest, distances[n]);
@@ -200,15 +200,14 @@ std::vector<Vec3> crossings_of(const std::vector<uint32_t>& crossings, const Qua
 
 }  // namespace
 
-FacetCheck::FacetCheck(const Partition& partition, const ContourOptions& options, const StopFlag* stop)
+FacetCheck::FacetCheck(const Partition& partition, const ContourOptions& options)
     : partition_(partition),
       tolerance_mm_(options.tolerance_mm),
       reach_mm_(reach_of_tolerance * options.tolerance_mm),
       border_reach_mm_(border_reach_of_tolerance * options.tolerance_mm),
       spacing_mm_(0.5 * options.corners.pitch[0].mm()),
       fine_level_(level_within(options.tolerance_mm, options.corners.pitch[0].mm())),
-      threads_(options.threads),
-      stop_(stop) {}
+      workers_(options.workers) {}
 
 void FacetCheck::check(const QuadSurface& surface) {
   const std::vector<uint32_t> quads = seen_.see(surface.looks());
@@ -226,10 +225,10 @@ void FacetCheck::check_facets(const QuadSurface& surface, const std::vector<uint
   for (size_t begin = 0; begin < quads.size(); begin += quads_at_once) {
     sampler.clear();
     for (size_t n = begin; n < std::min(begin + quads_at_once, quads.size()); ++n) sampler.add(quads[n]);
-    const FarSamples found = find_far_samples(partition_, sampler.samples, reach_mm_, threads_, stop_);
+    const FarSamples found = find_far_samples(partition_, sampler.samples, reach_mm_, workers_.threads, workers_.stop);
     for (const uint32_t n : found.far) far_.push_back({sampler.quads[n], sampler.samples[n]});
-    for (const DeepBorder& deep :
-         find_deep_borders(partition_, sampler.samples, found.beside, border_reach_mm_, threads_, stop_))
+    for (const DeepBorder& deep : find_deep_borders(partition_, sampler.samples, found.beside, border_reach_mm_,
+                                                    workers_.threads, workers_.stop))
       found_borders.push_back({sampler.quads[deep.sample], deep.at});
   }
   add_far_borders(surface, std::move(found_borders));
@@ -249,12 +248,12 @@ std::vector<Ball> FacetCheck::balls_around(const std::vector<FarBorder>& borders
 
 // No other quads can have come near.
 void FacetCheck::keep_far_borders(const QuadSurface& surface, const std::vector<uint32_t>& changed) {
-  const std::vector<bool> near = meet_facets(balls_around(far_borders_, surface), surface, changed, threads_);
+  const std::vector<bool> near = meet_facets(balls_around(far_borders_, surface), surface, changed, workers_);
   remove_where(near, far_borders_);
 }
 
 void FacetCheck::add_far_borders(const QuadSurface& surface, std::vector<FarBorder> found) {
-  remove_where(meet_facets(balls_around(found, surface), surface, threads_), found);
+  remove_where(meet_facets(balls_around(found, surface), surface, workers_), found);
   far_borders_.insert(far_borders_.end(), found.begin(), found.end());
   std::ranges::stable_sort(far_borders_, {}, &FarBorder::quad);
 }
@@ -269,8 +268,8 @@ void FacetCheck::check_crossings(const QuadSurface& surface, const std::vector<u
     });
   });
   // No other quads can have come near to those that were far before.
-  remove_where(meet_facets(balls_at(crossings_of(still, surface), reach_mm_), surface, changed, threads_), still);
-  remove_where(meet_facets(balls_at(crossings_of(off, surface), reach_mm_), surface, threads_), off);
+  remove_where(meet_facets(balls_at(crossings_of(still, surface), reach_mm_), surface, changed, workers_), still);
+  remove_where(meet_facets(balls_at(crossings_of(off, surface), reach_mm_), surface, workers_), off);
   far_crossings_.clear();
   std::ranges::merge(still, off, std::back_inserter(far_crossings_));
 }
@@ -278,10 +277,11 @@ void FacetCheck::check_crossings(const QuadSurface& surface, const std::vector<u
 std::vector<CrossedEdge> FacetCheck::far_hidden_edges(const QuadSurface& surface, const CellTree& tree, size_t most) {
   std::vector<CrossedEdge> far;
   std::vector<Vec3> places;
-  find_hidden_edges(partition_.label, tree, threads_, stop_, [&](const std::vector<CrossedEdge>& hidden) {
-    add_far_among(hidden, surface, tree, far, places);
-    return far.size() <= most;
-  });
+  find_hidden_edges(partition_.label, tree, workers_.threads, workers_.stop,
+                    [&](const std::vector<CrossedEdge>& hidden) {
+                      add_far_among(hidden, surface, tree, far, places);
+                      return far.size() <= most;
+                    });
   if (far.size() <= most) return far;
   left_hidden_ = evenly_spaced(places, most_measured);
   return {};
@@ -297,7 +297,7 @@ void FacetCheck::add_far_among(const std::vector<CrossedEdge>& hidden, const Qua
     half_mm = std::max(half_mm, 0.5 * length(edge_mm));
     middles.push_back(tree.point(edge.start) + 0.5 * edge_mm);
   }
-  const std::vector<bool> near = meet_facets(balls_at(middles, reach_mm_ - half_mm), surface, threads_);
+  const std::vector<bool> near = meet_facets(balls_at(middles, reach_mm_ - half_mm), surface, workers_);
   std::vector<CrossedEdge> left;
   std::vector<BorderSample> samples;
   for (size_t n = 0; n < hidden.size(); ++n) {
@@ -305,11 +305,11 @@ void FacetCheck::add_far_among(const std::vector<CrossedEdge>& hidden, const Qua
     left.push_back(hidden[n]);
     samples.push_back({middles[n], along(hidden[n], {1, 1, 1}), hidden[n].from, hidden[n].to});
   }
-  const auto offsets = border_offsets(partition_, samples, half_mm, threads_, stop_);
+  const auto offsets = border_offsets(partition_, samples, half_mm, workers_.threads, workers_.stop);
   std::vector<Vec3> borders;
   for (size_t n = 0; n < samples.size(); ++n)
     borders.push_back(samples[n].at + offsets[n].value_or(0) * samples[n].normal);
-  const std::vector<bool> near_borders = meet_facets(balls_at(borders, reach_mm_), surface, threads_);
+  const std::vector<bool> near_borders = meet_facets(balls_at(borders, reach_mm_), surface, workers_);
   remove_where(near_borders, left);
   remove_where(near_borders, borders);
   far.insert(far.end(), left.begin(), left.end());
@@ -352,8 +352,9 @@ double FacetCheck::farthest_in_tolerances(const QuadSurface& surface) const {
   std::vector<Vec3> borders = missed_borders();
   for (const uint32_t n : far_crossings_) borders.push_back(surface.crossing(n).at);
   borders.insert(borders.end(), left_hidden_.begin(), left_hidden_.end());
-  farthest = std::max(farthest, farthest_from_facets(std::move(borders), surface, tolerance_mm_, most, threads_));
-  return std::max(farthest, farthest_mm(partition_, samples, tolerance_mm_, threads_, stop_)) / tolerance_mm_;
+  farthest = std::max(farthest, farthest_from_facets(std::move(borders), surface, tolerance_mm_, most, workers_));
+  return std::max(farthest, farthest_mm(partition_, samples, tolerance_mm_, workers_.threads, workers_.stop)) /
+         tolerance_mm_;
 }
 
 }  // namespace ombre::surface

@@ -12,7 +12,7 @@ namespace ombre::surface {
 
 class FacetCheck {
  public:
-  FacetCheck(const Partition& partition, const ContourOptions& options, const StopFlag* stop);
+  FacetCheck(const Partition& partition, const ContourOptions& options);
 
   // Looks at samples of facets, at borders beside them and at crossings, but for those that were near already. Throws
   // Cancelled.
@@ -55,8 +55,7 @@ class FacetCheck {
   const Partition& partition_;
   double tolerance_mm_, reach_mm_, border_reach_mm_, spacing_mm_;
   int fine_level_;  // of cells no wider than the tolerance; -1: none
-  int threads_;
-  const StopFlag* stop_;
+  Workers workers_;
   SeenQuads seen_;
   std::vector<Far> far_;                // in order of quads
   std::vector<FarBorder> far_borders_;  // in order of quads

@@ -5,19 +5,13 @@
 #include <numeric>
 
 #include "base/box_tree.h"
-#include "base/tasks.h"
 #include "surface/surface_distance.h"
 
 namespace ombre::surface {
 namespace {
 
 // Calls work(begin, end) for pieces of what is counted.
-template <class Work>
-void in_pieces(size_t count, int threads, const Work& work) {
-  constexpr size_t piece = 1024;
-  run_parallel((count + piece - 1) / piece, threads,
-               [&](size_t p) { work(p * piece, std::min((p + 1) * piece, count)); });
-}
+constexpr size_t piece = 1024;
 
 std::vector<uint32_t> all_quads(const QuadSurface& surface) {
   std::vector<uint32_t> quads(surface.quads());
@@ -35,11 +29,12 @@ BoxTree tree_around(const std::vector<Ball>& balls) {
 // Those of the quads that may meet a ball, with their boxes.
 class NearQuads {
  public:
-  NearQuads(const std::vector<Ball>& balls, const QuadSurface& surface, const std::vector<uint32_t>& quads, int threads)
+  NearQuads(const std::vector<Ball>& balls, const QuadSurface& surface, const std::vector<uint32_t>& quads,
+            const Workers& workers)
       : surface_(surface) {
     const BoxTree around = tree_around(balls);
     std::vector<Box> boxes(quads.size());
-    in_pieces(boxes.size(), threads, [&](size_t begin, size_t end) {
+    workers.in_pieces(boxes.size(), piece, [&](size_t begin, size_t end) {
       for (size_t n = begin; n < end; ++n) {
         const Box box = box_of_quad(quads[n]);
         if (!box.is_empty() && around.meets_any(box)) boxes[n] = box;
@@ -78,11 +73,11 @@ class NearQuads {
 
 // In each ball; any that is no more than this share of the radius is enough.
 std::vector<double> distances(const std::vector<Ball>& balls, const QuadSurface& surface,
-                              const std::vector<uint32_t>& quads, double enough, int threads) {
+                              const std::vector<uint32_t>& quads, double enough, const Workers& workers) {
   if (balls.empty() || quads.empty()) return std::vector<double>(balls.size(), HUGE_VAL);
-  const NearQuads near(balls, surface, quads, threads);
+  const NearQuads near(balls, surface, quads, workers);
   std::vector<double> distances(balls.size());
-  in_pieces(balls.size(), threads, [&](size_t begin, size_t end) {
+  workers.in_pieces(balls.size(), piece, [&](size_t begin, size_t end) {
     for (size_t n = begin; n < end; ++n) distances[n] = near.distance(balls[n], enough * balls[n].radius_mm);
   });
   return distances;
@@ -91,20 +86,20 @@ std::vector<double> distances(const std::vector<Ball>& balls, const QuadSurface&
 }  // namespace
 
 std::vector<double> distances_to_facets(const std::vector<Vec3>& points, const QuadSurface& surface, double reach_mm,
-                                        int threads) {
+                                        const Workers& workers) {
   std::vector<Ball> balls;
   balls.reserve(points.size());
   for (const Vec3& point : points) balls.push_back({point, reach_mm});
-  return distances(balls, surface, all_quads(surface), 0, threads);
+  return distances(balls, surface, all_quads(surface), 0, workers);
 }
 
-std::vector<bool> meet_facets(const std::vector<Ball>& balls, const QuadSurface& surface, int threads) {
-  return meet_facets(balls, surface, all_quads(surface), threads);
+std::vector<bool> meet_facets(const std::vector<Ball>& balls, const QuadSurface& surface, const Workers& workers) {
+  return meet_facets(balls, surface, all_quads(surface), workers);
 }
 
 std::vector<bool> meet_facets(const std::vector<Ball>& balls, const QuadSurface& surface,
-                              const std::vector<uint32_t>& quads, int threads) {
-  const std::vector<double> found = distances(balls, surface, quads, 1, threads);
+                              const std::vector<uint32_t>& quads, const Workers& workers) {
+  const std::vector<double> found = distances(balls, surface, quads, 1, workers);
   std::vector<bool> meet;
   meet.reserve(balls.size());
   for (size_t n = 0; n < balls.size(); ++n) meet.push_back(found[n] <= balls[n].radius_mm);

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/box_tree.h"
-#include "base/tasks.h"
 
 namespace ombre::surface {
 namespace {
@@ -99,11 +98,11 @@ class PairFinder {
     tree_ = BoxTree(boxes);
   }
 
-  QuadPairs find(int threads) const {
+  QuadPairs find(const Workers& workers) const {
     constexpr size_t piece = 4096;
     const size_t first = (tree_.groups() + piece - 1) / piece, second = (others_.size() + piece - 1) / piece;
     std::vector<QuadPairs> found(first + second);
-    run_parallel(found.size(), threads, [&](size_t p) {
+    workers.in_pieces(found.size(), 1, [&](size_t p, size_t /*end*/) {
       if (p < first)
         look_among_fresh(p * piece, std::min((p + 1) * piece, tree_.groups()), found[p]);
       else
@@ -141,7 +140,7 @@ QuadPairs IntersectionFinder::find(const QuadSurface& surface) {
   const std::vector<uint32_t> fresh = clean_.see(surface.looks());
   if (fresh.empty()) return {};
   const Triangles triangles(surface);
-  QuadPairs pairs = PairFinder(triangles, fresh).find(threads_);
+  QuadPairs pairs = PairFinder(triangles, fresh).find(workers_);
   for (const auto& [a, b] : pairs) {
     clean_.forget(a);
     clean_.forget(b);

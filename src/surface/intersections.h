@@ -15,7 +15,7 @@ using QuadPairs = std::vector<std::pair<uint32_t, uint32_t>>;
 
 class IntersectionFinder {
  public:
-  explicit IntersectionFinder(int threads) : threads_(threads) {}
+  explicit IntersectionFinder(const Workers& workers) : workers_(workers) {}
 
   // Pairs of triangles of which a side of one pierces the other, or that have a common side and lie upon each other; in
   // order. Triangles that only touch do not count. Looks only at pairs of which one changed since the last time.
@@ -24,7 +24,7 @@ class IntersectionFinder {
   void renumber(const std::vector<Crossing>& crossings) { clean_.renumber(crossings); }
 
  private:
-  int threads_;
+  Workers workers_;
   SeenQuads clean_;
 };
 

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/tasks.h"
-
 namespace ombre::surface {
 namespace {
 
@@ -73,10 +71,10 @@ QuadSurface::QuadSurface(const CellTree& tree, const std::vector<Crossing>& cros
                          const ContourOptions& options)
     : crossings_(crossings),
       mesh_(mesh),
-      threads_(options.threads),
+      workers_(options.workers),
       least_calm_cosine_(
           std::cos(std::min(1.0, calm_radians_of_cells * options.tolerance_mm / tree.size_mm(grid_level).x))),
-      clusters_(tree, crossings, mesh, options.join_flat ? options.tolerance_mm : 0, options.threads),
+      clusters_(tree, crossings, mesh, options.join_flat ? options.tolerance_mm : 0, options.workers),
       triangles_(mesh.quads.size()),
       looks_(mesh.quads.size()) {
   list_quads_of_vertices();
@@ -149,8 +147,8 @@ std::vector<uint32_t> QuadSurface::refresh() {
   is_new_ = false;
   changed_.clear();
   constexpr size_t piece = 8192;
-  run_parallel((quads.size() + piece - 1) / piece, threads_, [&](size_t p) {
-    for (size_t n = p * piece; n < std::min((p + 1) * piece, quads.size()); ++n) cut(quads[n]);
+  workers_.in_pieces(quads.size(), piece, [&](size_t begin, size_t end) {
+    for (size_t n = begin; n < end; ++n) cut(quads[n]);
   });
   return quads;
 }

@@ -62,7 +62,7 @@ class QuadSurface {
 
   const std::vector<Crossing>& crossings_;
   const DualMesh& mesh_;
-  int threads_;
+  const Workers& workers_;
   double least_calm_cosine_;
   Clusters clusters_;
   std::vector<uint32_t> quad_begins_, quads_of_vertices_;

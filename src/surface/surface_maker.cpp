@@ -67,15 +67,15 @@ bool SurfaceMaker::is_wide(uint32_t vertex) const {
   return length(tree_.size_mm(leaf.level)) > options_.tolerance_mm;
 }
 
-void SurfaceMaker::finish(const Partition& partition, const StopFlag* stop) {
+void SurfaceMaker::finish(const Partition& partition) {
   unfinished_ = surface_.clusters().places();
-  fit_volumes(partition, stop);
+  fit_volumes(partition);
   mend_intersections();
 }
 
 // As far as facets keep near, and do not fold.
-void SurfaceMaker::fit_volumes(const Partition& partition, const StopFlag* stop) {
-  VolumeFit fit(surface_, partition, options_.tolerance_mm, options_.threads, stop);
+void SurfaceMaker::fit_volumes(const Partition& partition) {
+  VolumeFit fit(surface_, partition, options_.tolerance_mm, options_.workers);
   for (int round = 0; round < most_fitting_rounds; ++round) {
     surface_.refresh();
     check_.check(surface_);
@@ -134,8 +134,7 @@ RegionSurface SurfaceMaker::build() const {
 }
 
 void SurfaceMaker::mend_folds() {
-  for (int round = 0; round < most_rounds && mend(surface_.refresh()); ++round) {
-  }
+  for (int round = 0; round < most_rounds && mend(surface_.refresh()); ++round) options_.workers.check_stop();
   surface_.refresh();
 }
 

@@ -24,7 +24,7 @@ class SurfaceMaker {
   // What the grid does not see; nothing of the tree is cut.
   std::vector<CrossedEdge> far_hidden_edges(size_t most) { return check_.far_hidden_edges(surface_, tree_, most); }
   // Fits volumes and mends intersections. Throws Cancelled.
-  void finish(const Partition& partition, const StopFlag* stop);
+  void finish(const Partition& partition);
   bool crosses_nowhere() const { return pairs_left_ == 0; }  // when finished
   // If finishing moved anything too far off, it goes back, and triangles may cross there. Throws Cancelled.
   void undo_far_moves();
@@ -36,7 +36,7 @@ class SurfaceMaker {
   // Whether the vertex's cell is wider than the tolerance, corner to corner. In others nothing is far, and cuts would
   // only find finer waves to mend.
   bool is_wide(uint32_t vertex) const;
-  void fit_volumes(const Partition& partition, const StopFlag* stop);
+  void fit_volumes(const Partition& partition);
   void mend_intersections();
   std::vector<uint32_t> moved_around_far() const;
   void mend_folds();

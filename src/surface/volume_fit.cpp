@@ -179,11 +179,10 @@ class Fitter {
 
 }  // namespace
 
-VolumeFit::VolumeFit(QuadSurface& surface, const Partition& partition, double reach_mm, int threads,
-                     const StopFlag* stop)
+VolumeFit::VolumeFit(QuadSurface& surface, const Partition& partition, double reach_mm, const Workers& workers)
     : from_(surface.clusters().size()) {
   Fitter fitter(surface, reach_mm);
-  fitter.measure(border_offsets(partition, fitter.samples(), reach_mm, threads, stop));
+  fitter.measure(border_offsets(partition, fitter.samples(), reach_mm, workers.threads, workers.stop));
   fitter.each_move([&](uint32_t cluster, Vec3 to) {
     from_[cluster] = surface.clusters().places()[cluster];
     surface.place(cluster, to);
