@@ -42,7 +42,7 @@ JOBS = {
     "slice_of_supports": (SUPPORTS, ["slice", "--voxel", "0.03", "-o", "out"], (0.3, 2)),
     "voxels": (FOAM, ["voxels", "--voxel", "0.03", "--what", "distance,fractions", "-o", "out.npy"], (0.3, 2)),
     "voxels_of_supports": (SUPPORTS, ["voxels", "--voxel", "0.03", "-o", "out.vdb"], (0.3, 2)),
-    "mesh": (FOAM, ["mesh", "--cell", "0.3", "-o", "out.stl"], (0.3, 3)),
+    "mesh": (FOAM, ["mesh", "--cell", "0.3", "-o", "out.stl"], (0.3, 3, 9)),
     "render": (FOAM, ["render", "--size", "6000x6000", "-o", "out.png"], (0.3, 2)),
     "render_of_a_slice": (FOAM, ["render", "--size", "16000x16000", "--slice", "z=0", "-o", "out.png"], (0.3, 2)),
     "contours": (FOAM, ["contours", "--cell", "0.02", "--layer-height", "0.02", "-o", "out"], (0.3, 2)),

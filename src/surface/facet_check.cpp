@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <unordered_map>
 #include <utility>
 
 #include "base/evenly_spaced.h"
 #include "surface/border_offsets.h"
 #include "surface/deep_borders.h"
 #include "surface/hidden_edges.h"
+#include "surface/side_normals.h"
 
 namespace ombre::surface {
 namespace {
@@ -88,9 +88,9 @@ class Sampler {
   // Sharp sides once more, when the second facet comes, with what lies between both normals.
   void add_crease(std::pair<uint32_t, uint32_t> side, Vec3 from, Vec3 to) {
     const Vec3 facet_normal = normal_, seen_from_less = is_seen_from_less_ ? normal_ : -1.0 * normal_;
-    const auto [other, is_first] = facets_.try_emplace(side.first | uint64_t{side.second} << 32, seen_from_less);
-    if (is_first || dot(other->second, seen_from_less) > sharp_cosine) return;
-    const Vec3 both = other->second + seen_from_less;
+    const auto [other, is_first] = facets_.keep(side.first, side.second, seen_from_less);
+    if (is_first || dot(other, seen_from_less) > sharp_cosine) return;
+    const Vec3 both = other + seen_from_less;
     const double size = length(both);
     if (size < least_sum) return;
     normal_ = (1 / size) * both;
@@ -121,7 +121,7 @@ class Sampler {
   const QuadSurface& surface_;
   double spacing_mm_, small_mm_;
   std::vector<bool> has_vertex_;
-  std::unordered_map<uint64_t, Vec3> facets_;  // their normals by a side
+  SideNormals facets_;
   Vec3 normal_;
   uint32_t quad_ = 0;
   bool is_seen_from_less_ = true;
@@ -224,7 +224,10 @@ void FacetCheck::check_facets(const QuadSurface& surface, const std::vector<uint
   Sampler sampler(surface, spacing_mm_, small_of_reach * reach_mm_);
   for (size_t begin = 0; begin < quads.size(); begin += quads_at_once) {
     sampler.clear();
-    for (size_t n = begin; n < std::min(begin + quads_at_once, quads.size()); ++n) sampler.add(quads[n]);
+    for (size_t n = begin; n < std::min(begin + quads_at_once, quads.size()); ++n) {
+      workers_.check_stop_at(n);
+      sampler.add(quads[n]);
+    }
     const FarSamples found = find_far_samples(partition_, sampler.samples, reach_mm_, workers_.threads, workers_.stop);
     for (const uint32_t n : found.far) far_.push_back({sampler.quads[n], sampler.samples[n]});
     for (const DeepBorder& deep : find_deep_borders(partition_, sampler.samples, found.beside, border_reach_mm_,

@@ -32,7 +32,7 @@ struct Workers {
   }
 
  private:
-  static constexpr size_t turns_between_looks = 16384;
+  static constexpr size_t turns_between_looks = 4096;
 };
 
 }  // namespace ombre::surface
