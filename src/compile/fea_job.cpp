@@ -146,6 +146,37 @@ fea::ValueField vectors(const std::string& name, const std::string& unit, const 
   return field;
 }
 
+// Vectors and colours, whose numbers come as fields of their own ("fibre.x", "fibre.y", "fibre.z"), as one field each.
+std::vector<fea::ValueField> with_vectors(const std::vector<fea::ValueField>& fields) {
+  const auto count_of = [&](size_t first) -> size_t {
+    for (const std::string_view parts : {"xyz", "rgba", "rgb"}) {
+      size_t count = 0;
+      const std::string& name = fields[first].name;
+      const std::string stem = name.substr(0, name.size() - 1);
+      while (stem.ends_with('.') && count < parts.size() && first + count < fields.size() &&
+             fields[first + count].name == stem + parts[count])
+        ++count;
+      if (count == parts.size()) return count;
+    }
+    return 1;
+  };
+  std::vector<fea::ValueField> joined;
+  for (size_t n = 0; n < fields.size();) {
+    const size_t count = count_of(n);
+    fea::ValueField field = fields[n];
+    if (count > 1) {
+      field.name.resize(field.name.size() - 2);
+      field.components = count;
+      field.values.clear();
+      for (size_t e = 0; e < fields[n].values.size(); ++e)
+        for (size_t c = 0; c < count; ++c) field.values.push_back(fields[n + c].values[e]);
+    }
+    joined.push_back(std::move(field));
+    n += count;
+  }
+  return joined;
+}
+
 }  // namespace
 
 std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const Plan& plan, const fea::Study& study,
@@ -157,9 +188,11 @@ std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const Plan& plan, c
 std::vector<fea::ValueField> fea_element_fields(const fea::ModelView& model, fea::Physics physics,
                                                 const FeaResults& results) {
   const bool is_mechanics = physics == fea::Physics::mechanics;
-  std::vector<fea::ValueField> fields = model.fields;
+  std::vector<fea::ValueField> fields = with_vectors(model.fields);
+  const std::string property_name = is_mechanics ? "modulus" : "conductivity";
+  const bool is_taken = std::ranges::find(fields, property_name, &fea::ValueField::name) != fields.end();
   fea::ValueField section{"section", "", 1, {}};
-  fea::ValueField property{is_mechanics ? "modulus" : "conductivity",
+  fea::ValueField property{is_taken ? property_name + " used" : property_name,
                            is_mechanics                    ? "MPa"
                            : physics == fea::Physics::heat ? "W/(m K)"
                                                            : "S/m",
