@@ -255,6 +255,61 @@ def tetrahedra_of_any_size_come_to_an_end(folder):
     near(mesh("slab.vcad", "3.75"), 20 * 5 * 2, 0.1, "the slab's volume")
 
 
+GYROID = ('root((-5, -5, -5), (5, 5, 5), (0.5, 0.5, 0.5)) { intersection() { rectprism((10.001, 10.001, 10.001), red); function('
+          '"sin(2*pi*x/10)*cos(2*pi*y/10) + sin(2*pi*y/10)*cos(2*pi*z/10) + sin(2*pi*z/10)*cos(2*pi*x/10)", red); } }')
+
+
+def equations_of(deck):
+    """The nodes' places, and each equation as {(node, direction): coefficient}, the nodes of periods as their places."""
+    nodes, equations, block = {}, [], ""
+    lines = iter(deck.splitlines())
+    for line in lines:
+        if line.startswith("*"):
+            block = line.split(",")[0]
+        elif block == "*NODE":
+            number, *place = line.split(",")
+            nodes[int(number)] = tuple(map(float, place))
+        elif block == "*EQUATION":
+            count, numbers = int(line), []
+            while len(numbers) < 3 * count:
+                numbers += [float(word) for word in next(lines).split(",")]
+            equations.append({(int(numbers[n]), int(numbers[n + 1])): numbers[n + 2] for n in range(0, 3 * count, 3)})
+    return nodes, equations
+
+
+def cells_that_repeat_fit_their_copies(folder):
+    """A gyroid fills half of its cell. Each copy of a node lies whole periods from the node that it is tied to."""
+    folder.write("gyroid.vcad", GYROID)
+    folder.write("strain.json", json.dumps({"materials": {"red": {"modulus_mpa": 1000, "poissons_ratio": 0}},
+                                            "mean_strain": [0.01, 0, 0, 0, 0, 0.02]}))
+    kinds = [("--cell", "0.625")]
+    if has_tetrahedra(folder):
+        kinds += [("--elements", "tet4", "--size", "1"), ("--elements", "tet10", "--size", "1.5")]
+    for kind in kinds:
+        events = folder.events("gyroid.vcad", "--study", "strain.json", *kind, "-o", "cell.inp", "--force")
+        near(events["model"]["volume_mm3"], 500, 3, f"half of the cell by {kind}")
+        nodes, equations = equations_of(folder.read("cell.inp"))
+        last = max(nodes)
+        expect(len(equations) > 300 and len(equations) % 3 == 0, f"{len(equations)} equations")
+        for equation in equations:
+            (copy, _), (original, _) = list(equation)[:2]
+            periods = [-equation.get((last - 2 + axis, list(equation)[0][1]), 0) for axis in range(3)]
+            for axis in range(3):
+                near(nodes[copy][axis] - nodes[original][axis], 10 * periods[axis], 1e-5, "a copy's place")
+    error = folder.run("gyroid.vcad", "--study", "strain.json", "--cell", "1", "--solve", status=1).stderr
+    expect("ombre homogenise" in error, error)
+    if not shutil.which("ccx"):
+        return
+    # Without Poisson's ratio the built-in bricks are those of CalculiX.
+    mean = folder.events("gyroid.vcad", "--study", "strain.json", "--cell", "0.625", "--solve", "--solver", "calculix")["mean_stress"]
+    folder.write("material.json", json.dumps({"materials": {"red": {"modulus_mpa": 1000, "poissons_ratio": 0}}}))
+    result = program.run([folder.ombre, "homogenise", "gyroid.vcad", "--study", "material.json", "--cell", "0.625",
+                          "--tolerance", "1e-8", "--json"], cwd=folder.path)
+    stiffness = json.loads(result.stdout.splitlines()[-2])["stiffness_mpa"]
+    for row, stress in zip(stiffness, mean["mpa"]):
+        near(stress, 0.01 * row[0] + 0.02 * row[5], 2e-4, "a mean stress")
+
+
 def designs_with_rough_edges_come_to_an_end(folder):
     """Slivers of a surface are no edges; where edges lie too close together, a warning says which are cut off."""
     if not has_tetrahedra(folder):
@@ -524,7 +579,7 @@ def main():
 
     checks = [bars_stretch_by_hookes_law, results_are_in_the_grid, vectors_are_one_field, mixtures_are_drawn_or_mixed,
               moduli_come_from_attributes, decks_are_complete, tetrahedra_reach_the_surface,
-              tetrahedra_of_any_size_come_to_an_end, designs_with_rough_edges_come_to_an_end,
+              tetrahedra_of_any_size_come_to_an_end, cells_that_repeat_fit_their_copies, designs_with_rough_edges_come_to_an_end,
               adaptive_meshes_cost_less, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix,
               a_hook_holds_its_coat, a_mug_cools, materials_that_are_nowhere_need_no_properties, results_are_in_xdmf, rounds_follow_their_results,
               wrong_use_of_rounds_is_told, wrong_use_is_told,

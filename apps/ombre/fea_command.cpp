@@ -18,6 +18,7 @@
 #include "formats/file.h"
 #include "ombre/checks.h"
 #include "ombre/commands.h"
+#include "ombre/fea_repeat.h"
 #include "ombre/fea_report.h"
 #include "ombre/fea_rounds.h"
 #include "ombre/progress_line.h"
@@ -94,13 +95,22 @@ compile::SizeRequest size_of(const FeaArguments& a) {
   return {a.min_cell, a.max_cell, a.size_by};
 }
 
+compile::LoadedPtr repeating(const FeaArguments& a, const compile::LoadedPtr& loaded, Diagnostics& diagnostics) {
+  const auto period = period_of(*loaded, diagnostics);
+  return period ? with_repeating_bricks(a, loaded, *period, diagnostics) : nullptr;
+}
+
 std::optional<decltype(Case::made)> make_model(const FeaArguments& a, const compile::LoadedPtr& loaded,
                                                const fea::Study& study, Session& session, Diagnostics& diagnostics) {
   ProgressLine progress(session.console, a.elements == "brick" ? Counted::voxels : Counted::steps);
   if (a.elements == "brick") {
-    const auto plan = plan_bricks(a, loaded, session, diagnostics);
+    const compile::LoadedPtr sampled = study.mean_strain ? repeating(a, loaded, diagnostics) : loaded;
+    if (!sampled) return std::nullopt;
+    FeaArguments own = a;
+    if (study.mean_strain) own.cell.clear();  // the bricks of the period are the design's own
+    const auto plan = plan_bricks(own, sampled, session, diagnostics);
     if (!plan) return std::nullopt;
-    auto model = compile::fea_model(loaded, *plan, study, request_of(a), diagnostics, &progress, &session.stop);
+    auto model = compile::fea_model(sampled, *plan, study, request_of(a), diagnostics, &progress, &session.stop);
     if (!model) return std::nullopt;
     return std::move(*model);
   }
@@ -112,6 +122,10 @@ std::optional<decltype(Case::made)> make_model(const FeaArguments& a, const comp
   request.by_material = !a.subdomains.empty();
   request.sections = request_of(a);
   request.seed = options->seed;
+  if (study.mean_strain) {
+    request.period = period_of(*loaded, diagnostics);
+    if (!request.period) return std::nullopt;
+  }
   request.memory_bytes = parse_memory(a.memory);
   request.announce = [&](const compile::TetraPlan& plan) {
     session.console.say("about " + format_rounded(plan.elements, 2) + " tetrahedra; meshing takes about " +
@@ -133,7 +147,7 @@ void warn_of_mesh(const Case& here, const fea::Study& study, Diagnostics& diagno
                         "tet4 is far too stiff where poissons_ratio is above " +
                             format_number(fea::most_poissons_ratio_of_c3d4) + ", since its change of volume locks",
                         "use --elements tet10 or brick");
-  if (!here.tetrahedra()) return;
+  if (!here.tetrahedra() || study.mean_strain) return;
   constexpr double most_off = 0.05;
   const double volume = model.mesh.total_volume_mm3(), wanted = here.tetrahedra()->surface_mm3;
   if (std::abs(volume - wanted) > most_off * wanted)
@@ -146,6 +160,7 @@ void warn_of_mesh(const Case& here, const fea::Study& study, Diagnostics& diagno
 std::optional<Case> make_case(const FeaArguments& a, Session& session, Diagnostics& diagnostics) {
   const auto study = read_study(a.study, diagnostics);
   if (!study) return std::nullopt;
+  if (study->mean_strain) check_repeats(a);
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
   if (!loaded) return std::nullopt;
   auto model = make_model(a, loaded, *study, session, diagnostics);
@@ -153,6 +168,10 @@ std::optional<Case> make_case(const FeaArguments& a, Session& session, Diagnosti
   Case here{std::move(*model), {}};
   warn_of_mesh(here, *study, diagnostics);
   const fea::ModelView view = here.view();
+  if (study->mean_strain) {
+    here.conditions = repeating_conditions(view, *period_of(*loaded, diagnostics), *study->mean_strain);
+    return here;
+  }
   const auto choose = compile::node_chooser(*loaded, view.mesh, a.threads, &session.stop);
   auto conditions = fea::conditions_of(*study, view, diagnostics, choose);
   if (!conditions) return std::nullopt;
@@ -188,6 +207,7 @@ compile::FeaResults solve_case(const FeaArguments& a, const Case& here, Session&
     results.solution = fea::solve_mesh(model, here.conditions, options, &progress, &session.stop);
   progress.finish();
   tell_results(a, session.console, here, results, watch.seconds());
+  if (results.solution) tell_mean_stress(session.console, here, *results.solution);
   return results;
 }
 

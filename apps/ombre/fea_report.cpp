@@ -29,8 +29,8 @@ void tell_quality(const Console& console, const compile::TetraModel& made) {
   console.say("edges of " + format_rounded(quality.mean_edge_mm, 3) + " mm on average; dihedral angles from " +
               format_rounded(quality.least_dihedral, 3) + " to " + format_rounded(quality.most_dihedral, 4) +
               " degrees, aspect at most " + format_rounded(quality.worst_aspect, 3) + ", " +
-              format_count(quality.inverted) + " inverted; the surface has " + format_rounded(made.surface_mm3, 6) +
-              " mm3");
+              format_count(quality.inverted) + " inverted" +
+              (made.surface_mm3 > 0 ? "; the surface has " + format_rounded(made.surface_mm3, 6) + " mm3" : ""));
   console.event("quality", {{"mean_edge_mm", quality.mean_edge_mm},
                             {"least_dihedral_degrees", quality.least_dihedral},
                             {"most_dihedral_degrees", quality.most_dihedral},

@@ -46,7 +46,7 @@ class TetraMaker {
         stop_(stop) {}
 
   std::optional<TetraModel> make() {
-    const auto box = design_box(loaded_->design, diagnostics_);
+    const auto box = request_.period ? request_.period : design_box(loaded_->design, diagnostics_);
     if (!box) return std::nullopt;
     const Vec3 extent = box->size();
     const double longest = std::max({extent.x, extent.y, extent.z});
@@ -55,10 +55,11 @@ class TetraMaker {
     cell_mm_ = std::max(cell_share * size_mm, longest / most_cells_along);
     design_ = with_stages(for_tolerance(loaded_->design, tolerance_mm_), loan());
     auto size = ElementSize::build(design_, *box, request_.size, diagnostics_);
-    if (!size || !find_regions(*box) || !check_count(*size, *box) || !find_surface()) return std::nullopt;
+    if (!size || !find_regions(*box) || !check_count(*size, *box)) return std::nullopt;
+    if (!request_.period && !find_surface()) return std::nullopt;
     TetraModel made;
     for (const RegionBody& body : surface_) made.surface_mm3 += body.volume_mm3;
-    take(mesh(*size, *box, made.surface_mm3), made);
+    take(request_.period ? repeating_mesh(*size, *box) : mesh(*size, *box, made.surface_mm3), made);
     if (made.model.mesh.nodes.empty()) return fail("no tetrahedron lies inside the design", "choose a smaller --size");
     if (!add_fields(made.model)) return std::nullopt;
     auto sections = make_sections(*loaded_, study_, request_.sections, materials(made.model), diagnostics_);
@@ -143,14 +144,9 @@ class TetraMaker {
     return false;
   }
 
-  // Again with points on all faces, where much of the volume was not found; without sharp edges where they lie so close
-  // together or are so rough that there is no end.
-  solids::Tetrahedra mesh(ElementSize& size, const Box& box, double volume_mm3) {
-    std::vector<surface::Body> bodies;
-    for (const RegionBody& body : surface_) bodies.push_back(body.body);
-    SharpEdges edges = find_sharp_edges(bodies, 2 * tolerance_mm_, size.least_mm());
+  solids::TetrahedraRequest request_in(const Box& box, ElementSize& size) {
     solids::TetrahedraRequest wanted;
-    wanted.box = with_room(box);
+    wanted.box = box;
     wanted.region = [this](Vec3 p) {
       count_question();
       return region_at(p);
@@ -158,8 +154,6 @@ class TetraMaker {
     wanted.size_mm = [&size](Vec3 p) { return size.at(p); };
     wanted.least_size_mm = size.least_mm();
     wanted.most_questions = static_cast<uint64_t>(most_questions * (plan_.elements + 5000));
-    wanted.sharp_edges = std::move(edges.lines);
-    wanted.fixed_points = std::move(edges.smooth_points);
     if (request_.memory_bytes > 0) wanted.memory_bytes = request_.memory_bytes;
     wanted.stop = stop_;
     // The mesher asks in a process of its own, on one thread.
@@ -167,6 +161,24 @@ class TetraMaker {
     alone.threads = 1;
     stages_of(design_)->lend(alone);
     if (progress_) progress_->preparing("tetrahedra", {0, 1});
+    return wanted;
+  }
+
+  solids::Tetrahedra repeating_mesh(ElementSize& size, const Box& box) {
+    solids::TetrahedraRequest wanted = request_in(box, size);
+    wanted.is_periodic = true;
+    return solids::make_tetrahedra(wanted);
+  }
+
+  // Again with points on all faces, where much of the volume was not found; without sharp edges where they lie so close
+  // together or are so rough that there is no end.
+  solids::Tetrahedra mesh(ElementSize& size, const Box& box, double volume_mm3) {
+    std::vector<surface::Body> bodies;
+    for (const RegionBody& body : surface_) bodies.push_back(body.body);
+    SharpEdges edges = find_sharp_edges(bodies, 2 * tolerance_mm_, size.least_mm());
+    solids::TetrahedraRequest wanted = request_in(with_room(box), size);
+    wanted.sharp_edges = std::move(edges.lines);
+    wanted.fixed_points = std::move(edges.smooth_points);
     const auto make = [&] {
       questions_ = 0;
       return solids::make_tetrahedra(wanted);

@@ -20,15 +20,16 @@ struct TetraRequest {
   bool quadratic = false;    // C3D10 in place of C3D4
   bool by_material = false;  // borders between materials become faces of elements; each has the one of its region
   FeaRequest sections;
-  uint64_t seed = 0;                                         // of random draws
-  size_t memory_bytes = 0;                                   // most that meshing may take; 0: no limit
+  std::optional<Box> period;  // a cube after which the mesh repeats: see solids::TetrahedraRequest; mm
+  uint64_t seed = 0;          // of random draws
+  size_t memory_bytes = 0;    // most that meshing may take; 0: no limit
   std::function<void(const TetraPlan&)> announce = nullptr;  // called before the work; may be empty
 };
 
 struct TetraModel {
   fea::MeshModel model;
   fea::MeshQuality quality;
-  double surface_mm3 = 0;  // the volume within the design's surface, to compare
+  double surface_mm3 = 0;  // the volume within the design's surface, to compare; 0 where the mesh repeats
 };
 
 // Tetrahedra up to the surface of the design, whose sharp edges they keep, as the surface mesher sees them at half the

@@ -123,13 +123,45 @@ void write_prints(const char* of_nodes, const char* of_elements, Lines& lines) {
   lines << "*NODE PRINT, NSET=NALL\n" << of_nodes << "\n*EL PRINT, ELSET=EALL\n" << of_elements << "\n";
 }
 
-void write_static_step(const Conditions& conditions, bool prints, Lines& lines) {
+// The period along an axis has a node behind those of the mesh.
+size_t period_node(const ModelView& model, size_t axis) { return model.mesh.node_count() + 1 + axis; }
+
+void write_periods(const ModelView& model, const Repeat& repeat, Lines& lines) {
+  const Vec3 corner = model.mesh.bounds().lo;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    Vec3 at = corner;
+    at[static_cast<int>(axis)] += repeat.period_mm[static_cast<int>(axis)];
+    lines << "*NODE, NSET=PERIOD_" << axis + 1 << "\n"
+          << period_node(model, axis) << ", " << at.x << ", " << at.y << ", " << at.z << "\n";
+  }
+  constexpr size_t of_line = 4;
+  for (const Tie& tie : repeat.ties)
+    for (size_t direction = 1; direction <= 3; ++direction) {
+      std::vector<std::pair<size_t, int>> terms{{size_t{tie.node} + 1, 1}, {size_t{tie.of} + 1, -1}};
+      for (size_t axis = 0; axis < 3; ++axis)
+        if (tie.periods[axis] != 0) terms.emplace_back(period_node(model, axis), -tie.periods[axis]);
+      lines << "*EQUATION\n" << terms.size() << "\n";
+      for (size_t n = 0; n < terms.size(); ++n)
+        lines << terms[n].first << ", " << direction << ", " << std::to_string(terms[n].second)
+              << (n + 1 == terms.size() || n % of_line + 1 == of_line ? "\n" : ", ");
+    }
+}
+
+void write_mean_strain(const ModelView& model, const Repeat& repeat, Lines& lines) {
+  for (size_t axis = 0; axis < 3; ++axis)
+    for (size_t direction = 0; direction < 3; ++direction)
+      lines << period_node(model, axis) << ", " << direction + 1 << ", " << direction + 1 << ", "
+            << repeat.displacement_mm(static_cast<int>(axis))[static_cast<int>(direction)] << "\n";
+}
+
+void write_static_step(const ModelView& model, const Conditions& conditions, bool prints, Lines& lines) {
   lines << "*STEP\n*STATIC\n";
   if (!conditions.displacements.empty()) lines << "*BOUNDARY\n";
   for (const Prescribed& held : conditions.displacements) {
     const size_t axis = size_t{held.axis} + 1;
     lines << size_t{held.node} + 1 << ", " << axis << ", " << axis << ", " << held.value << "\n";
   }
+  if (conditions.repeat) write_mean_strain(model, *conditions.repeat, lines);
   if (!conditions.forces.empty()) lines << "*CLOAD\n";
   for (const Prescribed& force : conditions.forces)
     lines << size_t{force.node} + 1 << ", " << size_t{force.axis} + 1 << ", " << force.value << "\n";
@@ -179,8 +211,9 @@ void write_inp(const ModelView& model, const Conditions& conditions, BrickType t
   for (size_t n = 0; n < set_names.size(); ++n) write_set(conditions.sets[n], set_names[n], lines);
   if (prints) lines << "*ELSET, ELSET=EALL, GENERATE\n1, " << model.mesh.count() << ", 1\n";
   write_sections(model, conditions.physics, names, lines);
+  if (conditions.repeat) write_periods(model, *conditions.repeat, lines);
   if (is_mechanics)
-    write_static_step(conditions, prints, lines);
+    write_static_step(model, conditions, prints, lines);
   else
     write_heat_step(conditions, prints, lines);
   lines.flush();

@@ -3,11 +3,13 @@
 // Units: mm, N, MPa; densities in tonne/mm3, so that mm/s2 times tonne is N. Heat: W, degrees Celsius; currents: A, V.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fea/bricks.h"
 #include "fea/mesh.h"
+#include "fea/repeat.h"
 
 namespace ombre::fea {
 
@@ -99,6 +101,7 @@ struct Conditions {
   std::vector<NodeSet> sets = {};
   Physics physics = Physics::mechanics;
   std::vector<Film> films = {};  // of heat
+  std::optional<Repeat> repeat = {};
 };
 
 }  // namespace ombre::fea

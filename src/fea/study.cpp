@@ -38,13 +38,15 @@ class StudyReader {
   Study read(const Data& data) {
     Study study;
     study.where = data.where;
-    if (!members(data, "a study", {"physics", "materials", "supports", "loads", "gravity_mm_s2"})) return study;
+    if (!members(data, "a study", {"physics", "materials", "supports", "loads", "gravity_mm_s2", "mean_strain"}))
+      return study;
     if (const Data* physics = data.find("physics")) read_physics(*physics);
     study.physics = physics_;
     if (const Data* materials = data.find("materials")) read_materials(*materials, study);
     for (const Data& support : list(data, "supports")) study.supports.push_back(read_support(support));
     for (const Data& load : list(data, "loads")) study.loads.push_back(read_load(load));
     if (const Data* gravity = data.find("gravity_mm_s2")) study.gravity_mm_s2 = read_gravity(*gravity);
+    if (const Data* strain = data.find("mean_strain")) study.mean_strain = read_strain(*strain, data);
     return study;
   }
 
@@ -110,6 +112,16 @@ class StudyReader {
     if (length(v) > 0) return (1 / length(v)) * v;
     diagnostics_.error(data.where, "the direction is of no length", "write for example [0, 0, 1]");
     return {0, 0, 1};
+  }
+
+  std::array<double, 6> read_strain(const Data& strain, const Data& study) {
+    if (physics_ != Physics::mechanics)
+      diagnostics_.error(strain.where, "a mean strain is of mechanics", "ombre homogenise gives conductivities");
+    for (const char* other : {"supports", "loads", "gravity_mm_s2"})
+      if (const Data* found = study.find(other))
+        diagnostics_.error(found->where, std::string("a cell that repeats has no ") + other,
+                           "leave it out: \"mean_strain\" says how the cell is deformed");
+    return read_numbers<6>(strain, "mean_strain", "write [xx, yy, zz, xy, yz, zx], for example [0.01, 0, 0, 0, 0, 0]");
   }
 
   Vec3 read_gravity(const Data& data) {

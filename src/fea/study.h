@@ -73,6 +73,9 @@ struct Study {
   std::vector<Support> supports;
   std::vector<Load> loads;
   Vec3 gravity_mm_s2;
+  // The mesh is a cell that repeats, without supports and loads: xx, yy, zz, xy, yz, zx, the last three as twice the
+  // tensor's.
+  std::optional<std::array<double, 6>> mean_strain;
   SourceRange where;
 };
 
@@ -80,6 +83,7 @@ struct Study {
 //  "supports": [{"on": "zmin", "fix": "xyz"}, {"on": "zmax", "displacement_mm": [null, null, -1]}],
 //  "loads": [{"on": "xmax", "force_n": [0, 0, -5]}, {"on": {"box": [0, 0, 0, 1, 1, 1]}, "pressure_mpa": 0.1}],
 //  "gravity_mm_s2": [0, 0, -9810]}
+// or of a cell that repeats: {"materials": ..., "mean_strain": [0.01, 0, 0, 0, 0, 0]}
 // or of conduction:
 // {"physics": "heat", "materials": {"soft": {"conductivity_w_mk": 0.2}},
 //  "supports": [{"on": "zmin", "temperature_c": 20}],

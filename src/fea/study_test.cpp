@@ -37,6 +37,23 @@ Vec3 sum(const std::vector<Prescribed>& values) {
 
 const char* const held_below = R"("supports": [{"on": "zmin", "fix": "xyz"}])";
 
+TEST(Study, CellsThatRepeatHaveAMeanStrainAlone) {
+  Diagnostics diagnostics;
+  const auto study = study_of(R"({"mean_strain": [0.01, 0, 0, 0, 0.5, 0]})", diagnostics);
+  ASSERT_TRUE(study) << to_text(diagnostics);
+  EXPECT_EQ(study->mean_strain, (std::array<double, 6>{0.01, 0, 0, 0, 0.5, 0}));
+  const auto says = [](const std::string& text) {
+    Diagnostics found;
+    EXPECT_FALSE(study_of(text, found));
+    return to_text(found);
+  };
+  EXPECT_NE(says(R"({"mean_strain": [0.01]})").find("expected 6 numbers for mean_strain"), std::string::npos);
+  EXPECT_NE(says(R"({"supports": [], "mean_strain": [0, 0, 0, 0, 0, 0]})").find("a cell that repeats has no supports"),
+            std::string::npos);
+  EXPECT_NE(says(R"({"physics": "heat", "mean_strain": [0, 0, 0, 0, 0, 0]})").find("is of mechanics"),
+            std::string::npos);
+}
+
 TEST(Study, PropertiesHaveUnits) {
   Diagnostics diagnostics;
   const auto study = study_of(

@@ -11,12 +11,10 @@
 #include <CGAL/perturb_mesh_3.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
-#include <numeric>
 
 #include "base/error.h"
-#include "solids/tetrahedra.h"
+#include "solids/mesh_module.h"
 
 namespace ombre::solids {
 namespace {
@@ -75,19 +73,11 @@ using Triangulation = CGAL::Mesh_triangulation_3<Domain, CGAL::Default, CGAL::Se
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
 using Usual = CGAL::Mesh_criteria_3<Triangulation>;
 
-// Shares of the element size: radii of the balls around facets and cells, so that the mean edge has about the size; how
-// far edges may lie from sharp edges.
-constexpr double facet_share = 0.8, cell_share = 0.8;
+// How far edges may lie from sharp edges, as a share of the element size.
 constexpr double edge_distance_share = 0.03;
 // How far facets may lie from the surface beside sharp edges that are left out.
 constexpr double rough_distance_share = 0.2;
 constexpr int most_attempts = 8;  // to find the edges that are to be left out
-constexpr double least_angle = 25, most_radius_to_edge = 2.2;
-// Angles between faces that are wanted one after the other; how many questions may be asked for each.
-constexpr std::array sliver_degrees = {1.0, 2.0, 4.0, 8.0, 12.0};
-constexpr uint64_t questions_to_mend = 500'000, questions_to_mend_of_cell = 100;
-// How near to the surface its points lie, as a share of the size.
-constexpr double surface_error = 1e-4;
 
 Vec3 vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -100,20 +90,6 @@ double distance_to_segment(Vec3 at, Vec3 from, Vec3 to) {
 // Facets and cells with a shorter edge, in sizes, are left as they are: where surfaces meet in a sharp angle that is no
 // protected edge, refinement would not end.
 constexpr double least_edge = 0.03;
-
-// Counts what the mesher asks, and stops it by Enough where it asks more than is allowed.
-class Questions {
- public:
-  struct Enough {};
-  void allow(uint64_t more) { left_ = more; }
-  void allow_all() { left_ = std::numeric_limits<uint64_t>::max(); }
-  void count() {
-    if (left_-- == 0) throw Enough();
-  }
-
- private:
-  uint64_t left_ = std::numeric_limits<uint64_t>::max();
-};
 
 // A size that depends on the point, as criteria ask for it.
 struct Sizing {
@@ -273,48 +249,23 @@ class Criteria {
   Cell_criteria cells_;
 };
 
-// Ascending, but for the last two where the order would turn the tetrahedron inside out.
-void sort_evenly(std::array<uint32_t, 4>& nodes) {
-  bool is_odd = false;
-  for (size_t a = 0; a < 4; ++a)
-    for (size_t b = a + 1; b < 4; ++b) is_odd ^= nodes[a] > nodes[b];
-  std::sort(nodes.begin(), nodes.end());
-  if (is_odd) std::swap(nodes[2], nodes[3]);
-}
-
 Tetrahedra in_order(const Complex& complex) {
   const Triangulation& triangulation = complex.triangulation();
-  std::vector<Point> points;
-  std::map<Triangulation::Vertex_handle, uint32_t> numbers;
-  for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell)
-    for (int n = 0; n < 4; ++n)
-      if (numbers.emplace(cell->vertex(n), static_cast<uint32_t>(points.size())).second)
-        points.push_back(triangulation.geom_traits().construct_point_3_object()(triangulation.point(cell->vertex(n))));
-  std::vector<uint32_t> order(points.size()), place(points.size());
-  std::iota(order.begin(), order.end(), 0U);
-  const auto key = [&](uint32_t n) { return std::array{points[n].z(), points[n].y(), points[n].x()}; };
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
   Tetrahedra made;
-  for (uint32_t n = 0; n < order.size(); ++n) {
-    place[order[n]] = n;
-    made.points.push_back(vec(points[order[n]]));
-  }
-  struct Cell {
-    std::array<uint32_t, 4> nodes;
-    uint32_t region;
-  };
-  std::vector<Cell> cells;
+  std::map<Triangulation::Vertex_handle, uint32_t> numbers;
   for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell) {
-    Cell here{{}, static_cast<uint32_t>(complex.subdomain_index(cell))};
-    for (int n = 0; n < 4; ++n) here.nodes[static_cast<size_t>(n)] = place[numbers.at(cell->vertex(n))];
-    sort_evenly(here.nodes);
-    cells.push_back(here);
+    std::array<uint32_t, 4> nodes{};
+    for (int n = 0; n < 4; ++n) {
+      const auto [number, is_new] = numbers.emplace(cell->vertex(n), static_cast<uint32_t>(made.points.size()));
+      if (is_new)
+        made.points.push_back(
+            vec(triangulation.geom_traits().construct_point_3_object()(triangulation.point(cell->vertex(n)))));
+      nodes[static_cast<size_t>(n)] = number->second;
+    }
+    made.nodes.push_back(nodes);
+    made.regions.push_back(static_cast<uint32_t>(complex.subdomain_index(cell)));
   }
-  std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.nodes < b.nodes; });
-  for (const Cell& cell : cells) {
-    made.nodes.push_back(cell.nodes);
-    made.regions.push_back(cell.region);
-  }
+  put_in_order(made);
   return made;
 }
 
@@ -417,7 +368,7 @@ Tetrahedra make(TetrahedraRequest request) {
 extern "C" void ombre_make_tetrahedra(const ombre::solids::TetrahedraRequest& request,
                                       ombre::solids::Tetrahedra& made) {
   try {
-    made = ombre::solids::make(request);
+    made = request.is_periodic ? ombre::solids::make_periodic(request) : ombre::solids::make(request);
   } catch (const ombre::Error&) {
     throw;
   } catch (const std::logic_error& failure) {

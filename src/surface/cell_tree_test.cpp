@@ -70,7 +70,7 @@ std::vector<CrossedEdge> all_crossed_edges(const CellTree& tree) {
 void expect_closed(const CellTree& tree) {
   std::vector<Crossing> crossings;
   for (const CrossedEdge& edge : all_crossed_edges(tree)) crossings.push_back({edge, {}, {1, 0, 0}});
-  const DualMesh mesh = make_dual_mesh(tree, crossings, 1);
+  const DualMesh mesh = make_dual_mesh(tree, crossings, {1});
   std::map<std::pair<uint32_t, uint32_t>, int> sides;
   for (const DualQuad& quad : mesh.quads) {
     const CrossedEdge& edge = crossings[quad.crossing].edge;
