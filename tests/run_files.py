@@ -342,11 +342,12 @@ def bundles_slice_as_their_designs_do(job):
 
 
 def reference_is_up_to_date(job):
-    printed = program.run([job.ombre, "nodes", "--markdown"]).stdout
-    reference = program.SOURCE / "docs" / "reference" / "nodes.md"
-    found = reference.read_text(encoding="utf-8") if reference.exists() else ""
-    expect(found == printed, "docs/reference/nodes.md is not what the program prints; write it anew with\n"
-                             f"{job.ombre} nodes --markdown > docs/reference/nodes.md")
+    for command in ("nodes", "codes"):
+        printed = program.run([job.ombre, command, "--markdown"]).stdout
+        reference = program.SOURCE / "docs" / "reference" / f"{command}.md"
+        found = reference.read_text(encoding="utf-8") if reference.exists() else ""
+        expect(found == printed, f"docs/reference/{command}.md is not what the program prints; write it anew with\n"
+                                 f"{job.ombre} {command} --markdown > docs/reference/{command}.md")
 
 
 def examples_of_nodes_slice(job):

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that folders include only what tools/layers.toml allows them to."""
+"""Checks that folders include only what tools/layers.toml allows them to, and that files within a folder do not include
+each other in circles: what two need stands in a third, types apart from who works with them."""
 import pathlib
 import re
 import sys
@@ -33,7 +34,62 @@ def problems(path):
                 yield f"{place}: {name} belongs to {home} alone"
 
 
-found = [p for base in ("src", "apps", "bindings") for f in sorted((root / base).rglob("*"))
-         if f.suffix in (".h", ".cpp") for p in problems(f)]
+def modules(folder):
+    """The files of a folder that each file with its header includes: {"tile": {"lattice"}}."""
+    edges = {}
+    for path in sorted(folder.rglob("*")):
+        name = path.relative_to(folder).with_suffix("").as_posix()
+        if path.suffix not in (".h", ".cpp") or name.endswith("_test") or path.name.startswith("test_"):
+            continue
+        used = edges.setdefault(name, set())
+        for line in path.read_text().splitlines():
+            match = include.match(line)
+            if match and match[1] == '"' and match[2].startswith(folder.name + "/"):
+                used.add(match[2].removeprefix(folder.name + "/").rsplit(".", 1)[0])
+        used.discard(name)
+    return edges
+
+
+def circles(edges):
+    """Sets of modules that all reach each other, by Tarjan's algorithm."""
+    number, low, stack, found = {}, {}, [], []
+
+    def visit(name):
+        number[name] = low[name] = len(number)
+        stack.append(name)
+        for used in sorted(edges[name] & edges.keys()):
+            if used not in number:
+                visit(used)
+            if used in stack:
+                low[name] = min(low[name], low[used])
+        if low[name] == number[name]:
+            begin = stack.index(name)
+            if len(stack) - begin > 1:
+                found.append(frozenset(stack[begin:]))
+            del stack[begin:]
+
+    for name in edges:
+        if name not in number:
+            visit(name)
+    return found
+
+
+def circle_problems(folder):
+    """Circles that layers.toml does not list, and those of its lists that are gone."""
+    known = [frozenset(circle) for circle in rules["circles"].get(folder.name, [])]
+    found = circles(modules(folder))
+    for circle in found:
+        if not any(circle <= allowed for allowed in known):
+            yield f"{folder.relative_to(root)}: include each other in a circle: {', '.join(sorted(circle))}"
+    for allowed in known:
+        if allowed not in found:
+            yield f"tools/layers.toml: {folder.name} has less of a circle by now: {', '.join(sorted(allowed))}"
+
+
+sources = [f for base in ("src", "apps", "bindings") for f in sorted((root / base).rglob("*"))
+           if f.suffix in (".h", ".cpp") and "node_modules" not in f.parts]
+found = [p for f in sources for p in problems(f)]
+folders = sorted({root / f.relative_to(root).parts[0] / f.relative_to(root).parts[1] for f in sources})
+found += [p for folder in folders for p in circle_problems(folder)]
 print("\n".join(found) if found else "layers: all includes are allowed")
 sys.exit(1 if found else 0)

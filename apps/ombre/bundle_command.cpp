@@ -27,7 +27,7 @@ int write_bundle(const BundleArguments& a, Session& session) {
   if (compile::is_bundle(a.design)) throw WrongArgument(a.design + " is a bundle already");
   const std::string output = a.output.empty() ? design.stem().string() + std::string(compile::bundle_ending) : a.output;
   if (!compile::is_bundle(output))
-    throw WrongArgument("-o " + output + ": bundles end in .ombre; write for example -o " +
+    throw WrongArgument(spelled::option("-o", output) + ": bundles end in .ombre; write for example -o " +
                         fs::path(output).replace_extension(".ombre").string());
   refuse_to_overwrite(output, a.force);
   Diagnostics diagnostics;

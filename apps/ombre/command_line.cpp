@@ -63,7 +63,7 @@ class CommandLine {
                  add_probe(program_, output_),    add_info(program_, output_),       add_nodes(program_, output_),
                  add_printers(program_, output_), add_materials(program_, output_),  add_scad(program_, output_),
                  add_studio(program_, output_),   add_bundle(program_, output_),     add_optimise(program_, output_),
-                 add_completion(program_)};
+                 add_codes(program_, output_),    add_completion(program_)};
     // Only for those who ask what there is: Python runs it before it comes here (python_designs.h).
     program_.add_subcommand("run",
                             "Run a Python script; with --, its root is the design of a command (see: ombre run -h)");
@@ -90,7 +90,7 @@ class CommandLine {
     } catch (const CLI::ParseError& error) {
       return wrong(explain(program_, error));
     } catch (const WrongArgument& error) {
-      return wrong(error.what());
+      return wrong(error.message(), error.code());
     }
     if (!host_.on_event)
       console_.set_voice(output_.json ? Voice::programs : output_.quiet ? Voice::quiet : Voice::people);
@@ -113,15 +113,16 @@ class CommandLine {
     try {
       return command.run(session);
     } catch (const WrongArgument& error) {
-      return wrong(error.what());
+      return wrong(error.message(), error.code());
     } catch (const Cancelled&) {
       console_.say("interrupted");
       return interrupted;
     } catch (const Error& error) {
-      console_.error(error.what());
+      console_.error(error.code(), error.message(), error.values());
       return failed;
     } catch (const std::bad_alloc&) {
-      console_.error("not enough memory; try fewer --threads, or a smaller --memory");
+      console_.error(Code::memory, "not enough memory; try fewer " + spelled::option("--threads") + ", or a smaller " +
+                                       spelled::option("--memory"));
       return failed;
     }
   }
@@ -135,8 +136,8 @@ class CommandLine {
     return done;
   }
 
-  int wrong(const std::string& problem) {
-    console_.error(problem);
+  int wrong(const Phrase& problem, Code code = Code::option) {
+    console_.error(code, problem);
     return wrong_input;
   }
 
@@ -163,7 +164,7 @@ int run(int argc, const char* const* argv, const Host& host) {
   try {
     return CommandLine(host).run(argc, argv);
   } catch (const std::exception& error) {
-    Console(host).error(error.what());
+    Console(host).error(Code::machine, error.what());
     return failed;
   }
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/data.h"
+#include "base/phrase.h"
 
 namespace ombre {
 class Diagnostics;
@@ -40,6 +41,7 @@ struct Host {
   std::function<void(const DataMembers&)> on_event;  // takes what --json would print
   std::function<void(const std::string&)> on_data;   // takes what else would go to stdout
   sources::SourceCache* cache = nullptr;             // of the files that designs name; null: one for each command
+  FrontEnd front_end = FrontEnd::command_line;       // in whose words messages are
   const StopFlag* stop = nullptr;                    // asks a command to stop, in place of Ctrl-C
 };
 

@@ -51,6 +51,7 @@ Command add_probe(CLI::App& program, OutputOptions& output);
 Command add_sheet(CLI::App& program, OutputOptions& output);
 Command add_info(CLI::App& program, OutputOptions& output);
 Command add_nodes(CLI::App& program, OutputOptions& output);
+Command add_codes(CLI::App& program, OutputOptions& output);
 Command add_printers(CLI::App& program, OutputOptions& output);
 Command add_materials(CLI::App& program, OutputOptions& output);
 Command add_scad(CLI::App& program, OutputOptions& output);

@@ -24,7 +24,8 @@ void put(std::FILE* stream, const std::string& text) {
 void put_data(const std::string& text) {
   errno = 0;
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-  if (!written) throw Error("cannot write to standard output: " + std::generic_category().message(errno));
+  if (!written)
+    throw Error(Code::cannot_write, "cannot write to standard output: " + std::generic_category().message(errno));
 }
 
 bool is_set(const char* variable) {
@@ -32,10 +33,27 @@ bool is_set(const char* variable) {
   return value && *value;
 }
 
+std::string labelled(const std::string& severity, const char* colour, bool has_colour) {
+  return "ombre: " + (has_colour ? colour + severity + "\033[0m" : severity) + ": ";
+}
+
+DataMembers message_members(std::string_view severity, const std::string& message, Code code,
+                            const CodeValues& values) {
+  DataMembers named;
+  for (const auto& [name, value] : values) named.emplace_back(name, value);
+  return {{"severity", std::string(severity)},
+          {"message", message},
+          {"code", std::string(name_of(code))},
+          {"values", Data(std::move(named))}};
+}
+
 }  // namespace
 
 Console::Console(const Host& host)
-    : voice_(host.on_event ? Voice::programs : Voice::people), on_event_(host.on_event), on_data_(host.on_data) {}
+    : voice_(host.on_event ? Voice::programs : Voice::people),
+      front_end_(host.front_end),
+      on_event_(host.on_event),
+      on_data_(host.on_data) {}
 
 void Console::print(const std::string& text) const { on_data_ ? on_data_(text) : put_data(text); }
 
@@ -49,36 +67,36 @@ void Console::say(const std::string& text) const {
   if (voice_ == Voice::people) put(stderr, text + '\n');
 }
 
-void Console::report(const char* severity, const char* colour, const std::string& message) const {
-  if (voice_ == Voice::programs) return event("message", {{"severity", severity}, {"message", message}});
-  const std::string label = has_colour() ? std::string(colour) + severity + "\033[0m" : severity;
-  put(stderr, "ombre: " + label + ": " + message + '\n');
+void Console::warn(const Phrase& message, Code code) const {
+  const std::string text = message.in({{}, front_end_});
+  if (voice_ == Voice::programs) return event("message", message_members("warning", text, code, {}));
+  if (voice_ == Voice::people) put(stderr, labelled("warning", "\033[1;33m", has_colour()) + text + '\n');
 }
 
-void Console::warn(const std::string& message) const {
-  if (voice_ != Voice::quiet) report("warning", "\033[1;33m", message);
+void Console::error(Code code, const Phrase& message, const CodeValues& values) const {
+  const std::string text = message.in({{}, front_end_});
+  if (voice_ == Voice::programs) return event("message", message_members("error", text, code, values));
+  put(stderr, labelled("error", "\033[1;31m", has_colour()) + text + '\n');
 }
-
-void Console::error(const std::string& message) const { report("error", "\033[1;31m", message); }
 
 void Console::diagnose(const Diagnostics& diagnostics) const {
-  if (voice_ == Voice::people) return put(stderr, to_text(diagnostics));
+  if (voice_ == Voice::people) return put(stderr, to_text(diagnostics, front_end_));
   for (const Diagnostic& diagnostic : diagnostics.list()) {
-    if (voice_ == Voice::quiet) {
-      if (diagnostic.severity == Severity::error) put(stderr, to_text(diagnostic));
-      continue;
-    }
-    DataMembers members{{"severity", std::string(name_of(diagnostic.severity))},
-                        {"message", diagnostic.message},
-                        {"hint", diagnostic.hint}};
-    if (diagnostic.where.source) {
-      const Place place = diagnostic.where.source->place(diagnostic.where.begin);
-      members.emplace_back("file", diagnostic.where.source->name());
-      members.emplace_back("line", static_cast<double>(place.line));
-      members.emplace_back("column", static_cast<double>(place.column));
-    }
-    event("message", std::move(members));
+    if (voice_ == Voice::programs) event("message", members_of(diagnostic));
+    if (voice_ == Voice::quiet && diagnostic.severity == Severity::error) put(stderr, to_text(diagnostic, front_end_));
   }
+}
+
+DataMembers Console::members_of(const Diagnostic& diagnostic) const {
+  DataMembers members =
+      message_members(name_of(diagnostic.severity), diagnostic.message, diagnostic.code, diagnostic.values);
+  members.emplace_back("hint", hint_of(diagnostic, front_end_));
+  if (!diagnostic.where.source) return members;
+  const Place place = diagnostic.where.source->place(diagnostic.where.begin);
+  members.emplace_back("file", diagnostic.where.source->name());
+  members.emplace_back("line", static_cast<double>(place.line));
+  members.emplace_back("column", static_cast<double>(place.column));
+  return members;
 }
 
 bool Console::is_terminal() const { return ::isatty(STDERR_FILENO) != 0; }

@@ -32,8 +32,8 @@ class Console {
   // A remark for people, without line end.
   void say(const std::string& text) const;
   // Programs get them as events.
-  void warn(const std::string& message) const;
-  void error(const std::string& message) const;
+  void warn(const Phrase& message, Code code = Code::design) const;
+  void error(Code code, const Phrase& message, const CodeValues& values = {}) const;
   void diagnose(const Diagnostics& diagnostics) const;
 
   // Whether stderr is a terminal that a line can be redrawn on.
@@ -41,9 +41,11 @@ class Console {
   bool has_colour() const;
 
  private:
-  void report(const char* severity, const char* colour, const std::string& message) const;
+  // What --json prints of it, beside its severity.
+  DataMembers members_of(const Diagnostic& diagnostic) const;
 
   Voice voice_ = Voice::people;
+  FrontEnd front_end_ = FrontEnd::command_line;
   std::function<void(const DataMembers&)> on_event_;  // in place of stdout
   std::function<void(const std::string&)> on_data_;
 };

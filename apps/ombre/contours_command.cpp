@@ -40,7 +40,8 @@ void refuse_to_overwrite_layers(const ContourChoices& a, OutlineFormat format) {
   if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
     throw Error(a.output + " is no folder; choose another name, or let it end in .cli or .svg");
   if (!a.force && exporting::has_outline_layers(a.output))
-    throw Error(a.output + " has layers already; replace them with --force, or choose another folder");
+    throw Error(a.output + " has layers already; replace them with " + spelled::option("--force") +
+                ", or choose another folder");
 }
 
 formats::OutlineDocument document_of(const compile::ContourPlan& plan, const std::string& title) {
@@ -88,7 +89,8 @@ void tell_totals(const Console& console, const ContourChoices& a, const formats:
     regions.push_back(DataMembers{{"name", document.regions[n].name}, {"volume_mm3", totals.volumes_mm3[n]}});
   }
   if (totals.polygons == 0)
-    console.warn("no cell's corner is inside the design: there is nothing drawn; choose a smaller --cell");
+    console.warn("no cell's corner is inside the design: there is nothing drawn; choose a smaller " +
+                 spelled::option("--cell"));
   console.say(a.output + " written: " + format_count(static_cast<uint64_t>(plan.layers())) + " layers, " +
               format_count(totals.polygons) + " polygons, " + format_count(totals.points) + " points, in " +
               format_rounded(seconds, 3) + " s");
@@ -126,8 +128,8 @@ int contours(const ContourChoices& a, Session& session) {
   compile::ContourRequest request = a.request();
   const OutlineFormat format = exporting::outline_format_of(a.output);
   if (format == OutlineFormat::svg && !request.z_mm)
-    throw WrongArgument("-o " + a.output + " holds one layer; say which with --z, or name a folder: -o " +
-                        std::filesystem::path(a.output).stem().string() + "/");
+    throw WrongArgument(spelled::option("-o", a.output) + " holds one layer; say which with " + spelled::option("--z") +
+                        ", or name a folder: -o " + std::filesystem::path(a.output).stem().string() + "/");
   refuse_to_overwrite_layers(a, format);
 
   Diagnostics diagnostics;

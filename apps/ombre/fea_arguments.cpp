@@ -47,13 +47,17 @@ constexpr const char* fea_footer =
 
 void check_rounds(const FeaArguments& a) {
   if (a.rounds == 0) {
-    if (!a.follow.empty()) throw WrongArgument("--follow is of rounds: add --rounds 5");
+    if (!a.follow.empty())
+      throw WrongArgument(spelled::option("--follow") + " is of rounds: add " + spelled::option("--rounds", "5"));
     return;
   }
   if (a.follow.empty())
-    throw WrongArgument("--rounds needs the variable of the design that names the results: write --follow moved");
+    throw WrongArgument(spelled::option("--rounds") +
+                        " needs the variable of the design that names the results: write " +
+                        spelled::option("--follow", "moved"));
   if (std::ranges::none_of(a.outputs, [](const std::string& path) { return ending_of(path) == ".vtu"; }))
-    throw WrongArgument("--rounds needs a file for the results that the design reads: write -o part.vtu");
+    throw WrongArgument(spelled::option("--rounds") + " needs a file for the results that the design reads: write " +
+                        spelled::option("-o", "part.vtu"));
 }
 
 // The names that an output has: with rounds one for each, but for their history.
@@ -65,14 +69,18 @@ std::vector<std::string> names_of(const FeaArguments& a, const std::string& path
 }
 
 void check_outputs(const FeaArguments& a) {
-  if (a.solver != "built-in" && !a.solve) throw WrongArgument("--solver calculix does nothing without --solve");
+  if (a.solver != "built-in" && !a.solve)
+    throw WrongArgument(spelled::option("--solver", "calculix") + " does nothing without " +
+                        spelled::option("--solve"));
   if (a.outputs.empty() && !a.solve)
-    throw WrongArgument("there is nothing to do: write -o part.inp or -o part.vtu, or --solve");
+    throw WrongArgument("there is nothing to do: write " + spelled::option("-o", "part.inp") + " or " +
+                        spelled::option("-o", "part.vtu") + ", or " + spelled::option("--solve"));
   for (const std::string& path : a.outputs) {
     const std::string ending = ending_of(path);
-    if (ending == ".csv" && a.rounds == 0) throw WrongArgument("-o " + path + " is of rounds: add --rounds 5");
+    if (ending == ".csv" && a.rounds == 0)
+      throw WrongArgument(spelled::option("-o", path) + " is of rounds: add " + spelled::option("--rounds", "5"));
     if (ending != ".inp" && ending != ".vtu" && ending != ".xdmf" && ending != ".csv")
-      throw WrongArgument("-o " + path + " does not say a format; let it end in .inp, .vtu or .xdmf");
+      throw WrongArgument(spelled::option("-o", path) + " does not say a format; let it end in .inp, .vtu or .xdmf");
     for (const std::string& name : names_of(a, path)) {
       refuse_to_overwrite(name, a.force);
       if (ending == ".xdmf") refuse_to_overwrite(numbers_path(name), a.force);
@@ -83,17 +91,26 @@ void check_outputs(const FeaArguments& a) {
 void check_elements(const FeaArguments& a) {
   if (a.elements == "brick") {
     if (a.size > 0 || !a.size_by.empty() || !a.subdomains.empty())
-      throw WrongArgument("--size, --size-by and --subdomains are of tetrahedra: add --elements tet10");
-    if (a.cell.empty()) throw WrongArgument("bricks need a size: write --cell 1, or --elements tet10 --size 1.5");
+      throw WrongArgument(spelled::option("--size") + ", " + spelled::option("--size-by") + " and " +
+                          spelled::option("--subdomains") + " are of tetrahedra: add " +
+                          spelled::option("--elements", "tet10"));
+    if (a.cell.empty())
+      throw WrongArgument("bricks need a size: write " + spelled::option("--cell", "1") + ", or " +
+                          spelled::option("--elements", "tet10") + " " + spelled::option("--size", "1.5"));
     parse_voxel(a.cell, "--cell");
     return;
   }
-  if (!a.cell.empty()) throw WrongArgument("--cell is of bricks; write --size 1.5");
-  if (a.element != "C3D8") throw WrongArgument("--element is of bricks; tetrahedra are C3D4 or C3D10");
+  if (!a.cell.empty())
+    throw WrongArgument(spelled::option("--cell") + " is of bricks; write " + spelled::option("--size", "1.5"));
+  if (a.element != "C3D8")
+    throw WrongArgument(spelled::option("--element") + " is of bricks; tetrahedra are C3D4 or C3D10");
   if ((a.size > 0) == !a.size_by.empty())
-    throw WrongArgument("tetrahedra need a size: write --size 1.5, or --size-by with --min-cell and --max-cell");
+    throw WrongArgument("tetrahedra need a size: write " + spelled::option("--size", "1.5") + ", or " +
+                        spelled::option("--size-by") + " with " + spelled::option("--min-cell") + " and " +
+                        spelled::option("--max-cell"));
   if (!a.size_by.empty() && !(a.min_cell > 0 && a.min_cell <= a.max_cell))
-    throw WrongArgument("--size-by needs --min-cell, and a --max-cell that is no less");
+    throw WrongArgument(spelled::option("--size-by") + " needs " + spelled::option("--min-cell") + ", and a " +
+                        spelled::option("--max-cell") + " that is no less");
 }
 
 }  // namespace

@@ -214,9 +214,10 @@ compile::FeaResults solve_case(const FeaArguments& a, const Case& here, Session&
 void check_memory(const FeaArguments& a, const Case& here) {
   const auto allowed = static_cast<double>(parse_memory(a.memory));
   if (const double bytes = here.solve_bytes(); a.solve && a.solver == "built-in" && bytes > allowed)
-    throw Error("solving takes about " + format_bytes(bytes) + " of memory, more than the " + format_bytes(allowed) +
-                " allowed; choose larger elements with " + (here.tetrahedra() ? "--size" : "--cell") +
-                ", or more --memory");
+    throw Error(Code::memory, "solving takes about " + format_bytes(bytes) + " of memory, more than the " +
+                                  format_bytes(allowed) + " allowed; choose larger elements with " +
+                                  (here.tetrahedra() ? spelled::option("--size") : spelled::option("--cell")) +
+                                  ", or more " + spelled::option("--memory"));
 }
 
 // The model of the design, said and found to fit; nothing, and diagnostics said, where something is wrong.

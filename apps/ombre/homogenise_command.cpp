@@ -181,7 +181,7 @@ void tell(const Console& console, const fea::HomogenisedConductivity& found, boo
 void check_output(const HomogeniseArguments& a) {
   if (a.output.empty()) return;
   if (!to_lower(a.output).ends_with(".svg"))
-    throw WrongArgument("-o " + a.output + " does not say a format; let it end in .svg");
+    throw WrongArgument(spelled::option("-o", a.output) + " does not say a format; let it end in .svg");
   refuse_to_overwrite(a.output, a.force);
 }
 
@@ -192,8 +192,9 @@ void tell_size(const HomogeniseArguments& a, const Console& console, const fea::
               format_rounded(bricks.size_mm.y, 4) + " x " + format_rounded(bricks.size_mm.z, 4) +
               " mm; solving takes about " + format_bytes(bytes));
   if (const auto allowed = static_cast<double>(parse_memory(a.memory)); bytes > allowed)
-    throw Error("solving takes about " + format_bytes(bytes) + " of memory, more than the " + format_bytes(allowed) +
-                " allowed; choose larger bricks with --cell, or more --memory");
+    throw Error(Code::memory, "solving takes about " + format_bytes(bytes) + " of memory, more than the " +
+                                  format_bytes(allowed) + " allowed; choose larger bricks with " +
+                                  spelled::option("--cell") + ", or more " + spelled::option("--memory"));
 }
 
 void solve_stiffness(const HomogeniseArguments& a, const fea::Model& model, const fea::SolveOptions& options,

@@ -33,14 +33,14 @@ int64_t chosen_layer(const LayerChoices& a, const voxel::Lattice& lattice) {
     const auto range =
         a.index.find(':') == std::string::npos ? compile::parse_layer_range(a.index, count) : std::nullopt;
     if (range) return range->begin;
-    throw WrongArgument("--index " + a.index + " is none of the " +
+    throw WrongArgument(spelled::option("--index", a.index) + " is none of the " +
                         format_count(static_cast<unsigned long long>(count)) + " layers, which are 0 to " +
                         std::to_string(count - 1));
   }
   if (const auto layer = compile::layer_at(lattice, *a.z_mm)) return *layer;
   const Box box = lattice.box();
-  throw WrongArgument("--z " + format_number(*a.z_mm) + " is outside the part, which lies from " + mm_text(box.lo.z) +
-                      " to " + mm_text(box.hi.z) + " mm along z");
+  throw WrongArgument(spelled::option("--z", format_number(*a.z_mm)) + " is outside the part, which lies from " +
+                      mm_text(box.lo.z) + " to " + mm_text(box.hi.z) + " mm along z");
 }
 
 std::optional<compile::LayerWindow> chosen_window(const LayerChoices& a, const voxel::Lattice& lattice) {
@@ -50,8 +50,9 @@ std::optional<compile::LayerWindow> chosen_window(const LayerChoices& a, const v
   const Box box = lattice.box();
   const std::vector<std::string> corners{format_number(lo.x), format_number(lo.y), format_number(hi.x),
                                          format_number(hi.y)};
-  throw WrongArgument("--box " + join(corners, ",") + " is beside the images, which lie from " + mm_text(box.lo.x) +
-                      "," + mm_text(box.lo.y) + " to " + mm_text(box.hi.x) + "," + mm_text(box.hi.y) + " mm");
+  throw WrongArgument(spelled::option("--box", join(corners, ",")) + " is beside the images, which lie from " +
+                      mm_text(box.lo.x) + "," + mm_text(box.lo.y) + " to " + mm_text(box.hi.x) + "," +
+                      mm_text(box.hi.y) + " mm");
 }
 
 // part.vcad and slice_00012.png give part_slice_00012.png. Where each material has a file, -o layer.png gives
@@ -129,9 +130,11 @@ std::optional<compile::Plan> plan_job(const LayerChoices& a, Session& session, D
 
 int layer(const LayerChoices& a, Session& session) {
   if (!a.z_mm && a.index.empty())
-    throw WrongArgument("which layer? write --z with a height in mm, or --index with a number");
+    throw WrongArgument("which layer? write " + spelled::option("--z") + " with a height in mm, or " +
+                        spelled::option("--index") + " with a number");
   if (a.output == "-" && session.console.voice() == Voice::programs)
-    throw WrongArgument("-o - writes the image to stdout, where --json writes events; give -o a file name");
+    throw WrongArgument("-o - writes the image to stdout, where " + spelled::option("--json") +
+                        " writes events; give -o a file name");
   Diagnostics diagnostics;
   const auto plan = plan_job(a, session, diagnostics);
   session.console.diagnose(diagnostics);

@@ -73,7 +73,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<S
   std::vector<std::pair<std::string, std::string>> values;
   for (const SlicerSetting& setting : settings) {
     if (setting.listed() > 0 && setting.listed() != made.bodies.size())
-      throw WrongArgument("--setting " + setting.key() + " lists " + std::to_string(setting.listed()) +
+      throw WrongArgument(spelled::option("--setting", setting.key()) + " lists " + std::to_string(setting.listed()) +
                           " values, and there are " + std::to_string(made.bodies.size()) + " bodies");
     values.emplace_back(setting.key(), setting.value(body, made.bodies[body].share));
   }
@@ -143,15 +143,15 @@ void warn_of_folds(const Console& console, const compile::MeshedDesign& made) {
   if (folded > 1) what.push_back(format_count(folded) + " triangles look inwards");
   if (what.empty()) return;
   console.warn(join(what, " and ") + ", where the design is finer than the cells of " +
-               format_rounded(made.cell_mm, 3) + " mm; choose a smaller --cell");
+               format_rounded(made.cell_mm, 3) + " mm; choose a smaller " + spelled::option("--cell"));
 }
 
 void warn_of_distance(const Console& console, const compile::MeshedDesign& made) {
   const double farthest = made.report.farthest_in_tolerances;
   if (farthest <= 1) return;
   console.warn("the triangles lie up to " + format_rounded(farthest, 2) + " tolerances, " +
-               format_rounded(farthest * made.tolerance_mm, 2) +
-               " mm, from the design in places; choose a smaller --cell");
+               format_rounded(farthest * made.tolerance_mm, 2) + " mm, from the design in places; choose a smaller " +
+               spelled::option("--cell"));
 }
 
 void warn_of_lost_parts(const Console& console, const compile::MeshedDesign& made) {
@@ -159,8 +159,8 @@ void warn_of_lost_parts(const Console& console, const compile::MeshedDesign& mad
   if (lost.places == 0) return;
   console.warn("a part or a gap thinner than the cells of " + format_rounded(made.cell_mm, 3) +
                " mm is missing, for example near (" + format_rounded(lost.first.x, 4) + ", " +
-               format_rounded(lost.first.y, 4) + ", " + format_rounded(lost.first.z, 4) +
-               "); choose a --cell no larger than it is thick");
+               format_rounded(lost.first.y, 4) + ", " + format_rounded(lost.first.z, 4) + "); choose a " +
+               spelled::option("--cell") + " no larger than it is thick");
 }
 
 void tell_plan(const Console& console, const compile::MeshPlan& plan) {
@@ -176,12 +176,13 @@ void tell_plan(const Console& console, const compile::MeshPlan& plan) {
 void check_beams(const MeshChoices& a, const compile::MeshRequest& request, const std::string& output,
                  exporting::MeshFormat format) {
   if (format != exporting::MeshFormat::three_mf)
-    throw WrongArgument("--beams are for .3mf; " + output + " cannot hold them");
+    throw WrongArgument(spelled::option("--beams") + " are for .3mf; " + output + " cannot hold them");
   if (a.flavour != formats::SlicerFlavour::generic)
-    throw WrongArgument(std::string("--flavour ") + (a.flavour == formats::SlicerFlavour::prusa ? "prusa" : "bambu") +
+    throw WrongArgument(spelled::option("--flavour", a.flavour == formats::SlicerFlavour::prusa ? "prusa" : "bambu") +
                         " has no beams, which its slicers do not read; leave one of the two out");
   if (request.bands)
-    throw WrongArgument("beams have a material each, but no bands; write --by materials, or leave --beams out");
+    throw WrongArgument("beams have a material each, but no bands; write " + spelled::option("--by", "materials") +
+                        ", or leave " + spelled::option("--beams") + " out");
 }
 
 int mesh(const MeshChoices& a, Session& session) {
@@ -201,12 +202,13 @@ int mesh(const MeshChoices& a, Session& session) {
   const std::string output = a.output.empty() ? stem + ".3mf" : a.output;
   const auto format = exporting::mesh_format_of(output);
   if (!format)
-    throw WrongArgument("-o " + output + " does not say a format; let it end in " + exporting::mesh_endings());
+    throw WrongArgument(spelled::option("-o", output) + " does not say a format; let it end in " +
+                        exporting::mesh_endings());
   refuse_to_overwrite(output, a.force);
   if (*format == exporting::MeshFormat::obj) refuse_to_overwrite(exporting::material_library_path(output), a.force);
   if (a.beams) check_beams(a, request, output, *format);
   if (!a.colour_by.empty() && (*format == exporting::MeshFormat::stl || *format == exporting::MeshFormat::off))
-    throw WrongArgument("--colour-by: " + output +
+    throw WrongArgument(spelled::option("--colour-by") + ": " + output +
                         " holds no colours of vertices; write .ply, .glb, .3mf, .obj or .amf");
   if (*format == exporting::MeshFormat::three_mf && !formats::can_write_3mf())
     throw WrongArgument("this ombre was built without libzip, which .3mf files need; write -o " + stem + ".amf");
@@ -221,7 +223,8 @@ int mesh(const MeshChoices& a, Session& session) {
   diagnose();
   if (!made || diagnostics.has_errors()) return wrong_input;
   if (made->bodies.empty() && made->beams.empty()) {
-    session.console.warn("no cell's corner is inside the design: there is nothing to write; choose a smaller --cell");
+    session.console.warn("no cell's corner is inside the design: there is nothing to write; choose a smaller " +
+                         spelled::option("--cell"));
     return wrong_input;
   }
   tell_bodies(session.console, *made);

@@ -102,13 +102,15 @@ bool open_folder(const OptimiseArguments& a, const Folder& folder, const std::st
   if (problem) throw Error("cannot make the folder " + folder.path.string() + ": " + problem.message());
   const bool has_history = fs::exists(folder.history());
   if (has_history && !a.resume && !a.force)
-    throw WrongArgument(folder.history() + " is there; write --resume to go on with it, or --force to begin again");
+    throw WrongArgument(folder.history() + " is there; write " + spelled::option("--resume") +
+                        " to go on with it, or " + spelled::option("--force") + " to begin again");
   if (!has_history && a.resume)
-    throw WrongArgument("there is no " + folder.history() + " to go on with; leave out --resume");
+    throw WrongArgument("there is no " + folder.history() + " to go on with; leave out " + spelled::option("--resume"));
   if (a.resume) {
     if (!fs::exists(folder.key()) || formats::read_file(folder.key()) != key)
       throw WrongArgument("the history in " + folder.path.string() +
-                          " is of another study, design or materials; choose another -o, or --force to begin again");
+                          " is of another study, design or materials; choose another -o, or " +
+                          spelled::option("--force") + " to begin again");
     if (!history.read(folder.history(), formats::read_file(folder.history()), diagnostics)) return false;
   }
   std::string text = history.header();
@@ -289,8 +291,8 @@ class Report {
           (nearest == outcomes_.size() || outcomes_[n].violation() < outcomes_[nearest].violation()))
         nearest = n;
     const History::Row& row = history_.rows()[nearest];
-    console_.error("no design keeps all limits; the nearest is " + values_text(study_, row) + ": " +
-                   measures_text(study_, row));
+    console_.error(Code::nothing_inside, "no design keeps all limits; the nearest is " + values_text(study_, row) +
+                                             ": " + measures_text(study_, row));
     return check_failed;
   }
 
@@ -323,8 +325,8 @@ bool run_search(const OptimiseStudy& study, const History& history, Evaluator& e
   const History::Row& first = *history.find(compile::values_at(study, problem.start));
   if (!first.measured.failure.empty()) {
     evaluator.finish();
-    session.console.error("the first design, " + values_text(study, first) +
-                          ", cannot be measured: " + first.measured.failure);
+    session.console.error(Code::study, "the first design, " + values_text(study, first) +
+                                           ", cannot be measured: " + first.measured.failure);
     return false;
   }
   optimise::search(problem, study.search);
@@ -374,7 +376,7 @@ int run_optimise(const OptimiseArguments& a, Session& session) {
   const auto data = parse_json(make_source(a.study, formats::read_file(a.study)), diagnostics);
   const auto memory = static_cast<double>(parse_memory(a.memory));
   if (data && data->find("topology")) {
-    if (a.resume) throw WrongArgument("a search for a topology begins anew; leave out --resume");
+    if (a.resume) throw WrongArgument("a search for a topology begins anew; leave out " + spelled::option("--resume"));
     return optimise_topology({a.design, a.folder, memory, a.threads, a.force}, *data, session);
   }
   const std::string ending = to_lower(fs::path(a.design.design).extension().string());

@@ -110,8 +110,10 @@ int optimise_topology(const TopologyArguments& a, const Data& data, Session& ses
   if (!made) return wrong_input;
   const double bytes = fea::solve_bytes(made->model.bricks);
   if (bytes > a.memory_bytes)
-    throw Error("solving takes about " + format_bytes(bytes) + " of memory, more than the " +
-                format_bytes(a.memory_bytes) + " allowed; choose larger bricks with \"cell\", or more --memory");
+    throw Error(Code::memory, "solving takes about " + format_bytes(bytes) + " of memory, more than the " +
+                                  format_bytes(a.memory_bytes) +
+                                  " allowed; choose larger bricks with \"cell\", or more " +
+                                  spelled::option("--memory"));
   const auto file = [&](const char* name) { return (fs::path(a.folder) / name).string(); };
   const std::vector<std::string> files{file("density.nrrd"), file("topology.vcad"), file("history.csv"),
                                        file("chart.svg")};

@@ -12,7 +12,9 @@ void refuse_to_overwrite(const std::string& path, bool force) {
   const auto status = std::filesystem::status(path, ignored);
   if (!std::filesystem::exists(status)) return;
   if (!std::filesystem::is_regular_file(status)) throw Error(path + " is not a file; choose another name");
-  if (!force) throw Error(path + " exists already; replace it with --force, or choose another name");
+  if (!force)
+    throw Error(Code::exists,
+                path + " exists already; replace it with " + spelled::option("--force") + ", or choose another name");
 }
 
 }  // namespace ombre::cli

@@ -20,7 +20,8 @@ Vec3 parse_point(const std::string& text) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto number = parts.size() == 3 ? parse_number(trim(parts[static_cast<size_t>(axis)])) : std::nullopt;
     if (!number)
-      throw WrongArgument("\"" + text + "\" is not a point; write --at x,y,z in mm, for example --at 0,0,2.5");
+      throw WrongArgument("\"" + text + "\" is not a point; write " + spelled::option("--at", "x,y,z") +
+                          " in mm, for example " + spelled::option("--at", "0,0,2.5"));
     point[axis] = *number;
   }
   return point;

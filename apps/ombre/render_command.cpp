@@ -38,7 +38,7 @@ std::vector<std::string> output_files(const PictureChoices& a) {
   const fs::path path(a.output.empty() ? fs::path(a.design.design).stem().string() + ".png" : a.output);
   if (const std::string ending = to_lower(path.extension().string());
       !ending.empty() && ending != ".png" && a.output != "-")
-    throw WrongArgument("-o " + a.output + ": pictures are PNG files; write for example -o " +
+    throw WrongArgument(spelled::option("-o", a.output) + ": pictures are PNG files; write for example -o " +
                         fs::path(path).replace_extension(".png").string());
   if (a.frames == 1) return {path.string()};
   std::vector<std::string> files;
@@ -61,7 +61,9 @@ compile::LoadedPtr load_pictured(const PictureChoices& a, Session& session, Diag
     const std::filesystem::path path = std::filesystem::path(a.design.design).replace_extension(".vcad");
     return compile::load_text(results_as_script(a.design.design, a.by, a.deform), path.string(), options, diagnostics);
   }
-  if (a.deform != 0) throw WrongArgument("--deform is for results; write for example ombre render part.vtu --deform 5");
+  if (a.deform != 0)
+    throw WrongArgument(spelled::option("--deform") + " is for results; write for example ombre render part.vtu " +
+                        spelled::option("--deform", "5"));
   return load_design(a.design, session, diagnostics, a.work.threads);
 }
 
@@ -69,7 +71,8 @@ int render_design(const PictureChoices& a, Session& session) {
   const compile::PictureRequest request = a.request();
   const bool to_stdout = a.output == "-";
   if (to_stdout && session.console.voice() == Voice::programs)
-    throw WrongArgument("-o - writes the picture to stdout, where --json writes events; give -o a file name");
+    throw WrongArgument("-o - writes the picture to stdout, where " + spelled::option("--json") +
+                        " writes events; give -o a file name");
   if (to_stdout && a.frames > 1) throw WrongArgument("stdout holds one picture; give -o a file name");
   const std::vector<std::string> files = output_files(a);
   if (!to_stdout)

@@ -110,7 +110,8 @@ class ScadRun {
       throw WrongArgument("a file for each part is named by its ending; write -o " + output + "." + format);
     if (writes_solids(format)) return;
     throw WrongArgument("ombre scad cannot write \"" + output + "\"; write a file that ends in " +
-                        join(scad_formats(), ", ") + ", or name one of them with --export-format");
+                        join(scad_formats(), ", ") + ", or name one of them with " +
+                        spelled::option("--export-format"));
   }
 
   bool prepare() {

@@ -59,7 +59,7 @@ Diagnostics without_warnings(const Diagnostics& found, lang::openscad::Messages&
       continue;
     }
     const SourceRange& where = diagnostic.where;
-    const std::string text = diagnostic.message + (diagnostic.hint.empty() ? "" : "; " + diagnostic.hint);
+    const std::string text = sentence_of(diagnostic);
     using Kind = lang::openscad::Message::Kind;
     said.add({Kind::warning, text, where.source ? std::filesystem::path(where.source->name()).filename().string() : "",
               where.source ? where.source->place(where.begin).line : 0});

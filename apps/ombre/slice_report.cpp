@@ -30,8 +30,8 @@ std::string shades_text(const compile::ShadeMeaning& shades) {
 
 void warn_of_memory(const Console& console, const std::string& what, double bytes, size_t allowed) {
   if (bytes <= static_cast<double>(allowed)) return;
-  console.warn(what + " takes up to " + format_bytes(bytes) + ", more than the --memory of " +
-               format_bytes(static_cast<double>(allowed)) + "; coarser voxels or cells take less");
+  console.warn(what + " takes up to " + format_bytes(bytes) + ", more than the " + spelled::option("--memory") +
+               " of " + format_bytes(static_cast<double>(allowed)) + "; coarser voxels or cells take less");
 }
 
 std::string mm_text(double mm) { return format_rounded(mm, 6); }

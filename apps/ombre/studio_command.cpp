@@ -74,7 +74,9 @@ class Signpost {
     path_ = (runtime.empty() ? std::filesystem::temp_directory_path().string() : runtime) + "/ombre-studio-XXXXXX.html";
     constexpr int ending = 5;
     const int file = ::mkstemps(path_.data(), ending);
-    if (file < 0) throw Error("cannot write " + path_ + ", by which the browser finds the studio; write --no-browser");
+    if (file < 0)
+      throw Error(Code::cannot_write, "cannot write " + path_ + ", by which the browser finds the studio; write " +
+                                          spelled::option("--no-browser"));
     const std::string text = "<!doctype html><meta http-equiv=\"refresh\" content=\"0; url=" + url + "\">\n";
     [[maybe_unused]] const ssize_t written = ::write(file, text.data(), text.size());
     ::close(file);
@@ -160,7 +162,8 @@ int run_studio(const StudioArguments& a, Session& session) {
 #else
 
 int run_studio(const StudioArguments&, Session&) {
-  throw Error("this ombre was built without the studio; install nodejs and npm (apt), and build it again");
+  throw Error(Code::library_missing,
+              "this ombre was built without the studio; install nodejs and npm (apt), and build it again");
 }
 
 #endif

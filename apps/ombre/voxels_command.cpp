@@ -62,14 +62,15 @@ using Format = std::variant<exporting::VolumeFormat, vdb::FileFormat, VtiFormat>
 Format chosen_format(const GridChoices& a) {
   const std::string ending = to_lower(std::filesystem::path(a.output).extension().string());
   if (a.gzip && ending != ".nrrd")
-    throw WrongArgument("--gzip is for .nrrd files; leave it out, or write -o part.nrrd");
+    throw WrongArgument(spelled::option("--gzip") + " is for .nrrd files; leave it out, or write " +
+                        spelled::option("-o", "part.nrrd"));
   if (ending == ".raw") return exporting::VolumeFormat::raw;
   if (ending == ".npy") return exporting::VolumeFormat::npy;
   if (ending == ".nrrd") return a.gzip ? exporting::VolumeFormat::nrrd_gzip : exporting::VolumeFormat::nrrd;
   if (ending == ".vdb") return vdb::FileFormat::vdb;
   if (ending == ".nvdb") return vdb::FileFormat::nvdb;
   if (ending == ".vti") return VtiFormat{};
-  throw WrongArgument("-o " + a.output +
+  throw WrongArgument(spelled::option("-o", a.output) +
                       " does not say a format; let it end in .npy, .nrrd, .vti, .raw, .vdb or .nvdb");
 }
 
@@ -81,8 +82,8 @@ voxel::TileBox chosen_region(const GridChoices& a, const voxel::Lattice& lattice
   if (!a.box) return {{0, 0, 0}, lattice.count};
   if (const auto region = compile::region_over(lattice, *a.box)) return *region;
   const Box box = lattice.box();
-  throw WrongArgument("--box " + corner(a.box->lo) + "," + corner(a.box->hi) + " is beside the part, which lies from " +
-                      corner(box.lo) + " to " + corner(box.hi) + " mm");
+  throw WrongArgument(spelled::option("--box", corner(a.box->lo) + "," + corner(a.box->hi)) +
+                      " is beside the part, which lies from " + corner(box.lo) + " to " + corner(box.hi) + " mm");
 }
 
 void tell_plan(const Console& console, const compile::GridJob& job, int threads, const std::vector<std::string>& paths,
@@ -136,9 +137,10 @@ void refuse_small_disk(const std::string& path, uint64_t bytes) {
   const std::string folder = std::filesystem::absolute(path).parent_path().string();
   const std::optional<double> free = free_bytes(folder);
   if (!free || static_cast<double>(bytes) <= *free) return;
-  throw Error("the grid takes " + format_bytes(static_cast<double>(bytes)) + ", and the disk of " + folder + " has " +
-              format_bytes(*free) + " left; free some space there, choose larger voxels with --voxel, or write all " +
-              "the same with --force");
+  throw Error(Code::disk_space,
+              "the grid takes " + format_bytes(static_cast<double>(bytes)) + ", and the disk of " + folder + " has " +
+                  format_bytes(*free) + " left; free some space there, choose larger voxels with " +
+                  spelled::option("--voxel") + ", or write all " + "the same with " + spelled::option("--force"));
 }
 
 int write_dense(const GridChoices& a, const compile::GridJob& job, exporting::VolumeFormat format, Session& session,
@@ -192,9 +194,8 @@ std::optional<compile::GridJob> plan_job(const GridChoices& a, const compile::Gr
   const auto options = plan_options(a.sampling, a.work, session, diagnostics);
   if (!options) return std::nullopt;
   if (is_scan(a.design.design) && !options->pitch[0])
-    throw WrongArgument(
-        "how large the voxels of a scan are to be is not said; write for example --voxel 1 (mm; ombre info " +
-        a.design.design + " prints its own)");
+    throw WrongArgument("how large the voxels of a scan are to be is not said; write for example " +
+                        spelled::option("--voxel", "1") + " (mm; ombre info " + a.design.design + " prints its own)");
   const compile::LoadedPtr loaded = is_scan(a.design.design)
                                         ? load_scan(a.design, session, diagnostics, a.work.threads)
                                         : load_design(a.design, session, diagnostics, a.work.threads);

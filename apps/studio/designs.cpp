@@ -10,8 +10,7 @@ RequestError design_error(const Diagnostics& diagnostics) {
   std::string text;
   for (const Diagnostic& diagnostic : diagnostics.list()) {
     if (diagnostic.severity != Severity::error) continue;
-    text += (text.empty() ? "" : "\n") + diagnostic.message;
-    if (!diagnostic.hint.empty()) text += "; " + diagnostic.hint;
+    text += (text.empty() ? "" : "\n") + sentence_of(diagnostic, FrontEnd::studio);
   }
   return {"design", text};
 }

@@ -137,7 +137,8 @@ DataList describe(const Diagnostics& diagnostics, const SourcePtr& source) {
   DataList list;
   for (const Diagnostic& diagnostic : diagnostics.list()) {
     DataMembers members{{"severity", std::string(name_of(diagnostic.severity))}, {"message", diagnostic.message}};
-    if (!diagnostic.hint.empty()) members.emplace_back("hint", diagnostic.hint);
+    if (!diagnostic.hint.empty()) members.emplace_back("hint", hint_of(diagnostic, FrontEnd::studio));
+    members.emplace_back("code", std::string(name_of(diagnostic.code)));
     const SourceRange& where = diagnostic.where;
     if (where.source) {
       members.emplace_back("file", where.source->name());

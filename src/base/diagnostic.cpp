@@ -91,19 +91,43 @@ Diagnostics Diagnostics::after(size_t count) const {
   return rest;
 }
 
-void Diagnostics::error(SourceRange where, std::string message, std::string hint) {
+void Diagnostics::error(SourceRange where, std::string message, Phrase hint) {
   add({Severity::error, std::move(where), std::move(message), std::move(hint)});
 }
 
-void Diagnostics::warning(SourceRange where, std::string message, std::string hint) {
+void Diagnostics::error(Code code, SourceRange where, std::string message, Phrase hint, CodeValues values) {
+  add({Severity::error, std::move(where), std::move(message), std::move(hint), code, std::move(values)});
+}
+
+void Diagnostics::warning(SourceRange where, std::string message, Phrase hint) {
   add({Severity::warning, std::move(where), std::move(message), std::move(hint)});
+}
+
+void Diagnostics::warning(Code code, SourceRange where, std::string message, Phrase hint, CodeValues values) {
+  add({Severity::warning, std::move(where), std::move(message), std::move(hint), code, std::move(values)});
 }
 
 void Diagnostics::note(SourceRange where, std::string message) {
   add({Severity::note, std::move(where), std::move(message), {}});
 }
 
-std::string to_text(const Diagnostic& diagnostic) {
+void Diagnostics::tell_code(size_t count, Code code, const CodeValues& values) {
+  for (size_t n = count; n < list_.size(); ++n) {
+    if (list_[n].code == Code::design) list_[n].code = code;
+    if (list_[n].values.empty()) list_[n].values = values;
+  }
+}
+
+std::string hint_of(const Diagnostic& diagnostic, FrontEnd front_end) {
+  const SourcePtr& source = diagnostic.where.source;
+  return diagnostic.hint.in(wording_of(source ? std::string_view(source->name()) : std::string_view(), front_end));
+}
+
+std::string sentence_of(const Diagnostic& diagnostic, FrontEnd front_end) {
+  return diagnostic.hint.empty() ? diagnostic.message : diagnostic.message + "; " + hint_of(diagnostic, front_end);
+}
+
+std::string to_text(const Diagnostic& diagnostic, FrontEnd front_end) {
   const SourceRange& where = diagnostic.where;
   const bool has_place = where.source && where.end > 0;
   std::string text;
@@ -114,16 +138,14 @@ std::string to_text(const Diagnostic& diagnostic) {
     text.insert(text.size() - 1, std::to_string(place.line) + ':' + std::to_string(place.column) + ':');
   }
   text += name_of(diagnostic.severity);
-  text += ": " + diagnostic.message;
-  if (!diagnostic.hint.empty()) text += "; " + diagnostic.hint;
-  text += '\n';
+  text += ": " + sentence_of(diagnostic, front_end) + '\n';
   if (has_place) text += excerpt(where, place);
   return without_controls(text);
 }
 
-std::string to_text(const Diagnostics& diagnostics) {
+std::string to_text(const Diagnostics& diagnostics, FrontEnd front_end) {
   std::string text;
-  for (const Diagnostic& diagnostic : diagnostics.list()) text += to_text(diagnostic);
+  for (const Diagnostic& diagnostic : diagnostics.list()) text += to_text(diagnostic, front_end);
   if (diagnostics.error_count() > Diagnostics::most)
     text += "and " + std::to_string(diagnostics.error_count() - Diagnostics::most) + " more errors\n";
   return text;

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/code.h"
+#include "base/phrase.h"
 #include "base/source_text.h"
 
 namespace ombre {
@@ -15,7 +17,9 @@ struct Diagnostic {
   Severity severity = Severity::error;
   SourceRange where;
   std::string message;  // one sentence, lower case, no full stop
-  std::string hint;     // what to write instead; may be empty
+  Phrase hint;          // what to write instead; may be empty
+  Code code = Code::design;
+  CodeValues values = {};  // what the message is about, as code.cpp lists them
 
   bool operator==(const Diagnostic&) const = default;
 };
@@ -30,9 +34,13 @@ class Diagnostics {
   // Adds diagnostics that are not in the list yet; a job may find the same ones each time it lowers a design.
   void add_new(const Diagnostic& diagnostic);
   void add_new(const Diagnostics& others);
-  void error(SourceRange where, std::string message, std::string hint = "");
-  void warning(SourceRange where, std::string message, std::string hint = "");
+  void error(SourceRange where, std::string message, Phrase hint = {});
+  void error(Code code, SourceRange where, std::string message, Phrase hint = {}, CodeValues values = {});
+  void warning(SourceRange where, std::string message, Phrase hint = {});
+  void warning(Code code, SourceRange where, std::string message, Phrase hint = {}, CodeValues values = {});
   void note(SourceRange where, std::string message);
+  // Gives a code to all but the first `count`, where they have none yet, and values to those that have none.
+  void tell_code(size_t count, Code code, const CodeValues& values = {});
 
   const std::vector<Diagnostic>& list() const { return list_; }
   // All but the first `count`, which were told already.
@@ -48,11 +56,15 @@ class Diagnostics {
 // "note", "warning" or "error".
 std::string_view name_of(Severity severity);
 
+// What to write instead, in the language of the design that the diagnostic points into.
+std::string hint_of(const Diagnostic& diagnostic, FrontEnd front_end = FrontEnd::command_line);
+// "message; hint"
+std::string sentence_of(const Diagnostic& diagnostic, FrontEnd front_end = FrontEnd::command_line);
 // "file:line:column: error: message; hint" ("file: error: ..." for a file as a whole), then the source line and a caret
 // line.
-std::string to_text(const Diagnostic& diagnostic);
+std::string to_text(const Diagnostic& diagnostic, FrontEnd front_end = FrontEnd::command_line);
 // All of them, and how many more there were.
-std::string to_text(const Diagnostics& diagnostics);
+std::string to_text(const Diagnostics& diagnostics, FrontEnd front_end = FrontEnd::command_line);
 
 // Ends a front end's work early after its diagnostics were recorded.
 struct DesignError : std::exception {

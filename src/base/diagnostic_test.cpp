@@ -2,6 +2,7 @@
 #include "base/diagnostic.h"
 
 #include <algorithm>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -75,6 +76,44 @@ TEST(Diagnostic, HintsAndSeverities) {
   EXPECT_EQ(to_text(Diagnostic{Severity::warning, {}, "odd", ""}), "warning: odd\n");
   EXPECT_EQ(to_text(Diagnostic{Severity::note, {}, "so", ""}), "note: so\n");
   EXPECT_EQ(to_text(Diagnostic{Severity::error, {}, "wrong", "write this"}), "error: wrong; write this\n");
+}
+
+TEST(Diagnostic, HintsAreInTheLanguageOfTheDesign) {
+  const Phrase hint = "write " + spelled::parameter("angle", "90") + ", or " + spelled::option("--cell", "1");
+  const auto told = [&](const char* file, FrontEnd front_end) {
+    return sentence_of(Diagnostic{Severity::error, {make_source(file, ""), 0, 0}, "wrong", hint}, front_end);
+  };
+  EXPECT_EQ(told("a.vcad", FrontEnd::command_line), "wrong; write angle=90, or --cell 1");
+  EXPECT_EQ(told("a.json", FrontEnd::command_line), "wrong; write \"angle\": 90, or --cell 1");
+  EXPECT_EQ(told("a.py", FrontEnd::python), "wrong; write angle=90, or cell=1");
+  EXPECT_EQ(told("a.vcad", FrontEnd::studio), "wrong; write angle=90, or cell 1");
+}
+
+TEST(Diagnostics, CodesAreToldOnce) {
+  Diagnostics diagnostics;
+  diagnostics.error({}, "before");
+  const size_t known = diagnostics.list().size();
+  diagnostics.error({}, "plain");
+  diagnostics.error(Code::file_missing, {}, "there is no file", {}, {{"file", "a.stl"}});
+  diagnostics.error(Code::limit, {}, "too many");
+  diagnostics.tell_code(known, Code::parameters, {{"node", "mesh"}});
+  const auto& list = diagnostics.list();
+  EXPECT_EQ(list[0].code, Code::design);
+  EXPECT_EQ(list[1].code, Code::parameters);
+  EXPECT_EQ(list[1].values, (CodeValues{{"node", "mesh"}}));
+  EXPECT_EQ(list[2].code, Code::file_missing);
+  EXPECT_EQ(list[2].values, (CodeValues{{"file", "a.stl"}}));
+  EXPECT_EQ(list[3].code, Code::limit);
+}
+
+TEST(Code, NamesAreWordsWithHyphens) {
+  std::set<std::string_view> names;
+  for (const CodeInfo& info : codes()) {
+    EXPECT_TRUE(names.insert(info.name).second) << info.name;
+    EXPECT_EQ(info.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz-"), std::string_view::npos) << info.name;
+    EXPECT_EQ(name_of(info.code), info.name);
+    EXPECT_FALSE(info.sentence.empty()) << info.name;
+  }
 }
 
 TEST(Diagnostics, CountAllOfOthers) {

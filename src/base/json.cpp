@@ -60,7 +60,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool end_array() override { return close(); }
   bool key(string_t& name) override {
     const SourceRange where = token();
-    if (!names_.back().insert(name).second) diagnostics_.error(where, "the key \"" + name + "\" is given twice");
+    if (!names_.back().insert(name).second)
+      diagnostics_.error(Code::twice, where, "the key \"" + name + "\" is given twice");
     keys_.push_back(std::move(name));
     return true;
   }
@@ -127,7 +128,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool open(Data data) {
     data.where = token();
     if (stack_.size() >= deepest) {
-      diagnostics_.error(data.where, "this nests deeper than " + std::to_string(deepest) + " levels");
+      diagnostics_.error(Code::limit, data.where, "this nests deeper than " + std::to_string(deepest) + " levels");
       return false;
     }
     stack_.push_back(std::move(data));

@@ -178,9 +178,10 @@ void read_with(Reader& reader, const std::string& path, Document& document) {
   reader.SetNameMode(true);
   const IFSelect_ReturnStatus status = reader.ReadFile(path.c_str());
   if (status != IFSelect_RetDone)
-    throw Error("cannot read " + path + ": it is no valid file of its kind; export it again, as STEP AP214 or AP242");
+    throw Error(Code::cannot_read,
+                "cannot read " + path + ": it is no valid file of its kind; export it again, as STEP AP214 or AP242");
   if (!reader.Transfer(document.handle()))
-    throw Error("cannot read " + path + ": it holds no shapes; export the part as a solid");
+    throw Error(Code::cannot_read, "cannot read " + path + ": it holds no shapes; export the part as a solid");
 }
 
 bool is_iges(const std::string& path) {

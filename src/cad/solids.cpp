@@ -22,6 +22,7 @@ ReadCad load_module() {
 
 ReadCad load_module() {
   throw Error(
+      Code::library_missing,
       "this ombre was built without Open CASCADE; install libocct-data-exchange-dev, configure with -DOMBRE_CAD=ON and "
       "build again, or save the part as a mesh (STL, 3MF)");
 }

@@ -162,7 +162,7 @@ class Splitter {
     report_lost(*box);
     if (!parts.sets.empty()) return parts;
     diagnostics_.error(root_->where(), "the design has no struts that can be written as beams",
-                       "leave --beams out; struts are what lattice and strut make");
+                       "leave " + spelled::option("--beams") + " out; struts are what lattice and strut make");
     return std::nullopt;
   }
 

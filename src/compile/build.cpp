@@ -29,9 +29,13 @@ bool report_beyond_limit(const design::Node& solid, Diagnostics& diagnostics) {
   }
   if (places.empty()) return false;
   diagnostics.error(
-      solid.where(),
+      Code::limit, solid.where(),
       "this reaches from " + join(places, " and from ") + " mm; designs may reach from -1,000,000 to 1,000,000 mm",
-      longest < design::design_limit_mm ? "move it: translate(" + join(move, ", ") + ')' : "scale it down");
+      longest < design::design_limit_mm
+          ? "move it: " + spelled::either("translate(" + join(move, ", ") + ')',
+                                          "\"by\": [" + join(move, ", ") + "] of a translate",
+                                          "translate(" + join(move, ", ") + ')')
+          : "scale it down");
   return true;
 }
 
@@ -111,7 +115,8 @@ void leave_out_impossible(Built& built, const Box& box, int threads) {
 std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnostics) {
   if (design.sampling) return design.sampling->box;
   if (std::ranges::all_of(design.parts, [](const design::Part& part) { return part.solid->is_nothing(); })) {
-    diagnostics.error(design.parts[0].solid->where(), "the design is empty: nothing in it makes a solid");
+    diagnostics.error(Code::nothing_inside, design.parts[0].solid->where(),
+                      "the design is empty: nothing in it makes a solid");
     return std::nullopt;
   }
   Box box;
@@ -121,8 +126,11 @@ std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnos
       if (bounds.lo[axis] > -design::design_limit_mm && bounds.hi[axis] < design::design_limit_mm) continue;
       if (report_beyond_limit(*part.solid, diagnostics)) return std::nullopt;
       diagnostics.error(
-          part.solid->where(), "this has no end along " + std::string(1, static_cast<char>('x' + axis)),
-          "give the function bounds, intersect it with a bounded solid, or put everything into root(min, max, voxel)");
+          Code::unbounded, part.solid->where(),
+          "this has no end along " + std::string(1, static_cast<char>('x' + axis)),
+          "give the function bounds, intersect it with a bounded solid, or " +
+              spelled::either("put everything into root(min, max, voxel)", "say \"sampling\" with min, max and voxel",
+                              "give the design a box and a voxel: ombre.Design(solid, box=..., voxel=...)"));
       return std::nullopt;
     }
     box = hull(box, bounds);
@@ -130,7 +138,7 @@ std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnos
   if (!box.is_empty()) return box;
   for (const design::Part& part : design.parts)
     if (report_beyond_limit(*part.solid, diagnostics)) return std::nullopt;
-  diagnostics.error(design.parts[0].solid->where(),
+  diagnostics.error(Code::nothing_inside, design.parts[0].solid->where(),
                     "nothing of the design is left: its solids do not meet, or their formulas are never 0 or less");
   return std::nullopt;
 }

@@ -122,7 +122,7 @@ class Packer {
     entries.push_back({name, std::move(lazy)});
   }
 
-  std::nullopt_t refuse(const std::string& problem, const std::string& hint = "") {
+  std::nullopt_t refuse(const std::string& problem, const Phrase& hint = {}) {
     diagnostics_.error({make_source(design_.string(), ""), 0, 0}, problem, hint);
     return std::nullopt;
   }

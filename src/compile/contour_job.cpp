@@ -36,11 +36,13 @@ bool is_sensible(const ContourPlan& plan, const ContourRequest& request, const S
                  Diagnostics& diagnostics) {
   const Box& box = plan.box;
   if (request.z_mm && (*request.z_mm < box.lo.z || *request.z_mm > box.hi.z))
-    diagnostics.error(where, "--z " + mm(*request.z_mm) + " is beside the part, which lies from z " + mm(box.lo.z) +
-                                 " to " + mm(box.hi.z) + " mm");
+    diagnostics.error(Code::nothing_inside, where,
+                      "z " + mm(*request.z_mm) + " mm is beside the part, which lies from z " + mm(box.lo.z) + " to " +
+                          mm(box.hi.z) + " mm");
   else if (plan.corners.count[0] * plan.corners.count[1] > most_corners)
-    diagnostics.error(where, "cells of " + mm(plan.corners.pitch[0].mm()) +
-                                 " mm are too small for layers of this part; choose a larger --cell or --tolerance");
+    diagnostics.error(Code::too_large, where,
+                      "cells of " + mm(plan.corners.pitch[0].mm()) + " mm are too small for layers of this part",
+                      "choose a larger " + spelled::option("--cell") + " or " + spelled::option("--tolerance"));
   else
     return true;
   return false;
@@ -48,8 +50,9 @@ bool is_sensible(const ContourPlan& plan, const ContourRequest& request, const S
 
 bool is_high_enough(const Box& box, Pitch height, const SourceRange& where, Diagnostics& diagnostics) {
   if (box.size().z / height.mm() <= static_cast<double>(most_layers)) return true;
-  diagnostics.error(where, "layers of " + height.text() + " mm are too thin for a part of " + mm(box.size().z) +
-                               " mm; choose a larger --layer-height");
+  diagnostics.error(Code::too_large, where,
+                    "layers of " + height.text() + " mm are too thin for a part of " + mm(box.size().z) + " mm",
+                    "choose a larger " + spelled::option("--layer-height"));
   return false;
 }
 

@@ -48,7 +48,8 @@ class ModelMaker {
     for (const int64_t count : plan_.request.lattice.count)
       if (count > most_along_axis) return fail("there are more than 2^30 bricks along an axis", "choose larger bricks");
     if (!find_cells()) return std::nullopt;
-    if (cells_.empty()) return fail("no brick's centre is inside the design", "choose smaller bricks with --cell");
+    if (cells_.empty())
+      return fail("no brick's centre is inside the design", "choose smaller bricks with " + spelled::option("--cell"));
     fea::Model model;
     const voxel::Lattice& lattice = plan_.request.lattice;
     model.bricks = fea::make_bricks(lattice.origin, lattice.voxel_mm(), std::move(cells_));
@@ -62,8 +63,8 @@ class ModelMaker {
   }
 
  private:
-  std::nullopt_t fail(const std::string& message, const std::string& hint) {
-    diagnostics_.error({loaded_->source, 0, 0}, message, hint);
+  std::nullopt_t fail(const std::string& message, const Phrase& hint) {
+    diagnostics_.error(Code::nothing_inside, {loaded_->source, 0, 0}, message, hint);
     return std::nullopt;
   }
 

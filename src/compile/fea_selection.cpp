@@ -20,7 +20,7 @@ std::optional<Nodes> of_part(const design::Design& design, const fea::MeshView& 
   const auto wanted = std::ranges::find(names, name.text);
   if (wanted == names.end()) {
     const std::string slip = did_you_mean(name.text, names);
-    diagnostics.error(name.where, "the design has no part \"" + name.text + "\"",
+    diagnostics.error(Code::unknown_part, name.where, "the design has no part \"" + name.text + "\"",
                       slip.empty() ? "its parts are " + join(names, ", ") : slip);
     return std::nullopt;
   }

@@ -17,7 +17,10 @@ namespace fs = std::filesystem;
 fs::path printers_folder() { return fs::path(data_folder()) / "printers"; }
 
 std::optional<voxel::Printer> read_printer(const std::string& path, Diagnostics& diagnostics) {
-  return voxel::parse_printer(make_source(path, formats::read_file(path)), diagnostics);
+  const size_t known = diagnostics.list().size();
+  auto printer = voxel::parse_printer(make_source(path, formats::read_file(path)), diagnostics);
+  diagnostics.tell_code(known, Code::printer_file);
+  return printer;
 }
 
 bool is_path(const std::string& text) { return text.ends_with(".json") || text.find('/') != std::string::npos; }
@@ -29,7 +32,7 @@ std::vector<std::string> printer_names() {
   std::error_code error;
   for (fs::directory_iterator entry(printers_folder(), error), end; !error && entry != end; entry.increment(error))
     if (entry->path().extension() == ".json") names.push_back(entry->path().stem().string());
-  if (error) throw Error("cannot read " + printers_folder().string() + ": " + error.message());
+  if (error) throw Error(Code::cannot_read, "cannot read " + printers_folder().string() + ": " + error.message());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -44,7 +47,8 @@ std::optional<voxel::Printer> find_printer(const std::string& name_or_path, Diag
   std::string hint = did_you_mean(name_or_path, names);
   hint += (hint.empty() ? "" : " ") + std::string("there are ") + join(names, ", ") +
           "; or give the path of a .json profile";
-  diagnostics.error({}, "there is no printer \"" + name_or_path + '"', std::move(hint));
+  diagnostics.error(Code::unknown_printer, {}, "there is no printer \"" + name_or_path + '"', std::move(hint),
+                    {{"printer", name_or_path}});
   return std::nullopt;
 }
 

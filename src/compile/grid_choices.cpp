@@ -10,7 +10,8 @@ GridWishes GridChoices::wishes(const std::string& usual, bool is_sparse) const {
   for (const std::string& word : split(what.empty() ? usual : what, ',')) {
     const auto name = trim(word);
     if (name.empty())
-      throw options::WrongValue("--what " + what + " lacks a word; write materials, fractions, distance, attributes " +
+      throw options::WrongValue(spelled::option("--what", what) +
+                                " lacks a word; write materials, fractions, distance, attributes " +
                                 "or an attribute's name, or several with commas");
     if (name == "materials")
       wishes.materials = true;

@@ -131,7 +131,7 @@ std::optional<std::vector<Grid>> attribute_grids(const design::Design& design, c
   std::vector<Grid> grids;
   if (wishes.all_attributes && known.empty()) {
     diagnostics.error(design.parts[0].solid->where(), "the design has no attributes",
-                      "give it one, for example attribute(\"density\", 0.4)");
+                      "give it one, for example " + spelled::call("attribute", {{"", "\"density\""}, {"", "0.4"}}));
     return std::nullopt;
   }
   if (wishes.all_attributes)

@@ -33,7 +33,7 @@ std::optional<PeriodicBox> periodic_box(const LoadedPtr& loaded, const std::opti
       diagnostics.error(whole,
                         "the box has " + format_rounded(count) + " bricks along " + std::string(1, "xyz"[axis]) +
                             "; from 1 to " + std::to_string(most_along_axis) + " are possible",
-                        "choose another --cell or --box");
+                        "choose another " + spelled::option("--cell") + " or " + spelled::option("--box"));
       return std::nullopt;
     }
     result.count[static_cast<size_t>(axis)] = halvable(count);

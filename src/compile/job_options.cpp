@@ -21,8 +21,9 @@ std::optional<PlanOptions> plan_options(const std::string& program, const Sampli
   options.whole_tray = sampling.tray;
   if (images.by.empty()) return options;
   if (images.format && images.format != ImageFormat::gray)
-    throw options::WrongValue("--format " + voxel::to_text(*images.format) +
-                              " holds materials; --by makes gray images: leave --format out");
+    throw options::WrongValue("--format " + voxel::to_text(*images.format) + " holds materials; " +
+                              spelled::option("--by") + " makes gray images: leave " + spelled::option("--format") +
+                              " out");
   options.value = ValueChoice{images.by, images.range, images.bits == "16" ? 16 : 8};
   return options;
 }

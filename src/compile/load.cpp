@@ -35,7 +35,7 @@ std::optional<lang::Definition> parse_definition(const std::string& text, Diagno
   const SourcePtr source = make_source("-D", text);
   const SourceRange whole{source, 0, static_cast<uint32_t>(text.size())};
   if (equals == std::string::npos || trim(std::string_view(text).substr(0, equals)).empty()) {
-    diagnostics.error(whole, "expected a definition", "write -D name=value");
+    diagnostics.error(Code::option, whole, "expected a definition", "write " + spelled::option("-D", "name=value"));
     return std::nullopt;
   }
   const std::string name(trim(std::string_view(text).substr(0, equals)));
@@ -50,9 +50,11 @@ std::optional<lang::Definition> parse_definition(const std::string& text, Diagno
 std::optional<design::MaterialTable> read_materials(const std::string& path, sources::SourceCache& cache,
                                                     Diagnostics& diagnostics) {
   const SourcePtr source = read_source(path.empty() ? data_folder() + "/materials/default.json" : path, cache);
+  const size_t known = diagnostics.list().size();
   const auto data = parse_json(source, diagnostics);
-  if (!data) return std::nullopt;
-  return design::MaterialTable::read(*data, diagnostics);
+  auto materials = data ? design::MaterialTable::read(*data, diagnostics) : std::nullopt;
+  diagnostics.tell_code(known, Code::materials_file, {{"file", source->name()}});
+  return materials;
 }
 
 std::optional<design::Design> run_script(const SourcePtr& source, const LoadOptions& options,
@@ -153,11 +155,13 @@ std::optional<design::Design> run_scad_script(const SourcePtr& source, const Loa
 std::optional<design::Design> read_json_design(const SourcePtr& source, const LoadOptions& options,
                                                sources::SourceCache& cache, Diagnostics& diagnostics) {
   if (!options.materials.empty() || !options.definitions.empty()) {
-    diagnostics.error({source, 0, 0}, "a .json design has its own materials and no variables",
-                      "leave out --materials and -D");
+    diagnostics.error(Code::option, {source, 0, 0}, "a .json design has its own materials and no variables",
+                      "leave out " + spelled::option("--materials") + " and " + spelled::option("-D"));
     return std::nullopt;
   }
+  const size_t known = diagnostics.list().size();
   const auto data = parse_json(source, diagnostics);
+  diagnostics.tell_code(known, Code::design_file);
   if (!data) return std::nullopt;
   DesignSources loader(cache, options.stop);
   return design::read_design(*data, nodes::registry(), &loader, diagnostics);

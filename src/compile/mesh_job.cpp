@@ -49,7 +49,8 @@ bool fits(const MeshPlan& plan, const MeshRequest& request, const Loaded& loaded
                         format_count(static_cast<unsigned long long>(plan.cells)) + " at the surface, take about " +
                         format_bytes(plan.memory_bytes) + " of memory, more than the " + format_bytes(allowed) +
                         " allowed",
-                    "choose a larger --cell or --tolerance, or more --memory");
+                    "choose a larger " + spelled::option("--cell") + " or " + spelled::option("--tolerance") +
+                        ", or more " + spelled::option("--memory"));
   return false;
 }
 
@@ -154,7 +155,7 @@ class Mesher {
     add_report(meshed->report, made.report);
     if (meshed->bodies.empty()) {
       diagnostics_.error(set.clip->where(), "the solid that cuts struts is smaller than the cells",
-                         "choose a smaller --cell");
+                         "choose a smaller " + spelled::option("--cell"));
       return false;
     }
     body.clip = made.clips.size();

@@ -11,8 +11,9 @@ design::NodePtr NodeFactory::make(std::string_view type, Arguments arguments, st
   const design::Registry& registry = nodes::registry();
   const design::NodeType* known = registry.find(type);
   if (!known) {
-    diagnostics.error(where, "there is no node \"" + std::string(type) + "\"",
-                      did_you_mean(std::string(type), registry.names()));
+    diagnostics.error(Code::unknown_node, where, "there is no node \"" + std::string(type) + "\"",
+                      did_you_mean(std::string(type), registry.names()),
+                      {{"node", std::string(type)}, {"similar", closest_name(type, registry.names()).value_or("")}});
     return nullptr;
   }
   const design::Reader reader{materials_, diagnostics, &loader_, where, known->name, ""};

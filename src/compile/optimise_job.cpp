@@ -88,8 +88,7 @@ double compliance_of(const Solved& solved) {
 // The first error as one line.
 std::string failure_of(const Diagnostics& diagnostics) {
   for (const Diagnostic& diagnostic : diagnostics.list())
-    if (diagnostic.severity == Severity::error)
-      return diagnostic.message + (diagnostic.hint.empty() ? "" : "; " + diagnostic.hint);
+    if (diagnostic.severity == Severity::error) return sentence_of(diagnostic);
   return "the design has errors";
 }
 
@@ -302,7 +301,8 @@ bool History::read(const std::string& path, const std::string& text, Diagnostics
   const SourcePtr source = make_source(path, text);
   const std::string wanted = header();
   if (!text.starts_with(wanted)) {
-    diagnostics.error({source, 0, 0}, "this is the history of another study", "choose another folder, or --force");
+    diagnostics.error({source, 0, 0}, "this is the history of another study",
+                      "choose another folder, or " + spelled::option("--force"));
     return false;
   }
   const size_t variables = study_.variables.size(), measures = study_.measures().size();
@@ -319,7 +319,8 @@ bool History::read(const std::string& path, const std::string& text, Diagnostics
     }
     if (!is_whole) {
       diagnostics.error({source, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)},
-                        "this line is not one of a history", "take it out, or begin again with --force");
+                        "this line is not one of a history",
+                        "take it out, or begin again with " + spelled::option("--force"));
       return false;
     }
     if (failed) {

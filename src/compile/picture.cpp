@@ -35,7 +35,8 @@ std::optional<SceneOptions> scene_options(const Loaded& loaded, const PictureReq
       options.opacity[material->id] = opacity;
       continue;
     }
-    diagnostics.error({loaded.source, 0, 0}, "there is no material \"" + name + "\" to give an opacity",
+    diagnostics.error(Code::unknown_material, {loaded.source, 0, 0},
+                      "there is no material \"" + name + "\" to give an opacity",
                       "the materials are " + join(materials.names(), ", "));
     return std::nullopt;
   }
@@ -79,7 +80,7 @@ class Studio {
       if (labels_) labels_->add_to(picture, shot->camera);
       take(frame, picture);
       if (is_empty_ && frame == 0)
-        diagnostics_.warning({loaded_.source, 0, 0}, "there is nothing to be seen in the picture",
+        diagnostics_.warning(Code::nothing_inside, {loaded_.source, 0, 0}, "there is nothing to be seen in the picture",
                              "look elsewhere: the design lies in " + extents());
     }
     return true;
@@ -206,7 +207,7 @@ class Studio {
   }
 
   bool nothing_left() {
-    diagnostics_.error({loaded_.source, 0, 0}, "nothing of the design is left by the cuts",
+    diagnostics_.error(Code::nothing_inside, {loaded_.source, 0, 0}, "nothing of the design is left by the cuts",
                        "move them: the design lies in " + extents());
     return false;
   }
@@ -267,7 +268,7 @@ class Studio {
     aim_cuts(camera_around(whole_, view));
     const Box box = scene_box(whole_, options_);
     if (box.is_empty() || slice.mm < box.lo[slice.axis] || slice.mm > box.hi[slice.axis]) {
-      diagnostics_.error({loaded_.source, 0, 0}, "the slice does not meet the design",
+      diagnostics_.error(Code::nothing_inside, {loaded_.source, 0, 0}, "the slice does not meet the design",
                          "move it: the design lies in " + extents());
       return std::nullopt;
     }
@@ -329,9 +330,10 @@ void check_memory(const PictureRequest& request) {
   // The pixels, and the file that they become.
   const double pixels = 2.0 * 4 * static_cast<double>(request.width) * static_cast<double>(request.height);
   if (rays + pixels > static_cast<double>(request.memory_bytes))
-    throw Error("the picture takes about " + format_bytes(rays + pixels) + " of memory, more than the " +
-                format_bytes(static_cast<double>(request.memory_bytes)) +
-                " allowed; choose a smaller --size, or more --memory");
+    throw Error(Code::memory, "the picture takes about " + format_bytes(rays + pixels) + " of memory, more than the " +
+                                  format_bytes(static_cast<double>(request.memory_bytes)) +
+                                  " allowed; choose a smaller " + spelled::option("--size") + ", or more " +
+                                  spelled::option("--memory"));
 }
 
 std::optional<CutSide> parse_side(std::string_view text) {

@@ -43,15 +43,15 @@ std::array<int64_t, 2> parse_size(const std::string& text, const std::string& na
     return v && *v >= 1 && *v <= most_pixels_along && *v == std::floor(*v);
   };
   if (is_right(width) && is_right(height)) return {static_cast<int64_t>(*width), static_cast<int64_t>(*height)};
-  throw WrongValue(name + " " + text + " is not a size in pixels; write for example " + name + " 800x600 (at most " +
-                   std::to_string(most_pixels_along) + " each way)");
+  throw WrongValue(spelled::option(name, text) + " is not a size in pixels; write for example " + name +
+                   " 800x600 (at most " + std::to_string(most_pixels_along) + " each way)");
 }
 
 std::array<double, 2> parse_angles(const std::string& text, const std::string& name) {
   const std::vector<double> angles = options::parse_numbers(text);
   if (angles.size() == 2 && std::abs(angles[1]) <= 90) return {angles[0], angles[1]};
-  throw WrongValue(name + " " + text + " is not azimuth,elevation; write for example " + name +
-                   " 30,20 (elevation from -90 to 90)");
+  throw WrongValue(spelled::option(name, text) + " is not azimuth,elevation; write for example " +
+                   spelled::option(name, "30,20") + " (elevation from -90 to 90)");
 }
 
 render::Background parse_background(const std::string& text, const std::string& name) {
@@ -60,7 +60,7 @@ render::Background parse_background(const std::string& text, const std::string& 
   if (background.is_transparent) return background;
   const auto colour = colour_of(text);
   if (!colour)
-    throw WrongValue(name + " " + text +
+    throw WrongValue(spelled::option(name, text) +
                      " is not a colour; write white, black, gray, transparent or for example #20304a");
   background.colour = *colour;
   return background;
@@ -68,21 +68,22 @@ render::Background parse_background(const std::string& text, const std::string& 
 
 CutRequest parse_cut_option(const std::string& text, const std::string& name) {
   if (const auto cut = parse_cut(text)) return *cut;
-  throw WrongValue(name + " " + text + " is not a plane; write for example " + name + " x=0 or " + name +
+  throw WrongValue(spelled::option(name, text) + " is not a plane; write for example " + name + " x=0 or " + name +
                    " \"z>3.5\" (mm)");
 }
 
 SliceView parse_slice_option(const std::string& text, const std::string& name) {
   if (const auto slice = parse_slice(text)) return *slice;
-  throw WrongValue(name + " " + text + " is not a plane; write for example " + name + " z=3.2 (mm)");
+  throw WrongValue(spelled::option(name, text) + " is not a plane; write for example " +
+                   spelled::option(name, "z=3.2") + " (mm)");
 }
 
 std::pair<std::string, double> parse_opacity(const std::string& text, const std::string& name) {
   const auto sign = text.rfind('=');
   const auto value = sign == std::string::npos ? std::nullopt : parse_number(text.substr(sign + 1));
   if (value && *value >= 0 && *value <= 1) return {text.substr(0, sign), *value};
-  throw WrongValue(name + " " + text + " is not a material and a number from 0 to 1; write for example " + name +
-                   " clear=0.2");
+  throw WrongValue(spelled::option(name, text) + " is not a material and a number from 0 to 1; write for example " +
+                   spelled::option(name, "clear=0.2"));
 }
 
 PictureRequest PictureChoices::request() const {

@@ -19,7 +19,7 @@ void check_letters(const std::vector<render::Swatch>& legend, const draw::Pen& p
   for (const render::Swatch& swatch : legend) {
     if (pen.has_letters(swatch.name)) continue;
     diagnostics.warning(where, pen.font_file() + " lacks letters of the material \"" + swatch.name + "\"",
-                        "name a font that has them by --font");
+                        "name a font that has them by " + spelled::option("--font"));
     return;
   }
 }
@@ -86,7 +86,7 @@ std::optional<PictureLabels> PictureLabels::make(const Loaded& loaded, const Pic
   labels.layout_ = render::lay_out(request.width, request.height, labels.annotations_, labels.pen_);
   if (std::min(labels.layout_.width, labels.layout_.height) < smallest_part) {
     diagnostics.error(where, "the picture is too small for what is to be written on it",
-                      "make it larger by --size, or leave out axes, scale bar or legend");
+                      "make it larger by " + spelled::option("--size") + ", or leave out axes, scale bar or legend");
     return std::nullopt;
   }
   if (wanted.font_file.empty() && !labels.pen_.is_usual_font())

@@ -42,26 +42,28 @@ class LatticePlanner {
     for (int axis = 0; axis < 3; ++axis) {
       const double voxels = size[axis] / pitch(axis).mm();
       if (!(voxels <= static_cast<double>(most_along_axis)))
-        return fail("the part is " + format_count(static_cast<unsigned long long>(std::min(voxels, 1e18))) +
+        return fail(Code::too_large,
+                    "the part is " + format_count(static_cast<unsigned long long>(std::min(voxels, 1e18))) +
                         " voxels long along " + letter(axis) + ", at most " + format_count(most_along_axis) +
                         " are possible",
-                    "choose larger voxels with --voxel or --dpi");
+                    "choose larger voxels with " + spelled::option("--voxel") + " or " + spelled::option("--dpi"));
       count(axis) = voxel::voxels_along(size[axis], pitch(axis));
     }
     if (printer_.build_mm && !fits(size)) return std::nullopt;
     if ((whole_tray_ || place_ == voxel::Placement::center) && !cover_tray()) return std::nullopt;
     if (count(0) > most_in_layer / count(1))
       return fail(
+          Code::too_large,
           "one layer would have " +
               format_count(static_cast<unsigned long long>(count(0)) * static_cast<unsigned long long>(count(1))) +
               " voxels",
-          "choose larger voxels with --voxel or --dpi");
+          "choose larger voxels with " + spelled::option("--voxel") + " or " + spelled::option("--dpi"));
     return lattice_;
   }
 
  private:
-  std::nullopt_t fail(const std::string& message, const std::string& hint) {
-    diagnostics_.error(where_, message, hint);
+  std::nullopt_t fail(Code code, const std::string& message, const Phrase& hint) {
+    diagnostics_.error(code, where_, message, hint);
     return std::nullopt;
   }
 
@@ -73,7 +75,8 @@ class LatticePlanner {
     const Vec3 build = *printer_.build_mm;
     constexpr double slack = 1e-6;
     if (size.x <= build.x + slack && size.y <= build.y + slack && size.z <= build.z + slack) return true;
-    fail("the part is " + size_text(size) + ", larger than what " + printer_.title + " builds, " + size_text(build),
+    fail(Code::outside_box,
+         "the part is " + size_text(size) + ", larger than what " + printer_.title + " builds, " + size_text(build),
          "scale or split it, or choose another printer");
     return false;
   }
@@ -81,8 +84,9 @@ class LatticePlanner {
   // The lattice becomes the tray. Parts move on it by whole voxels, so they keep theirs.
   bool cover_tray() {
     if (!printer_.build_mm) {
-      fail("the profile \"" + printer_.name + "\" has no tray size",
-           "choose a printer with --printer, or leave out --tray and --place center");
+      fail(Code::outside_box, "the profile \"" + printer_.name + "\" has no tray size",
+           "choose a printer with " + spelled::option("--printer") + ", or leave out " + spelled::option("--tray") +
+               " and " + spelled::option("--place", "center"));
       return false;
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -95,10 +99,11 @@ class LatticePlanner {
       else
         before = static_cast<int64_t>(std::llround(part_.lo[axis] / pitch(axis).mm()));
       if (before < 0 || before + part > tray) {
-        fail("the part lies from " + format_rounded(part_.lo[axis]) + " to " + format_rounded(part_.hi[axis]) +
+        fail(Code::outside_box,
+             "the part lies from " + format_rounded(part_.lo[axis]) + " to " + format_rounded(part_.hi[axis]) +
                  " mm along " + letter(axis) + ", the tray from 0 to " + format_rounded((*printer_.build_mm)[axis]) +
                  " mm",
-             "move it with translate, or write --place center");
+             "move it with translate, or write " + spelled::option("--place", "center"));
         return false;
       }
       lattice_.origin[axis] = part_.lo[axis] - pitch(axis).times(static_cast<double>(before));

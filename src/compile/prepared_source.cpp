@@ -11,9 +11,10 @@ namespace ombre::compile {
 
 void PreparedSource::check_memory(const StageLoan& loan) const {
   if (is_prepared_ || least_bytes() <= static_cast<double>(loan.memory_bytes)) return;
-  throw Error(name() + ": computing them takes about " + format_bytes(least_bytes()) + " of memory, more than the " +
-              format_bytes(static_cast<double>(loan.memory_bytes)) +
-              " allowed; allow more with --memory, choose larger voxels, or give them a larger pitch");
+  throw Error(Code::memory, name() + ": computing them takes about " + format_bytes(least_bytes()) +
+                                " of memory, more than the " + format_bytes(static_cast<double>(loan.memory_bytes)) +
+                                " allowed; allow more with " + spelled::option("--memory") +
+                                ", choose larger voxels, or give them a larger pitch");
 }
 
 void PreparedSource::prepare(const StageLoan& loan) const {

@@ -63,7 +63,8 @@ std::optional<Field> Question::value(const std::string& name, Diagnostics& diagn
     for (const std::string& part : design::parts_of(attribute)) known.push_back(part);
   std::string hint = did_you_mean(name, known);
   if (hint.empty()) hint = "it has " + join(known, ", ");
-  diagnostics.error(solid_->where(), "the design has neither a material nor an attribute \"" + name + '"', hint);
+  diagnostics.error(Code::unknown_attribute, solid_->where(),
+                    "the design has neither a material nor an attribute \"" + name + '"', hint, {{"attribute", name}});
   return std::nullopt;
 }
 
@@ -122,10 +123,11 @@ std::vector<std::string> all_attribute_parts(const design::Design& design) {
 
 void report_unknown_attribute(const design::Design& design, const std::string& name, Diagnostics& diagnostics) {
   const std::vector<std::string> known = attribute_names(design);
-  std::string hint = did_you_mean(name, known);
-  if (hint.empty())
-    hint = known.empty() ? "give it one with attribute(\"" + name + "\", value)" : "it has " + join(known, ", ");
-  diagnostics.error(design.parts[0].solid->where(), "the design has no attribute \"" + name + '"', hint);
+  Phrase hint = did_you_mean(name, known);
+  if (hint.empty()) hint = "it has " + join(known, ", ");
+  if (known.empty()) hint = "give it one with " + spelled::call("attribute", {{"", '"' + name + '"'}, {"", "value"}});
+  diagnostics.error(Code::unknown_attribute, design.parts[0].solid->where(),
+                    "the design has no attribute \"" + name + '"', hint, {{"attribute", name}});
 }
 
 std::vector<std::pair<MaterialId, Field>> shares(const design::Composition& composition) {

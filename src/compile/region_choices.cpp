@@ -25,13 +25,14 @@ RegionRequest RegionOptions::request() const {
   const bool has_bands = bands > 0 || !borders.empty();
   const bool is_without_bands = request.by_material || request.by_part;
   if (is_without_bands && has_bands)
-    throw options::WrongValue("--by " + by +
-                              " has no bands; leave out --bands and --borders, or name a material: --by red");
+    throw options::WrongValue("--by " + by + " has no bands; leave out " + spelled::option("--bands") + " and " +
+                              spelled::option("--borders") + ", or name a material: " + spelled::option("--by", "red"));
   if (!has_bands && (by.empty() || is_without_bands)) return request;
   const std::vector<std::string> names = split(by, ',');
   if (names.size() > 1 && !borders.empty())
-    throw options::WrongValue("--borders are those of one value; with --by " + by +
-                              " write --bands, the number for each");
+    throw options::WrongValue(spelled::option("--borders") + " are those of one value; with " +
+                              spelled::option("--by", by) + " write " + spelled::option("--bands") +
+                              ", the number for each");
   const auto bands_of = [&](const std::string& name) {
     return BandRequest{bands > 0 ? bands : 4, borders, std::string(trim(name))};
   };

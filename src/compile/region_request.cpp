@@ -87,9 +87,10 @@ std::optional<Fineness> choose_fineness(const design::Design& design, const Box&
   // Without the dust of multiplication.
   const std::optional<Pitch> cell = Pitch::from_mm(parse_number(format_rounded(cell_mm, 9)).value_or(cell_mm));
   if (cell && longest(box) / cell_mm <= static_cast<double>(most_cells)) return Fineness{tolerance, *cell};
-  diagnostics.error(design.parts[0].solid->where(),
+  diagnostics.error(Code::too_large, design.parts[0].solid->where(),
                     "cells of " + format_rounded(cell_mm, 3) + " mm are too small for a part of " +
-                        format_rounded(longest(box), 4) + " mm; choose a larger --cell or --tolerance");
+                        format_rounded(longest(box), 4) + " mm",
+                    "choose a larger " + spelled::option("--cell") + " or " + spelled::option("--tolerance"));
   return std::nullopt;
 }
 

@@ -158,7 +158,7 @@ void warn_of_overlaps(const Pieces& pieces, const SourceRange& where, const soli
       const Solid common = solids::intersect({*pieces[other].solid(), *pieces[n].solid()}, work);
       if (common.is_empty()) continue;
       messages.warning(where, name_of(pieces[other]) + " and " + name_of(pieces[n]) + " overlap",
-                       "subtract one from the other, or use --no-overlap: the first wins");
+                       "subtract one from the other, or use " + spelled::option("--no-overlap") + ": the first wins");
     }
 }
 

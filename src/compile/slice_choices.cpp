@@ -23,9 +23,9 @@ SliceOptions slice_options(const SliceChoices& choices, const Plan& plan) {
   const int64_t count = plan.request.lattice.count[2];
   options.layers = parse_layer_range(choices.layers, count);
   if (!options.layers)
-    throw options::WrongValue("--layers " + choices.layers + " selects none of the " +
-                              format_count(static_cast<unsigned long long>(count)) +
-                              " layers, which are 0:" + std::to_string(count) + "; write for example --layers 0:10");
+    throw options::WrongValue(spelled::option("--layers", choices.layers) + " selects none of the " +
+                              format_count(static_cast<unsigned long long>(count)) + " layers, which are 0:" +
+                              std::to_string(count) + "; write for example " + spelled::option("--layers", "0:10"));
   return options;
 }
 

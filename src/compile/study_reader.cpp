@@ -25,8 +25,8 @@ StudyMembers::StudyMembers(const Data& data, std::string what, const std::vector
   }
 }
 
-void StudyMembers::fail(const Data& at, const std::string& message, const std::string& hint) {
-  diagnostics_.error(at.where, message, hint);
+void StudyMembers::fail(const Data& at, const std::string& message, const Phrase& hint) {
+  diagnostics_.error(Code::study_value, at.where, message, hint);
 }
 
 double StudyMembers::number(const std::string& name, std::optional<double> missing, double least, double most) {

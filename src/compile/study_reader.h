@@ -29,7 +29,7 @@ class StudyMembers {
   std::string choice(const std::string& name, const std::string& missing, const std::vector<std::string>& choices);
   std::optional<Box> box(const std::string& name);
 
-  void fail(const Data& at, const std::string& message, const std::string& hint = "");
+  void fail(const Data& at, const std::string& message, const Phrase& hint = {});
 
  private:
   const Data& data_;

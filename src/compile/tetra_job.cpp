@@ -60,7 +60,8 @@ class TetraMaker {
     TetraModel made;
     for (const RegionBody& body : surface_) made.surface_mm3 += body.volume_mm3;
     take(request_.period ? repeating_mesh(*size, *box) : mesh(*size, *box, made.surface_mm3), made);
-    if (made.model.mesh.nodes.empty()) return fail("no tetrahedron lies inside the design", "choose a smaller --size");
+    if (made.model.mesh.nodes.empty())
+      return fail("no tetrahedron lies inside the design", "choose a smaller " + spelled::option("--size"));
     if (!add_fields(made.model)) return std::nullopt;
     auto sections = make_sections(*loaded_, study_, request_.sections, materials(made.model), diagnostics_);
     if (!sections) return std::nullopt;
@@ -72,7 +73,7 @@ class TetraMaker {
   }
 
  private:
-  std::nullopt_t fail(const std::string& message, const std::string& hint) {
+  std::nullopt_t fail(const std::string& message, const Phrase& hint) {
     diagnostics_.error({loaded_->source, 0, 0}, message, hint);
     return std::nullopt;
   }
@@ -122,9 +123,10 @@ class TetraMaker {
     if (request_.announce) request_.announce(plan_);
     const auto allowed = static_cast<double>(request_.memory_bytes);
     if (allowed > 0 && plan_.memory_bytes > allowed)
-      throw Error("about " + format_rounded(plan_.elements, 3) + " tetrahedra take about " +
-                  format_bytes(plan_.memory_bytes) + " of memory, more than the " + format_bytes(allowed) +
-                  " allowed; choose a larger --size, or more --memory");
+      throw Error(Code::memory, "about " + format_rounded(plan_.elements, 3) + " tetrahedra take about " +
+                                    format_bytes(plan_.memory_bytes) + " of memory, more than the " +
+                                    format_bytes(allowed) + " allowed; choose a larger " + spelled::option("--size") +
+                                    ", or more " + spelled::option("--memory"));
     return true;
   }
 
@@ -140,7 +142,7 @@ class TetraMaker {
     surface_ = std::move(meshed->bodies);
     if (!surface_.empty()) return true;
     fail("the design has no solid that cells of " + format_rounded(cell_mm_, 3) + " mm could see",
-         "choose a smaller --size");
+         "choose a smaller " + spelled::option("--size"));
     return false;
   }
 
@@ -198,7 +200,7 @@ class TetraMaker {
       diagnostics_.warning({loaded_->source, 0, 0},
                            "sharp edges are cut off by up to " + format_rounded(rough_share * size.least_mm(), 2) +
                                " mm, since with them " + failure.what(),
-                           "choose a smaller --size, or bricks");
+                           "choose a smaller " + spelled::option("--size") + ", or bricks");
       return made;
     }
     if (!(volume_of(made) > least_share * volume_mm3)) {
@@ -217,7 +219,7 @@ class TetraMaker {
                              " cut off, since others lie too close for elements of this size; " +
                              (is_one ? "it" : "the first") + " goes through " +
                              format_point(edges[0][edges[0].size() / 2]),
-                         "choose a smaller --size, or bricks");
+                         "choose a smaller " + spelled::option("--size") + ", or bricks");
   }
 
   static double volume_of(const solids::Tetrahedra& made) {

@@ -14,7 +14,8 @@ bool read(const Data& data, const Domain& domain, int& value, const Reader& read
   constexpr double noise = 1e-9;
   const double whole = number ? std::round(*number) : 0;
   if (!number || !(std::abs(*number - whole) <= noise) || whole < least || whole > greatest)
-    return reader.fail(data, "a whole number from " + std::to_string(least) + " to " + std::to_string(greatest));
+    return reader.fail(data, "a whole number from " + std::to_string(least) + " to " + std::to_string(greatest), {},
+                       data.number() ? Code::parameter_range : Code::parameter_type);
   value = static_cast<int>(whole);
   return true;
 }

@@ -210,7 +210,7 @@ bool check_cells(const Design& design, Diagnostics& diagnostics) {
     }
     diagnostics.error(user->where(),
                       user->type().name + " uses the index of a cell (ci, cj, ck), and nothing repeats it",
-                      "put it into tile(...) { ... }");
+                      "put it into " + spelled::around("tile"));
     good = false;
   }
   return good;

@@ -35,8 +35,9 @@ class DesignReader {
   }
 
  private:
-  void error(const Data& at, std::string message, std::string hint = "") {
-    diagnostics_.error(at.where, std::move(message), std::move(hint));
+  void error(const Data& at, std::string message, Phrase hint = {}, Code code = Code::design_file,
+             CodeValues values = {}) {
+    diagnostics_.error(code, at.where, std::move(message), std::move(hint), std::move(values));
   }
 
   bool check_header() {
@@ -61,7 +62,9 @@ class DesignReader {
     for (const auto& [key, value] : *object.members()) {
       bool found = false;
       for (const std::string& name : known) found = found || name == key;
-      if (!found) error(value, "there is no key \"" + key + "\" here", did_you_mean(key, known));
+      if (!found)
+        error(value, "there is no key \"" + key + "\" here", did_you_mean(key, known), Code::unknown_key,
+              {{"key", key}});
     }
   }
 
@@ -236,7 +239,9 @@ class DesignReader {
     const NodeType* type = registry_.find(*type_name->string());
     if (!type) {
       error(*type_name, "there is no node \"" + *type_name->string() + "\"",
-            did_you_mean(*type_name->string(), registry_.names()));
+            did_you_mean(*type_name->string(), registry_.names()), Code::unknown_node,
+            {{"node", *type_name->string()},
+             {"similar", closest_name(*type_name->string(), registry_.names()).value_or("")}});
       return nullptr;
     }
     std::vector<NamedValue> values;
@@ -260,7 +265,11 @@ class DesignReader {
     for (const auto& [key, value] : *parameters->members()) {
       const int index = type.parameter(key);
       if (index < 0) {
-        error(value, type.name + " has no parameter \"" + key + "\"", did_you_mean(key, type.parameter_names()));
+        error(value, type.name + " has no parameter \"" + key + "\"", did_you_mean(key, type.parameter_names()),
+              Code::unknown_parameter,
+              {{"node", type.name},
+               {"parameter", key},
+               {"similar", closest_name(key, type.parameter_names()).value_or("")}});
         return false;
       }
       if (!value.is_null())
@@ -284,7 +293,7 @@ class DesignReader {
 std::optional<Design> read_design(const Data& data, const Registry& registry, SourceLoader* loader,
                                   Diagnostics& diagnostics) {
   if (!data.members()) {
-    diagnostics.error(data.where, "a design file holds an object, found " + describe(data));
+    diagnostics.error(Code::design_file, data.where, "a design file holds an object, found " + describe(data));
     return std::nullopt;
   }
   return DesignReader(data, registry, loader, diagnostics).run();

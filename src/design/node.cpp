@@ -206,7 +206,7 @@ std::optional<JobScale> Inputs::scale() const { return lowering_->scale(node_); 
 
 program::SourceField Inputs::staged(const StagePtr& stage) const { return lowering_->staged(node_, stage); }
 
-void Inputs::report(Severity severity, const std::string& message, const std::string& hint) const {
+void Inputs::report(Severity severity, const std::string& message, const Phrase& hint) const {
   lowering_->report({severity, node_.where(), message, hint});
 }
 

@@ -109,8 +109,9 @@ std::string given_outputs(const Node& node) {
   return node.type().name + " gives " + join(names, ", ");
 }
 
-bool fail(const Data& at, const Reader& reader, const std::string& message, const std::string& hint = "") {
-  reader.diagnostics.error(at.where.source ? at.where : reader.where, message, hint);
+bool fail(const Data& at, const Reader& reader, const std::string& message, const Phrase& hint = {},
+          Code code = Code::parameter_type) {
+  reader.diagnostics.error(code, at.where.source ? at.where : reader.where, message, hint);
   return false;
 }
 
@@ -121,7 +122,7 @@ bool find_output(const Data& at, const std::string& text, const Reader& reader, 
   const auto number = static_cast<size_t>(found - outputs.begin());
   if (found == outputs.end() || !named.node->gives(number))
     return fail(at, reader, "this " + named.node->type().name + " has no output \"" + text + '"',
-                given_outputs(*named.node));
+                given_outputs(*named.node), Code::unknown_output);
   named.output = number;
   if (dot == std::string::npos) return true;
   const auto axis = std::ranges::find(axis_names, std::string_view(text).substr(dot + 1));
@@ -232,7 +233,8 @@ NodePtr read_solid(const Data& data, const Reader& reader) {
   const std::string found = object && object->node()->is_nothing() ? "nothing" : describe(data);
   fail(data, reader,
        std::string(reader.name) + " of " + std::string(reader.node) + ": expected a solid, found " + found,
-       "write a call of one, for example sphere(5)");
+       spelled::either("write a call of one, for example sphere(5)", "write the id of its node, {\"from\": \"n2\"}",
+                       "write a call of one, for example ombre.sphere(5)"));
   return nullptr;
 }
 
@@ -245,7 +247,8 @@ NodePtr read_mixture(const Data& data, const Reader& reader) {
   fail(data, reader,
        std::string(reader.name) + " of " + std::string(reader.node) +
            ": expected a material or a mixture of materials, found a number that varies in space",
-       "write for example mix(white, black, t)");
+       "write for example " + spelled::either("mix(white, black, t)", R"({"from": "n3", "output": "mixture"})",
+                                              R"(ombre.mix("white", "black", t))"));
   return nullptr;
 }
 

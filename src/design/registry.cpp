@@ -63,27 +63,41 @@ std::vector<std::string> Registry::value_names() const { return names_of(types_,
 
 namespace {
 
+// Examples are written as scripts.
+Phrase example_of(const NodeType& type) {
+  if (type.example.empty()) return {};
+  return spelled::either("for example " + type.example, "ombre nodes " + type.name + " says what it takes",
+                         "help(ombre." + type.name + ") says what it takes");
+}
+
 bool check_inputs(const NodeType& type, const std::vector<NodePtr>& inputs, const Reader& reader) {
   const InputInfo& wanted = type.inputs;
-  const auto fail = [&](const std::string& message, const std::string& hint) {
-    reader.diagnostics.error(reader.where, message, hint);
+  const auto fail = [&](const std::string& message, const Phrase& hint) {
+    reader.diagnostics.error(Code::inputs, reader.where, message, hint);
     return false;
   };
-  if (wanted.most == 0 && !inputs.empty()) return fail(type.name + " takes no children", "end it with \";\"");
+  if (wanted.most == 0 && !inputs.empty())
+    return fail(type.name + " takes no children",
+                spelled::either("end it with \";\"", "leave \"inputs\" out", "give it none"));
   if (!inputs.empty() && inputs.size() < wanted.least)
     return fail(type.name + " takes " + std::to_string(wanted.least) + " inputs, " + std::to_string(inputs.size()) +
                     (inputs.size() == 1 ? " was given" : " were given"),
-                type.example.empty() ? "" : "for example " + type.example);
+                example_of(type));
   if (inputs.size() < wanted.least)
-    return fail(type.name + " has nothing inside its braces", "write " + type.name + "(...) { sphere(5); }");
+    return fail(type.name + " works on solids, and none is given",
+                "write " + spelled::either(type.name + "(...) { sphere(5); }", "\"inputs\": [\"n1\"]",
+                                           "ombre." + type.name + "(ombre.sphere(5), ...)"));
   if (inputs.size() > wanted.most)
-    return fail(type.name + " takes " + std::to_string(wanted.most) + (wanted.most == 1 ? " input, " : " inputs, ") +
-                    std::to_string(inputs.size()) + " were given",
-                "join them with union");
+    return fail(
+        type.name + " takes " + std::to_string(wanted.most) + (wanted.most == 1 ? " input, " : " inputs, ") +
+            std::to_string(inputs.size()) + " were given",
+        spelled::either("join them with union", "join them with a node \"union\"", "join them with ombre.union"));
   for (const NodePtr& input : inputs)
     if (!input->type().is_solid())
       return fail(type.name + " takes solids, " + input->type().name + " gives values",
-                  "give it as a parameter, for example sphere(5 + noise());");
+                  "give it as a parameter, for example " +
+                      spelled::either("sphere(5 + noise());", R"("radius": {"from": "n3", "output": "value"})",
+                                      "ombre.sphere(5 + ombre.noise())"));
   return true;
 }
 
@@ -120,9 +134,11 @@ bool fits(const NodeType& type, const std::vector<NodePtr>& inputs, const std::v
   const auto is_too_deep = [](const NodePtr& other) { return other->depth() >= deepest_design; };
   const bool deep = std::ranges::any_of(inputs, is_too_deep) || std::ranges::any_of(values, is_too_deep);
   if (deep)
-    reader.diagnostics.error(reader.where, "the design nests deeper than " + std::to_string(deepest_design) + " nodes");
+    reader.diagnostics.error(Code::limit, reader.where,
+                             "the design nests deeper than " + std::to_string(deepest_design) + " nodes");
   if (values.size() > most_values)
-    reader.diagnostics.error(reader.where, type.name + " holds more than " + std::to_string(most_values) + " values");
+    reader.diagnostics.error(Code::limit, reader.where,
+                             type.name + " holds more than " + std::to_string(most_values) + " values");
   return !deep && values.size() <= most_values;
 }
 
@@ -135,7 +151,9 @@ NodePtr make_nothing(const NodeType& type, const SourceRange& where) {
   return node;
 }
 
-NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, std::vector<NodePtr> inputs,
+namespace {
+
+NodePtr made_node(const NodeType& type, const std::vector<NamedValue>& values, std::vector<NodePtr> inputs,
                   const Reader& reader) {
   const std::shared_ptr<Node> node = type.create();
   bool good = true;
@@ -154,10 +172,10 @@ NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, s
   bool has_all = true;
   for (size_t i = 0; i < given.size(); ++i) {
     if (given[i] || !type.parameters[i].domain.required) continue;
-    reader.diagnostics.error(reader.where,
+    reader.diagnostics.error(Code::parameter_missing, reader.where,
                              type.name + (has_unwanted && has_all ? " takes no children; it needs \"" : " needs \"") +
                                  type.parameters[i].name + "\": " + type.parameters[i].doc,
-                             type.example.empty() ? "" : "for example " + type.example);
+                             example_of(type), {{"node", type.name}, {"parameter", type.parameters[i].name}});
     has_all = false;
   }
   if (has_all || !has_unwanted) good = check_inputs(type, inputs, reader) && good;
@@ -169,6 +187,16 @@ NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, s
   const std::vector<NodePtr> values_used = each_once(std::move(used));
   if (!fits(type, inputs, values_used, reader)) return nullptr;
   node->finish(std::move(inputs), values_used, reader.where);
+  return node;
+}
+
+}  // namespace
+
+NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, std::vector<NodePtr> inputs,
+                  const Reader& reader) {
+  const size_t known = reader.diagnostics.list().size();
+  NodePtr node = made_node(type, values, std::move(inputs), reader);
+  reader.diagnostics.tell_code(known, Code::parameters, {{"node", type.name}});
   return node;
 }
 

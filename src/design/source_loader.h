@@ -39,7 +39,8 @@ struct MeshPart {
 // What a designer should know of a source, once it is made.
 struct Remark {
   Severity severity = Severity::warning;
-  std::string message, hint;
+  std::string message;
+  Phrase hint;
 };
 
 // A source that is made when a job knows how finely. Thread-safe.

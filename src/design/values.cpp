@@ -47,13 +47,17 @@ void Reader::keep(const NodePtr& value) const {
   if (values->empty() || values->back() != value) values->push_back(value);
 }
 
-bool Reader::fail(const Data& data, const std::string& expected, const std::string& given_hint) const {
-  std::string hint = given_hint;
+bool Reader::fail(const Data& data, const std::string& expected, const Phrase& given_hint, Code code) const {
+  Phrase hint = given_hint;
   if (hint.empty() && is_value(data) && data.host_object())
     hint = "this varies in space, so it is known only where the job evaluates it; write a constant";
   std::string message = std::string(name) + " of " + std::string(node) + ": expected " + expected;
   if (!data.is_null()) message += ", found " + describe(data);
-  diagnostics.error(data.where.source ? data.where : where, message, hint);
+  diagnostics.error(code, data.where.source ? data.where : where, message, hint,
+                    {{"node", std::string(node)},
+                     {"parameter", std::string(name)},
+                     {"expected", expected},
+                     {"found", data.is_null() ? "" : describe(data)}});
   return false;
 }
 
@@ -104,7 +108,8 @@ bool read(const Data& data, const Domain& domain, double& value, const Reader& r
   const double near = without_noise(*number, domain);
   if (!in_range(near, domain)) {
     const std::string range = range_text(domain);
-    return reader.fail(data, range.empty() ? "a finite number" : "a number " + range + with_unit(domain));
+    return reader.fail(data, range.empty() ? "a finite number" : "a number " + range + with_unit(domain), {},
+                       Code::parameter_range);
   }
   value = near;
   return true;
@@ -265,7 +270,7 @@ bool read(const Data& data, const Domain& domain, Choice& value, const Reader& r
       return true;
     }
   return reader.fail(data, "one of \"" + join(domain.choices, "\", \"") + "\"",
-                     did_you_mean(*data.string(), domain.choices));
+                     did_you_mean(*data.string(), domain.choices), Code::parameter_range);
 }
 
 bool read(const Data& data, const Domain& domain, Vec3& value, const Reader& reader) {
@@ -309,7 +314,8 @@ bool read(const Data& data, const Domain& domain, MaterialName& value, const Rea
   if (is_value(data)) {
     if (!domain.may_mix)
       return reader.fail(data, "a material's name",
-                         "one material is meant here; values mix several by fgrade([1 - t, t], [red, blue]) { ... }");
+                         "one material is meant here; values mix several by " +
+                             spelled::around("fgrade", {{"", "[1 - t, t]"}, {"", "[red, blue]"}}));
     const NodePtr node = read_mixture(data, reader);
     if (!node) return false;
     reader.keep(node);
@@ -337,8 +343,10 @@ bool read(const Data& data, const Domain& domain, MaterialName& value, const Rea
   const auto names = reader.materials.names();
   std::string hint = did_you_mean(*data.string(), names);
   if (hint.empty()) hint = "there are " + join(names, ", ");
-  reader.diagnostics.error(data.where.source ? data.where : reader.where,
-                           "there is no material \"" + *data.string() + "\"", hint);
+  reader.diagnostics.error(
+      Code::unknown_material, data.where.source ? data.where : reader.where,
+      "there is no material \"" + *data.string() + "\"", hint,
+      {{"material", *data.string()}, {"similar", closest_name(*data.string(), names).value_or("")}});
   return false;
 }
 
@@ -427,8 +435,9 @@ namespace {
 bool read_edge(const Data& data, const Domain& domain, Edge& edge, const Reader& reader) {
   const DataList* parts = data.list();
   if (!parts || parts->size() < 2 || parts->size() > 3)
-    return reader.fail(data, "edges of two points (mm), each with a radius if it has its own",
-                       "write for example [[(0, 0, 0), (10, 0, 0)], [(0, 0, 0), (0, 10, 0), 0.5]]");
+    return reader.fail(
+        data, "edges of two points (mm), each with a radius if it has its own",
+        "write for example " + spelled::value("[[(0, 0, 0), (10, 0, 0)], [(0, 0, 0), (0, 10, 0), 0.5]]"));
   if (!read((*parts)[0], domain, edge.start, reader) || !read((*parts)[1], domain, edge.end, reader)) return false;
   if (edge.start == edge.end) return reader.fail(data, "edges with two different ends");
   if (parts->size() == 2) return true;

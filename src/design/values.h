@@ -278,7 +278,8 @@ struct Reader {
   const std::vector<NodePtr>* inputs = nullptr;  // of the node, whose attributes expressions may call
 
   void keep(const NodePtr& value) const;
-  bool fail(const Data& data, const std::string& expected, const std::string& hint = "") const;
+  bool fail(const Data& data, const std::string& expected, const Phrase& hint = {},
+            Code code = Code::parameter_type) const;
 };
 
 // True when `data` was right; else a diagnostic was added.

@@ -20,6 +20,7 @@ ReadDicom load_module() {
 
 ReadDicom load_module() {
   throw Error(
+      Code::library_missing,
       "this ombre was built without GDCM; install libgdcm-dev, configure with -DOMBRE_DICOM=ON and build again, or "
       "save the scan as NRRD or NIfTI");
 }

@@ -92,7 +92,8 @@ struct Pen::Parts {
 Pen::Pen(const std::string& font_file) : parts_(std::make_unique<Parts>()) {
   const auto found = font_file.empty() ? find_font_file() : font_file;
   if (!found)
-    throw Error("there is no font to label pictures with; install fonts-dejavu-core, or name a font by --font");
+    throw Error("there is no font to label pictures with; install fonts-dejavu-core, or name a font by " +
+                spelled::option("--font"));
   parts_->file = *found;
   if (FT_Init_FreeType(&parts_->library) != 0) throw Error("FreeType does not start: memory runs out");
   if (FT_New_Face(parts_->library, parts_->file.c_str(), 0, &parts_->face) != 0 || !FT_IS_SCALABLE(parts_->face))

@@ -13,6 +13,7 @@ struct Pen::Parts {
 
 Pen::Pen(const std::string&) {
   throw Error(
+      Code::library_missing,
       "this ombre was built without FreeType, which draws axes, scale bars and legends; install libfreetype-dev, "
       "configure with -DOMBRE_FREETYPE=ON and build again, or leave them out");
 }

@@ -58,7 +58,7 @@ void write_archive(const std::string& path, const MeshDocument& document, format
   } catch (const Error&) {
     throw;
   } catch (const std::runtime_error& error) {
-    throw Error("cannot write " + path + ": " + error.what());
+    throw Error(Code::cannot_write, "cannot write " + path + ": " + error.what());
   }
   file.commit();
 }
@@ -83,7 +83,7 @@ std::string material_library_path(const std::string& path) { return fs::path(pat
 void write_mesh_file(const std::string& path, const MeshDocument& document, MeshFormat format,
                      formats::SlicerFlavour flavour) {
   if (document.triangle_count() + document.beam_count() == 0)
-    throw Error("cannot write " + path + ": there are no triangles");
+    throw Error(Code::cannot_write, "cannot write " + path + ": there are no triangles");
   switch (format) {
     case MeshFormat::stl:
       return write_bytes(path, formats::stl_bytes(document));

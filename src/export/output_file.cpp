@@ -55,13 +55,13 @@ PendingFile::~PendingFile() {
 }
 
 void PendingFile::commit() {
-  if (std::rename(part_.c_str(), path_.c_str()) != 0) throw Error(write_failure(path_, errno));
+  if (std::rename(part_.c_str(), path_.c_str()) != 0) throw Error(Code::cannot_write, write_failure(path_, errno));
   is_committed_ = true;
 }
 
 NewFile::NewFile(std::string path) : file_(std::move(path)) {
   descriptor_ = ::open(file_.part().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw Error(write_failure(file_.path(), errno));
+  if (descriptor_ < 0) throw Error(Code::cannot_write, write_failure(file_.path(), errno));
 }
 
 NewFile::~NewFile() {
@@ -69,14 +69,15 @@ NewFile::~NewFile() {
 }
 
 void NewFile::append(std::string_view bytes) {
-  if (const int error = write_all(descriptor_, bytes); error != 0) throw Error(write_failure(file_.path(), error));
+  if (const int error = write_all(descriptor_, bytes); error != 0)
+    throw Error(Code::cannot_write, write_failure(file_.path(), error));
 }
 
 void NewFile::write_at(uint64_t offset, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw Error(write_failure(file_.path(), errno));
+    if (written < 0) throw Error(Code::cannot_write, write_failure(file_.path(), errno));
     offset += static_cast<uint64_t>(written);
     bytes.remove_prefix(static_cast<size_t>(written));
   }
@@ -87,7 +88,7 @@ void NewFile::close(Durability durability) {
   if (durability == Durability::flushed && ::fsync(descriptor_) != 0) error = errno;
   // Network disks report a full disk only here.
   if (::close(std::exchange(descriptor_, -1)) != 0 && error == 0) error = errno;
-  if (error != 0) throw Error(write_failure(file_.path(), error));
+  if (error != 0) throw Error(Code::cannot_write, write_failure(file_.path(), error));
 }
 
 void write_file(const std::string& path, std::string_view bytes, Durability durability) {
@@ -99,13 +100,14 @@ void write_file(const std::string& path, std::string_view bytes, Durability dura
 
 AppendFile::AppendFile(std::string path) : path_(std::move(path)) {
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw Error(write_failure(path_, errno));
+  if (descriptor_ < 0) throw Error(Code::cannot_write, write_failure(path_, errno));
 }
 
 AppendFile::~AppendFile() { ::close(descriptor_); }
 
 void AppendFile::append(std::string_view bytes) {
-  if (const int error = write_all(descriptor_, bytes); error != 0) throw Error(write_failure(path_, error));
+  if (const int error = write_all(descriptor_, bytes); error != 0)
+    throw Error(Code::cannot_write, write_failure(path_, error));
 }
 
 }  // namespace ombre::exporting

@@ -357,7 +357,8 @@ bool Expression::check_variables(const std::vector<std::string>& known, const st
     std::string hint = did_you_mean(node.name, known);
     if (node.name == "d") hint = "d, the distance of the child, is known in fgrade, material and attribute";
     if (hint.empty()) hint = "known here are " + join(known, ", ");
-    diagnostics.error(place(node, text, where), "there is no variable \"" + node.name + "\" in this expression", hint);
+    diagnostics.error(Code::unknown_variable, place(node, text, where),
+                      "there is no variable \"" + node.name + "\" in this expression", hint, {{"name", node.name}});
   });
   return all_known;
 }

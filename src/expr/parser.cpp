@@ -131,11 +131,11 @@ class Parser {
 
   // Messages: only the first mistake of an expression is told, the others mostly follow from it.
 
-  void fail(const Token& token, std::string message, std::string hint = "") {
+  void fail(const Token& token, std::string message, Phrase hint = {}) {
     if (failed_) return;
     failed_ = true;
-    diagnostics_.error(where_.part(token.begin, std::max(token.end, token.begin + 1)), std::move(message),
-                       std::move(hint));
+    diagnostics_.error(Code::expression, where_.part(token.begin, std::max(token.end, token.begin + 1)),
+                       std::move(message), std::move(hint));
   }
 
   void unexpected(const std::string& expected) {

@@ -94,7 +94,8 @@ void run_program(const TemporaryFolder& folder, int threads, const StopFlag* sto
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
   if (failure == ENOENT)
-    throw Error("there is no program ccx: install CalculiX (calculix-ccx), or solve without --solver calculix");
+    throw Error("there is no program ccx: install CalculiX (calculix-ccx), or solve without " +
+                spelled::option("--solver", "calculix"));
   if (failure != 0) throw Error(std::string("ccx cannot be started: ") + std::strerror(failure));
   const int status = status_of(process, stop);
   const std::string words = text_of_file(log);

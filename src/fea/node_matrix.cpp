@@ -126,7 +126,7 @@ Matrix matrix_of(const LinearSystem& system, const std::vector<int>& numbers, in
   });
   const int64_t total = std::accumulate(lengths.begin(), lengths.end(), int64_t{0});
   if (total > std::numeric_limits<int>::max())
-    throw Error("the equations have more than 2^31 coefficients; choose larger elements");
+    throw Error(Code::not_solved, "the equations have more than 2^31 coefficients; choose larger elements");
   matrix.resizeNonZeros(total);
   int* const begins = matrix.outerIndexPtr();
   begins[0] = 0;
@@ -206,16 +206,17 @@ class TwoLevels {
 
 [[noreturn]] void fail_to_converge(const LinearReport& report) {
   throw Error(
+      Code::not_solved,
       "the equations did not converge: after " + format_count(report.iterations) +
-      " iterations the forces are still off by " + format_rounded(report.residual, 2) +
-      " of the loads; parts that hang together at an edge or a corner may turn about it, elements may be flat, " +
-      "or properties differ too much: choose smaller elements, or support more of the part");
+          " iterations the forces are still off by " + format_rounded(report.residual, 2) +
+          " of the loads; parts that hang together at an edge or a corner may turn about it, elements may be flat, " +
+          "or properties differ too much: choose smaller elements, or support more of the part");
 }
 
 EigenVector solve_directly(const Matrix& matrix, const EigenVector& right) {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
   if (factor.info() != Eigen::Success)
-    throw Error("the equations have no solution: parts may move freely, or elements may be flat");
+    throw Error(Code::not_solved, "the equations have no solution: parts may move freely, or elements may be flat");
   EigenVector x = factor.solve(right);
   x += factor.solve(right - matrix * x);
   return x;
@@ -230,7 +231,7 @@ EigenVector iterate(const Matrix& matrix, const CoarseGrid& coarse, const EigenV
   gradients.setMaxIterations(static_cast<Eigen::Index>(options.most_iterations));
   gradients.compute(matrix);
   if (gradients.preconditioner().info() != Eigen::Success)
-    throw Error("the equations could not be factorised: elements may be flat or inside out");
+    throw Error(Code::not_solved, "the equations could not be factorised: elements may be flat or inside out");
   EigenVector x = gradients.solve(right);
   report.iterations = static_cast<size_t>(gradients.iterations());
   report.residual = gradients.error();

@@ -13,7 +13,9 @@
 namespace ombre::formats {
 
 MappedFile::MappedFile(const std::string& path) {
-  const auto fail = [&] { throw Error("cannot read " + path + ": " + std::generic_category().message(errno)); };
+  const auto fail = [&] {
+    throw Error(Code::cannot_read, "cannot read " + path + ": " + std::generic_category().message(errno));
+  };
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) fail();
   struct stat status {};

@@ -144,7 +144,7 @@ VoxelVolume read_vti(const VolumeFile& file) {
     return VtiReader(file, diagnostics).run();
   } catch (const DesignError&) {
     const Diagnostic& wrong = diagnostics.list().front();
-    fail_volume(file.path, "cannot be read: " + wrong.message + (wrong.hint.empty() ? "" : "; " + wrong.hint));
+    fail_volume(file.path, "cannot be read: " + sentence_of(wrong));
   }
 }
 

@@ -46,7 +46,8 @@ Results read_xdmf(const std::string& name, std::string_view, const std::optional
 bool can_write_3mf() { return false; }
 
 void write_zip(const std::string& path, const std::vector<ZipEntry>&) {
-  throw Error("cannot write " + path + ": " + missing + "; " + remedy + ", or write another format");
+  throw Error(Code::cannot_write,
+              "cannot write " + path + ": " + missing + "; " + remedy + ", or write another format");
 }
 
 ZipReader::ZipReader(const std::string& name, std::string_view, Diagnostics& diagnostics, uint64_t ratio)

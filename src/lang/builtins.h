@@ -13,7 +13,7 @@ namespace ombre::lang {
 struct BadArgument {
   size_t index;         // of the argument
   std::string message;  // "abs() needs a number, found a string"
-  std::string hint;
+  Phrase hint;
 };
 
 // Arguments of one call, checked as they are read.
@@ -30,7 +30,7 @@ class BuiltinCall {
   const List& list(size_t i) const;
   const std::string& text(size_t i) const;
   const std::vector<Value>& all() const { return arguments_; }
-  [[noreturn]] void expected(size_t i, const std::string& what, const std::string& hint = "") const;
+  [[noreturn]] void expected(size_t i, const std::string& what, const Phrase& hint = {}) const;
 
   Meter& meter;
 

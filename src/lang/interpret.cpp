@@ -33,7 +33,12 @@ Interpreter::Interpreter(const Program& program, Vocabulary& vocabulary, const O
 void Interpreter::tell_missing(Severity severity, const std::string& name, const std::string& what, const Unit& main) {
   std::vector<std::string> names;
   for (const ast::Assign* assignment : main.plan.assignments) names.emplace_back(*assignment->name.symbol);
-  report({severity, {}, "the design has no variable \"" + name + "\" " + what, did_you_mean(name, names)});
+  report({severity,
+          {},
+          "the design has no variable \"" + name + "\" " + what,
+          did_you_mean(name, names),
+          Code::unknown_variable,
+          {{"name", name}}});
 }
 
 Interpreter::Nodes Interpreter::run() {
@@ -53,7 +58,7 @@ Interpreter::Nodes Interpreter::run() {
     } catch (const Failure&) {  // of an assertion
     }
   } catch (const LimitReached& limit) {
-    report({Severity::error, at_.range(), limit.message, limit.hint});
+    report({Severity::error, at_.range(), limit.message, limit.hint, Code::limit});
   }
   return has_roots_ ? std::move(roots_) : std::move(nodes);
 }

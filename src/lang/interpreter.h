@@ -81,9 +81,11 @@ class Interpreter {
   static constexpr size_t most_callers = 8;  // that an invocation names
   // Texts are put together outside of the functions that call themselves, whose stack frames
   // would hold every part of them.
-  [[noreturn]] void fail(const ast::Span& where, std::string_view message, std::string_view hint = "");
+  [[noreturn]] void fail(const ast::Span& where, std::string_view message, const Phrase& hint = {});
+  [[noreturn]] void fail(Code code, const ast::Span& where, std::string_view message, const Phrase& hint = {},
+                         CodeValues values = {});
   [[noreturn]] void fail_found(const ast::Span& where, std::string_view expected, const Value& found,
-                               std::string_view hint = "");
+                               const Phrase& hint = {});
   [[noreturn]] void fail_operator(ast::Operator op, const ast::Span& where, const Value& left, const Value& right,
                                   const Mismatch& mismatch);
   [[noreturn]] void fail_parameter(const ast::Name& name, const ast::Span& callee,
@@ -94,8 +96,8 @@ class Interpreter {
   [[noreturn]] void fail_builtin(const ast::Span& where, const Builtin& builtin, std::string_view problem,
                                  std::string_view rest);
   [[noreturn]] void fail_assertion(const ast::Span& condition);
-  [[noreturn]] void fail_unknown(const ast::Name& name, const char* what, std::vector<std::string> candidates,
-                                 const std::string& otherwise);
+  [[noreturn]] void fail_unknown(Code code, const ast::Name& name, const char* what,
+                                 std::vector<std::string> candidates, const std::string& otherwise);
   [[noreturn]] void fail_unknown_variable(const ast::Name& name, const Scope& scope);
   [[noreturn]] void fail_unknown_function(const ast::Name& name, const Scope& scope);
   [[noreturn]] void fail_unknown_module(const ast::Name& name, const Scope& scope);

@@ -35,14 +35,19 @@ void Interpreter::report(Diagnostic diagnostic) {
   if (told_.size() < most_told && told_.insert(std::move(key)).second) diagnostics_.add(std::move(diagnostic));
 }
 
-void Interpreter::fail(const ast::Span& where, std::string_view message, std::string_view hint) {
-  report({Severity::error, where.range(), std::string(message), std::string(hint)});
+void Interpreter::fail(const ast::Span& where, std::string_view message, const Phrase& hint) {
+  fail(Code::script, where, message, hint);
+}
+
+void Interpreter::fail(Code code, const ast::Span& where, std::string_view message, const Phrase& hint,
+                       CodeValues values) {
+  report({Severity::error, where.range(), std::string(message), hint, code, std::move(values)});
   throw Failure{};
 }
 
 void Interpreter::fail_found(const ast::Span& where, std::string_view expected, const Value& found,
-                             std::string_view hint) {
-  fail(where, std::string(expected) + ", found " + describe(found), hint.empty() ? hint_for(found) : hint);
+                             const Phrase& hint) {
+  fail(where, std::string(expected) + ", found " + describe(found), hint.empty() ? Phrase(hint_for(found)) : hint);
 }
 
 void Interpreter::fail_operator(ast::Operator op, const ast::Span& where, const Value& left, const Value& right,
@@ -82,16 +87,19 @@ void Interpreter::fail_builtin(const ast::Span& where, const Builtin& builtin, s
 void Interpreter::fail_assertion(const ast::Span& condition) {
   const std::string text = text_at(condition);
   const bool is_short = text.size() <= 60 && text.find('\n') == std::string::npos;
-  fail(condition, is_short ? "the assertion \"" + text + "\" does not hold" : "the assertion does not hold");
+  fail(Code::assertion, condition,
+       is_short ? "the assertion \"" + text + "\" does not hold" : "the assertion does not hold");
 }
 
-void Interpreter::fail_unknown(const ast::Name& name, const char* what, std::vector<std::string> candidates,
+void Interpreter::fail_unknown(Code code, const ast::Name& name, const char* what, std::vector<std::string> candidates,
                                const std::string& otherwise) {
   std::sort(candidates.begin(), candidates.end());
   // Any other single letter would be close to a single letter.
   const std::string suggestion = name.text().size() > 1 ? did_you_mean(name.text(), candidates) : "";
-  fail(name.span, "there is no " + std::string(what) + " \"" + name.text() + '"',
-       suggestion.empty() ? otherwise : suggestion);
+  fail(code, name.span, "there is no " + std::string(what) + " \"" + name.text() + '"',
+       suggestion.empty() ? otherwise : suggestion,
+       {{code == Code::unknown_node ? "node" : "name", name.text()},
+        {"similar", suggestion.empty() ? "" : closest_name(name.text(), candidates).value_or("")}});
 }
 
 void Interpreter::fail_unknown_variable(const ast::Name& name, const Scope& scope) {
@@ -108,7 +116,7 @@ void Interpreter::fail_unknown_variable(const ast::Name& name, const Scope& scop
   }
   std::string otherwise = "give it a value first: " + name.text() + " = ...;";
   if (builtins_.count(name.symbol)) otherwise = "it is a function; call it: " + name.text() + "(...)";
-  fail_unknown(name, "variable", std::move(candidates), otherwise);
+  fail_unknown(Code::unknown_variable, name, "variable", std::move(candidates), otherwise);
 }
 
 void Interpreter::fail_unknown_function(const ast::Name& name, const Scope& scope) {
@@ -123,19 +131,20 @@ void Interpreter::fail_unknown_function(const ast::Name& name, const Scope& scop
   }
   const std::string otherwise = knows(name) ? '"' + name.text() + "\" is a node, and stands in statements only"
                                             : "define it first: function " + name.text() + "(...) = ...;";
-  fail_unknown(name, "function", std::move(candidates), otherwise);
+  fail_unknown(Code::unknown_function, name, "function", std::move(candidates), otherwise);
 }
 
 void Interpreter::fail_unknown_module(const ast::Name& name, const Scope& scope) {
   if (const std::string hint = vocabulary_.hint(name.text()); !hint.empty())
-    fail(name.span, "there is no node or module \"" + name.text() + '"', hint);
+    fail(Code::unknown_node, name.span, "there is no node or module \"" + name.text() + '"', hint,
+         {{"node", name.text()}});
   std::vector<std::string> candidates = vocabulary_.names();
   candidates.emplace_back("children");
   for (const Scope* at = &scope; at; at = at->parent().get()) {
     if (!at->plan()) continue;
     for (const ast::ModuleDef* module : at->plan()->modules) candidates.push_back(module->name.text());
   }
-  fail_unknown(name, "node or module", std::move(candidates),
+  fail_unknown(Code::unknown_node, name, "node or module", std::move(candidates),
                "define it first: module " + name.text() + "(...) { ... }");
 }
 

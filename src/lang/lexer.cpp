@@ -195,9 +195,9 @@ void Lexer::put(TokenKind kind, size_t begin) {
   found_ = Token{kind, static_cast<uint32_t>(begin), static_cast<uint32_t>(at_)};
 }
 
-void Lexer::error(size_t begin, size_t end, std::string message, std::string hint) {
-  diagnostics_.error({source_, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)}, std::move(message),
-                     std::move(hint));
+void Lexer::error(size_t begin, size_t end, std::string message, Phrase hint) {
+  diagnostics_.error(Code::syntax, {source_, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)},
+                     std::move(message), std::move(hint));
 }
 
 void Lexer::skip_blank() {

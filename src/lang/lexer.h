@@ -71,7 +71,7 @@ class Lexer {
  private:
   char peek(size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
   void put(TokenKind kind, size_t begin);
-  void error(size_t begin, size_t end, std::string message, std::string hint = "");
+  void error(size_t begin, size_t end, std::string message, Phrase hint = {});
   void skip_blank();
   void skip_comment();
   void read();

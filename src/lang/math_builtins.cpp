@@ -27,9 +27,9 @@ const std::string& BuiltinCall::text(size_t i) const {
   return value->text;
 }
 
-void BuiltinCall::expected(size_t i, const std::string& what, const std::string& hint) const {
+void BuiltinCall::expected(size_t i, const std::string& what, const Phrase& hint) const {
   throw BadArgument{i, std::string(name_) + "() needs " + what + ", found " + describe(arguments_[i]),
-                    hint.empty() ? std::string(hint_for(arguments_[i])) : hint};
+                    hint.empty() ? Phrase(hint_for(arguments_[i])) : hint};
 }
 
 std::string Builtin::signature() const {

@@ -54,14 +54,14 @@ bool Parser::accept(TokenKind wanted) {
 
 std::string Parser::found() { return at(TokenKind::end) ? "the end of the file" : quoted(text(token())); }
 
-void Parser::fail(Span where, std::string message, std::string hint) {
+void Parser::fail(Span where, std::string message, Phrase hint) {
   // After an unclosed string or comment the file only seems to end here.
   const bool is_consequence = tokens_.is_cut_short() && at(TokenKind::end);
-  if (!is_consequence) diagnostics_.error(where.range(), std::move(message), std::move(hint));
+  if (!is_consequence) diagnostics_.error(Code::syntax, where.range(), std::move(message), std::move(hint));
   throw SyntaxError{};
 }
 
-void Parser::fail_here(const std::string& expected, std::string hint) {
+void Parser::fail_here(const std::string& expected, Phrase hint) {
   fail(span(token()), "expected " + expected + ", found " + found(), std::move(hint));
 }
 
@@ -325,7 +325,7 @@ void Parser::end_of_statement(const char* after) {
   const std::string_view between = text_.substr(last_end(), token().begin - last_end());
   const bool is_new_line = between.find_first_of(line_ends) != std::string_view::npos;
   if (!is_new_line || at(TokenKind::end)) fail(where, std::move(message));
-  diagnostics_.error(where.range(), std::move(message));
+  diagnostics_.error(Code::syntax, where.range(), std::move(message));
 }
 
 void warn_of_replaced(const Plan& plan, Diagnostics& diagnostics) {

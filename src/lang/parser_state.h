@@ -77,8 +77,8 @@ class Parser {
   ast::Span since(uint32_t begin) const { return {source_, begin, std::max(begin, last_end())}; }
   uint32_t last_end() const { return tokens_.last_end(); }
   std::string found();
-  [[noreturn]] void fail(ast::Span where, std::string message, std::string hint = "");
-  [[noreturn]] void fail_here(const std::string& expected, std::string hint = "");
+  [[noreturn]] void fail(ast::Span where, std::string message, Phrase hint = {});
+  [[noreturn]] void fail_here(const std::string& expected, Phrase hint = {});
   ast::Name name(const char* what);
   ast::Name name_at(ast::Span where, std::string_view text);
 

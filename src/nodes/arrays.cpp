@@ -256,14 +256,17 @@ struct ArrayPolar : Array<ArrayPolar> {
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
-    const auto fail = [&](const std::string& message, const std::string& hint) {
+    const auto fail = [&](const std::string& message, const Phrase& hint) {
       reader.diagnostics.error(reader.where, message, hint);
       return false;
     };
     if (length(axis) == 0)
-      return fail("the axis of array_polar has no direction", "write x, y, z or for example (1, 1, 0)");
+      return fail("the axis of array_polar has no direction",
+                  "write " + spelled::either("x, y, z or for example (1, 1, 0)", "for example [1, 1, 0]",
+                                             "for example (1, 1, 0)"));
     if (angle == 0 && count > 1)
-      return fail("the angle of array_polar is 0: the copies would lie on one another", "write for example angle=90");
+      return fail("the angle of array_polar is 0: the copies would lie on one another",
+                  "write for example " + spelled::parameter("angle", "90"));
     const bool is_full = std::abs(angle) == 360;
     const double degrees = count == 1 ? 0 : angle / (is_full ? count : count - 1);
     const Affine turn_from_here = turned_to_z(axis) * Affine::translation(-around);
@@ -306,7 +309,8 @@ struct ArrayMirror : Array<ArrayMirror> {
   bool complete(const Reader& reader) const {
     if (length(normal) > 0) return true;
     reader.diagnostics.error(reader.where, "the normal of array_mirror has no direction",
-                             "write x, y, z or for example (1, 1, 0)");
+                             "write " + spelled::either("x, y, z or for example (1, 1, 0)", "for example [1, 1, 0]",
+                                                        "for example (1, 1, 0)"));
     return false;
   }
 

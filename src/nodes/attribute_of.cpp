@@ -95,7 +95,8 @@ struct AttributeOf {
   bool fail(const std::vector<std::string>& known, const Reader& reader) const {
     std::string hint = did_you_mean(name, known);
     if (hint.empty()) hint = known.empty() ? "it has no attributes" : "it has " + join(known, ", ");
-    reader.diagnostics.error(reader.where, "the solid has no attribute \"" + name + '"', hint);
+    reader.diagnostics.error(Code::unknown_attribute, reader.where, "the solid has no attribute \"" + name + '"', hint,
+                             {{"attribute", name}});
     return false;
   }
 };
@@ -126,7 +127,8 @@ struct CompositionOf {
     const std::vector<std::string> names = reader.materials.names();
     std::string hint = did_you_mean(of, names);
     if (hint.empty()) hint = "there are " + join(names, ", ");
-    reader.diagnostics.error(reader.where, "there is no material \"" + of + '"', hint);
+    reader.diagnostics.error(Code::unknown_material, reader.where, "there is no material \"" + of + '"', hint,
+                             {{"material", of}, {"similar", closest_name(of, names).value_or("")}});
     return false;
   }
 

@@ -90,7 +90,7 @@ struct Attribute {
 
  private:
   bool check_name(const Reader& reader) const {
-    const auto fail = [&](const std::string& message, const std::string& hint = "") {
+    const auto fail = [&](const std::string& message, const Phrase& hint = {}) {
       reader.diagnostics.error(reader.where, message, hint);
       return false;
     };
@@ -126,8 +126,10 @@ struct Attribute {
 
   bool fail_type(const std::string& message, const Reader& reader) const {
     reader.diagnostics.error(reader.where, message,
-                             "numbers are written as 3 or \"x/10\", vectors as [1, 0, 0], colours as [1, 0.5, 0, 1] "
-                             "or \"#ff8000\", mixtures as mix(red, blue, t)");
+                             "numbers are written as 3 or \"x/10\", vectors as [1, 0, 0], colours as [1, 0.5, 0, 1] or "
+                             "\"#ff8000\", mixtures as " +
+                                 spelled::either("mix(red, blue, t)", R"({"from": "n3", "output": "mixture"})",
+                                                 R"(ombre.mix("red", "blue", t))"));
     return false;
   }
 

@@ -81,8 +81,9 @@ struct Union {
 
   bool complete(const Reader& reader) const {
     if (!(materials == "blend") || !blend().is_plain()) return true;
-    reader.diagnostics.error(reader.where, "materials=\"blend\" of union needs a radius to blend over",
-                             "write for example union(blend=1, materials=\"blend\")");
+    reader.diagnostics.error(
+        reader.where, "materials=\"blend\" of union needs a radius to blend over",
+        "write for example " + spelled::call("union", {{"blend", "1"}, {"materials", "\"blend\""}}));
     return false;
   }
 

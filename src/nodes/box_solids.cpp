@@ -76,7 +76,8 @@ struct HalfSpace {
 
   bool complete(const Reader& reader) const {
     if (length(normal) > 0) return true;
-    reader.diagnostics.error(reader.where, "the normal of half_space has no direction", "write for example (0, 0, 1)");
+    reader.diagnostics.error(reader.where, "the normal of half_space has no direction",
+                             "write for example " + spelled::value("(0, 0, 1)"));
     return false;
   }
 

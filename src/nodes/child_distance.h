@@ -24,7 +24,7 @@ inline expr::Variables child_variables(const design::Inputs& in, const program::
 inline void warn_of_implicit_distance(const design::Reader& reader, const design::Node& input,
                                       const std::string& use = "\"d\" is used over") {
   if (!input.metric().is_implicit()) return;
-  reader.diagnostics.warning(reader.where, use + " a shape of which only the sign is known",
+  reader.diagnostics.warning(Code::distance_unknown, reader.where, use + " a shape of which only the sign is known",
                              "its value is taken as it is, which need not be a distance in mm");
 }
 

@@ -152,7 +152,7 @@ bool check_width(const Reader& reader, double sigma, const std::optional<Vec3>& 
   const bool has_voxels = voxels && voxels->x + voxels->y + voxels->z > 0;
   if ((sigma > 0) != has_voxels) return true;
   reader.diagnostics.error(reader.where, std::string(reader.node) + " needs either sigma or sigma_voxels, more than 0",
-                           "write for example sigma=0.5, in mm");
+                           "write for example " + spelled::parameter("sigma", "0.5") + ", in mm");
   return false;
 }
 

@@ -31,8 +31,8 @@ bool check_mixture(const MaterialName& material, const Choice& materials, const 
       reader.where,
       std::string(reader.node) +
           " has a mixture, which is for the whole of it, and is asked for the materials of the file",
-      "leave out materials=\"" + std::string(materials.text()) +
-          "\", or name one material for what has none in the file");
+      "leave out " + spelled::parameter("materials", '"' + std::string(materials.text()) + '"') +
+          ", or name one material for what has none in the file");
   return false;
 }
 
@@ -154,14 +154,15 @@ struct Mesh : SolidOfParts {
   }
 
   bool complete(const Reader& reader) {
-    const auto fail = [&](const std::string& message, const std::string& hint = "") {
+    const auto fail = [&](const std::string& message, const Phrase& hint = {}) {
       reader.diagnostics.error(reader.where, message, hint);
       return false;
     };
     if (!reader.loader) return fail("meshes cannot be read here");
     if (materials == "one" && !material_map.empty())
       return fail("material_map of mesh: the materials of the file are not asked for",
-                  "write materials=\"names\" or materials=\"colours\" too");
+                  "write " + spelled::parameter("materials", "\"names\"") + " or " +
+                      spelled::parameter("materials", "\"colours\"") + " too");
     if (!check_mixture(material, materials, reader)) return false;
     const MaterialName told = told_material(material, reader);
     MeshRequest request{path, {object, inside_rule, materials, told, material_map}, deform};
@@ -272,14 +273,15 @@ struct Cad {
   }
 
   bool complete(const Reader& reader) {
-    const auto fail = [&](const std::string& message, const std::string& hint = "") {
+    const auto fail = [&](const std::string& message, const Phrase& hint = {}) {
       reader.diagnostics.error(reader.where, message, hint);
       return false;
     };
     if (!reader.loader) return fail("CAD files cannot be read here");
     if (materials == "one" && !material_map.empty())
       return fail("material_map of cad: the materials of the file are not asked for",
-                  "write materials=\"names\" or materials=\"colours\" too");
+                  "write " + spelled::parameter("materials", "\"names\"") + " or " +
+                      spelled::parameter("materials", "\"colours\"") + " too");
     if (!check_mixture(material, materials, reader)) return false;
     const MaterialName told = told_material(material, reader);
     CadRequest request{path, {object, "nonzero", materials, told, material_map}, mode == "exact", tolerance};

@@ -49,8 +49,8 @@ struct Lattice {
     }
     reader.diagnostics.error(
         reader.where, is_cell ? "lattice has both a unit cell and edges" : "lattice has neither a unit cell nor edges",
-        "write lattice(cell=\"bcc\", size=(10, 10, 10), radius=1) or "
-        "lattice(edges=[[(0, 0, 0), (10, 0, 0)]], radius=1)");
+        "write " + spelled::call("lattice", {{"cell", "\"bcc\""}, {"size", "(10, 10, 10)"}, {"radius", "1"}}) + " or " +
+            spelled::call("lattice", {{"edges", "[[(0, 0, 0), (10, 0, 0)]]"}, {"radius", "1"}}));
     return false;
   }
 

@@ -73,7 +73,8 @@ struct ConformalMap {
     warn_of_implicit_distance(reader, *inputs[0], "conformal_map measures from");
     if (length(direction) > 0) return true;
     reader.diagnostics.error(reader.where, "the ref_dir of conformal_map has no direction",
-                             "write x, y, z or for example (1, 1, 0)");
+                             "write " + spelled::either("x, y, z or for example (1, 1, 0)", "for example [1, 1, 0]",
+                                                        "for example (1, 1, 0)"));
     return false;
   }
 

@@ -95,14 +95,15 @@ struct Noise {
   }
 
   bool complete(const Reader& reader) {
-    const auto fail = [&](const std::string& message, const std::string& hint) {
+    const auto fail = [&](const std::string& message, const Phrase& hint) {
       reader.diagnostics.error(reader.where, message, hint);
       return false;
     };
     if (period > 0 && kind == "simplex")
       return fail("simplex noise does not repeat along x, y and z", "leave out period, or choose another kind");
     if (period > 0 && octaves > 1 && lacunarity != std::floor(lacunarity))
-      return fail("noise that repeats needs a whole lacunarity", "write for example lacunarity=2");
+      return fail("noise that repeats needs a whole lacunarity",
+                  "write for example " + spelled::parameter("lacunarity", "2"));
     if (kind == "gradient" && period * std::pow(lacunarity, octaves - 1) > noise_period)
       return fail("noise repeats after at most 289 sizes of its finest octave",
                   "choose a shorter period, fewer octaves or a smaller lacunarity");

@@ -14,7 +14,7 @@ using design::Reader;
 // Relative to the size of the polygon.
 constexpr double flattest_area = 1e-8, farthest_from_plane = 1e-6;
 
-bool fail(const Reader& reader, const std::string& message, const std::string& hint = "") {
+bool fail(const Reader& reader, const std::string& message, const Phrase& hint = {}) {
   reader.diagnostics.error(reader.where, message, hint);
   return false;
 }

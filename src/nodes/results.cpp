@@ -104,7 +104,7 @@ struct Results {
   }
 
  private:
-  static bool fail(const Reader& reader, const std::string& message, const std::string& hint) {
+  static bool fail(const Reader& reader, const std::string& message, const Phrase& hint) {
     reader.diagnostics.error(reader.where, message, hint);
     return false;
   }
@@ -115,7 +115,8 @@ struct Results {
     if (component.empty()) {
       if (names.size() <= 3) return true;
       return fail(reader, what + " has " + std::to_string(names.size()) + " components, and which is meant is not said",
-                  "write component=\"" + names.front() + "\", or another of " + join(names, ", "));
+                  "write " + spelled::parameter("component", '"' + names.front() + '"') + ", or another of " +
+                      join(names, ", "));
     }
     const auto found = std::ranges::find(names, component);
     chosen = static_cast<size_t>(found - names.begin());

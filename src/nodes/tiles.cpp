@@ -33,15 +33,18 @@ struct Tile {
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
-    const auto fail = [&](const std::string& message, const std::string& hint) {
+    const auto fail = [&](const std::string& message, const Phrase& hint) {
       reader.diagnostics.error(reader.where, message, hint);
       return false;
     };
     const Box box = inputs[0]->bounds(design_space());
-    if (box.is_empty()) return fail("there is nothing in tile's braces to repeat", "");
+    if (box.is_empty()) return fail("tile has nothing to repeat", "");
     const Traits traits = inputs[0]->traits_of_shape();
     const Vec3 step = size.value_or(traits.cell_size.value_or(box.size()));
-    if (step == Vec3{}) return fail("tile repeats along no axis", "write for example tile((10, 10, 0))");
+    if (step == Vec3{})
+      return fail(
+          "tile repeats along no axis",
+          "write for example " + spelled::either("tile((10, 10, 0))", "\"size\": [10, 10, 0]", "tile((10, 10, 0))"));
     double copies = 1;
     for (int n = 0; n < 3; ++n) {
       Axis& axis = axes_[static_cast<size_t>(n)];
@@ -52,7 +55,8 @@ struct Tile {
       if (last) axis.last = (*last)[n];
       if (axis.first > axis.last || !is_limit(axis.first) || !is_limit(axis.last))
         return fail("the limits of tile are whole numbers, first not above last",
-                    "write for example first=(0, 0, 0), last=(9, 9, 0)");
+                    "write for example " + spelled::parameter("first", "(0, 0, 0)") + ", " +
+                        spelled::parameter("last", "(9, 9, 0)"));
       if (axis.step == 0) continue;
       if (axis.hi - axis.lo >= design_limit_mm)
         return fail("what tile repeats has no end along " + std::string(1, "xyz"[n]),

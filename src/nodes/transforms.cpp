@@ -68,7 +68,8 @@ struct Rotate : Transform<Rotate> {
   bool complete(const Reader& reader) const {
     if (!axis || length(*axis) > 0) return true;
     reader.diagnostics.error(reader.where, "the axis of rotate has no direction",
-                             "write x, y, z or for example (1, 1, 0)");
+                             "write " + spelled::either("x, y, z or for example (1, 1, 0)", "for example [1, 1, 0]",
+                                                        "for example (1, 1, 0)"));
     return false;
   }
 
@@ -123,7 +124,8 @@ struct Mirror : Transform<Mirror> {
   bool complete(const Reader& reader) const {
     if (length(normal) > 0) return true;
     reader.diagnostics.error(reader.where, "the normal of mirror has no direction",
-                             "write x, y, z or for example (1, 1, 0)");
+                             "write " + spelled::either("x, y, z or for example (1, 1, 0)", "for example [1, 1, 0]",
+                                                        "for example (1, 1, 0)"));
     return false;
   }
 

@@ -20,7 +20,7 @@ using namespace design;
 using program::Op;
 using Colour = std::array<Field, 3>;
 
-bool turn_down(const Reader& reader, const std::string& message, const std::string& hint) {
+bool turn_down(const Reader& reader, const std::string& message, const Phrase& hint) {
   reader.diagnostics.error(reader.where, message, hint);
   return false;
 }
@@ -198,7 +198,9 @@ struct Texture {
   bool complete(const Reader& reader) {
     if (!reader.loader) return turn_down(reader, "images cannot be read here", "");
     if (projection == "triplanar" && !on.node)
-      return turn_down(reader, "a triplanar texture lies on a solid", "name it, for example on=sphere(10)");
+      return turn_down(
+          reader, "a triplanar texture lies on a solid",
+          "name it, for example " + spelled::either("on=sphere(10)", R"("on": {"from": "n2"})", "on=ombre.sphere(10)"));
     PixelsRequest request{path};
     const auto pixels = reader.loader->source(request, reader);
     path = request.file;

@@ -13,7 +13,7 @@ namespace {
 
 using namespace design;
 
-bool decline(const Reader& reader, const std::string& message, const std::string& hint) {
+bool decline(const Reader& reader, const std::string& message, const Phrase& hint) {
   reader.diagnostics.error(reader.where, message, hint);
   return false;
 }
@@ -39,7 +39,9 @@ struct Ramp {
   }
 
   bool complete(const Reader& reader) const {
-    return from != to || decline(reader, "ramp begins where it ends", "write for example ramp(\"z\", 0, 10)");
+    return from != to || decline(reader, "ramp begins where it ends",
+                                 "write for example " + spelled::either("ramp(\"z\", 0, 10)", "\"lo\": 0, \"hi\": 10",
+                                                                        "ombre.ramp(\"z\", 0, 10)"));
   }
 
   Field value(const Ask& ask) const {
@@ -72,8 +74,11 @@ struct Rescale {
   }
 
   bool complete(const Reader& reader) const {
-    return from_lo != from_hi || decline(reader, "the range that rescale begins with is empty",
-                                         "write for example rescale(\"z\", 0, 10, 1, 2)");
+    return from_lo != from_hi ||
+           decline(reader, "the range that rescale begins with is empty",
+                   "write for example " + spelled::either("rescale(\"z\", 0, 10, 1, 2)",
+                                                          "other numbers for the two ends of that range",
+                                                          "ombre.rescale(\"z\", 0, 10, 1, 2)"));
   }
 
   Field value(const Ask& ask) const {
@@ -127,7 +132,8 @@ struct TableValue {
     if (more.size() > 2) return decline(reader, "a table has at most three inputs", "give more one or two numbers");
     const size_t inputs = 1 + more.size();
     if (mode == "cubic" && inputs > 1)
-      return decline(reader, "cubic tables have one input", "write mode=\"linear\" for several");
+      return decline(reader, "cubic tables have one input",
+                     "write " + spelled::parameter("mode", "\"linear\"") + " for several");
     const auto read = rows_of(reader);
     if (!read) return false;
     auto made = table_of(*read, inputs);

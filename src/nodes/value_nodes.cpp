@@ -98,7 +98,8 @@ struct Cells {
   bool complete(const Reader& reader) const {
     if (size != Vec3{}) return true;
     reader.diagnostics.error(reader.where, "cells has no borders along any axis",
-                             "write for example cells((10, 10, 10))");
+                             "write for example " + spelled::either("cells((10, 10, 10))", "\"size\": [10, 10, 10]",
+                                                                    "ombre.cells((10, 10, 10))"));
     return false;
   }
 

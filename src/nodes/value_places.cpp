@@ -15,7 +15,7 @@ namespace {
 using namespace design;
 using program::Op;
 
-bool refuse(const Reader& reader, const std::string& message, const std::string& hint) {
+bool refuse(const Reader& reader, const std::string& message, const Phrase& hint) {
   reader.diagnostics.error(reader.where, message, hint);
   return false;
 }
@@ -45,7 +45,8 @@ struct Coordinates {
   bool complete(const Reader& reader) {
     const double along = length(axis);
     if (!(along > 0))
-      return refuse(reader, "the axis of coordinates has no direction", "write for example axis=(0, 0, 1)");
+      return refuse(reader, "the axis of coordinates has no direction",
+                    "write for example " + spelled::parameter("axis", "(0, 0, 1)"));
     const Vec3 z = (1 / along) * axis;
     Vec3 x = toward - dot(toward, z) * z;
     if (!(length(x) > 1e-9 * length(toward)))  // any direction will do
@@ -200,7 +201,9 @@ struct PointDistance {
 
   bool complete(const Reader& reader) {
     if (points.at.empty())
-      return refuse(reader, "point_distance needs a point", "write for example point_distance([[0, 0, 0]])");
+      return refuse(reader, "point_distance needs a point",
+                    "write for example " + spelled::either("point_distance([[0, 0, 0]])", "\"points\": [[0, 0, 0]]",
+                                                           "ombre.point_distance([[0, 0, 0]])"));
     return load_path({points.at, true}, source, reader);
   }
 
@@ -232,7 +235,9 @@ struct PathDistance {
     for (size_t n = 1; n < way.size(); ++n) whole += length(way[n] - way[n - 1]);
     if (!(whole > 0))
       return refuse(reader, "path_distance needs two different points",
-                    "write for example path_distance([[0, 0, 0], [10, 0, 0]])");
+                    "write for example " + spelled::either("path_distance([[0, 0, 0], [10, 0, 0]])",
+                                                           "\"points\": [[0, 0, 0], [10, 0, 0]]",
+                                                           "ombre.path_distance([[0, 0, 0], [10, 0, 0]])"));
     return load_path({std::move(way), false}, source, reader);
   }
 

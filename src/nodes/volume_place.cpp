@@ -17,7 +17,7 @@ std::optional<Affine> turn_of(PatientSpace from, std::string_view wanted) {
   return std::nullopt;
 }
 
-bool fail(const design::Reader& reader, const std::string& message, const std::string& hint) {
+bool fail(const design::Reader& reader, const std::string& message, const Phrase& hint) {
   reader.diagnostics.error(reader.where, message, hint);
   return false;
 }
@@ -32,7 +32,7 @@ bool VolumePlace::read_volume(const design::Reader& reader) {
   path = request.file;
   if (!grid->space_from_index && !spacing && space != "index")
     return fail(reader, "the volume \"" + path.path + "\" does not say how large its voxels are",
-                "write spacing=(0.5, 0.5, 1), in mm along its axes");
+                "write " + spelled::parameter("spacing", "(0.5, 0.5, 1)") + ", in mm along its axes");
   here_from_index = placed();
   if (!turn(reader)) return false;
   index_from_here = inverse(here_from_index);
@@ -68,8 +68,9 @@ bool VolumePlace::turn(const design::Reader& reader) {
   if (space == "file") {
     if (grid->space == PatientSpace::las || grid->space == PatientSpace::left_handed)
       return fail(reader, file + " has left-handed axes, in which it would be mirrored here",
-                  grid->space == PatientSpace::las ? "write space=\"RAS\" or space=\"LPS\""
-                                                   : "save it in a right-handed space");
+                  grid->space == PatientSpace::las ? "write " + spelled::parameter("space", "\"RAS\"") + " or " +
+                                                         spelled::parameter("space", "\"LPS\"")
+                                                   : Phrase("save it in a right-handed space"));
     return true;
   }
   const auto map = turn_of(grid->space, space.text());

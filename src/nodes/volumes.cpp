@@ -48,10 +48,11 @@ struct VolumeSolid : VolumePlace {
     if (!read_volume(reader)) return false;
     if (by == "otsu") level = grid->otsu_level;
     if (!upper || (above && *upper >= level)) return true;
-    reader.diagnostics.error(reader.where,
-                             above ? "upper of volume_solid is below its level, so nothing is inside"
-                                   : "upper of volume_solid goes with values above the level, not with above=false",
-                             "write for example level=60, upper=200");
+    reader.diagnostics.error(
+        reader.where,
+        above ? "upper of volume_solid is below its level, so nothing is inside"
+              : "upper of volume_solid goes with values above the level, not with above=false",
+        "write for example " + spelled::parameter("level", "60") + ", " + spelled::parameter("upper", "200"));
     return false;
   }
 
@@ -188,7 +189,7 @@ struct Transfer {
   }
 
   bool complete(const Reader& reader) const {
-    const auto fail = [&](const std::string& message, const std::string& hint) {
+    const auto fail = [&](const std::string& message, const Phrase& hint) {
       reader.diagnostics.error(reader.where, message, hint);
       return false;
     };

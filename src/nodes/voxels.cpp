@@ -152,8 +152,10 @@ struct Voxels {
       return true;
     }
     reader.diagnostics.error(reader.where, what,
-                             "write materials=[[\"" + unknown.front() + "\", \"" + reader.materials.first().name +
-                                 "\"]], or match=\"nearest\"");
+                             "write " +
+                                 spelled::parameter("materials", "[[\"" + unknown.front() + "\", \"" +
+                                                                     reader.materials.first().name + "\"]]") +
+                                 ", or " + spelled::parameter("match", "\"nearest\""));
     return false;
   }
 

@@ -86,8 +86,9 @@ struct Taper : Warp<Taper> {
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
     if (from_z != to_z) return Warp::complete(reader, inputs);
-    reader.diagnostics.error(reader.where, "from_z and to_z of taper are the same height",
-                             "write for example from_z=0, to_z=20");
+    reader.diagnostics.error(
+        reader.where, "from_z and to_z of taper are the same height",
+        "write for example " + spelled::parameter("from_z", "0") + ", " + spelled::parameter("to_z", "20"));
     return false;
   }
 
@@ -132,7 +133,7 @@ struct Band {
 // away from their centres.
 double band_stretch(double radius, double nearest) { return nearest > 0 ? std::max(1.0, radius / nearest) : infinite; }
 
-void warn_of_cut(const Reader& reader, bool is_cut, const std::string& what, const std::string& hint) {
+void warn_of_cut(const Reader& reader, bool is_cut, const std::string& what, const Phrase& hint) {
   if (is_cut) reader.diagnostics.warning(reader.where, std::string(reader.node) + " cuts off " + what, hint);
 }
 
@@ -167,8 +168,11 @@ struct Bend : Warp<Bend> {
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
     if (radius != 0) return Warp::complete(reader, inputs);
-    reader.diagnostics.error(reader.where, "the radius of bend is 0",
-                             "write for example bend(20), or bend(-20) to bend downward");
+    reader.diagnostics.error(
+        reader.where, "the radius of bend is 0",
+        "write for example " +
+            spelled::either("bend(20), or bend(-20)", "\"radius\": 20, or -20", "bend(20), or bend(-20)") +
+            " to bend downward");
     return false;
   }
 

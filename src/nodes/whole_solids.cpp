@@ -14,7 +14,7 @@ using namespace design;
 bool check_bounds(const Reader& reader, const StagePtr& stage) {
   const Box box = stage->bounds();
   if (box.is_empty() || length(box.size()) < 2 * design_limit_mm) return true;
-  reader.diagnostics.error(reader.where, std::string(reader.node) + " needs a solid that ends",
+  reader.diagnostics.error(Code::unbounded, reader.where, std::string(reader.node) + " needs a solid that ends",
                            "intersect it with a box first");
   return false;
 }

@@ -25,10 +25,11 @@ bool is_nlopt(const Method& method) { return method.library == "NLopt"; }
 
 Search load_search(const Method& method) {
   if (!is_built(method))
-    throw Error("this ombre was built without " + method.library + ", which the method " + method.name +
-                " needs; install " + (is_nlopt(method) ? "libnlopt-dev" : "libpagmo-dev") + ", configure with " +
-                (is_nlopt(method) ? "-DOMBRE_NLOPT=ON" : "-DOMBRE_PAGMO=ON") +
-                " and build again, or choose another method");
+    throw Error(Code::library_missing, "this ombre was built without " + method.library + ", which the method " +
+                                           method.name + " needs; install " +
+                                           (is_nlopt(method) ? "libnlopt-dev" : "libpagmo-dev") + ", configure with " +
+                                           (is_nlopt(method) ? "-DOMBRE_NLOPT=ON" : "-DOMBRE_PAGMO=ON") +
+                                           " and build again, or choose another method");
   if (is_nlopt(method))
     return load_function<decltype(ombre_search_nlopt)>(nlopt_module, "ombre_search_nlopt", "methods of NLopt");
   return load_function<decltype(ombre_search_pagmo)>(pagmo_module, "ombre_search_pagmo", "methods of pagmo");

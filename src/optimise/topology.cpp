@@ -87,9 +87,9 @@ class Equilibrium {
       const double now = std::sqrt(fea::dot(residual, residual, threads)) / scale;
       if (now <= options_.tolerance) return;
       if (!std::isfinite(now) || iteration >= most_iterations)
-        throw Error("the equations did not converge: after " + format_count(iteration) +
-                    " iterations the forces are still off by " + format_rounded(now, 2) +
-                    " of the loads; support more of the part, or choose smaller bricks");
+        throw Error(Code::not_solved, "the equations did not converge: after " + format_count(iteration) +
+                                          " iterations the forces are still off by " + format_rounded(now, 2) +
+                                          " of the loads; support more of the part, or choose smaller bricks");
       multigrid.apply(residual, z);
       const double next = fea::dot(residual, z, threads), beta = iteration == 0 ? 0 : next / rz;
       rz = next;

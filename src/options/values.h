@@ -7,10 +7,13 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/box.h"
+#include "base/code.h"
 #include "base/interval.h"
+#include "base/phrase.h"
 #include "base/pitch.h"
 
 namespace ombre::options {
@@ -18,7 +21,15 @@ namespace ombre::options {
 // A value that an option cannot take. The message names the option and says what to write instead.
 class WrongValue : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit WrongValue(Phrase message, Code code = Code::option)
+      : std::runtime_error(message.text()), message_(std::move(message)), code_(code) {}
+
+  const Phrase& message() const { return message_; }
+  Code code() const { return code_; }
+
+ private:
+  Phrase message_;
+  Code code_;
 };
 
 using Pitches = std::array<std::optional<Pitch>, 3>;

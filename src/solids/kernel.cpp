@@ -23,6 +23,7 @@ bool has_kernel() { return false; }
 
 const Kernel& kernel() {
   throw Error(
+      Code::library_missing,
       "this ombre was built without CGAL, which polyhedra need; install libcgal-dev and libpolyclipping-dev, configure "
       "with -DOMBRE_SOLIDS=ON and build again");
 }

@@ -60,10 +60,10 @@ Tetrahedra make_tetrahedra(const TetrahedraRequest& request) {
 bool has_tetrahedra() { return false; }
 
 Tetrahedra make_tetrahedra(const TetrahedraRequest&) {
-  throw Error(
-      "this ombre was built without CGAL, which makes tetrahedra; install libcgal-dev, configure with "
-      "-DOMBRE_SOLIDS=ON "
-      "and build again, or use bricks");
+  throw Error(Code::library_missing,
+              "this ombre was built without CGAL, which makes tetrahedra; install libcgal-dev, configure with "
+              "-DOMBRE_SOLIDS=ON "
+              "and build again, or use bricks");
 }
 
 #endif

@@ -10,7 +10,7 @@ namespace {
 
 [[noreturn]] void report() {
   kernel();  // which is missing too, and says so
-  throw Error("this ombre was built without polyclipping");
+  throw Error(Code::library_missing, "this ombre was built without polyclipping");
 }
 
 }  // namespace

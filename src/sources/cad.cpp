@@ -117,7 +117,9 @@ std::vector<cad::SolidPtr> choose_solids(const std::string& path, const std::vec
   if (hint.empty())
     hint = names.empty() ? "its solids have no names: leave object out"
                          : "there are \"" + join(names, "\", \"") + '"' + (is_cut ? " and more" : "");
-  reader.diagnostics.error(reader.where, "the CAD file \"" + path + "\" has no solid \"" + object + '"', hint);
+  reader.diagnostics.error(Code::unknown_object, reader.where,
+                           "the CAD file \"" + path + "\" has no solid \"" + object + '"', hint,
+                           {{"file", path}, {"name", object}});
   return {};
 }
 
@@ -170,7 +172,7 @@ constexpr size_t bytes_of_file_byte = 20;  // of shapes and triangles, for each 
 
 std::shared_ptr<const CadFile> read_cad(const FilePath& file, sources::Loading& loading) {
   if (!cad::is_cad_file(file.path)) {
-    loading.reader().diagnostics.error(loading.reader().where,
+    loading.reader().diagnostics.error(Code::file_kind, loading.reader().where,
                                        "\"" + file.path + "\" is no CAD file that can be read here",
                                        "cad reads STEP (.step, .stp) and IGES (.iges, .igs); write mesh for triangles");
     return nullptr;

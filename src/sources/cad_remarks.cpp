@@ -33,8 +33,8 @@ design::Remark remark_on_gaps(const std::string& path, const std::vector<importi
   message += "; what is inside near the gaps is a guess, by winding number";
   if (is_exact) return {Severity::warning, message, "repair the file where it was drawn"};
   return {Severity::warning, message,
-          "repair the file where it was drawn, or write a tolerance below " + format_rounded(tolerance, 2) +
-              ", or mode=\"exact\""};
+          "repair the file where it was drawn, or write a tolerance below " + format_rounded(tolerance, 2) + ", or " +
+              spelled::parameter("mode", "\"exact\"")};
 }
 
 design::Remark remark_on_time(const std::string& path, double voxels, double seconds, double tolerance) {
@@ -42,7 +42,8 @@ design::Remark remark_on_time(const std::string& path, double voxels, double sec
           "mode=\"exact\" of the CAD file \"" + path + "\" will take about " + time_text(seconds) +
               " on all cores, longer where distances are needed: its surfaces themselves are asked about " +
               format_count(static_cast<unsigned long long>(voxels)) + " voxels",
-          "where triangles will do, write mode=\"fast\" with tolerance=" + format_rounded(tolerance, 2)};
+          "where triangles will do, write " + spelled::parameter("mode", "\"fast\"") + " with " +
+              spelled::parameter("tolerance", format_rounded(tolerance, 2))};
 }
 
 }  // namespace ombre::sources

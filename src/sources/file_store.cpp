@@ -56,7 +56,7 @@ std::vector<std::string> FileStore::paths() const {
 std::shared_ptr<const std::string> FileStore::bytes(const std::string& path, const Content& content) {
   if (content.bytes) return content.bytes;
   const Content now = read(path);
-  if (now.hash != content.hash) throw Error("cannot read " + path + ": it changes while it is read");
+  if (now.hash != content.hash) throw Error(Code::cannot_read, "cannot read " + path + ": it changes while it is read");
   return now.bytes;
 }
 
@@ -64,7 +64,8 @@ FileView FileStore::view(const std::string& path, const Content& content) {
   if (!content.bytes && is_large(stamp_of(path))) {
     ++reads_;
     const auto file = std::make_shared<const formats::MappedFile>(path);
-    if (hash_bytes(file->bytes()) != content.hash) throw Error("cannot read " + path + ": it changes while it is read");
+    if (hash_bytes(file->bytes()) != content.hash)
+      throw Error(Code::cannot_read, "cannot read " + path + ": it changes while it is read");
     return {file->bytes(), file, true};
   }
   auto all = bytes(path, content);

@@ -15,7 +15,8 @@ std::optional<std::string> find_file(const std::string& path, const SourceRange&
   for (const std::string& place : places)
     if (fs::exists(place, ignored)) return place;
   if (places.size() > 1) places.back() = fs::absolute(path, ignored).lexically_normal().string();
-  diagnostics.error(where, "there is no file \"" + path + "\"", "looked for " + join(places, " and "));
+  diagnostics.error(Code::file_missing, where, "there is no file \"" + path + "\"",
+                    "looked for " + join(places, " and "), {{"file", path}});
   return std::nullopt;
 }
 

@@ -7,6 +7,13 @@
 
 namespace ombre::sources {
 
+namespace {
+
+// Readers of files throw without a code.
+Code code_of(const Error& error, Code otherwise) { return error.code() == Code::machine ? otherwise : error.code(); }
+
+}  // namespace
+
 bool Loader::is_new(const Hash& key) {
   const std::scoped_lock lock(mutex_);
   return told_.insert(key).second;
@@ -39,7 +46,8 @@ bool Loading::look_at(design::FilePath& file) {
     file.content = content.hash;
     return true;
   } catch (const Error& error) {
-    reader_.diagnostics.error(reader_.where, error.what());
+    reader_.diagnostics.error(code_of(error, Code::cannot_read), reader_.where, error.what(), {},
+                              {{"file", file.path}});
     return false;
   }
 }
@@ -71,8 +79,9 @@ CacheEntryPtr Loading::entry_for(const Hash& key, const std::string& name, const
   try {
     std::tie(entry.value, entry.bytes) = make(reader);
   } catch (const Error& error) {
-    reader.diagnostics.error(reader.where, error.what());
+    reader.diagnostics.error(code_of(error, Code::file_content), reader.where, error.what(), {}, error.values());
   }
+  entry.remarks.tell_code(0, Code::file_content, {{"file", name}});
   reader_.diagnostics.add_all(entry.remarks);
   if (!entry.value || entry.remarks.has_errors()) return nullptr;
   if (known) return std::make_shared<const CacheEntry>(std::move(entry));

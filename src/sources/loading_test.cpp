@@ -243,7 +243,7 @@ TEST(MadeSolids, AreMeshesByMaterial) {
   EXPECT_FALSE(own.diagnostics.has_errors());
   EXPECT_FALSE(own.solids({made_tetrahedron("unobtainium", 0)}, use));
   ASSERT_EQ(own.diagnostics.list().size(), 1u);
-  EXPECT_TRUE(own.diagnostics.list()[0].hint.starts_with("there are "));
+  EXPECT_TRUE(own.diagnostics.list()[0].hint.text().starts_with("there are "));
   EXPECT_FALSE(own.solids({}, use));
 }
 

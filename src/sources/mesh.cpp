@@ -30,7 +30,9 @@ bool choose_object(const std::string& path, formats::Mesh& mesh, const std::stri
   if (hint.empty())
     hint = names.empty() ? "its objects have no names: leave object out"
                          : "there are \"" + join(names, "\", \"") + '"' + (is_cut ? " and more" : "");
-  reader.diagnostics.error(reader.where, "the mesh \"" + path + "\" has no object \"" + object + '"', hint);
+  reader.diagnostics.error(Code::unknown_object, reader.where,
+                           "the mesh \"" + path + "\" has no object \"" + object + '"', hint,
+                           {{"file", path}, {"name", object}});
   return false;
 }
 
@@ -163,8 +165,8 @@ Hash content_of(const formats::Mesh& mesh) {
 std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading& loading) {
   if (!loading.find(file)) return nullptr;
   if (cad::is_cad_file(file.path)) {
-    loading.reader().diagnostics.error(loading.reader().where, "\"" + file.path + "\" is no mesh but a CAD file",
-                                       "write cad in place of mesh");
+    loading.reader().diagnostics.error(Code::file_kind, loading.reader().where,
+                                       "\"" + file.path + "\" is no mesh but a CAD file", "write cad in place of mesh");
     return nullptr;
   }
   if (deform != 0 && !sources::has_elements(file.path)) {

@@ -65,10 +65,12 @@ bool make_closed(const std::string& subject, formats::Mesh& mesh, std::string_vi
   importing::MeshReport report = importing::inspect(mesh);
   if (!has_inside(report, rule)) join_corners(subject, mesh, rule, reader, report);
   if (!has_inside(report, rule)) {
-    const std::string hint = report.open_edges > 0
-                                 ? "repair it, or write inside=\"generalized\" to close it by winding number"
-                                 : "repair it, or write inside=\"parity\" to ignore which way triangles face";
-    reader.diagnostics.error(reader.where, subject + " " + faults(report), hint);
+    const Phrase hint = report.open_edges > 0
+                            ? "repair it, or write " + spelled::parameter("inside", "\"generalized\"") +
+                                  " to close it by winding number"
+                            : "repair it, or write " + spelled::parameter("inside", "\"parity\"") +
+                                  " to ignore which way triangles face";
+    reader.diagnostics.error(Code::surface_open, reader.where, subject + " " + faults(report), hint);
     return false;
   }
   if (rule != "parity" && report.inward_shells > 0 && report.inward_shells < report.shells)
@@ -82,7 +84,8 @@ bool check_part_closed(const std::string& path, const MaterialMesh& part, std::s
   const importing::MeshReport report = importing::inspect(part.mesh);
   if (has_inside(report, rule)) return true;
   reader.diagnostics.error(
-      reader.where, "what the mesh \"" + path + "\" has of \"" + part.material.material->name + "\" " + faults(report),
+      Code::surface_open, reader.where,
+      "what the mesh \"" + path + "\" has of \"" + part.material.material->name + "\" " + faults(report),
       "save a closed body for each material, or leave materials out to have one");
   return false;
 }

@@ -33,9 +33,11 @@ class MaterialFinder {
   bool check() const {
     const bool by_colours = use_.materials == "colours", has_names = any(&has_name), has_colours = any(&has_colour);
     if (!(by_colours ? has_colours || has_mapped_name() : has_names)) {
-      std::string hint = "leave materials out, or " + file_.remedy;
-      if (by_colours && has_names) hint = "write materials=\"names\": it names materials";
-      if (!by_colours && has_colours) hint = "write materials=\"colours\" to take those of the nearest colours";
+      Phrase hint = "leave materials out, or " + file_.remedy;
+      if (by_colours && has_names)
+        hint = "write " + spelled::parameter("materials", "\"names\"") + ": it names materials";
+      if (!by_colours && has_colours)
+        hint = "write " + spelled::parameter("materials", "\"colours\"") + " to take those of the nearest colours";
       return fail(file_name() + (by_colours ? " gives no colours" : " names no materials"), hint);
     }
     return check_map();
@@ -50,7 +52,7 @@ class MaterialFinder {
     return std::any_of(groups_.begin(), groups_.end(), [&](const MeshGroup& g) { return mapped(g.material); });
   }
 
-  bool fail(const std::string& message, const std::string& hint) const {
+  bool fail(const std::string& message, const Phrase& hint) const {
     reader_.diagnostics.error(reader_.where, message, hint);
     return false;
   }
@@ -101,9 +103,11 @@ class MaterialFinder {
   void report_unknown(const MeshGroup& group) const {
     std::string message = file_name() + " has the material \"" + group.material + '"';
     if (!group.name.empty() && group.name != group.material) message += " (of \"" + group.name + "\")";
-    std::string hint = "there are " + join(reader_.materials.names(), ", ") + ": write for example material_map=[[\"" +
-                       group.material + "\", \"" + reader_.materials.first().name + "\"]]";
-    if (group.colour) hint += ", or materials=\"colours\" for those of the nearest colours";
+    Phrase hint = "there are " + join(reader_.materials.names(), ", ") + ": write for example " +
+                  spelled::parameter("material_map",
+                                     "[[\"" + group.material + "\", \"" + reader_.materials.first().name + "\"]]");
+    if (group.colour)
+      hint = hint + ", or " + spelled::parameter("materials", "\"colours\"") + " for those of the nearest colours";
     fail(message + ", which is not among the design's", hint);
   }
 
@@ -119,13 +123,14 @@ class MaterialFinder {
 namespace {
 
 // Where bodies have names, each can be taken by itself.
-std::string remedy_of(const formats::Mesh& mesh) {
+Phrase remedy_of(const formats::Mesh& mesh) {
   const std::string other = "use a 3MF, AMF or OBJ file that has them";
   const std::vector<std::string> names = formats::object_names(mesh);
   if (formats::all_groups(mesh).size() < 2 || names.size() < 2) return other;
   // The last ones are bodies also where the first is what they make up.
-  return "give each of its bodies a mesh and a material of its own, with object=\"" + names[names.size() - 2] +
-         "\", object=\"" + names.back() + "\" and so on, or " + other;
+  return "give each of its bodies a mesh and a material of its own, with " +
+         spelled::parameter("object", '"' + names[names.size() - 2] + '"') + ", " +
+         spelled::parameter("object", '"' + names.back() + '"') + " and so on, or " + other;
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct GroupedFile {
   std::string kind;  // "the mesh"
   std::string node;  // that reads it
   std::string path;
-  std::string remedy;  // where it names none: "use another"
+  Phrase remedy;  // where it names none: "use another"
 };
 
 // The design's material of each group. Nothing, and diagnostics, where the file says less of materials than `use` asks

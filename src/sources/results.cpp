@@ -22,7 +22,7 @@ std::string names_of(const formats::Results& results) {
 // The field that is meant. Null, and a diagnostic, where that is not clear.
 const formats::ResultField* field_of(const formats::Results& results, const ResultsRequest& request,
                                      const Reader& reader) {
-  const auto fail = [&](const std::string& message, const std::string& hint) {
+  const auto fail = [&](const std::string& message, const Phrase& hint) {
     reader.diagnostics.error(reader.where, message, hint);
     return nullptr;
   };
@@ -30,7 +30,8 @@ const formats::ResultField* field_of(const formats::Results& results, const Resu
   const std::string hint = "the file has the fields " + names_of(results);
   if (request.field.empty() && results.fields.size() == 1) return &results.fields.front();
   if (request.field.empty())
-    return fail("which field of " + file + " is meant is not said", hint + "; write field=...");
+    return fail("which field of " + file + " is meant is not said",
+                hint + "; write " + spelled::parameter("field", "..."));
   const formats::ResultField* field = formats::find_field(results, request.field);
   if (!field) return fail(file + " have no field, or several, that \"" + request.field + "\" calls", hint);
   for (const double value : field->values)
@@ -99,7 +100,7 @@ importing::OutsideRule rule_of(const ResultsRequest& request) {
 bool fits_rule(const ResultsRequest& request, const LoadedResults& loaded, const Reader& reader) {
   if (!request.within_mm || !loaded.mesh || request.outside == "nearest") return true;
   reader.diagnostics.error(reader.where, "results has `within`, which is for outside=\"nearest\"",
-                           "write outside=\"nearest\" as well");
+                           "write " + spelled::parameter("outside", "\"nearest\"") + " as well");
   return false;
 }
 

@@ -153,7 +153,9 @@ solids::Pieces of_part(const ScadRequest& request, const solids::Pieces& pieces,
   std::string hint = did_you_mean(request.part, names);
   if (hint.empty())
     hint = names.empty() ? "its solids have no parts: leave part out" : "there are \"" + join(names, "\", \"") + '"';
-  reader.diagnostics.error(reader.where, '"' + request.file.path + "\" has no part \"" + request.part + '"', hint);
+  reader.diagnostics.error(Code::unknown_part, reader.where,
+                           '"' + request.file.path + "\" has no part \"" + request.part + '"', hint,
+                           {{"part", request.part}});
   return own;
 }
 
@@ -162,7 +164,8 @@ solids::Pieces of_part(const ScadRequest& request, const solids::Pieces& pieces,
 std::shared_ptr<const ScadSolids> ScadRequest::load(sources::Loading& loading) {
   const Reader& reader = loading.reader();
   if (!solids::has_kernel()) {
-    reader.diagnostics.error(reader.where, "OpenSCAD scripts cannot be used: this ombre was built without CGAL");
+    reader.diagnostics.error(Code::library_missing, reader.where,
+                             "OpenSCAD scripts cannot be used: this ombre was built without CGAL");
     return nullptr;
   }
   if (script.empty() && (!loading.find(file) || !loading.look_at(file))) return nullptr;

@@ -29,7 +29,8 @@ bool is_font_file(const std::string& name) {
 }
 
 void no_font(const std::string& name, const Reader& reader) {
-  reader.diagnostics.error(reader.where, "there is no font \"" + name + "\", and none to take its place",
+  reader.diagnostics.error(Code::unknown_font, reader.where,
+                           "there is no font \"" + name + "\", and none to take its place",
                            "install fonts-dejavu-core, or give the path of a .ttf or .otf file");
 }
 
@@ -39,7 +40,8 @@ std::optional<Font> system_font(const std::string& name, const TextRequest& use,
   if (found && !found->has_name) {
     const auto usual = draw::search_font(usual_font, wants_bold(use), wants_italic(use));
     if (usual && usual->has_name) found = usual;
-    reader.diagnostics.warning(reader.where, "there is no font \"" + name + "\": " + found->family + " takes its place",
+    reader.diagnostics.warning(Code::unknown_font, reader.where,
+                               "there is no font \"" + name + "\": " + found->family + " takes its place",
                                "install it, or give the path of a .ttf or .otf file");
   }
   if (!found) {
@@ -96,7 +98,7 @@ void warn_of_missing(const std::vector<std::string>& missing, const std::string&
 }  // namespace
 
 std::shared_ptr<const program::FieldSource> TextRequest::load(sources::Loading& loading) {
-  const auto fail = [](const Reader& reader, const std::string& message, const std::string& hint = "") {
+  const auto fail = [](const Reader& reader, const std::string& message, const Phrase& hint = {}) {
     reader.diagnostics.error(reader.where, message, hint);
     return nullptr;
   };
@@ -115,7 +117,9 @@ std::shared_ptr<const program::FieldSource> TextRequest::load(sources::Loading& 
     auto outlines = draw::outline_text(*loading.bytes(file), found->index, text, layout_of(*this, found->slant));
     if (!outlines) return {fail(reader, found->file + " is not a font with outlines that can be read"), 0};
     if (outlines->rings.empty())
-      return {fail(reader, "text has no letters that can be seen", "write for example text(\"A1\")"), 0};
+      return {fail(reader, "text has no letters that can be seen",
+                   "write for example " + spelled::either("text(\"A1\")", "\"text\": \"A1\"", "ombre.text(\"A1\")")),
+              0};
     warn_of_missing(outlines->missing, font.name, reader);
     constexpr size_t bytes_per_letter = 20'000;
     return {importing::make_polygon_source("text", {std::move(outlines->rings), {}}), bytes_per_letter * text.size()};

@@ -24,10 +24,11 @@ size_t most_leaves(size_t grid_leaves, size_t memory_bytes) {
   if (memory_bytes == 0) return wanted;
   const double allowed = static_cast<double>(memory_bytes) / bytes_per_mixed_cell;
   if (static_cast<double>(grid_leaves) > allowed)
-    throw Error(format_count(grid_leaves) + " cells at the surface take about " +
-                format_bytes(static_cast<double>(grid_leaves) * bytes_per_mixed_cell) + " of memory, more than the " +
-                format_bytes(static_cast<double>(memory_bytes)) +
-                " allowed; choose a larger --cell or --tolerance, or more --memory");
+    throw Error(Code::memory, format_count(grid_leaves) + " cells at the surface take about " +
+                                  format_bytes(static_cast<double>(grid_leaves) * bytes_per_mixed_cell) +
+                                  " of memory, more than the " + format_bytes(static_cast<double>(memory_bytes)) +
+                                  " allowed; choose a larger " + spelled::option("--cell") + " or " +
+                                  spelled::option("--tolerance") + ", or more " + spelled::option("--memory"));
   return std::min(wanted, static_cast<size_t>(allowed));
 }
 

@@ -20,6 +20,7 @@ ReadTiff load_tiff_module() {
 
 ReadTiff load_tiff_module() {
   throw Error(
+      Code::library_missing,
       "this ombre was built without libtiff; install libtiff-dev, configure with -DOMBRE_TIFF=ON and build again, or "
       "save the images as PNG");
 }

@@ -19,9 +19,9 @@ ReadGrid load_reader() {
 #else
 
 ReadGrid load_reader() {
-  throw Error(
-      "this ombre was built without OpenVDB; install libopenvdb-dev and libnanovdb-dev, configure with "
-      "-DOMBRE_OPENVDB=ON and build again, or save the grid as a .nrrd file");
+  throw Error(Code::library_missing,
+              "this ombre was built without OpenVDB; install libopenvdb-dev and libnanovdb-dev, configure with "
+              "-DOMBRE_OPENVDB=ON and build again, or save the grid as a .nrrd file");
 }
 
 #endif

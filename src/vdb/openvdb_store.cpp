@@ -92,7 +92,8 @@ auto guarded(const std::string& what, F f) {
   try {
     return f();
   } catch (const std::bad_alloc&) {
-    throw Error(what + ": not enough memory; choose larger voxels with --voxel, or a part with --box");
+    throw Error(Code::memory, what + ": not enough memory; choose larger voxels with " + spelled::option("--voxel") +
+                                  ", or a part with " + spelled::option("--box"));
   } catch (const std::exception& error) {
     throw Error(what + ": " + error.what());
   }

@@ -19,9 +19,9 @@ MakeGridStore load_module() {
 #else
 
 MakeGridStore load_module() {
-  throw Error(
-      "this ombre was built without OpenVDB; install libopenvdb-dev and libnanovdb-dev, configure with "
-      "-DOMBRE_OPENVDB=ON and build again, or write a .nrrd file");
+  throw Error(Code::library_missing,
+              "this ombre was built without OpenVDB; install libopenvdb-dev and libnanovdb-dev, configure with "
+              "-DOMBRE_OPENVDB=ON and build again, or write a .nrrd file");
 }
 
 #endif

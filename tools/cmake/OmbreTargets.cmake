@@ -56,10 +56,10 @@ endfunction()
 
 # ombre_module(<name> FOR <folder> SOURCES files [LINKS third-party libraries])
 # What src/<folder> loads from OMBRE_<NAME>_MODULE when it is first needed (base/module_loader.h), since loading the
-# libraries takes longer than many jobs. It shares no code with the program.
+# libraries takes longer than many jobs. It shares no code with the program, and has its own of what errors need.
 function(ombre_module name)
   cmake_parse_arguments(ARG "" "FOR" "SOURCES;LINKS" ${ARGN})
-  add_library(ombre_${name} MODULE ${ARG_SOURCES})
+  add_library(ombre_${name} MODULE ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/src/base/phrase.cpp)
   target_include_directories(ombre_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(ombre_${name} PRIVATE ${ARG_LINKS})
   string(TOUPPER ${name} variable)

@@ -43,6 +43,7 @@ void work(RunningCommand& command) {
   cli::Host host;
   host.stop = &command.stop;
   host.cache = command.cache.get();
+  host.front_end = FrontEnd::python;
   host.on_event = [&](const DataMembers& event) {
     const std::scoped_lock lock(command.mutex);
     command.events.push_back(event);

@@ -147,14 +147,18 @@ py::list to_python(const Diagnostics& diagnostics) {
     py::dict entry;
     entry["severity"] = std::string(name_of(diagnostic.severity));
     entry["message"] = diagnostic.message;
-    entry["hint"] = diagnostic.hint;
+    entry["hint"] = hint_of(diagnostic, FrontEnd::python);
+    entry["code"] = std::string(name_of(diagnostic.code));
+    py::dict values;
+    for (const auto& [name, value] : diagnostic.values) values[py::str(name)] = value;
+    entry["values"] = values;
     if (diagnostic.where.source) {
       const Place place = diagnostic.where.source->place(diagnostic.where.begin);
       entry["file"] = diagnostic.where.source->name();
       entry["line"] = place.line;
       entry["column"] = place.column;
     }
-    entry["text"] = to_text(diagnostic);
+    entry["text"] = to_text(diagnostic, FrontEnd::python);
     list.append(entry);
   }
   return list;

@@ -152,7 +152,14 @@ def run(command, arguments, options, design=None, progress=None):
         raise KeyboardInterrupt
     if code:
         text = "\n".join(_message_text(m) for m in messages if m["severity"] != "warning" or code == 3)
-        error = {1: DesignError, 3: CheckError}.get(code, MachineError)(text or f"{command} failed with code {code}")
+        text = text or f"{command} failed with code {code}"
+        if code in (1, 3):
+            error = {1: DesignError, 3: CheckError}[code](text, messages)
+        else:
+            error = MachineError(text)
+            for message in messages:
+                if message["severity"] == "error":
+                    error.code, error.values = message["code"], message["values"]
         if code == 3:
             error.checks = [{k: v for k, v in e.items() if k != "event"} for e in events if e["event"] == "check"]
         raise error

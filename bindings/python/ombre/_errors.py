@@ -2,23 +2,38 @@
 import warnings
 
 
+def _first_error(diagnostics):
+    return next((d for d in diagnostics if d["severity"] == "error"), {})
+
+
 class DesignError(ValueError):
     """A design, or the arguments of a job, are wrong.
 
-    `diagnostics` lists what was found: dictionaries with severity, message, hint and, where known, file, line and
-    column.
+    `diagnostics` lists what was found: dictionaries with severity, message, hint, code, values and, where known, file,
+    line and column. `code` is that of the first error, as docs/reference/codes.md lists them ("unknown-node"), `values`
+    what it is about, {"node": "sphre"}.
     """
 
     def __init__(self, message, diagnostics=()):
         super().__init__(message)
         self.diagnostics = list(diagnostics)
 
+    @property
+    def code(self):
+        return _first_error(self.diagnostics).get("code", "")
+
+    @property
+    def values(self):
+        return dict(_first_error(self.diagnostics).get("values", {}))
+
     def __reduce__(self):
         return type(self), (str(self), self.diagnostics)
 
 
 class MachineError(OSError):
-    """A file, a disk or the memory failed."""
+    """A file, a disk or the memory failed. `code` and `values` say in which way, as those of DesignError do."""
+
+    code, values = "machine", {}
 
 
 class CheckError(DesignError):

@@ -33,9 +33,14 @@ __version__: str
 
 class DesignError(ValueError):
     diagnostics: list[dict[str, Any]]
+    code: str
+    values: dict[str, str]
     def __init__(self, message: str, diagnostics: Sequence[dict[str, Any]] = ...) -> None: ...
 
-class MachineError(OSError): ...
+class MachineError(OSError):
+    code: str
+    values: dict[str, str]
+
 class CheckError(DesignError):
     checks: Sequence[dict[str, Any]]
     point: Optional[tuple[float, float, float]]

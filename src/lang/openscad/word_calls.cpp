@@ -115,7 +115,7 @@ void Evaluator::tell_words(const Diagnostics& found, const ast::Span& where) {
     return is_here ? ast::Span{where.source, diagnostic.where.begin, diagnostic.where.end} : where;
   };
   for (const Diagnostic& diagnostic : found.list()) {
-    const std::string text = diagnostic.message + (diagnostic.hint.empty() ? "" : "; " + diagnostic.hint);
+    const std::string text = sentence_of(diagnostic);
     if (diagnostic.severity == Severity::warning) warn(text, place_of(diagnostic));
     if (diagnostic.severity == Severity::note) say(Message::Kind::note, text, place_of(diagnostic));
   }

@@ -112,7 +112,7 @@ NodePtr with_facets(NodePtr round, const Invocation& call, const design::Registr
   if (!round || !(call.facets > 0 && call.facets < least_round)) return round;
   const std::string& name = round->type().name;
   const int sides = std::max(3, static_cast<int>(call.facets));
-  const auto warn = [&](const std::string& what, const std::string& hint) {
+  const auto warn = [&](const std::string& what, const Phrase& hint) {
     reader.diagnostics.warning(reader.where, "$fn=" + std::to_string(sides) + " does nothing to " + what, hint);
     return round;
   };

@@ -42,8 +42,9 @@ std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std
       ++positional;
       while (position < taken.size() && taken[position]) ++position;
       if (position == taken.size()) {
-        reader.diagnostics.error(where, type.name + " takes at most " + std::to_string(type.parameters.size()) +
-                                            " arguments: (" + join(type.parameter_names(), ", ") + ")");
+        reader.diagnostics.error(Code::unknown_parameter, where,
+                                 type.name + " takes at most " + std::to_string(type.parameters.size()) +
+                                     " arguments: (" + join(type.parameter_names(), ", ") + ")");
         return std::nullopt;
       }
       index = static_cast<int>(position);
@@ -52,7 +53,7 @@ std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std
     }
     if (index < 0 && rest >= 0) {
       if (std::ranges::find(variables, argument.name, &DataMembers::value_type::first) != variables.end()) {
-        reader.diagnostics.error(where, '"' + argument.name + "\" of " + type.name + " is given twice");
+        reader.diagnostics.error(Code::twice, where, '"' + argument.name + "\" of " + type.name + " is given twice");
         good = false;
       }
       variables.emplace_back(argument.name, std::move(argument.value));
@@ -63,18 +64,24 @@ std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std
       if (hint.empty()) hint = did_you_mean(argument.name, type.parameter_names());
       if (hint.empty())
         hint = type.parameters.empty() ? "it takes none" : "it has " + join(type.parameter_names(), ", ");
-      reader.diagnostics.error(where, type.name + " has no parameter \"" + argument.name + "\"", hint);
+      reader.diagnostics.error(Code::unknown_parameter, where,
+                               type.name + " has no parameter \"" + argument.name + "\"", hint,
+                               {{"node", type.name},
+                                {"parameter", argument.name},
+                                {"similar", closest_name(argument.name, type.parameter_names()).value_or("")}});
       good = false;
       continue;
     }
     const auto at = static_cast<size_t>(index);
     if (is_block_of_openscad(type.name, type.parameters[at].name, argument.value)) {
-      reader.diagnostics.error(where, "cube has one side", "for three write rectprism([30, 20, 10])");
+      reader.diagnostics.error(Code::parameter_type, where, "cube has one side",
+                               "for three write rectprism([30, 20, 10])");
       good = false;
       continue;
     }
     if (taken[at]) {
-      reader.diagnostics.error(where, "\"" + type.parameters[at].name + "\" of " + type.name + " is given twice");
+      reader.diagnostics.error(Code::twice, where,
+                               "\"" + type.parameters[at].name + "\" of " + type.name + " is given twice");
       good = false;
       continue;
     }
@@ -83,7 +90,7 @@ std::optional<std::vector<NamedValue>> bound_arguments(const NodeType& type, std
   }
   if (!variables.empty() && taken[static_cast<size_t>(rest)]) {
     reader.diagnostics.error(
-        reader.where,
+        Code::twice, reader.where,
         type.name + " gets values both by name and by \"" + type.parameters[static_cast<size_t>(rest)].name + '"',
         "write all of them one way");
     return std::nullopt;

@@ -176,7 +176,7 @@ std::vector<NodePtr> VcadVocabulary::groups(const NodeType& type, const Invocati
 }
 
 NodePtr VcadVocabulary::make_root(Invocation& call, Diagnostics& diagnostics) {
-  const auto fail = [&](const SourceRange& where, const std::string& message, const std::string& hint = "") {
+  const auto fail = [&](const SourceRange& where, const std::string& message, const Phrase& hint = {}) {
     diagnostics.error(where, message, hint);
     return nullptr;
   };
