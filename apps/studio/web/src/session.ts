@@ -173,6 +173,13 @@ async function saveNow() {
 }
 
 function takeFromDisk(disk: Reply) {
+  // Another window with the same draft may have saved it first.
+  if (fromDisk(disk.text) === editor!.text()) {
+    version = disk.version;
+    savedText = editor!.text();
+    localStorage.removeItem(draftKey(state.file));
+    return set({ saved: "saved", saveProblem: "", conflict: undefined });
+  }
   if (fromDisk(disk.text) === sentText) {
     version = disk.version;
     savedText = sentText;
