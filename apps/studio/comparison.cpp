@@ -14,7 +14,7 @@ namespace {
 
 using voxel::TileBox;
 
-// Two designs on one lattice.
+// Samples two designs on one lattice.
 class Pair {
  public:
   Pair(const OpenDesign& before, const OpenDesign& after, const StopFlag& stop)
@@ -22,7 +22,7 @@ class Pair {
         sides_{sample(before, box_, measured_voxels, stop), sample(after, box_, measured_voxels, stop)} {
     for (const SampledDesign& side : sides_) side.job.stages->prepare({});
   }
-  // Their materials by name, since another file of materials numbers them otherwise.
+  // Lists the materials of both by name, since another file of materials numbers them otherwise.
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const SampledDesign& side : sides_)
@@ -46,7 +46,7 @@ class Pair {
   std::array<SampledDesign, 2> sides_;
 };
 
-// Fractions of each of the materials in each voxel of the slab, material after material.
+// Returns the fractions of each of the materials in each voxel of the slab, material after material.
 std::vector<float> fractions(const SampledDesign& design, const std::vector<std::string>& names, const TileBox& slab,
                              const StopFlag& stop) {
   const auto voxels = static_cast<size_t>(slab.voxels());
@@ -61,13 +61,13 @@ std::vector<float> fractions(const SampledDesign& design, const std::vector<std:
           const int64_t row = ((k - slab.lo[2]) * slab.size(1) + j - slab.lo[1]) * slab.size(0);
           float* to = dense.data() + static_cast<size_t>(name) * voxels + row + (tile.box.lo[0] - slab.lo[0]);
           for (int64_t i = 0; i < tile.box.size(0); ++i, from += tile.is_uniform ? 0 : 1)
-            *to++ = *from > 0 ? *from : 0;  // not NaN
+            *to++ = *from > 0 ? *from : 0;  // NaN becomes 0
         }
     }
   return dense;
 }
 
-// Sums over voxels.
+// Adds up, over voxels, the shares of a voxel that were gained, lost and so on.
 struct Sums {
   explicit Sums(size_t materials) : before(materials, 0), after(materials, 0) {}
   void add(const Sums& other) {

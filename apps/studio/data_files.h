@@ -9,15 +9,17 @@ namespace ombre::studio {
 
 enum class DataKind : uint8_t { none, scan, results, table };
 
-// By the ending of the name. A folder of DICOM files is a scan too, whose name does not say so.
+// Tells the kind of a file by the ending of its name. A folder of DICOM files is a scan too, but its name does not say
+// so.
 DataKind data_kind(const std::string& name);
-std::string_view name_of(DataKind kind);  // "scan", "results", "table"; empty: none
-// Does the folder hold a file that ends in .dcm?
+// Returns "scan", "results" or "table", as requests have it; empty for none.
+std::string_view name_of(DataKind kind);
+// Returns whether the folder holds a file that ends in .dcm.
 bool is_dicom_folder(const std::filesystem::path& folder);
 
-// A script for `.vcad` that shows the file: its name there is `name`, and it lies at `path`. Of a scan, the solid from
-// a level on; of results, the mesh with an attribute for each number, moved by its displacement. Throws Error for a
-// file that cannot be read.
+// Each writes a `.vcad` script that shows the file, which the script calls `name` and which lies at `path`. The script
+// for a scan shows the solid that has at least a level; the script for results shows the mesh, moved by its
+// displacement, with an attribute for each number. They throw Error for a file that cannot be read.
 std::string script_for_scan(const std::string& name, const std::filesystem::path& path);
 std::string script_for_results(const std::string& name, const std::filesystem::path& path);
 

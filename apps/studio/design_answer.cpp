@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "base/text.h"
 #include "compile/question.h"
@@ -12,38 +13,32 @@
 namespace ombre::studio {
 namespace {
 
-// Deeper or wider designs are shown in part.
 constexpr size_t most_nodes = 3000;
 
 class NodeLister {
  public:
-  explicit NodeLister(const SourcePtr& source) : source_(source), offsets_(source->text()) {}
-
-  // The parts' nodes first, and then those below them.
-  DataList list(const std::vector<design::Part>& parts) {
-    for (const design::Part& part : parts) part_nodes_.emplace_back(number(number_of(part.solid.get())));
-    for (size_t n = 0; n < waiting_.size(); ++n) nodes_.emplace_back(describe_one(*waiting_[n], n));
-    return std::move(nodes_);
+  NodeLister(const design::Design& design, const SourcePtr& source)
+      : nodes_(listed_nodes(design)), source_(source), offsets_(source->text()) {
+    for (size_t n = 0; n < nodes_.size(); ++n) numbers_.emplace(nodes_[n], n);
   }
-  // Returns the numbers of the parts' nodes. To be called after list().
-  DataList part_nodes() { return std::move(part_nodes_); }
+
+  DataList list() const {
+    DataList list;
+    for (size_t n = 0; n < nodes_.size(); ++n) list.emplace_back(describe_one(*nodes_[n], n));
+    return list;
+  }
+  DataList numbers(const std::vector<design::NodePtr>& nodes) const { return numbers(std::span(nodes)); }
 
  private:
-  size_t number_of(const design::Node* node) {
-    const auto [known, is_new] = numbers_.try_emplace(node, waiting_.size());
-    if (is_new) waiting_.push_back(node);
-    return known->second;
-  }
-
-  DataList numbers(std::span<const design::NodePtr> nodes) {
+  DataList numbers(std::span<const design::NodePtr> nodes) const {
     DataList list;
     for (const design::NodePtr& node : nodes)
-      if (waiting_.size() < most_nodes || numbers_.contains(node.get()))
-        list.emplace_back(number(number_of(node.get())));
+      if (const auto known = numbers_.find(node.get()); known != numbers_.end())
+        list.emplace_back(number(known->second));
     return list;
   }
 
-  DataMembers describe_one(const design::Node& node, size_t id) {
+  DataMembers describe_one(const design::Node& node, size_t id) const {
     DataMembers members{{"id", number(id)},
                         {"category", node.type().category},
                         {"inputs", numbers(node.inputs())},
@@ -53,11 +48,10 @@ class NodeLister {
     return members;
   }
 
+  std::vector<const design::Node*> nodes_;
   const SourcePtr& source_;
   PageOffsets offsets_;
-  std::vector<const design::Node*> waiting_;
   std::unordered_map<const design::Node*, size_t> numbers_;
-  DataList nodes_, part_nodes_;
 };
 
 DataMembers describe_material(const design::Material& material) {
@@ -72,7 +66,7 @@ DataMembers describe_material(const design::Material& material) {
 DataList describe_materials(const OpenDesign& open) {
   const design::Design& design = open.loaded->design;
   Diagnostics ignored;
-  const auto used = compile::materials_within(design, open.bounds, 0, ignored);
+  const auto used = compile::materials_within(design, open.bounds, 0, ignored, &open.memory);
   DataList list;
   for (const design::Material& material : design.materials.all())
     if (material.id > 0 && (!used || std::ranges::find(*used, material.id) != used->end()))
@@ -91,6 +85,19 @@ std::string remark_behind(const SourceText& source, const SourceRange& value) {
 }
 
 }  // namespace
+
+std::vector<const design::Node*> listed_nodes(const design::Design& design) {
+  std::vector<const design::Node*> nodes;
+  std::unordered_set<const design::Node*> known;
+  const auto add = [&](const design::NodePtr& node) {
+    if (known.insert(node.get()).second) nodes.push_back(node.get());
+  };
+  for (const design::Part& part : design.parts) add(part.solid);
+  for (size_t n = 0; n < nodes.size(); ++n)
+    for (const design::NodePtr& node : nodes[n]->dependencies())
+      if (nodes.size() < most_nodes) add(node);
+  return nodes;
+}
 
 DataMembers describe_call(const design::Node& node, const SourcePtr& page_text, const PageOffsets& offsets) {
   DataMembers members{{"type", node.type().name}};
@@ -143,15 +150,14 @@ DataMembers describe_design(const OpenDesign& open, const SourcePtr& page_text) 
   for (const design::AttributeDeclaration& declared : compile::declared_attributes(design))
     attributes.emplace_back(DataMembers{
         {"name", declared.name}, {"type", std::string(design::name(declared.type))}, {"unit", declared.unit}});
-  NodeLister lister(page_text);
-  DataList nodes = lister.list(design.parts);
+  const NodeLister lister(design, page_text);
   return {{"design", open.handle},
           {"bounds_mm", DataList{list_of(open.bounds.lo), list_of(open.bounds.hi)}},
           {"materials", describe_materials(open)},
           {"parts", std::move(parts)},
           {"attributes", std::move(attributes)},
-          {"part_nodes", lister.part_nodes()},
-          {"nodes", std::move(nodes)}};
+          {"part_nodes", lister.numbers(design.roots())},
+          {"nodes", lister.list()}};
 }
 
 }  // namespace ombre::studio

@@ -3,6 +3,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "base/data.h"
 #include "studio/designs.h"
@@ -18,6 +19,10 @@ DataMembers describe_design(const OpenDesign& design, const SourcePtr& page_text
 
 // "type", and where its call stands in the page's text: "from", "to", "line", if it does.
 DataMembers describe_call(const design::Node& node, const SourcePtr& page_text, const PageOffsets& offsets);
+
+// The nodes of a design as describe_design() numbers them: the parts' first, and then those below them. Deeper or wider
+// designs are listed in part.
+std::vector<const design::Node*> listed_nodes(const design::Design& design);
 
 // The files that its nodes name, where they were found.
 std::set<std::string> design_files(const design::Design& design);

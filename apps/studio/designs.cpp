@@ -35,6 +35,7 @@ CutDesignPtr OpenDesign::make(const Cutting& cutting) const {
   made->printer = *printer;
   compile::PlanOptions options;
   options.program = program_;
+  options.memory = &memory;
   options.printer = *printer;
   options.printer_given = cutting.printer != "generic";
   const auto dither = voxel::dither(cutting.dither);
@@ -59,7 +60,7 @@ CutDesignPtr OpenDesign::make(const Cutting& cutting) const {
 
 OpenDesignPtr Designs::add(const compile::LoadedPtr& loaded, const Box& bounds, const std::string& program) {
   const std::lock_guard lock(mutex_);
-  kept_.push_front(std::make_shared<OpenDesign>("d" + std::to_string(++count_), loaded, bounds, program));
+  kept_.push_front(std::make_shared<OpenDesign>("d" + std::to_string(++count_), loaded, bounds, program, memory_));
   if (kept_.size() > most) kept_.pop_back();
   return kept_.front();
 }

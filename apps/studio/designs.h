@@ -10,6 +10,7 @@
 
 #include "base/box.h"
 #include "compile/load.h"
+#include "compile/sub_design_cache.h"
 #include "studio/messages.h"
 
 namespace ombre::studio {
@@ -36,12 +37,15 @@ using CutDesignPtr = std::shared_ptr<const CutDesign>;
 // A design that was loaded. Thread-safe.
 class OpenDesign {
  public:
-  OpenDesign(std::string name, compile::LoadedPtr design, const Box& box, std::string program)
-      : handle(std::move(name)), loaded(std::move(design)), bounds(box), program_(std::move(program)) {}
+  // The memory outlives it.
+  OpenDesign(std::string name, compile::LoadedPtr design, const Box& box, std::string program,
+             design::SubDesignMemory& kept)
+      : handle(std::move(name)), loaded(std::move(design)), bounds(box), memory(kept), program_(std::move(program)) {}
 
   const std::string handle;
   const compile::LoadedPtr loaded;
   const Box bounds;
+  design::SubDesignMemory& memory;  // of what was made of the design's parts, and of other designs'
 
   // Planned when it is first asked for, and kept. Throws RequestError, which says what is wrong, when the design cannot
   // be cut so.
@@ -65,11 +69,14 @@ class Designs {
  public:
   static constexpr size_t most = 12;
 
+  // The memory outlives all that is added.
+  explicit Designs(design::SubDesignMemory& memory) : memory_(memory) {}
   OpenDesignPtr add(const compile::LoadedPtr& loaded, const Box& bounds, const std::string& program);
   // Throws RequestError "gone" for one that is no longer kept: it is to be loaded again.
   OpenDesignPtr find(const std::string& handle);
 
  private:
+  design::SubDesignMemory& memory_;
   std::mutex mutex_;
   std::list<OpenDesignPtr> kept_;  // the most recently used first
   uint64_t count_ = 0;

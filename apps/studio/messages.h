@@ -23,30 +23,30 @@ class RequestError : public std::runtime_error {
   std::string code_;
 };
 
-// {"id": 7, "do": "render", ...}
+// One request of a client: {"id": 7, "do": "render", ...}.
 struct Request {
   double id = 0;
   std::string what;
   std::string lane;  // a newer request of the same lane and connection cancels this one; empty: none does
-  Data body;         // the whole object
+  Data body;         // the whole JSON object
 
-  // Members of the body. The first throw RequestError when the member is missing or of another type, the others only
-  // when it is of another type.
+  // These return members of the body. Those without `otherwise` throw RequestError when the member is missing or of
+  // another type, the others only when it is of another type.
   const std::string& text(std::string_view name) const;
   double number(std::string_view name) const;
   std::string text(std::string_view name, const std::string& otherwise) const;
   double number(std::string_view name, double otherwise) const;
-  // Within these bounds, and whole.
+  // Throws RequestError unless the number is whole and within these bounds.
   int64_t whole(std::string_view name, int64_t least, int64_t most) const;
   bool flag(std::string_view name) const;
   std::vector<std::string> texts(std::string_view name) const;
   std::vector<double> numbers(std::string_view name, size_t count) const;
 };
 
-// Throws RequestError for what is no request.
+// Reads the text of a frame; throws RequestError for what is no request.
 Request parse_request(const std::string& text);
 
-// An answer: its members, and bytes where it has some (a picture, a grid).
+// An answer has members, and some answers have bytes behind them (a picture, a grid).
 struct Answer {
   DataMembers members;
   std::string bytes;
@@ -61,7 +61,7 @@ Frame frame_of(double id, const Answer& answer);
 Frame frame_of_error(double id, const std::string& code, const std::string& message);
 Frame frame_of_event(const std::string& event, DataMembers members);
 
-// Places in a text as the page counts them, in units of UTF-16.
+// Turns places in a text, in bytes, into those that the page counts, in units of UTF-16.
 class PageOffsets {
  public:
   explicit PageOffsets(std::string_view text);
@@ -70,11 +70,11 @@ class PageOffsets {
  private:
   static constexpr size_t block = 256;
   std::string_view text_;
-  std::vector<size_t> units_before_;  // of each block
+  std::vector<size_t> units_before_;  // how many units stand before each block of bytes
 };
 
-// [{"severity", "message", "hint", "file", "line", "column", "from", "to"}]; the last two where it is about the text of
-// `source`.
+// Returns a list of {"severity", "message", "hint", "file", "line", "column", "from", "to"}; the last two are there
+// where the diagnostic is about the text of `source`.
 DataList describe(const Diagnostics& diagnostics, const SourcePtr& source);
 
 }  // namespace ombre::studio

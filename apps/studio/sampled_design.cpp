@@ -20,7 +20,8 @@ Pitch pitch_for(const Box& box, double voxels) {
 
 }  // namespace
 
-SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, const StopFlag& stop) {
+SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, const StopFlag& stop,
+                     const compile::GridWishes& wishes) {
   Diagnostics diagnostics;
   const auto printer = compile::find_printer("generic", diagnostics);
   if (!printer) throw design_error(diagnostics);
@@ -28,10 +29,9 @@ SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, co
   options.printer = *printer;
   options.pitch.fill(pitch_for(box, voxels));
   options.stop = &stop;
+  options.memory = &design.memory;
   auto plan = compile::plan_over(design.loaded, box, options, diagnostics);
   if (!plan) throw design_error(diagnostics);
-  compile::GridWishes wishes;
-  wishes.fractions = true;
   const auto& count = plan->request.lattice.count;
   auto job =
       compile::plan_grids(design.loaded, *plan, wishes, {{0, 0, 0}, {count[0], count[1], count[2]}}, diagnostics);

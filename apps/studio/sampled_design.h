@@ -1,4 +1,4 @@
-// A design's materials on a coarse lattice of cubes.
+// What a design is made of, on a coarse lattice of cubes.
 #pragma once
 
 #include "base/progress.h"
@@ -11,13 +11,21 @@ constexpr double measured_voxels = 1e6;  // that volumes are told by
 
 struct SampledDesign {
   compile::Plan plan;
-  compile::GridJob job;  // a grid for each material: its fraction
+  compile::GridJob job;  // the grids that were wanted
 
   double pitch_mm() const { return plan.request.lattice.pitch[0].mm(); }
 };
 
+// A grid for each material: its fraction.
+inline compile::GridWishes all_fractions() {
+  compile::GridWishes wishes;
+  wishes.fractions = true;
+  return wishes;
+}
+
 // About so many voxels fill the box: equal boxes and numbers give equal lattices. Throws RequestError for what cannot
 // be sampled, and Cancelled.
-SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, const StopFlag& stop);
+SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, const StopFlag& stop,
+                     const compile::GridWishes& wishes = all_fractions());
 
 }  // namespace ombre::studio

@@ -91,6 +91,7 @@ const std::vector<Studio::Kind>& Studio::kinds() {
                                       {"delete_preset", &Studio::delete_preset},
                                       {"load", &Studio::load},
                                       {"render", &Studio::show<picture_answer>},
+                                      {"thumbnail", &Studio::show<thumbnail_answer>},
                                       {"plan", &Studio::show<plan_answer>},
                                       {"tile", &Studio::show<tile_answer>},
                                       {"probe", &Studio::show<probe_answer>},
@@ -211,7 +212,7 @@ void Studio::look_around() {
     tell_all("changed", {{"file", change.name}, {"version", change.version}});
 }
 
-// The files of the folder: designs, and the data beside them.
+// Lists the files of the folder: designs, and the data beside them.
 DataMembers Studio::listed() const {
   DataList data;
   for (const Workspace::DataFile& file : workspace_.list_data())
@@ -244,7 +245,7 @@ Answer Studio::hello(const Request&, const StopFlag&) {
 
 Answer Studio::list(const Request&, const StopFlag&) { return {listed(), {}}; }
 
-// Of a scan and of results the text is a script that shows them.
+// The answer for a scan or for results has as text a script that shows them.
 Answer Studio::open(const Request& request, const StopFlag&) {
   const std::string& name = request.text("file");
   const std::filesystem::path path = workspace_.path(name);
@@ -273,7 +274,7 @@ Answer Studio::save(const Request& request, const StopFlag&) {
   return {{{"saved", true}, {"version", version}}, {}};
 }
 
-// Names as a script writes them, from its own folder on.
+// The answer names files as a script writes them, from its own folder on.
 Answer Studio::files_ending_in(const Request& request, const StopFlag&) {
   const std::string& script = request.text("file");
   const std::filesystem::path from = std::filesystem::path(workspace_.name_of(workspace_.path(script))).parent_path();

@@ -52,6 +52,8 @@ class Studio {
   void look_around();
   // How long it has had neither a client nor a job at work.
   double idle_seconds();
+  // How often something was made of a sub-design, and how often it was there already.
+  compile::SubDesignCache::Counts counts() const { return memory_.counts(); }
 
  private:
   struct Kind;
@@ -99,7 +101,9 @@ class Studio {
   Workspace workspace_;
   Scans scans_;
   Presets presets_;
-  Designs designs_;
+  sources::SourceCache made_{size_t{256} << 20};  // what was made of sub-designs, apart from files
+  compile::SubDesignCache memory_{made_};
+  Designs designs_{memory_};
   std::mutex mutex_;
   std::set<ClientPtr> clients_;
   Stopwatch idle_, given_back_;

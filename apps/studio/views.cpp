@@ -135,7 +135,8 @@ Cutting cutting_of(const Request& request) {
 }
 
 Answer picture_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
-  const compile::PictureRequest picture = picture_request(request);
+  compile::PictureRequest picture = picture_request(request);
+  picture.memory = &design.memory;
   Answer answer;
   Diagnostics diagnostics;
   const auto take = [&](int, const compile::Picture& made) {

@@ -11,6 +11,8 @@ namespace ombre::studio {
 
 // "render": a picture from a camera, with cuts, as PNG.
 Answer picture_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
+// "thumbnail": a small picture of what one node of the design makes, as PNG.
+Answer thumbnail_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
 // "plan": the lattice of a printer's job, its materials, the text of job.json.
 Answer plan_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
 // "tile": some pixels of a layer, as PNG.

@@ -1,4 +1,4 @@
-// Grids of a design's materials: for the page's volume view, and to measure.
+// Grids of a design's materials and attributes: for the page's volume view, and to measure.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,6 +6,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/text.h"
+#include "compile/question.h"
+#include "compile/region_survey.h"
 #include "studio/design_answer.h"
 #include "studio/sampled_design.h"
 #include "studio/views.h"
@@ -59,6 +62,48 @@ class Textures {
   std::vector<uint16_t> sums_;  // of 8 voxels
 };
 
+// Two bytes a texel, what WebGL takes as RG: the share of it that is inside, behind the attribute's value there times
+// that share. A graphics processor may then take the mean of texels, which outside of the design have no value. A texel
+// is the mean of 2 x 2 x 2 voxels.
+class ValueTexture {
+ public:
+  ValueTexture(const std::array<int64_t, 3>& voxels, const Interval& range) : range_(range) {
+    for (size_t axis = 0; axis < 3; ++axis) count_[axis] = (voxels[axis] + 1) / 2;
+    sums_.resize(2 * static_cast<size_t>(count_[0] * count_[1] * count_[2]), 0);
+  }
+
+  // A tile of the value, and of the mark of what is inside.
+  void add(const voxel::FieldTile& tile) {
+    const float *value = tile.output(0), *mark = tile.output(1);
+    const int64_t next = tile.is_uniform ? 0 : 1;
+    const voxel::TileBox& box = tile.box;
+    for (int64_t k = box.lo[2]; k < box.hi[2]; ++k)
+      for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
+        const int64_t row = (k / 2 * count_[1] + j / 2) * count_[0];
+        for (int64_t i = box.lo[0]; i < box.hi[0]; ++i, value += next, mark += next)
+          if (*mark > 0 && !std::isnan(*value)) add(static_cast<size_t>(row + i / 2), static_cast<double>(*value));
+      }
+  }
+  const std::array<int64_t, 3>& count() const { return count_; }
+  std::string bytes() const {
+    std::string bytes;
+    bytes.reserve(sums_.size());
+    for (const float sum : sums_) bytes += static_cast<char>(static_cast<unsigned char>(std::lround(sum * 255 / 8)));
+    return bytes;
+  }
+
+ private:
+  void add(size_t texel, double value) {
+    const double size = range_.hi - range_.lo;
+    sums_[2 * texel] += static_cast<float>(size > 0 ? std::clamp((value - range_.lo) / size, 0.0, 1.0) : 0.5);
+    sums_[2 * texel + 1] += 1;
+  }
+
+  Interval range_;
+  std::array<int64_t, 3> count_{};
+  std::vector<float> sums_;  // of 8 voxels
+};
+
 double sum_of(const voxel::FieldTile& tile, size_t output) {
   const float* values = tile.output(output);
   if (tile.is_uniform) return static_cast<double>(*values) * static_cast<double>(tile.box.voxels());
@@ -74,11 +119,47 @@ std::optional<double> mass_of(const design::Material& material, double volume_mm
   return std::nullopt;
 }
 
+DataMembers describe_texels(const std::array<int64_t, 3>& texels, const voxel::Lattice& lattice) {
+  DataList count;
+  for (const int64_t n : texels) count.emplace_back(number(n));
+  return {{"count", std::move(count)}, {"pitch_mm", 2 * lattice.pitch[0].mm()}, {"origin_mm", list_of(lattice.origin)}};
+}
+
+// Of one number, such as "stiffness" or "fibre.x".
+void check_is_number(const design::Design& design, const std::string& attribute) {
+  const std::vector<std::string> all = compile::all_attribute_parts(design);
+  if (std::ranges::find(all, attribute) != all.end()) return;
+  throw RequestError("design",
+                     all.empty() ? "the design has no attributes"
+                                 : "the design has no number called \"" + attribute + "\"; it has " + join(all, ", "));
+}
+
+Answer value_volume(OpenDesign& design, const std::string& attribute, double voxels, const StopFlag& stop) {
+  check_is_number(design.loaded->design, attribute);
+  Diagnostics diagnostics;
+  const auto range = compile::value_range(design.loaded->design, design.bounds, attribute, diagnostics);
+  if (!range) throw diagnostics.has_errors() ? design_error(diagnostics) : RequestError("design", "nothing is inside");
+  compile::GridWishes wishes;
+  wishes.attributes = {attribute};
+  const SampledDesign sampled = sample(design, design.bounds, voxels, stop, wishes);
+  const voxel::Lattice& lattice = sampled.job.request.lattice;
+  ValueTexture texture(lattice.count, *range);
+  const auto take = [&](const compile::GridSlab& slab) {
+    for (const voxel::FieldTile& tile : slab.tiles) texture.add(tile);
+  };
+  compile::each_slab(sampled.job, 0, take, nullptr, &stop);
+  Answer answer{describe_texels(texture.count(), lattice), texture.bytes()};
+  answer.members.emplace_back("range", DataList{range->lo, range->hi});
+  return answer;
+}
+
 }  // namespace
 
 Answer volume_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
   const double side = static_cast<double>(request.whole("side", 8, 256));
-  const SampledDesign sampled = sample(design, design.bounds, 8 * side * side * side, stop);
+  const double voxels = 8 * side * side * side;
+  if (const std::string by = request.text("by", ""); !by.empty()) return value_volume(design, by, voxels, stop);
+  const SampledDesign sampled = sample(design, design.bounds, voxels, stop);
   if (sampled.job.grids.empty()) throw RequestError("design", "the design has no material to show");
   Textures textures(sampled.job);
   const auto take = [&](const compile::GridSlab& slab) {
@@ -86,20 +167,17 @@ Answer volume_answer(OpenDesign& design, const Request& request, const StopFlag&
   };
   compile::each_slab(sampled.job, 0, take, nullptr, &stop);
   const voxel::Lattice& lattice = sampled.job.request.lattice;
-  DataList count, materials;
-  for (const int64_t n : textures.count()) count.emplace_back(number(n));
+  DataList materials;
   for (size_t m = 0; m < textures.materials(); ++m) {
     const compile::SliceMaterial& material = *sampled.job.grids[m].material;
     DataList colour;
     for (const uint8_t channel : material.rgba) colour.emplace_back(number(channel));
     materials.emplace_back(DataMembers{{"name", material.name}, {"colour", std::move(colour)}});
   }
-  return {{{"count", std::move(count)},
-           {"pitch_mm", 2 * lattice.pitch[0].mm()},
-           {"origin_mm", list_of(lattice.origin)},
-           {"materials", std::move(materials)},
-           {"left_out", number(sampled.job.grids.size() - textures.materials())}},
-          textures.bytes()};
+  Answer answer{describe_texels(textures.count(), lattice), textures.bytes()};
+  answer.members.emplace_back("materials", std::move(materials));
+  answer.members.emplace_back("left_out", number(sampled.job.grids.size() - textures.materials()));
+  return answer;
 }
 
 Answer measure_answer(OpenDesign& design, const Request&, const StopFlag& stop) {

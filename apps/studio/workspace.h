@@ -14,7 +14,7 @@
 
 namespace ombre::studio {
 
-// What a file holds, and a hash of that, by which changes by others are noticed.
+// Holds the text of a file, and a hash of it, by which changes by others are noticed.
 struct FileText {
   std::string text, version;
 };
@@ -29,33 +29,33 @@ struct SaveConflict {
 class Workspace {
  public:
   static constexpr size_t most_files = 2000;
-  static constexpr size_t most_bytes = size_t{8} << 20;  // of a file that is edited
+  static constexpr size_t most_bytes = size_t{8} << 20;  // larger files are not edited
 
-  // Throws Error when it is no folder.
+  // Throws Error when the path is no folder.
   explicit Workspace(const std::filesystem::path& folder);
 
   const std::filesystem::path& root() const { return root_; }
-  // Designs and scripts, sorted; presets, hidden folders and links to folders are left out.
+  // Lists designs and scripts, sorted; it leaves out presets, hidden folders and links to folders.
   std::vector<std::string> list() const;
-  // Scans, results and tables likewise; a folder of DICOM files is one scan.
+  // Lists scans, results and tables likewise; a folder of DICOM files is one scan.
   struct DataFile {
     std::string name;
     DataKind kind = DataKind::none;
   };
   std::vector<DataFile> list_data() const;
-  // Those whose names end so (".stl", in small letters), sorted.
+  // Lists the files whose names have one of these endings (".stl", in small letters), sorted.
   std::vector<std::string> list_ending_in(const std::vector<std::string>& endings) const;
   std::filesystem::path path(const std::string& name) const;
-  // The name of a file at this path; empty where it is not in the folder.
+  // Returns the name of the file at this path; it is empty where the file is not in the folder.
   std::string name_of(const std::filesystem::path& file) const;
-  // Throws Error when it cannot be read, RequestError when it is too large or no text.
+  // Throws Error when the file cannot be read, and RequestError when it is too large or no text.
   FileText read(const std::string& name);
-  // Replaces `version`, empty for a file that must not be there yet; the new version, or what is there instead.
-  // The file that is there stays whole whatever happens. Throws Error.
+  // Replaces the given version of the file; it is empty for a file that must not be there yet. Returns the new version,
+  // or what is there instead. The file that is there stays whole whatever happens. Throws Error.
   std::variant<std::string, SaveConflict> save(const std::string& name, const std::string& text,
                                                const std::string& version);
 
-  // Files that were read or saved here and have another version on the disk than when last looked at.
+  // Lists the files that were read or saved here and have changed on the disk since the last call.
   struct Change {
     std::string name, version;  // empty: it is gone
   };
@@ -67,8 +67,8 @@ class Workspace {
     uintmax_t bytes = 0;
     std::string version;
   };
-  // Calls with the names of files and folders that are not hidden, until it returns false for a file; a folder is
-  // entered if it returns true.
+  // Calls the function with the names of files and folders that are not hidden, until it returns false for a file; a
+  // folder is entered if it returns true.
   void walk(const std::function<bool(const std::string& name, bool is_folder)>& take) const;
   void note(const std::string& name, const std::filesystem::path& file, const std::string& version);
 
@@ -77,6 +77,7 @@ class Workspace {
   std::map<std::string, Seen> seen_;
 };
 
-bool is_design_name(const std::string& name);  // by its ending
+// Returns whether a name ends as those of designs do.
+bool is_design_name(const std::string& name);
 
 }  // namespace ombre::studio

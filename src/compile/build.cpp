@@ -69,8 +69,9 @@ Built build_program(const design::Design& design, int threads) {
   return built;
 }
 
-std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics, int threads) {
-  Question question(design, {.threads = threads});
+std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics, int threads,
+                                        design::SubDesignMemory* memory) {
+  Question question(design, {.threads = threads, .memory = memory});
   Built built;
   auto program = question.program(ask_for_materials(question, built), diagnostics);
   if (!program) return std::nullopt;

@@ -18,7 +18,9 @@ struct Built {
 Built build_program(const design::Design& design, int threads = 1);
 
 // build_program, ready to be evaluated. Nothing, and a diagnostic, when it would not fit into memory.
-std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics, int threads = 1);
+// A memory keeps tables of many parts.
+std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics, int threads = 1,
+                                        design::SubDesignMemory* memory = nullptr);
 
 // The shape alone, without calls and all of the first material. Nothing, and a diagnostic, like above.
 std::optional<voxel::MaterialProgram> build_inside_program(const design::Design& design, Diagnostics& diagnostics);

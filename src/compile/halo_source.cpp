@@ -149,7 +149,19 @@ Interval HaloSource::range_of_cells(size_t channel, const IndexBox& cells) const
 
 ValueBlockPtr HaloSource::block_with(const CellIndex& cell) const {
   const CellIndex number = number_of(cell, block_);
-  return shared_->blocks.get({own_blocks_, number}, [&] { return compute(block_at(number, block_)); });
+  return shared_->blocks.get({own_blocks_, number}, [&] { return known_or_computed(number); });
+}
+
+ValueBlock HaloSource::known_or_computed(const CellIndex& number) const {
+  design::SubDesignMemory* memory = frame().made_from && shared_->keeps_blocks ? shared_->memory.load() : nullptr;
+  if (!memory) return compute(block_at(number, block_));
+  std::string text = "block of " + frame().made_from->hex();
+  for (const int64_t n : number) text += ' ' + std::to_string(n);
+  const Hash key = hash_bytes(text);
+  if (const auto known = memory->find(key)) return *std::static_pointer_cast<const ValueBlock>(known);
+  const auto made = std::make_shared<const ValueBlock>(compute(block_at(number, block_)));
+  memory->keep(key, made, made->bytes());
+  return *made;
 }
 
 // If all cells that a block reads have the same values, one cell is computed for all.

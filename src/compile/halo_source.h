@@ -25,6 +25,7 @@ class HaloSource final : public LatticeSource {
  private:
   class Reader;
   ValueBlockPtr block_with(const CellIndex& cell) const;
+  ValueBlock known_or_computed(const CellIndex& number) const;
   ValueBlock compute(const IndexBox& box) const;
   design::StageValues made_of(const design::StageValues& read, const IndexBox& box) const;
   // The cells that those of a box read, with their values.

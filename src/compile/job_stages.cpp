@@ -8,6 +8,7 @@
 #include "base/tasks.h"
 #include "base/text.h"
 #include "compile/halo_source.h"
+#include "compile/stage_hash.h"
 #include "compile/sweep_source.h"
 #include "compile/whole_source.h"
 
@@ -160,6 +161,7 @@ program::SourceField JobStages::make(const design::StagePtr& stage, const StageP
   if (!halo && !is_sensible_sweep(frame.box, frame.lattice.voxel_mm())) fail(*stage, frame.lattice.voxel_mm());
   StageInput input(design_for(place, frame.lattice, not_kept(*this)), stage->reads(), frame.lattice);
   frame.channels = stage->channels(input.channels());
+  if (shared_->memory) frame.made_from = hash_of_values(frame, place.materials);
   if (halo) {
     const auto reach = halo->reach(frame.lattice.voxel_mm());
     grow(frame, reach);
@@ -179,6 +181,8 @@ void JobStages::lend(const StageLoan& loan) {
   shared_->stop = loan.stop;
   shared_->threads = loan.threads;
   shared_->memory_bytes = loan.memory_bytes;
+  if (loan.memory) shared_->memory = loan.memory;
+  if (loan.keeps_blocks) shared_->keeps_blocks = true;
   const std::scoped_lock lock(mutex_);
   shared_->blocks.set_limit(static_cast<size_t>(block_bytes(loan)));
 }

@@ -22,7 +22,8 @@ class JobStages final : public design::StageHost {
 
   program::SourceField source(const design::StagePtr& stage, const design::StagePlace& place) override;
 
-  // Sets the threads, memory and stop flag that halo stages use from now on.
+  // Sets the threads, memory and stop flag that halo stages use from now on. Where values are kept stays as it is, if
+  // the loan does not say.
   void lend(const StageLoan& loan);
   // Throws Error when a stage needs more memory than the job may take.
   void check_memory(const StageLoan& loan) const;

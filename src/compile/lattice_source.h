@@ -20,6 +20,7 @@ struct LatticeFrame {
   Box box;                 // beyond it nothing is marked
   IndexBox cells;          // beyond them all values are 0
   std::vector<design::StageChannel> channels;
+  std::optional<Hash> made_from = {};  // hash of all that the values depend on, where a memory keeps them
 };
 
 // Reads cells, most often near to those that it read before.

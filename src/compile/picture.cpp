@@ -29,6 +29,7 @@ std::optional<SceneOptions> scene_options(const Loaded& loaded, const PictureReq
   SceneOptions options;
   options.box = request.box;
   options.threads = request.threads;
+  options.memory = request.memory;
   const design::MaterialTable& materials = loaded.design.materials;
   for (const auto& [name, opacity] : request.opacity) {
     if (const design::Material* material = materials.find(name)) {
@@ -369,7 +370,7 @@ std::optional<SliceView> parse_slice(std::string_view text) {
 bool take_pictures(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop,
                    const std::function<void(int, const Picture&)>& take, Diagnostics& diagnostics, Progress* progress) {
   check_memory(request);
-  const StageLoan loan{request.threads, request.memory_bytes, progress, &stop};
+  const StageLoan loan{request.threads, request.memory_bytes, progress, &stop, request.memory, true};
   PictureRequest effective = request;
   const std::vector<std::string> attributes = attribute_names(loaded.design);
   const bool by_parts = request.by == "parts" && std::ranges::find(attributes, request.by) == attributes.end();

@@ -64,6 +64,8 @@ struct PictureRequest {
   int frames = 1;  // around the part
   int threads = 0;
   size_t memory_bytes = size_t{4} << 30;  // for rays, pixels and stages
+  // Where what is made of sub-designs is kept for other pictures, and found; null: nowhere. It must live as long.
+  design::SubDesignMemory* memory = nullptr;
 };
 
 struct Picture {

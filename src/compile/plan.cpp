@@ -177,7 +177,7 @@ LayerProducer whole_layers(const RegionProducer& regions, const voxel::Lattice& 
 }
 
 design::Design design_on(const design::Design& design, const voxel::Lattice& lattice, const PlanOptions& options) {
-  const StageLoan loan{options.threads, options.memory_bytes, nullptr, options.stop};
+  const StageLoan loan{options.threads, options.memory_bytes, nullptr, options.stop, options.memory};
   return with_stages(design::for_lattice(design, {lattice.origin, lattice.pitch}), loan);
 }
 

@@ -17,9 +17,19 @@ void PreparedSource::check_memory(const StageLoan& loan) const {
                                 ", choose larger voxels, or give them a larger pitch");
 }
 
+bool PreparedSource::is_remembered() const {
+  const auto known = memory() ? memory()->find(*frame().made_from) : nullptr;
+  if (known) take(known);
+  return known != nullptr;
+}
+
 void PreparedSource::prepare(const StageLoan& loan) const {
   const std::scoped_lock lock(mutex_);
   if (is_prepared_) return;
+  if (is_remembered()) {
+    is_prepared_ = true;
+    return;
+  }
   check_memory(loan);
   constexpr uint64_t steps = 1000;
   const Stopwatch watch;
@@ -31,6 +41,7 @@ void PreparedSource::prepare(const StageLoan& loan) const {
   work.tell(0);
   compute(loan, work);
   work.tell(1);
+  if (memory()) memory()->keep(*frame().made_from, made(), static_cast<size_t>(kept_bytes()));
   is_prepared_ = true;
 }
 

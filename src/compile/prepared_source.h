@@ -38,8 +38,14 @@ class PreparedSource : public LatticeSource {
   virtual void compute(const StageLoan& loan, const design::StageWork& work) const = 0;
   virtual void read_made(size_t channel, const CellIndex& first, std::span<float> values) const = 0;
   virtual Interval range_of_made(size_t channel, const IndexBox& cells) const = 0;
+  // The values, to be kept, and those that another source of the same class kept.
+  virtual std::shared_ptr<const void> made() const = 0;
+  virtual void take(std::shared_ptr<const void> made) const = 0;
 
  private:
+  design::SubDesignMemory* memory() const { return frame().made_from ? shared_->memory.load() : nullptr; }
+  bool is_remembered() const;
+
   StageInput input_;
   std::shared_ptr<SharedStageWork> shared_;
   mutable std::mutex mutex_;

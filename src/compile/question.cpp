@@ -34,6 +34,7 @@ Question::Question(const design::Design& design, const QuestionOptions& options)
       lowering_(context_, builder_),
       point_(options.frame(builder_)) {
   context_.use_stages(design.lattice(), stages_);
+  context_.use_memory(options.memory);
 }
 
 std::optional<Field> Question::attribute(std::string_view name, Diagnostics& diagnostics) {

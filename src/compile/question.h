@@ -22,6 +22,8 @@ struct QuestionOptions {
   bool parts = false;               // may part() be called?
   design::NodePtr shape = nullptr;  // a part of the design that inside() and distance() are of; null: all of it
   Frame frame = program::Point::origin_frame;
+  // Of tables of many parts, which may then differ in rounding; null: none are kept.
+  design::SubDesignMemory* memory = nullptr;
 };
 
 // What a design is at a point, as fields, and programs that compute what a job makes of them. Every program of a design

@@ -204,7 +204,7 @@ std::optional<render::Scene> make_scene(const design::Design& design, const Box&
     view = camera.is_orthographic() ? Point::origin_frame(builder) : in_perspective(builder, camera);
     return view->mapped(camera.design_from_view());
   };
-  Question question(design, {.threads = options.threads, .frame = frame});
+  Question question(design, {.threads = options.threads, .frame = frame, .memory = options.memory});
   program::Outputs base;
   if (!camera.is_orthographic()) base = {{"depth", view->x}, {"right", view->y}, {"down", view->z}};
   auto shown = lower(question, options, base, diagnostics);
@@ -224,7 +224,7 @@ std::shared_ptr<const render::Section> make_section(const design::Design& design
   const Frame frame = [&](program::Builder& builder) {
     return Point::origin_frame(builder).mapped(render::Section::design_from_film(camera, film));
   };
-  Question question(design, {.threads = options.threads, .frame = frame});
+  Question question(design, {.threads = options.threads, .frame = frame, .memory = options.memory});
   auto shown = lower(question, options, {}, diagnostics);
   if (!shown) return nullptr;
   program::Program& program = shown->program;
@@ -236,10 +236,10 @@ std::shared_ptr<const render::Section> make_section(const design::Design& design
 }
 
 std::optional<std::vector<MaterialId>> materials_within(const design::Design& design, const Box& box, int threads,
-                                                        Diagnostics& diagnostics) {
+                                                        Diagnostics& diagnostics, design::SubDesignMemory* memory) {
   // What nodes tell comes from the picture's own program, which is as fine as its pixels.
   Diagnostics own;
-  auto built = build_flat_program(design, own, threads);
+  auto built = build_flat_program(design, own, threads, memory);
   if (!built) {
     diagnostics.add_new(own);
     return std::nullopt;

@@ -41,6 +41,7 @@ struct SceneOptions {
   std::optional<ValueColours> value;     // then materials without an opacity here are opaque
   std::optional<Divided> numbers;        // then red is the part's or material's number over most_numbers, all is opaque
   int threads = 1;                       // that make tables of many parts; 0: all cores
+  design::SubDesignMemory* memory = nullptr;  // where such tables are kept for other scenes; null: nowhere
 };
 
 inline constexpr int most_numbers = 4096;
@@ -57,8 +58,9 @@ std::shared_ptr<const render::Section> make_section(const design::Design& design
                                                     const render::Film& film, const SceneOptions& options,
                                                     Diagnostics& diagnostics);
 
-// Those that may occur in the box, alone or in mixtures; ascending.
+// Those that may occur in the box, alone or in mixtures; ascending. Tables of many parts are kept in the memory.
 std::optional<std::vector<MaterialId>> materials_within(const design::Design& design, const Box& box, int threads,
-                                                        Diagnostics& diagnostics);
+                                                        Diagnostics& diagnostics,
+                                                        design::SubDesignMemory* memory = nullptr);
 
 }  // namespace ombre::compile

@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "compile/block_cache.h"
+#include "design/sub_design_memory.h"
 
 namespace ombre::compile {
 
@@ -15,6 +16,9 @@ struct StageLoan {
   size_t memory_bytes = size_t{2} << 30;  // of the whole job
   Progress* progress = nullptr;
   const StopFlag* stop = nullptr;  // must live as long as the job works
+  // Where values are kept for other jobs, and found; null: nowhere. It must live as long as the job's stages.
+  design::SubDesignMemory* memory = nullptr;
+  bool keeps_blocks = false;  // those of halo stages as well, which are many where all layers are made
 };
 
 // Halo stages may be computed at any time, by any of the job's threads.
@@ -24,6 +28,8 @@ struct SharedStageWork {
   std::atomic<int> threads{0};
   std::atomic<bool> is_under_way{false};  // the job has been planned, and makes layers
   std::atomic<size_t> memory_bytes{size_t{2} << 30};
+  std::atomic<design::SubDesignMemory*> memory{nullptr};
+  std::atomic<bool> keeps_blocks{false};
 };
 
 }  // namespace ombre::compile

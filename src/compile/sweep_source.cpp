@@ -31,7 +31,8 @@ SweepSource::SweepSource(LatticeFrame frame, std::shared_ptr<const design::Sweep
                          std::shared_ptr<SharedStageWork> shared)
     : PreparedSource(std::move(frame), std::move(input), std::move(shared)),
       stage_(std::move(stage)),
-      table_(LatticeSource::frame().cells, LatticeSource::frame().channels.size()) {}
+      table_(
+          std::make_shared<const ColumnTable>(LatticeSource::frame().cells, LatticeSource::frame().channels.size())) {}
 
 double SweepSource::bytes_of_slab(int64_t layers) const {
   const IndexBox& cells = frame().cells;
@@ -67,8 +68,8 @@ void SweepSource::compute(const StageLoan& loan, const design::StageWork& work) 
   const IndexBox& cells = frame().cells;
   const Slabs slabs = slabs_for(loan);
   const auto& lattice = frame().lattice;
-  table_ = ColumnTable(cells, frame().channels.size());
-  table_.set_limit(static_cast<double>(loan.memory_bytes) - bytes(slabs.layers, slabs.window, slabs.threads), name());
+  const auto table = std::make_shared<ColumnTable>(cells, frame().channels.size());
+  table->set_limit(static_cast<double>(loan.memory_bytes) - bytes(slabs.layers, slabs.window, slabs.threads), name());
   const auto sweep = stage_->begin({lattice.origin, lattice.pitch}, cells, work);
   const int64_t count = (cells.size(2) + slabs.layers - 1) / slabs.layers;
   const auto slab_box = [&](size_t n) {
@@ -83,21 +84,22 @@ void SweepSource::compute(const StageLoan& loan, const design::StageWork& work) 
       [&](size_t n, StageValues& slab) {
         for (int64_t k = slab.box().hi[2]; k-- > slab.box().lo[2];) {
           if (loan.stop && loan.stop->requested()) throw Cancelled();
-          sweep->take(layer_of(slab, k), table_);
+          sweep->take(layer_of(slab, k), *table);
         }
         work.tell(static_cast<double>(n + 1) / static_cast<double>(count));
       });
-  sweep->finish(table_);
-  table_.finish();
+  sweep->finish(*table);
+  table->finish();
+  table_ = table;
 }
 
 void SweepSource::read_made(size_t channel, const CellIndex& first, std::span<float> values) const {
   for (size_t n = 0; n < values.size(); ++n)
-    values[n] = table_.at(channel, first[0] + static_cast<int64_t>(n), first[1], first[2]);
+    values[n] = table_->at(channel, first[0] + static_cast<int64_t>(n), first[1], first[2]);
 }
 
 Interval SweepSource::range_of_made(size_t channel, const IndexBox& cells) const {
-  return table_.range(channel, cells, declared_range(channel));
+  return table_->range(channel, cells, declared_range(channel));
 }
 
 }  // namespace ombre::compile

@@ -58,14 +58,16 @@ StageValues WholeSource::read_all(const StageLoan& loan, const design::StageWork
 
 void WholeSource::compute(const StageLoan& loan, const design::StageWork& work) const {
   const StageValues read = read_all(loan, work);
-  made_ = StageValues(frame().cells, frame().channels.size());
+  const auto made = std::make_shared<StageValues>(frame().cells, frame().channels.size());
   design::StageWork rest = work;
   rest.tell = [&](double share) { work.tell(0.5 + 0.5 * share); };
-  stage_->compute(read, made_, {frame().lattice.origin, frame().lattice.pitch}, rest);
+  stage_->compute(read, *made, {frame().lattice.origin, frame().lattice.pitch}, rest);
+  made_ = made;
 }
 
 void WholeSource::read_made(size_t channel, const CellIndex& first, std::span<float> values) const {
-  const auto from = made_.channel(channel).begin() + static_cast<ptrdiff_t>(made_.offset(first[0], first[1], first[2]));
+  const auto from =
+      made_->channel(channel).begin() + static_cast<ptrdiff_t>(made_->offset(first[0], first[1], first[2]));
   std::copy_n(from, values.size(), values.begin());
 }
 
@@ -74,7 +76,7 @@ Interval WholeSource::range_of_made(size_t channel, const IndexBox& cells) const
   std::optional<Interval> range;
   for (int64_t k = cells.lo[2]; k < cells.hi[2]; ++k)
     for (int64_t j = cells.lo[1]; j < cells.hi[1]; ++j) {
-      const auto row = made_.channel(channel).begin() + static_cast<ptrdiff_t>(made_.offset(cells.lo[0], j, k));
+      const auto row = made_->channel(channel).begin() + static_cast<ptrdiff_t>(made_->offset(cells.lo[0], j, k));
       const auto [least, greatest] = std::minmax_element(row, row + cells.size(0));
       const Interval here(*least, *greatest);
       range = range ? hull(*range, here) : here;

@@ -379,8 +379,9 @@ uint32_t Lowering::add_check(const Node& node, const std::string& message) {
 std::optional<PartFields> Lowering::many_parts(const Node& node, const PartList& list, PartQuery query, const Point& p,
                                                const Falloff* falloff) {
   if (stands_alone_) return std::nullopt;  // tables do not hold tables
-  // The parts take the frame in, so that they are asked at the program's own inputs.
-  const auto map = p.from_inputs();
+  // The parts take the frame in, so that they are asked at the program's own inputs; those that are kept for other
+  // programs do not.
+  const auto map = context_.has_memory() ? std::nullopt : p.from_inputs();
   const ManyParts* parts = context_.many_parts(node, list, query, map.value_or(Affine{}), falloff);
   if (!parts) return std::nullopt;
   return parts->at(map ? Point::origin_frame(builder_) : p);

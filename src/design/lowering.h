@@ -13,6 +13,7 @@
 
 #include "design/node.h"
 #include "design/stage.h"
+#include "design/sub_design_memory.h"
 
 namespace ombre::design {
 
@@ -23,6 +24,7 @@ struct Check {
 };
 
 struct ManyParts;
+struct PartsQuestion;
 
 // State that all lowerings of one design share: checks and bodies.
 class LoweringContext {
@@ -32,6 +34,11 @@ class LoweringContext {
                   std::optional<JobScale> scale = std::nullopt, int threads = 1);
   // Where stages get their lattice and are made. Without this they are 0 everywhere.
   void use_stages(const std::optional<StageLattice>& lattice, std::shared_ptr<StageHost> host);
+  // Tables of many parts are taken from there, and kept there. Each has the frame of its node, so that it does not
+  // depend on what stands above; without a memory tables have the frame of the program, whose values are rounded
+  // otherwise.
+  void use_memory(SubDesignMemory* memory) { memory_ = memory; }
+  bool has_memory() const { return memory_ != nullptr; }
   ~LoweringContext();
 
   const MaterialTable& materials() const { return materials_; }
@@ -66,6 +73,9 @@ class LoweringContext {
   bool carries(const Node& node, std::string_view attribute);
   void declare(const AttributeDeclaration& declared);
   bool is_shared(const Node& node) const { return shared_.contains(&node); }
+  std::shared_ptr<const ManyParts> remembered(const PartsQuestion& question);
+  Hash hash_of_parts(const PartsQuestion& question) const;
+  size_t reports();
 
   const MaterialTable& materials_;
   std::vector<NodePtr> roots_;
@@ -85,7 +95,8 @@ class LoweringContext {
   std::unordered_map<const Node*, std::unique_ptr<Body>> bodies_;
   std::vector<Body*> body_order_;
   using PartsKey = std::tuple<const Node*, PartQuery, bool, std::array<double, 12>>;
-  std::map<PartsKey, std::unique_ptr<ManyParts>> many_parts_;
+  std::map<PartsKey, std::shared_ptr<const ManyParts>> many_parts_;
+  SubDesignMemory* memory_ = nullptr;
 };
 
 // Returns the materials that a material parameter may give at some point, in ascending order.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/tasks.h"
+#include "design/design.h"
 #include "design/lowering.h"
 #include "design/part_rows.h"
 
@@ -49,6 +50,26 @@ bool pays(const ManyParts& made, size_t count) {
 
 }  // namespace
 
+namespace {
+
+constexpr size_t bytes_of_row = 1024;  // in both tables and the index, about
+
+// Null where a table does not pay.
+std::shared_ptr<const ManyParts> make_if_it_pays(const PartsQuestion& question, int threads) {
+  auto made = std::make_shared<const ManyParts>(make_parts(question, threads));
+  return pays(*made, question.list.count()) ? made : nullptr;
+}
+
+// A memory also knows that a table does not pay.
+struct KeptParts {
+  std::shared_ptr<const ManyParts> parts;
+};
+
+// Numbers of checks mean something within one context only.
+bool has_checks(const ManyParts& parts) { return !parts.held.checks.empty() || !parts.weighed.checks.empty(); }
+
+}  // namespace
+
 PartFields ManyParts::at(const Point& p) const {
   const auto slot = [&](size_t number) { return p.builder().parts(set, number, p.x, p.y, p.z); };
   PartFields fields;
@@ -79,12 +100,42 @@ const ManyParts* LoweringContext::many_parts(const Node& node, const PartList& l
                      {rows[0].x, rows[0].y, rows[0].z, rows[1].x, rows[1].y, rows[1].z,  //
                       rows[2].x, rows[2].y, rows[2].z, offset.x, offset.y, offset.z}};
   const auto [it, is_new] = many_parts_.try_emplace(key);
-  if (is_new) {
-    auto made = std::make_unique<ManyParts>(make_parts(
-        {*this, node, list, query, falloff, node_from_program, finest_piece(node, list, node_from_program)}, threads_));
-    if (pays(*made, list.count())) it->second = std::move(made);
-  }
+  if (!is_new) return it->second.get();
+  const PartsQuestion question{
+      *this, node, list, query, falloff, node_from_program, finest_piece(node, list, node_from_program)};
+  it->second = memory_ ? remembered(question) : make_if_it_pays(question, threads_);
   return it->second.get();
+}
+
+size_t LoweringContext::reports() {
+  const std::scoped_lock lock(asked_);
+  return diagnostics_.list().size();
+}
+
+std::shared_ptr<const ManyParts> LoweringContext::remembered(const PartsQuestion& question) {
+  const Hash key = hash_of_parts(question);
+  if (const auto known = memory_->find(key)) return std::static_pointer_cast<const KeptParts>(known)->parts;
+  const size_t reports_before = reports();
+  auto made = make_if_it_pays(question, threads_);
+  // What nodes report is reported by each job.
+  if (reports() == reports_before && !(made && has_checks(*made)))
+    memory_->keep(key, std::make_shared<const KeptParts>(made), made ? bytes_of_row * question.list.count() : 0);
+  return made;
+}
+
+// The node with all below it, and what the whole design says of its attributes. A node has one list of parts.
+Hash LoweringContext::hash_of_parts(const PartsQuestion& question) const {
+  Design design;
+  design.materials = materials_;
+  design.parts = {{"", NodePtr(std::shared_ptr<const Node>(), &question.node)}};
+  std::string text = "table of parts " + hash(design).hex() + ' ' + std::to_string(static_cast<int>(question.query)) +
+                     (question.falloff ? " weighed" : "");
+  for (const AttributeDeclaration& declared : attributes_) {
+    text += '\n' + declared.name + ' ' + std::string(name(declared.type));
+    for (const auto& names : {declared.materials, declared.labels})
+      for (const std::string& each : names) text += '\t' + each;
+  }
+  return hash_bytes(text);
 }
 
 }  // namespace ombre::design

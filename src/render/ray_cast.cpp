@@ -25,9 +25,10 @@ constexpr TileSize fine_block{steps_together, 4, 4};  // of programs that ask so
 constexpr size_t most_samples = 512;                  // at a time
 static_assert((leaf[0] / block[0]) * (leaf[1] / block[1]) * (leaf[2] / block[2]) <= most_pieces);
 static_assert(leaf[1] * leaf[2] <= most_samples, "all rays of a leaf are followed together");
-constexpr int64_t tile_edge = 128;  // of the picture's tiles, in rays
-constexpr size_t many_parts = 12;   // while so many reach a tile, it is cut before they are written out
-constexpr float dark = 0.01F;       // less light than that is none
+constexpr int64_t largest_tile = 128, smallest_tile = 64;  // edges of the picture's tiles, in rays
+constexpr int64_t enough_tiles = 4;                        // for all threads to have work
+constexpr size_t many_parts = 12;  // while so many reach a tile, it is cut before they are written out
+constexpr float dark = 0.01F;      // less light than that is none
 
 // For batches. While surfaces are looked for, colours matter in translucent material only.
 struct Programs {
@@ -74,7 +75,7 @@ class RayCaster {
   RayHit& hit(const Ray& ray) { return hits_.at(ray.column, ray.row); }
   // 1 until an end of the ray is found.
   uint8_t& is_open(int64_t column, int64_t row) {
-    return is_open_[static_cast<size_t>((row - first_row_) * tile_edge + column - first_column_)];
+    return is_open_[static_cast<size_t>((row - first_row_) * largest_tile + column - first_column_)];
   }
   bool is_hidden(const TileBox& tile) {
     for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row) {
@@ -335,7 +336,7 @@ class RayCaster {
   std::vector<size_t> met_;                   // of the blocks that were asked
   program::Program asked_;                    // what blocks_ was asked about again
   int64_t first_column_ = 0, first_row_ = 0;  // of the tile
-  std::array<uint8_t, tile_edge * tile_edge> is_open_{};
+  std::array<uint8_t, largest_tile * largest_tile> is_open_{};
   std::vector<Ray> rays_, surfaces_, ends_;
 };
 
@@ -378,6 +379,16 @@ voxel::RowSamplers place_sources(program::Program& program, const Scene& scene, 
   return voxel::place_sources(program, program::RayLattice{scene.eye_mm, steps.first(), steps.step()}, base);
 }
 
+int64_t tiles_along(int64_t rays, int64_t edge) { return (rays + edge - 1) / edge; }
+
+// Small pictures have smaller tiles. The size does not depend on the number of threads: sums over translucent material
+// show it.
+int64_t tile_edge(int64_t columns, int64_t rows) {
+  int64_t edge = largest_tile;
+  while (edge > smallest_tile && tiles_along(columns, edge) * tiles_along(rows, edge) < enough_tiles) edge /= 2;
+  return edge;
+}
+
 }  // namespace
 
 RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t end, int threads,
@@ -390,13 +401,13 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
   const Programs programs(scene, reference);
   RayBand band(begin, end, film.width);
   RayCasters casters([&] { return std::make_unique<RayCaster>(scene, programs, steps, clarity, is_stopped, band); });
-  const int64_t across = (film.width + tile_edge - 1) / tile_edge, down = (end - begin + tile_edge - 1) / tile_edge;
+  const int64_t edge = tile_edge(film.width, end - begin);
+  const int64_t across = tiles_along(film.width, edge), down = tiles_along(end - begin, edge);
   run_parallel(static_cast<size_t>(across * down), threads, [&](size_t n) {
     if (is_stopped()) return;
-    const int64_t column = static_cast<int64_t>(n) % across * tile_edge,
-                  row = begin + static_cast<int64_t>(n) / across * tile_edge;
-    const TileBox tile{{0, column, row},
-                       {steps.steps, std::min(column + tile_edge, film.width), std::min(row + tile_edge, end)}};
+    const int64_t column = static_cast<int64_t>(n) % across * edge,
+                  row = begin + static_cast<int64_t>(n) / across * edge;
+    const TileBox tile{{0, column, row}, {steps.steps, std::min(column + edge, film.width), std::min(row + edge, end)}};
     TileBox strip = tile;
     strip.hi[0] = steps.steps * fine_per_step;
     const StripSources sources(samplers, strip);

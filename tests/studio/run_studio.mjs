@@ -29,6 +29,9 @@ for (const name of ["bent_beam.vtu", "two_lobes.nrrd"]) copyFileSync(join(source
 writeFileSync(join(folder, "history.csv"), "round,elements,change,greatest von Mises stress [MPa]\n1,256,,13.5\n2,256,0.25,11.75\n3,256,0.03125,11.5\n");
 writeFileSync(join(folder, "drop.py"), "import ombre\nroot = ombre.sphere(3, 'blue')\n");
 
+// From -10 on the left to 10 on the right.
+writeFileSync(join(folder, "warm.vcad"), 'attribute("heat", "x", unit="K") cube(20, red);\n');
+
 const solid = (side) => `OFF\n4 4 0\n0 0 0\n${side} 0 0\n0 ${side} 0\n0 0 ${side}\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n`;
 writeFileSync(join(folder, "small.off"), solid(4));
 writeFileSync(join(folder, "picked.vcad"), 'shape = "small.off";\nother = "";  // [*.off, *.obj]\nversion = "no.file";\nmesh(shape, red);\n');
@@ -110,6 +113,13 @@ const alphaInMiddle = (view) =>
     copy.drawImage(canvas, 0, 0);
     return [...copy.getImageData(canvas.width >> 1, canvas.height >> 1, 1, 1).data];
   }, view);
+
+// What axe finds, a line for each rule.
+async function violations() {
+  await page.evaluate(axeSource);
+  const found = await page.evaluate(() => axe.run());
+  return found.violations.map((v) => `${v.id} at ${v.nodes.map((n) => n.html.slice(0, 120)).join(" and ")}`);
+}
 
 // The pixels of a PNG of 8 bits, RGBA; what the printer of this test gets.
 function pixelsOf(path) {
@@ -292,8 +302,57 @@ const checks = {
     await picture("volume");
   },
 
+  async "opacity by an attribute shows what has a value"() {
+    await page.selectOption("select.file", "warm.vcad");
+    await page.waitForSelector(".volume select option[value=heat]", { state: "attached" });
+    await page.selectOption(".volume select:has(option[value='32'])", "32");
+    await page.selectOption(".volume select:has(option[value=heat])", "heat");
+    await isReady("volume", "[data-by=heat]");
+    await page.selectOption(".volume .viewbar select >> nth=0", "front");
+    const columns = () =>
+      page.evaluate(() => {
+        const canvas = document.querySelector(".volume canvas");
+        const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+        copy.drawImage(canvas, 0, 0);
+        return [-0.25, 0.25].map((share) => copy.getImageData((canvas.width >> 1) + share * canvas.height, canvas.height >> 1, 1, 1).data[3]);
+      });
+    const points = page.locator(".transfer [role=slider]");
+    assert.equal(await points.count(), 2);
+    await points.nth(0).focus();
+    await page.keyboard.press("Shift+ArrowDown"); // cold is clear
+    assert.match(await points.nth(0).getAttribute("aria-valuetext"), /, opacity 0\.00$/);
+    await points.nth(1).focus();
+    await page.keyboard.press("Shift+ArrowUp"); // hot is opaque
+    await page.click("text=Add a point");
+    assert.equal(await points.count(), 3);
+    const box = await page.locator(".transfer svg").boundingBox();
+    await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 0.4 * box.width, box.y + box.height);
+    await page.mouse.up();
+    assert.match(await points.nth(1).getAttribute("aria-valuetext"), /^heat -(1\.9|2\.0).*, opacity 0\.00$/); // what is colder is clear
+    let [cold, hot] = [255, 0];
+    for (let n = 0; n < 100 && !(cold === 0 && hot > 200); ++n) {
+      await page.waitForTimeout(50); // the picture follows the curve
+      [cold, hot] = await columns();
+    }
+    assert.ok(cold === 0 && hot > 200, `${cold} and ${hot}`);
+    await picture("transfer");
+    await page.keyboard.press("Delete");
+    assert.equal(await points.count(), 2);
+    assert.deepEqual(await violations(), []);
+    await page.selectOption("select.file", "ball.vcad");
+    await isReady("volume", "[data-by='']");
+    await page.selectOption(".volume select:has(option[value='32'])", "64");
+  },
+
   async "the graph leads to the script"() {
     await page.click("#tab-graph");
+    await page.waitForSelector(".graph img[alt='What sphere makes']");
+    await until(() => [...document.querySelectorAll(".graph img")].every((image) => image.naturalWidth >= 48));
+    assert.match(await page.innerText(".graph .node:has-text('fgrade') .ports"), /^1 solid → solid$/);
+    await picture("graph");
+    assert.deepEqual(await violations(), []);
     await page.click(".graph .node:has-text('sphere')");
     assert.equal(await page.evaluate(() => getSelection().toString().slice(0, 6)), "sphere");
   },
@@ -410,6 +469,10 @@ const checks = {
         if (!text.includes('"do":"save"')) window.sent.call(this, text);
       };
     });
+    await type("// the same\n"); // here and on the disk: no conflict
+    writeFileSync(file, onDisk() + "// the same\n");
+    await status("[data-saved=saved]");
+    assert.equal(await page.locator(".bar.warning").count(), 0);
     await type("// mine\n"); // cannot be saved in time
     writeFileSync(file, onDisk() + "// theirs\n");
     await page.waitForSelector(".bar.warning");
@@ -557,6 +620,23 @@ const checks = {
     await page.waitForSelector("option[value='ball/ball.vcad']", { state: "attached" });
     assert.equal(await page.inputValue("select.file"), "ball/ball.vcad");
     assert.equal(readFileSync(join(folder, "ball/ball.vcad"), "utf8"), onDisk());
+    // The same dropped on the page.
+    const drop = async (name, text) => {
+      const files = await page.evaluateHandle(([name, text]) => {
+        const transfer = new DataTransfer();
+        transfer.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name));
+        return transfer;
+      }, [name, text]);
+      await page.dispatchEvent("main", "dragover", { dataTransfer: files });
+      await page.dispatchEvent("main", "drop", { dataTransfer: files });
+    };
+    await drop("dropped.ombre", readFileSync(bundle).toString("base64"));
+    await page.waitForSelector("option[value='dropped/ball.vcad']", { state: "attached" });
+    await status("[data-old=false][data-busy=false]");
+    assert.equal(await page.inputValue("select.file"), "dropped/ball.vcad");
+    assert.equal(readFileSync(join(folder, "dropped/ball.vcad"), "utf8"), onDisk());
+    await drop("notes.txt", "aGVsbG8=");
+    await page.waitForSelector(".problems:has-text('notes.txt is no bundle')");
     writeFileSync(bundle, "no archive");
     await page.setInputFiles("[aria-label='Bundle to open']", bundle);
     await page.waitForSelector(".problems:has-text('this is no bundle')");
@@ -581,6 +661,13 @@ const checks = {
     assert.equal(film.name, "ball_turntable.webm");
     assert.equal(film.bytes.readUInt32BE(0), 0x1a45dfa3); // EBML
     assert.ok(film.bytes.length > 5000, `${film.bytes.length} bytes`);
+    await page.setViewportSize({ width: 900, height: 420 });
+    const gif = await bytesOf("Alt+g");
+    await page.setViewportSize({ width: 1400, height: 860 });
+    assert.equal(gif.name, "ball_turntable.gif");
+    assert.equal(gif.bytes.toString("latin1", 0, 6), "GIF89a");
+    assert.equal(gif.bytes.at(-1), 0x3b); // the end of a GIF
+    assert.equal(gif.bytes.toString("latin1").split("\x21\xf9\x04").length - 1, 60, "frames");
     await page.keyboard.press("Alt+k");
     await page.waitForSelector("dialog[open]");
     await page.keyboard.press("Escape");
@@ -635,14 +722,12 @@ const checks = {
     await isReady("slices");
     await page.click(".slices canvas");
     await page.waitForSelector(".probe .calls");
-    await page.evaluate(axeSource);
     for (const theme of ["light", "dark"]) {
       await page.selectOption("header select >> nth=1", theme);
       for (const tab of theme === "light" ? ["reference", "examples", "variables", "materials", "export"] : ["export"]) {
         await page.click(`#tab-${tab}`);
         if (tab === "variables") await page.click("text=Save as a preset");
-        const found = await page.evaluate(() => axe.run());
-        assert.deepEqual(found.violations.map((v) => `${theme} ${tab}: ${v.id} at ${v.nodes.map((n) => n.html.slice(0, 120)).join(" and ")}`), []);
+        assert.deepEqual(await violations(), [], `${theme} ${tab}`);
       }
       await page.waitForTimeout(pictures ? 2500 : 0);
       await picture(`all_${theme}`);

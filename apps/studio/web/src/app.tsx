@@ -103,8 +103,11 @@ function PictureButtons() {
   return (
     <span class="controls pictures">
       <button disabled={!design || kind === "table"} onClick={takePicture} title="A picture of the view, as PNG (Alt P)">Picture</button>
-      <button disabled={!design || kind === "table"} onClick={makeTurntable} title="The design turned once around, as WebM (Alt T)">
+      <button disabled={!design || kind === "table"} onClick={() => makeTurntable("webm")} title="The design turned once around, as WebM (Alt T)">
         {turntable === undefined ? "Turntable" : `Stop at ${Math.round(100 * turntable)} %`}
+      </button>
+      <button disabled={!design || kind === "table" || turntable !== undefined} onClick={() => makeTurntable("gif")} title="The design turned once around, as GIF (Alt G)">
+        GIF
       </button>
     </span>
   );

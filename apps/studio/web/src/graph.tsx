@@ -1,7 +1,8 @@
 // What the design is made of, as a tree whose entries lead to the script.
 import { useState } from "preact/hooks";
 import { reveal } from "./session";
-import { Design, GraphNode, useStore } from "./store";
+import { Design, GraphNode, state, useStore } from "./store";
+import { Thumbnail } from "./thumbnails";
 
 const mostShown = 600;
 
@@ -21,6 +22,18 @@ function branchOf(node: GraphNode, design: Design, seen: Set<number>): Branch {
   return { node, isRepeated: false, below };
 }
 
+const counted = (count: number, noun: string) => `${count} ${noun}${count === 1 ? "" : "s"}`;
+
+// What comes in, and what goes out with its type.
+function ports(node: GraphNode): string {
+  const type = state.hello?.nodes.find((known) => known.name === node.type);
+  const inputs = [node.inputs.length > 0 && counted(node.inputs.length, "solid"), node.values.length > 0 && counted(node.values.length, "value")].filter(Boolean);
+  const outputs = type?.gives === "values" ? type.outputs.map((output) => `${output.name}: ${output.type}`).join(", ") : "solid";
+  return `${inputs.length > 0 ? `${inputs.join(", ")} ` : ""}→ ${outputs}`;
+}
+
+const isSolid = (node: GraphNode) => state.hello?.nodes.find((known) => known.name === node.type)?.gives !== "values";
+
 function Entry({ branch, depth }: { branch: Branch; depth: number }) {
   const { node, isRepeated, below } = branch;
   const [isOpen, setOpen] = useState(depth < 6);
@@ -31,8 +44,10 @@ function Entry({ branch, depth }: { branch: Branch; depth: number }) {
           {isOpen ? "▾" : "▸"}
         </button>
       )}
+      {!isRepeated && isSolid(node) && <Thumbnail node={node.id} type={node.type} />}
       <button class="node" disabled={node.from === undefined} onClick={() => reveal(node.from!, node.to ?? node.from!)}>
         {node.type}
+        <span class="ports">{ports(node)}</span>
         <span class="place">{isRepeated ? "see above" : node.line ? `line ${node.line}` : ""}</span>
       </button>
       {isOpen && below.length > 0 && <ul>{below.map((b) => <Entry branch={b} depth={depth + 1} />)}</ul>}

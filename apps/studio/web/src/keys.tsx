@@ -18,7 +18,8 @@ const actions: Record<string, () => void> = {
     setTimeout(() => focusOn(".panel"));
   },
   KeyP: takePicture,
-  KeyT: makeTurntable,
+  KeyT: () => makeTurntable("webm"),
+  KeyG: () => makeTurntable("gif"),
   KeyB: downloadBundle,
   KeyK: () => set({ showsKeys: true }),
 };
@@ -42,6 +43,7 @@ const list: [string, string][] = [
   ["Alt E, Alt V, Alt S", "to the script, to the view, to slicing"],
   ["Alt P", "a picture of the view, as PNG"],
   ["Alt T", "a turntable, as WebM; again: stop it"],
+  ["Alt G", "a turntable, as GIF; again: stop it"],
   ["Alt B", "the design with its files as a bundle"],
   ["Ctrl S, Ctrl F, Ctrl Space", "in the script: save, find, complete"],
   ["Escape, then Tab", "in the script: leave it"],

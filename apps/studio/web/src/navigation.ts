@@ -1,6 +1,6 @@
 // Moves of the camera by mouse, fingers and keys, for the views that share it.
 import { RefObject } from "preact";
-import { fitted, panned, turned, zoomed } from "./camera";
+import { fitted, panned, turned, views, zoomed } from "./camera";
 import { set, state } from "./store";
 
 const degreesPerPixel = 0.4;
@@ -42,4 +42,10 @@ export function moveByKeys(event: KeyboardEvent) {
   else if (event.key === "Home" && state.design) set({ camera: fitted(state.design, 1.4, camera) });
   else return;
   event.preventDefault();
+}
+
+// The camera is placed once, by the view that is seen first; from then on only people move it.
+export function placeCamera(canvas: HTMLCanvasElement) {
+  const { design, camera } = state;
+  if (design && !camera && canvas.clientHeight > 0) set({ camera: fitted(design, canvas.clientWidth / canvas.clientHeight, views.iso) });
 }

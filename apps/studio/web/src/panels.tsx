@@ -313,19 +313,30 @@ function NodePage({ node }: { node: NodeType }) {
   );
 }
 
-function Reference() {
-  const { hello } = useStore();
+// What of a list has all words that are typed, and the field for them.
+function useSearch<T>(list: T[], textOf: (entry: T) => string, noun: string) {
   const [words, setWords] = useState("");
   const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);
-  const found = hello?.nodes.filter((n) => wanted.every((w) => `${n.name} ${n.category} ${n.sentence}`.toLowerCase().includes(w))) ?? [];
-  let category = "";
-  return (
-    <div class="panelbody">
+  const found = list.filter((entry) => wanted.every((word) => textOf(entry).toLowerCase().includes(word)));
+  const field = (
+    <>
       <label>
         Search
         <input type="search" value={words} onInput={(e) => setWords(e.currentTarget.value)} />
       </label>
-      <p class="hint" role="status">{found.length} nodes</p>
+      <p class="hint" role="status">{found.length} {noun}</p>
+    </>
+  );
+  return { found, field };
+}
+
+function Reference() {
+  const { hello } = useStore();
+  const { found, field } = useSearch(hello?.nodes ?? [], (n) => `${n.name} ${n.category} ${n.sentence}`, "nodes");
+  let category = "";
+  return (
+    <div class="panelbody">
+      {field}
       {found.map((node) => {
         const heading = node.category !== category ? node.category : "";
         category = node.category;
@@ -346,21 +357,15 @@ function Reference() {
 }
 
 function Examples() {
-  const [words, setWords] = useState("");
   const [examples, setExamples] = useState<{ name: string; sentence: string }[]>([]);
   const { status } = useStore();
   useEffect(() => {
     listExamples().then(setExamples);
   }, [status]);
-  const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);
-  const found = examples.filter((e) => wanted.every((w) => `${e.name} ${e.sentence}`.toLowerCase().includes(w)));
+  const { found, field } = useSearch(examples, (e) => `${e.name} ${e.sentence}`, "examples");
   return (
     <div class="panelbody">
-      <label>
-        Search
-        <input type="search" value={words} onInput={(e) => setWords(e.currentTarget.value)} />
-      </label>
-      <p class="hint" role="status">{found.length} examples</p>
+      {field}
       <ul class="examples">
         {found.map((e) => (
           <li>

@@ -1,4 +1,5 @@
 // Pictures of what is seen, and turntables: made in the browser, for the person's own disk.
+import { GIFEncoder, applyPalette, quantize } from "gifenc";
 import { download, stem } from "./files";
 import { about } from "./session";
 import { Camera, set, state } from "./store";
@@ -61,8 +62,27 @@ async function record(pictures: ImageBitmap[], size: { width: number; height: nu
   return new Blob(parts, { type: "video/webm" });
 }
 
-// The design as the surface view shows it, turned once around z. A second call ends the one that is under way.
-export async function makeTurntable() {
+// Each frame has the 256 colours that suit it best.
+async function animate(pictures: ImageBitmap[], size: { width: number; height: number }): Promise<Blob> {
+  const context = new OffscreenCanvas(size.width, size.height).getContext("2d", { willReadFrequently: true })!;
+  context.fillStyle = paper();
+  const gif = GIFEncoder();
+  for (const picture of pictures) {
+    context.fillRect(0, 0, size.width, size.height);
+    context.drawImage(picture, 0, 0);
+    const { data } = context.getImageData(0, 0, size.width, size.height);
+    const palette = quantize(data, 256);
+    gif.writeFrame(applyPalette(data, palette), size.width, size.height, { palette, delay: 1000 / framesPerSecond });
+    await new Promise((resolve) => setTimeout(resolve)); // the page stays alive
+  }
+  gif.finish();
+  return new Blob([gif.bytes() as BlobPart], { type: "image/gif" });
+}
+
+const makers = { webm: record, gif: animate };
+
+// The design as the surface view shows it, turned once around z, as a video or a GIF. A second call ends the one that is under way.
+export async function makeTurntable(kind: keyof typeof makers) {
   if (state.turntable !== undefined) return set({ turntable: undefined });
   const { design, camera } = state;
   if (!design || !camera) return;
@@ -77,7 +97,7 @@ export async function makeTurntable() {
       if (state.turntable === undefined) return;
       set({ turntable: pictures.length / frames });
     }
-    download(`${stem()}_turntable.webm`, await record(pictures, size));
+    download(`${stem()}_turntable.${kind}`, await makers[kind](pictures, size));
   } catch (error) {
     set({ problem: (error as Error).message });
   } finally {

@@ -14,10 +14,10 @@ export interface Editor {
 }
 
 let editor: Editor | undefined;
-let version = ""; // of the text that was opened or saved last
+let version = ""; // the version of the text that was opened or saved last
 let savedText = "";
-let sentText: string | undefined; // of a save whose answer may have been lost
-let ownTexts: string[] = []; // that this window saved last
+let sentText: string | undefined; // the text of a save whose answer may have been lost
+let ownTexts: string[] = []; // the texts that this window saved last
 const mostOwnTexts = 8;
 let saving: Promise<void> = Promise.resolve();
 let usesCrlf = false;
@@ -173,6 +173,13 @@ async function saveNow() {
 }
 
 function takeFromDisk(disk: Reply) {
+  // Another window with the same draft may have saved it first.
+  if (fromDisk(disk.text) === editor!.text()) {
+    version = disk.version;
+    savedText = editor!.text();
+    localStorage.removeItem(draftKey(state.file));
+    return set({ saved: "saved", saveProblem: "", conflict: undefined });
+  }
   if (fromDisk(disk.text) === sentText) {
     version = disk.version;
     savedText = sentText;
@@ -220,7 +227,7 @@ async function heard(name: string, members: Reply) {
   evaluate();
 }
 
-// Evaluation: an edit cancels what is at work; a slider waits for it, so that something is seen while it moves.
+// An edit cancels the evaluation that is at work; a slider waits for it, so that something is seen while it moves.
 let evaluateTimer = 0;
 let isLoading = false,
   isWanted = false;
@@ -271,7 +278,7 @@ function definitions(): string[] {
     .map(([name, value]) => `${name}=${JSON.stringify(value)}`);
 }
 
-// The number of results that is shown: the one that was, else the stress.
+// Chooses the number of results that is shown: the one that was shown before, else the stress.
 function fieldToShow(attributes: { name: string }[]): string {
   const names = attributes.map((a) => a.name);
   if (names.includes(state.by)) return state.by;
@@ -309,7 +316,7 @@ async function load(isRun = false) {
   }
 }
 
-// A question about the design; a server that forgot it is told again.
+// Asks something about the design. A server that has forgotten the design is given it again.
 export async function about(what: string, members: Record<string, unknown>, lane: string): Promise<Reply> {
   try {
     return await connection.ask(what, { design: state.design!.design, ...members }, lane).answer;
@@ -321,7 +328,7 @@ export async function about(what: string, members: Record<string, unknown>, lane
 
 export const cutting = () => ({ printer: state.printer, dither: state.dither, place: state.place });
 
-// Changes when another job is meant.
+// Two jobs with the same key are the same job.
 export const jobKey = () => JSON.stringify([state.design?.design, cutting()]);
 
 export async function plan() {
@@ -423,7 +430,7 @@ export async function probe(at: number[]) {
   }
 }
 
-// Jobs. What was under way when a server ended is kept by the page, so that it can go on.
+// The page keeps the jobs that were under way when a server ended, so that they can go on.
 function adoptJobs(jobs: Job[]) {
   const before: Job[] = JSON.parse(localStorage.getItem(jobsKey()) ?? "[]");
   const cut = before

@@ -67,6 +67,12 @@ export interface Design {
   scans: string[]; // files of the folder that it reads
 }
 
+// How opaque a value is: its place between the least and the greatest, and the opacity, both 0 to 1.
+export interface CurvePoint {
+  at: number;
+  opacity: number;
+}
+
 // A file beside designs.
 export type DataKind = "scan" | "results" | "table";
 export interface DataFile {
@@ -216,6 +222,7 @@ export interface State {
   range?: [number, number]; // of the values that colours span; nothing: those of the design
   shownRange?: { of: string; range: [number, number] }; // of the last picture
   opacity: Record<string, number>;
+  curves: Record<string, CurvePoint[]>; // opacities by an attribute's values, in the volume view
   printer: string;
   dither: string;
   place: Place;
@@ -267,6 +274,7 @@ export let state: State = {
   by: "",
   palette: "",
   opacity: {},
+  curves: {},
   printer: "generic",
   dither: "stochastic",
   place: "",

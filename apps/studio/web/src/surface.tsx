@@ -3,7 +3,7 @@ import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { barLength, fieldOfView, fitted, length, views } from "./camera";
 import { Refused } from "./connection";
 import { CutControls, cutMembers } from "./cuts";
-import { moveByKeys, moveByPointer } from "./navigation";
+import { moveByKeys, moveByPointer, placeCamera } from "./navigation";
 import { about, connection } from "./session";
 import { Camera, set, state, useStore } from "./store";
 
@@ -220,12 +220,7 @@ export function SurfaceView() {
     size.observe(canvas.current!);
     return () => size.disconnect();
   }, []);
-  // The camera is placed once; from then on only people move it.
-  useEffect(() => {
-    const element = canvas.current!;
-    if (design && !state.camera && element.clientHeight > 0)
-      set({ camera: fitted(design, element.clientWidth / element.clientHeight, views.iso) });
-  }, [design]);
+  useEffect(() => placeCamera(canvas.current!), [design]);
   const key = pictureKey();
   useEffect(() => void drawer.current?.go(), [key]);
   return (

@@ -1,12 +1,13 @@
-// The inside, by rays through a texture of the materials' fractions.
+// The inside, by rays through a texture of the materials' fractions, or of an attribute's values.
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { axes, eyeDistance } from "./camera";
 import { Refused } from "./connection";
 import { CutControls } from "./cuts";
-import { moveByKeys, moveByPointer } from "./navigation";
+import { moveByKeys, moveByPointer, placeCamera } from "./navigation";
 import { about } from "./session";
-import { state, useStore } from "./store";
+import { Design, set, state, useStore } from "./store";
 import { ViewButtons } from "./surface";
+import { TransferCurve, curveOf, tableSize, transferTable } from "./transfer";
 
 const most = 8; // materials
 
@@ -30,16 +31,28 @@ uniform vec3 wedge, wedge_at;   // what lies on all sides is left away; 1 and -1
 uniform bool has_wedge;
 uniform int steps;
 uniform vec4 materials[${most}];  // colours, and opacities in w
+uniform bool by_value;          // fractions0 has a value times what is inside, and what is inside
+uniform sampler2D transfer;     // colours, and opacities in w, from the least value to the greatest
 
 float[${most}] fractions(vec3 p) {
   vec4 a = texture(fractions0, p), b = texture(fractions1, p);
   return float[${most}](a.r, a.g, a.b, a.a, b.r, b.g, b.b, b.a);
 }
-float density(vec3 p) {
-  float f[${most}] = fractions(p), sum = 0.0;
-  for (int m = 0; m < ${most}; ++m) sum += f[m] * materials[m].w;
-  return sum;
+vec4 shade_of_value(vec3 p) {
+  vec2 v = texture(fractions0, p).rg;
+  if (v.g < 0.004) return vec4(0.0);
+  vec4 shade = texture(transfer, vec2((clamp(v.r / v.g, 0.0, 1.0) * ${tableSize - 1}.0 + 0.5) / ${tableSize}.0, 0.5));
+  return vec4(shade.rgb, 1.0) * shade.a * v.g;
 }
+// The opacity in w, and colours times it.
+vec4 shade_at(vec3 p) {
+  if (by_value) return shade_of_value(p);
+  float f[${most}] = fractions(p);
+  vec4 shade = vec4(0.0);
+  for (int m = 0; m < ${most}; ++m) shade += f[m] * materials[m].w * vec4(materials[m].rgb, 1.0);
+  return shade;
+}
+float density(vec3 p) { return shade_at(p).w; }
 
 bool is_cut(vec3 p) {
   if (any(lessThan(p, box_lo)) || any(greaterThan(p, box_hi))) return true;
@@ -64,13 +77,9 @@ void main() {
     vec3 place = from + along * t;
     if (is_cut(place)) continue;
     vec3 p = (place - origin) / size;
-    float f[${most}] = fractions(p), sum = 0.0;
-    vec3 mixed = vec3(0.0);
-    for (int m = 0; m < ${most}; ++m) {
-      float weight = f[m] * materials[m].w;
-      sum += weight;
-      mixed += weight * materials[m].rgb;
-    }
+    vec4 shade = shade_at(p);
+    float sum = shade.w;
+    vec3 mixed = shade.rgb;
     if (sum < 0.003) continue;
     float alpha = 1.0 - pow(1.0 - min(sum, 0.9999), step / unit);
     vec3 slope = vec3(density(p + vec3(cell.x, 0, 0)) - density(p - vec3(cell.x, 0, 0)),
@@ -88,9 +97,16 @@ interface Grid {
   count: number[];
   origin_mm: number[];
   pitch_mm: number;
-  materials: { name: string; colour: number[] }[];
-  left_out: number;
+  materials?: { name: string; colour: number[] }[];
+  left_out?: number;
+  by: string; // the attribute whose values it has; empty: it has fractions of materials
+  range?: [number, number];
 }
+
+// Attributes of one number can be shown; the others are colours, say.
+const isNumber = (design: Design | undefined, name: string) => design?.attributes.some((a) => a.name === name && a.type === "number") ?? false;
+
+const coloursOf = (palette: string) => (state.hello?.palettes.find((p) => p.name === palette) ?? state.hello?.palettes[0])?.colours ?? [[0, 0, 0], [255, 255, 255]];
 
 function cutUniforms() {
   const { cut } = state;
@@ -137,6 +153,12 @@ class VolumePainter {
         gl.texParameteri(gl.TEXTURE_3D, name, value);
       gl.uniform1i(this.at(`fractions${n}`), n);
     });
+    gl.activeTexture(gl.TEXTURE2);
+    gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.LINEAR);
+    for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
+    gl.uniform1i(this.at("transfer"), 2);
+    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
   }
 
   private at(name: string) {
@@ -146,11 +168,12 @@ class VolumePainter {
   take(grid: Grid, bytes: Uint8Array) {
     const { gl } = this;
     const [nx, ny, nz] = grid.count,
-      size = nx * ny * nz * 4;
+      size = nx * ny * nz * (grid.by ? 2 : 4);
     this.textures.forEach((_, n) => {
       gl.activeTexture(gl.TEXTURE0 + n);
       const part = bytes.subarray(n * size, (n + 1) * size);
-      if (part.length === size) gl.texImage3D(gl.TEXTURE_3D, 0, gl.RGBA8, nx, ny, nz, 0, gl.RGBA, gl.UNSIGNED_BYTE, part);
+      if (part.length === size && grid.by) gl.texImage3D(gl.TEXTURE_3D, 0, gl.RG8, nx, ny, nz, 0, gl.RG, gl.UNSIGNED_BYTE, part);
+      else if (part.length === size) gl.texImage3D(gl.TEXTURE_3D, 0, gl.RGBA8, nx, ny, nz, 0, gl.RGBA, gl.UNSIGNED_BYTE, part);
       else gl.texImage3D(gl.TEXTURE_3D, 0, gl.RGBA8, 1, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     });
     this.grid = grid;
@@ -175,17 +198,23 @@ class VolumePainter {
     gl.uniform1f(this.at("aspect"), canvas.width / canvas.height);
     gl.uniform1f(this.at("unit"), Math.hypot(...size) / 30);
     gl.uniform1i(this.at("steps"), 2 * Math.max(...grid.count));
+    gl.uniform1i(this.at("by_value"), grid.by ? 1 : 0);
+    gl.activeTexture(gl.TEXTURE2);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, tableSize, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, transferTable(coloursOf(state.palette), curveOf(grid.by)));
     const values = new Float32Array(4 * most);
-    grid.materials.forEach((m, n) => values.set([...m.colour.slice(0, 3).map((c) => c / 255), state.opacity[m.name] ?? (m.colour[3] ?? 255) / 255], 4 * n));
+    grid.materials?.forEach((m, n) => values.set([...m.colour.slice(0, 3).map((c) => c / 255), state.opacity[m.name] ?? (m.colour[3] ?? 255) / 255], 4 * n));
     gl.uniform4fv(this.at("materials"), values);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     canvas.dataset.state = "ready";
     canvas.dataset.design = grid.design;
+    canvas.dataset.by = grid.by;
   }
 }
 
 export function VolumeView() {
-  const { design, camera, cut, perspective, opacity } = useStore();
+  const { design, camera, cut, perspective, opacity, by: chosen, palette, curves } = useStore();
+  const by = isNumber(design, chosen) ? chosen : "";
+  const [range, setRange] = useState<[number, number]>();
   const canvas = useRef<HTMLCanvasElement>(null);
   const painter = useRef<VolumePainter>();
   const [side, setSide] = useState(64);
@@ -202,23 +231,32 @@ export function VolumeView() {
     size.observe(canvas.current!);
     return () => size.disconnect();
   }, []);
+  useEffect(() => placeCamera(canvas.current!), [design]);
   useEffect(() => {
     if (!design || !painter.current) return;
     canvas.current!.dataset.state = "drawing";
-    about("volume", { side }, "volume")
+    about("volume", { side, ...(by ? { by } : {}) }, "volume")
       .then((reply) => {
-        painter.current!.take({ ...(reply as any), design: design.design }, reply.bytes!);
+        painter.current!.take({ ...(reply as any), design: design.design, by }, reply.bytes!);
         painter.current!.paint();
+        setRange(reply.range);
         setProblem(reply.left_out > 0 ? `${reply.left_out} materials are left out: the view shows ${most}.` : "");
       })
       .catch((error: Refused) => error.isCancelled || setProblem(error.message));
-  }, [design, side]);
-  useEffect(() => painter.current?.paint(), [camera, cut, perspective, opacity]);
+  }, [design, side, by]);
+  useEffect(() => painter.current?.paint(), [camera, cut, perspective, opacity, palette, curves]);
   return (
     <section class="view volume" aria-label="Volume">
       <div class="viewbar">
         <ViewButtons />
         <CutControls />
+        <label>
+          Colour by
+          <select value={by} onChange={(e) => set({ by: e.currentTarget.value, range: undefined })}>
+            <option value="">materials</option>
+            {design?.attributes.filter((a) => isNumber(design, a.name)).map((a) => <option value={a.name}>{a.name}</option>)}
+          </select>
+        </label>
         <label>
           Detail
           <select value={side} onChange={(e) => setSide(+e.currentTarget.value)}>
@@ -230,6 +268,7 @@ export function VolumeView() {
         <canvas ref={canvas} tabIndex={0} role="img" {...pointer} onKeyDown={moveByKeys}
                 aria-label="The inside of the design; opacities are in the panel of materials. Arrows turn it, with Shift they move it." />
         <p class="viewproblem" role="status">{problem}</p>
+        {by && range && <TransferCurve attribute={by} range={range} colours={coloursOf(palette)} />}
       </div>
     </section>
   );

@@ -1,0 +1,112 @@
+// A studio for tests, and a client that asks it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/json.h"
+#include "studio/studio.h"
+#include "studio/test_folder.h"
+
+namespace ombre::studio {
+
+inline constexpr const char* ball =
+    "radius = 3;  // [1:5]\n"
+    "fgrade([\"0.5 + x / 6\", \"0.5 - x / 6\"], [red, blue]) sphere(radius);\n";
+// Remembers what it was sent.
+class Listener : public Client {
+ public:
+  void send(Frame frame) override {
+    const std::lock_guard lock(mutex_);
+    Data data;
+    std::string bytes;
+    Diagnostics none;
+    if (frame.is_binary) {
+      size_t length = 0;
+      for (size_t n = 0; n < 4; ++n) length |= static_cast<size_t>(static_cast<unsigned char>(frame.data[n])) << 8 * n;
+      bytes = frame.data.substr(4 + length);
+      data = *parse_json(make_source("frame", frame.data.substr(4, length)), none);
+    } else {
+      data = *parse_json(make_source("frame", frame.data), none);
+    }
+    frames_.emplace_back(std::move(data), std::move(bytes));
+    news_.notify_all();
+  }
+
+  // The first frame, and only it, for which the question holds; a null value after half a minute.
+  template <class Question>
+  std::pair<Data, std::string> wait(const Question& is_it) {
+    std::unique_lock lock(mutex_);
+    const auto found = [&] { return std::ranges::find_if(frames_, [&](const auto& f) { return is_it(f.first); }); };
+    news_.wait_for(lock, std::chrono::seconds(30), [&] { return found() != frames_.end(); });
+    const auto frame = found();
+    if (frame == frames_.end()) return {};
+    auto taken = *frame;
+    frames_.erase(frame);
+    return taken;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable news_;
+  std::vector<std::pair<Data, std::string>> frames_;
+};
+
+class StudioTest : public testing::Test {
+ protected:
+  StudioTest() { studio.add(client); }
+
+  std::pair<Data, std::string> ask(const std::string& what, const std::string& members = "") {
+    const int id = ++last_;
+    studio.take(client, R"({"id": )" + std::to_string(id) + R"(, "do": ")" + what + '"' +
+                            (members.empty() ? "" : ", " + members) + "}");
+    return answer(id);
+  }
+  std::pair<Data, std::string> answer(int id) {
+    return client->wait([&](const Data& data) {
+      const Data* found = data.find("id");
+      return found && *found->number() == id;
+    });
+  }
+  static std::string text(const Data& data, const char* name) {
+    const Data* found = data.find(name);
+    return found && found->string() ? *found->string() : "";
+  }
+  static double number_in(const Data& data, const char* name) {
+    const Data* found = data.find(name);
+    return found && found->number() ? *found->number() : std::nan("");
+  }
+  std::string load(const std::string& script, const std::string& more = "") {
+    const Data loaded = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(script) + more).first;
+    EXPECT_TRUE(loaded.find("design")) << print_json(loaded);
+    return text(loaded, "design");
+  }
+  // The job when it is in that state.
+  Data job_in(const std::string& state) {
+    const auto event = client->wait([&](const Data& data) {
+      const Data* job = data.find("job");
+      return data.find("event") && job && text(*job, "state") == state;
+    });
+    return event.first.is_null() ? Data() : *event.first.find("job");
+  }
+
+  TestFolder folder;
+  std::vector<std::string> opened;  // folders that were to be shown
+  sources::SourceCache cache;
+  Studio studio{folder.path,
+                {"ombre test", {}, "", 60, [this](const std::string& shown) { return opened.push_back(shown), true; }},
+                cache};
+  std::shared_ptr<Listener> client = std::make_shared<Listener>();
+  int last_ = 0;
+};
+
+}  // namespace ombre::studio

@@ -1,0 +1,192 @@
+// Pictures, tiles, probes and volumes of a design.
+#include <map>
+
+#include "base/json.h"
+#include "formats/png.h"
+#include "studio/test_studio.h"
+
+namespace ombre::studio {
+namespace {
+
+// What tiles and probes show is what the job writes.
+
+TEST_F(StudioTest, PicturesStayWhereTheirCameraIs) {
+  const std::string design = load("sphere(1, red);");
+  const auto picture = [&](const std::string& target) {
+    return ask("render", R"("design": ")" + design + R"(", "width": 40, "height": 40, "azimuth": 0, "elevation": 0, )" +
+                             R"("height_mm": 8, "target": )" + target);
+  };
+  // Ten pixels a ball, in the middle; and 10 pixels to the left of it.
+  const auto middle = formats::decode_png(picture("[0, 0, 0]").second, "middle");
+  EXPECT_EQ(middle.colour(20, 20)[3], 255);
+  EXPECT_EQ(middle.colour(20, 13)[3], 0);
+  EXPECT_EQ(middle.colour(13, 20)[3], 0);
+  const auto left = formats::decode_png(picture("[2, 0, 0]").second, "left");
+  EXPECT_EQ(left.colour(10, 20)[3], 255);
+  EXPECT_EQ(left.colour(20, 20)[3], 0);
+  EXPECT_EQ(text(ask("render", R"("design": ")" + design + R"(", "width": 40, "height": 40, "cuts": ["q=1"])").first,
+                 "error"),
+            "request");
+}
+
+TEST_F(StudioTest, PicturesAreCutByWedgesAndBoxes) {
+  const std::string design = load("sphere(1, red);");
+  const auto alpha = [&](const std::string& how, uint32_t column, uint32_t row) {
+    const std::string request = R"("design": ")" + design + R"(", "width": 40, "height": 40, "azimuth": 0, )" +
+                                R"("elevation": 0, "height_mm": 2.4, "target": [0, 0, 0], )" + how;
+    return static_cast<int>(formats::decode_png(ask("render", request).second, "cut").colour(column, row)[3]);
+  };
+  const std::string quarter = R"("cuts": ["x>0,z>0"])", box = R"("box": [-1, -1, -1, 0, 1, 0])";
+  EXPECT_EQ(alpha(quarter, 27, 12), 0);
+  EXPECT_EQ(alpha(quarter, 12, 12), 255);
+  EXPECT_EQ(alpha(quarter, 27, 27), 255);
+  EXPECT_EQ(alpha(box, 12, 27), 255);
+  EXPECT_EQ(alpha(box, 27, 27), 0);
+  EXPECT_EQ(alpha(box, 12, 12), 0);
+  const std::string wrong = R"("design": ")" + design + R"(", "width": 40, "height": 40, "box": [0, 0, 0, 1, 1, -1])";
+  EXPECT_EQ(text(ask("render", wrong).first, "error"), "request");
+}
+
+TEST_F(StudioTest, SaysWhichCallsMadeAPoint) {
+  const std::string script =
+      "translate(10, 0, 0) union() {\n"
+      "  material(red) rotate(0, 0, 90) rectprism((2, 8, 2));\n"  // |x - 10| < 4, |y| < 1
+      "  difference() {\n"
+      "    sphere(3, blue);\n"
+      "    sphere(1, red);\n"
+      "  }\n"
+      "  array_linear(3, (0, 5, 0)) sphere(1, green);\n"
+      "}\n"
+      "offset(1) union() { cube(2, red); translate(1, 0, 0) cube(2, red); }\n";
+  const std::string design = load(script);
+  const auto calls = [&](const std::string& at) {
+    const Data probed = ask("probe", R"("at": )" + at + R"(, "design": ")" + design + '"').first;
+    std::string path;
+    for (const Data& node : *probed.find("nodes")->list()) {
+      path += " " + text(node, "type");
+      if (!node.find("from")) continue;
+      const auto from = static_cast<size_t>(number_in(node, "from"));
+      EXPECT_EQ(script.substr(from, text(node, "type").size()), text(node, "type")) << print_json(node);
+      path += std::to_string(static_cast<int>(number_in(node, "line")));
+    }
+    return path;
+  };
+  EXPECT_EQ(calls("[13.5, 0.5, 0]"), " union translate1 union1 material2 rotate2 rectprism2");
+  EXPECT_EQ(calls("[10, 2.5, 0]"), " union translate1 union1 difference3 sphere4");
+  EXPECT_EQ(calls("[10, 10.5, 0]"), " union translate1 union1 array_linear7 sphere7");
+  EXPECT_EQ(calls("[-1.5, 0, 0]"), " union offset9");
+  EXPECT_EQ(calls("[30, 0, 0]"), "");
+}
+
+TEST_F(StudioTest, TilesAndProbesAreTheJobsPixels) {
+  const std::string design = load(ball), job = R"("design": ")" + design + R"(", "printer": "j750")";
+  const Data plan = ask("plan", job).first;
+  const auto count = [&](size_t axis) { return static_cast<int64_t>(*plan.find("count")->list()->at(axis).number()); };
+  const auto mm = [&](const char* what, size_t axis) { return *plan.find(what)->list()->at(axis).number(); };
+  ASSERT_EQ(count(0), 142);  // 6 mm at 600 dpi
+  ASSERT_EQ(count(1), 71);
+  const int64_t layer = count(2) / 2;
+  ASSERT_FALSE(ask("export", job + R"(, "folder": "a_slices")").first.find("error"));
+  ASSERT_FALSE(job_in("done").is_null());
+  const std::string number = std::to_string(layer);
+  const auto written = formats::decode_png(
+      folder.read("a_slices/slice_" + std::string(5 - number.size(), '0') + number + ".png"), "layer");
+  const auto tile = formats::decode_png(
+      ask("tile", job + R"(, "layer": )" + number + R"(, "x": 32, "y": 8, "width": 64, "height": 48)").second, "tile");
+  ASSERT_EQ(tile.width, 64U);
+  ASSERT_EQ(tile.height, 48U);
+  for (uint32_t row = 0; row < 48; ++row)
+    for (uint32_t column = 0; column < 64; ++column) {
+      const auto y = static_cast<uint32_t>(count(1)) - (8 + 48) + row;  // from the top
+      ASSERT_EQ(tile.colour(column, row), written.colour(32 + column, y)) << column << ' ' << row;
+    }
+
+  const std::map<std::string, formats::Rgba> colours{
+      {"red", {255, 0, 0, 255}}, {"blue", {0, 80, 255, 255}}, {"void", {0, 0, 0, 0}}};
+  for (int64_t n = 0; n < 20; ++n) {
+    const int64_t i = (37 * n) % count(0), j = (29 * n) % count(1);
+    const auto at = [&](size_t axis, int64_t index) {
+      return std::to_string(mm("origin_mm", axis) + mm("pitch_mm", axis) * (static_cast<double>(index) + 0.5));
+    };
+    const Data probed = ask("probe", job + R"(, "at": [)" + at(0, i) + "," + at(1, j) + "," + at(2, layer) + "]").first;
+    const Data& voxel = *probed.find("voxel");
+    EXPECT_EQ(*voxel.find("index"), Data(DataList{ombre::number(i), ombre::number(j), ombre::number(layer)}));
+    EXPECT_EQ(colours.at(text(voxel, "material")),
+              written.colour(static_cast<uint32_t>(i), static_cast<uint32_t>(count(1) - 1 - j)));
+  }
+}
+
+TEST_F(StudioTest, VolumesHoldFractions) {
+  const auto [header, bytes] = ask("volume", R"("side": 16, "design": ")" + load("rectprism((4, 4, 4), red);") + '"');
+  ASSERT_TRUE(header.find("count")) << print_json(header);
+  const DataList& count = *header.find("count")->list();
+  const size_t voxels = static_cast<size_t>(*count[0].number() * *count[1].number() * *count[2].number());
+  ASSERT_EQ(bytes.size(), 4 * voxels) << print_json(header);
+  for (size_t n = 0; n < voxels; ++n) {
+    ASSERT_EQ(bytes[4 * n], '\xff');
+    ASSERT_EQ(bytes[4 * n + 1], '\0');
+  }
+}
+
+// What an edit leaves as it is, is not made again.
+TEST_F(StudioTest, EditsLeaveStagesOfOthersAsTheyAre) {
+  const auto made_by = [&](double radius, double beside, const std::string& material) {
+    const size_t before = studio.counts().made;
+    const std::string design =
+        load("union() { keep_parts(pitch=(0.5, 0.5, 0.5)) material(" + material + ") sphere(" + std::to_string(radius) +
+             "); translate(9, 0, 0) sphere(" + std::to_string(beside) + ", red); }");
+    const std::string camera = R"("width": 40, "height": 30, "target": [4, 0, 0], "height_mm": 30, "design": ")";
+    EXPECT_FALSE(ask("render", camera + design + '"').second.empty());
+    EXPECT_TRUE(ask("plan", R"("printer": "j750", "design": ")" + design + '"').first.find("count"));
+    return studio.counts().made - before;
+  };
+  EXPECT_EQ(made_by(3, 2, "red"), 1U);  // for the picture and the job
+  EXPECT_EQ(made_by(3, 2.5, "red"), 0U);
+  EXPECT_EQ(made_by(3, 2.5, "blue"), 0U);
+  EXPECT_EQ(made_by(3.25, 2.5, "blue"), 1U);
+}
+
+TEST_F(StudioTest, ThumbnailsAreMadeOnce) {
+  const auto thumbnail = [&](const std::string& design, int node) {
+    return ask("thumbnail",
+               R"("width": 24, "height": 18, "node": )" + std::to_string(node) + R"(, "design": ")" + design + '"');
+  };
+  const std::string design = load("union() { sphere(3, red); translate(9, 0, 0) rectprism((4, 4, 4), blue); }");
+  const std::string red = thumbnail(design, 1).second;
+  ASSERT_FALSE(red.empty());
+  const size_t made = studio.counts().made;
+  // An edit of the block leaves the ball as it is.
+  const std::string edited = load("union() { sphere(3, red); translate(9, 0, 0) rectprism((5, 4, 4), blue); }");
+  EXPECT_EQ(thumbnail(edited, 1).second, red);
+  EXPECT_EQ(studio.counts().made, made);
+  EXPECT_NE(thumbnail(edited, 2).second, thumbnail(design, 2).second);
+  EXPECT_GT(studio.counts().made, made);
+  EXPECT_EQ(text(thumbnail(design, 9).first, "error"), "request");
+}
+
+TEST_F(StudioTest, VolumesHoldValuesOfAttributes) {
+  const std::string design = load("attribute(\"heat\", \"x\", unit=\"K\") rectprism((8, 4, 4), red);");
+  const auto [header, bytes] = ask("volume", R"("side": 16, "by": "heat", "design": ")" + design + '"');
+  ASSERT_TRUE(header.find("count")) << print_json(header);
+  const DataList& count = *header.find("count")->list();
+  const auto columns = static_cast<size_t>(*count[0].number());
+  const size_t texels = columns * static_cast<size_t>(*count[1].number() * *count[2].number());
+  ASSERT_EQ(bytes.size(), 2 * texels);
+  const double lo = *header.find("range")->list()->front().number(),
+               hi = *header.find("range")->list()->back().number();
+  EXPECT_NEAR(lo, -4, 0.2);
+  EXPECT_NEAR(hi, 4, 0.2);
+  const double first_mm = *header.find("origin_mm")->list()->front().number();
+  for (size_t i = 0; i < columns; ++i) {  // of the first row
+    const double inside = static_cast<unsigned char>(bytes[2 * i + 1]) / 255.0;
+    const double value = static_cast<unsigned char>(bytes[2 * i]) / 255.0;
+    const double x = first_mm + (static_cast<double>(i) + 0.5) * number_in(header, "pitch_mm");
+    if (inside < 1) continue;
+    EXPECT_NEAR(value, std::clamp((x - lo) / (hi - lo), 0.0, 1.0), 0.02) << x;
+  }
+  const Data refused = ask("volume", R"("side": 16, "by": "cold", "design": ")" + design + '"').first;
+  EXPECT_EQ(text(refused, "message"), "the design has no number called \"cold\"; it has heat");
+}
+
+}  // namespace
+}  // namespace ombre::studio

@@ -1,0 +1,58 @@
+// Small pictures of nodes. The server makes them one at a time, for entries that are seen, so that other questions wait
+// for one of them at most.
+import { useEffect, useRef, useState } from "preact/hooks";
+import { connection } from "./session";
+import { state } from "./store";
+
+const size = { width: 48, height: 36 };
+const ratio = Math.min(Math.ceil(devicePixelRatio), 2);
+
+interface Wanted {
+  design: string;
+  node: number;
+  show: (url: string) => void;
+}
+
+let waiting: Wanted[] = [];
+let isAtWork = false;
+
+async function work() {
+  if (isAtWork) return;
+  isAtWork = true;
+  for (let next = waiting.shift(); next; next = waiting.shift()) {
+    if (next.design !== state.design?.design) continue;
+    const { design, node, show } = next;
+    const ask = { design, node, width: ratio * size.width, height: ratio * size.height };
+    const reply = await connection.ask("thumbnail", ask).answer.catch(() => undefined); // a formula without bounds, say
+    show(reply ? URL.createObjectURL(new Blob([reply.bytes as BlobPart], { type: "image/png" })) : "");
+  }
+  isAtWork = false;
+}
+
+// The picture before stays until there is a new one.
+export function Thumbnail({ node, type }: { node: number; type: string }) {
+  const design = state.design!.design;
+  const place = useRef<HTMLSpanElement>(null);
+  const [url, setUrl] = useState("");
+  const known = useRef("");
+  useEffect(() => {
+    const wanted: Wanted = { design, node, show: (made) => {
+      URL.revokeObjectURL(known.current);
+      known.current = made;
+      setUrl(made);
+    } };
+    const observer = new IntersectionObserver(([entry]) => {
+      if (!entry.isIntersecting) return;
+      observer.disconnect();
+      waiting.push(wanted);
+      work();
+    });
+    observer.observe(place.current!);
+    return () => {
+      observer.disconnect();
+      waiting = waiting.filter((other) => other !== wanted);
+    };
+  }, [design, node]);
+  useEffect(() => () => URL.revokeObjectURL(known.current), []);
+  return <span ref={place} class="thumbnail" style={size}>{url && <img src={url} alt={`What ${type} makes`} {...size} />}</span>;
+}
