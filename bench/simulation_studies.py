@@ -101,6 +101,10 @@ def chart(profiles):
     return "\n".join(lines) + "\n</svg>\n"
 
 
+def threads_of(arguments):
+    return ["--threads", arguments.threads] if arguments.threads != "0" else []
+
+
 def lattices(arguments, folder):
     profiles = []
     print("| rule | bricks | force on top | iterations | time | memory |\n| --- | --- | --- | --- | --- | --- |", flush=True)
@@ -108,7 +112,7 @@ def lattices(arguments, folder):
         output = folder / f"{n}.vtu"
         events, seconds, memory = run(
             [arguments.ombre, "fea", LATTICE, "-D", f"rule={n}", "--study", PRESS, "--cell", arguments.cell, "--solve",
-             "--tolerance", "1e-6", "--threads", arguments.threads, "--solver", arguments.solver, "--memory", arguments.memory,
+             "--tolerance", "1e-6", *threads_of(arguments), "--solver", arguments.solver, "--memory", arguments.memory,
              "--json", "-o", output], folder)
         profiles.append((name, profile(output)))
         print(f"| {name} | {events['model']['bricks']:,.0f} | {top_force(events, output):.4g} N | "
