@@ -101,14 +101,19 @@ def chart(profiles):
     return "\n".join(lines) + "\n</svg>\n"
 
 
+def threads_of(arguments):
+    return ["--threads", arguments.threads] if arguments.threads != "0" else []
+
+
 def lattices(arguments, folder):
     profiles = []
-    print("| rule | bricks | force on top | iterations | time | memory |\n| --- | --- | --- | --- | --- | --- |")
+    print("| rule | bricks | force on top | iterations | time | memory |\n| --- | --- | --- | --- | --- | --- |", flush=True)
     for n, name in enumerate(RULES, 1):
         output = folder / f"{n}.vtu"
         events, seconds, memory = run(
             [arguments.ombre, "fea", LATTICE, "-D", f"rule={n}", "--study", PRESS, "--cell", arguments.cell, "--solve",
-             "--tolerance", "1e-6", "--threads", arguments.threads, "--json", "-o", output], folder)
+             "--tolerance", "1e-6", *threads_of(arguments), "--solver", arguments.solver, "--memory", arguments.memory,
+             "--json", "-o", output], folder)
         profiles.append((name, profile(output)))
         print(f"| {name} | {events['model']['bricks']:,.0f} | {top_force(events, output):.4g} N | "
               f"{events['solution']['iterations']:.0f} | {seconds:.1f} s | {memory / 1e6:,.0f} MB |", flush=True)
@@ -195,6 +200,8 @@ def main():
     parser.add_argument("--cell", default="0.5", help="size of the lattices' bricks, mm")
     parser.add_argument("--bricks", type=int, default=216, help="of the block along each axis")
     parser.add_argument("--threads", default="0", help="0: all cores")
+    parser.add_argument("--solver", default="auto", help="of the lattices: auto, multigrid or direct")
+    parser.add_argument("--memory", default="8G", help="that solving a lattice may take")
     parser.add_argument("--chart", type=pathlib.Path)
     parser.add_argument("--calculix", action="store_true")
     arguments = parser.parse_args()

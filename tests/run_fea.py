@@ -203,7 +203,33 @@ def solutions_agree_with_calculix(folder):
             agree(wanted, stored.get(name, {}), 1e-5, name + " by CalculiX")
         expect(wanted or "--elements" in arguments, f"{CALCULIX_FILE.name} has no {name}")
         if wanted:
-            agree(solve_case(folder, name, "built-in"), wanted, tolerance, name)
+            agree(solve_case(folder, name, "auto"), wanted, tolerance, name)
+
+
+def solvers_agree(folder):
+    """A lattice of thin struts, drawn of materials that differ 7,400 times: by multigrid, by a factorisation, and by the
+    latter since the former is slow."""
+    examples = program.SOURCE / "examples" / "studies"
+    job = [examples / "lattice.vcad", "-D", "cells=2", "-D", "rule=2", "--study", examples / "press.json", "--cell", "1",
+           "--solve", "--tolerance", "1e-9"]
+    slow = folder.events(*job, "--solver", "multigrid")
+    expect("factorisation" not in slow and slow["solution"]["iterations"] > 100, str(slow["solution"]["iterations"]))
+    run = program.run([folder.ombre, "fea", *job, "--solver", "direct", "--json"], cwd=folder.path)
+    if "built without MUMPS" in run.stdout + run.stderr:
+        return
+    quick = folder.events(*job, "--solver", "direct")
+    expect(quick["solution"]["iterations"] <= 6, str(quick["solution"]["iterations"]))
+    expect(quick["factorisation"]["disk_bytes"] == 0 and quick["factorisation"]["memory_bytes"] > 1e6, "what it takes")
+    auto = folder.events(*job)
+    expect("factorisation" in auto and auto["solution"]["iterations"] % 40 < 8, str(auto["solution"]["iterations"]))
+    for one in (quick, auto):
+        near(one["solution"]["strain_energy_mj"], slow["solution"]["strain_energy_mj"],
+             1e-5 * slow["solution"]["strain_energy_mj"], "energy")
+    limit = int(quick["factorisation"]["memory_bytes"])
+    beside = folder.events(*job, "--solver", "direct", "--memory", str(limit))["factorisation"]
+    expect(beside["disk_bytes"] > 0 and beside["memory_bytes"] <= limit, "on disk")
+    failed = program.run([folder.ombre, "fea", *job, "--solver", "direct", "--memory", "5M"], cwd=folder.path)
+    expect(failed.returncode == 2 and "more than the" in failed.stderr, failed.stderr[-500:])
 
 
 def write_calculix(ombre):
@@ -541,6 +567,7 @@ def wrong_use_is_told(folder):
     expect("--elements tet10" in error(*solve, "--cell", "1", "--size", "1"), "size of bricks")
     expect("--min-cell" in error(*solve, "--elements", "tet4", "--size-by", "1"), "no least size")
     expect("nothing without --solve" in error(*cube, "--study", "pull.json", "--solver", "calculix", "-o", "x.inp"), "solver")
+    expect("--solver direct is of bricks" in error(*solve, "--elements", "tet4", "--size", "5", "--solver", "direct"), "bricks")
     if has_tetrahedra(folder):
         folder.run(*solve, "--elements", "tet4", "--size", "100")  # larger than the part
         message = error(*solve, "--elements", "tet4", "--size", "0.01", status=2)
@@ -584,6 +611,7 @@ def main():
               moduli_come_from_attributes, decks_are_complete, tetrahedra_reach_the_surface,
               tetrahedra_of_any_size_come_to_an_end, cells_that_repeat_fit_their_copies, designs_with_rough_edges_come_to_an_end,
               adaptive_meshes_cost_less, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix,
+              solvers_agree,
               a_hook_holds_its_coat, a_mug_cools, materials_that_are_nowhere_need_no_properties, results_are_in_xdmf, rounds_follow_their_results,
               wrong_use_of_rounds_is_told, wrong_use_is_told,
               ctrl_c_ends_it]

@@ -69,9 +69,8 @@ std::vector<std::string> names_of(const FeaArguments& a, const std::string& path
 }
 
 void check_outputs(const FeaArguments& a) {
-  if (a.solver != "built-in" && !a.solve)
-    throw WrongArgument(spelled::option("--solver", "calculix") + " does nothing without " +
-                        spelled::option("--solve"));
+  if (a.solver != "auto" && !a.solve)
+    throw WrongArgument(spelled::option("--solver", a.solver) + " does nothing without " + spelled::option("--solve"));
   if (a.outputs.empty() && !a.solve)
     throw WrongArgument("there is nothing to do: write " + spelled::option("-o", "part.inp") + " or " +
                         spelled::option("-o", "part.vtu") + ", or " + spelled::option("--solve"));
@@ -102,6 +101,8 @@ void check_elements(const FeaArguments& a) {
   }
   if (!a.cell.empty())
     throw WrongArgument(spelled::option("--cell") + " is of bricks; write " + spelled::option("--size", "1.5"));
+  if (a.solver == "multigrid" || a.solver == "direct")
+    throw WrongArgument(spelled::option("--solver", a.solver) + " is of bricks; leave it out");
   if (a.element != "C3D8")
     throw WrongArgument(spelled::option("--element") + " is of bricks; tetrahedra are C3D4 or C3D10");
   if ((a.size > 0) == !a.size_by.empty())
@@ -154,9 +155,11 @@ void add_arguments(CLI::App& app, FeaArguments& a) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   app.add_flag("--solve", a.solve, "Solve it: displacements, stresses, reactions");
-  app.add_option("--solver", a.solver,
-                 "built-in (default), or calculix: the program ccx, where it is installed; with --solve")
-      ->check(one_of({"built-in", "calculix"}))
+  app.add_option(
+         "--solver", a.solver,
+         "auto (default), multigrid, direct, or calculix: the program ccx, where it is installed; with --solve.\n"
+         "On bricks auto begins with multigrid, and factorises the equations (direct) where that is slow")
+      ->check(one_of({"auto", "multigrid", "direct", "calculix"}))
       ->type_name("NAME");
   app.add_option("--rounds", a.rounds, "Solve, hand the results to the design, and again: at most so many times")
       ->check(whole_between(1, 1000))

@@ -13,7 +13,7 @@ struct FeaArguments {
   DesignArguments design;
   std::vector<std::string> outputs;
   std::string study, elements = "brick", cell, size_by, subdomains, assign = "draw", modulus, conductivity,
-                     element = "C3D8", solver = "built-in", seed = "0", memory = "8G";
+                     element = "C3D8", solver = "auto", seed = "0", memory = "8G";
   std::string follow;
   double size = 0, min_cell = 0, max_cell = 0, tolerance = 1e-8, change = 1e-3;
   int threads = 0, sections = 64, rounds = 0;

@@ -189,11 +189,19 @@ compile::FeaResults solve_elsewhere(const FeaArguments& a, const Case& here, Ses
   return results;
 }
 
+fea::Solver solver_of(const FeaArguments& a) {
+  if (a.solver == "direct") return fea::Solver::direct;
+  return a.solver == "multigrid" ? fea::Solver::multigrid : fea::Solver::automatic;
+}
+
 compile::FeaResults solve_case(const FeaArguments& a, const Case& here, Session& session) {
   const Stopwatch watch;
   fea::SolveOptions options;
   options.tolerance = a.tolerance;
   options.threads = a.threads;
+  options.solver = solver_of(a);
+  options.memory_bytes = static_cast<double>(parse_memory(a.memory)) - here.solve_bytes();
+  options.announce = [&](const fea::DirectUse& use) { tell_factorisation(session.console, use); };
   ProgressLine progress(session.console, Counted::steps);
   const fea::ModelView model = here.view();
   compile::FeaResults results;
@@ -213,7 +221,7 @@ compile::FeaResults solve_case(const FeaArguments& a, const Case& here, Session&
 
 void check_memory(const FeaArguments& a, const Case& here) {
   const auto allowed = static_cast<double>(parse_memory(a.memory));
-  if (const double bytes = here.solve_bytes(); a.solve && a.solver == "built-in" && bytes > allowed)
+  if (const double bytes = here.solve_bytes(); a.solve && a.solver != "calculix" && bytes > allowed)
     throw Error(Code::memory, "solving takes about " + format_bytes(bytes) + " of memory, more than the " +
                                   format_bytes(allowed) + " allowed; choose larger elements with " +
                                   (here.tetrahedra() ? spelled::option("--size") : spelled::option("--cell")) +

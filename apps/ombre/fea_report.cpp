@@ -39,8 +39,9 @@ void tell_quality(const Console& console, const compile::TetraModel& made) {
                             {"surface_mm3", made.surface_mm3}});
 }
 
-std::string solved_text(const FeaArguments& a, size_t iterations, double seconds) {
+std::string solved_text(const FeaArguments& a, size_t iterations, bool is_direct, double seconds) {
   const std::string way = a.solver == "calculix" ? "by CalculiX"
+                          : is_direct            ? "by a factorisation and " + counted(iterations, "iteration")
                           : iterations == 0      ? "directly"
                                                  : "in " + counted(iterations, "iteration");
   return "solved " + way + " and " + format_rounded(seconds, 3) + " s";
@@ -57,7 +58,7 @@ void tell_solution(const FeaArguments& a, const Console& console, const fea::Mes
   Vec3 reaction;
   for (const fea::Prescribed& here : solution.reactions_n) reaction[here.axis] += here.value;
   const Vec3 u = solution.displacement_mm[far];
-  console.say(solved_text(a, solution.iterations, seconds));
+  console.say(solved_text(a, solution.iterations, solution.direct.has_value(), seconds));
   console.say("moves by at most " + format_rounded(length(u)) + " mm, " + text_of(u) + " at " +
               text_of(mesh.node(far)));
   console.say("von Mises stress at most " + format_rounded(mises[strong]) + " MPa, at " +
@@ -88,7 +89,7 @@ void tell_conduction(const FeaArguments& a, const Console& console, const Case& 
   for (const fea::Prescribed& flow : found.flows) add(flow.value);
   for (const fea::Prescribed& flow : here.conditions.forces) add(flow.value);
   const std::string unit = is_heat ? " C" : " V", flow_unit = is_heat ? " W" : " A";
-  console.say(solved_text(a, found.iterations, seconds));
+  console.say(solved_text(a, found.iterations, found.direct.has_value(), seconds));
   console.say(std::string(is_heat ? "temperatures" : "potentials") + " from " + format_rounded(*least) + " to " +
               format_rounded(*most) + unit + ", the latter at " +
               text_of(model.mesh.node(static_cast<size_t>(most - found.value.begin()))));
@@ -139,6 +140,14 @@ void tell_model(const Console& console, const Case& here) {
                           {"volume_mm3", volume},
                           {"memory_bytes", bytes}});
   if (here.tetrahedra()) tell_quality(console, *here.tetrahedra());
+}
+
+void tell_factorisation(const Console& console, const fea::DirectUse& use) {
+  console.say("factorising the equations: about " + format_rounded(use.operations, 2) + " operations and " +
+              format_bytes(use.memory_bytes) + " more" +
+              (use.disk_bytes > 0 ? ", with " + format_bytes(use.disk_bytes) + " on disk" : ""));
+  console.event("factorisation",
+                {{"operations", use.operations}, {"memory_bytes", use.memory_bytes}, {"disk_bytes", use.disk_bytes}});
 }
 
 void tell_results(const FeaArguments& a, const Console& console, const Case& here, const compile::FeaResults& results,

@@ -27,6 +27,9 @@ struct Case {
 };
 
 void tell_model(const Console& console, const Case& here);
+// Before equations are factorised.
+void tell_factorisation(const Console& console, const fea::DirectUse& use);
+
 void tell_results(const FeaArguments& arguments, const Console& console, const Case& here,
                   const compile::FeaResults& results, double seconds);
 

@@ -228,11 +228,13 @@ int run_homogenise(const HomogeniseArguments& a, Session& session) {
   const auto model = study ? make_model(a, *study, session, diagnostics) : std::nullopt;
   session.console.diagnose(diagnostics);
   if (!model) return wrong_input;
-  tell_size(a, session.console, model->bricks,
-            is_mechanics ? fea::solve_bytes(model->bricks) : fea::conduct_bytes(model->bricks));
+  const double bytes = is_mechanics ? fea::solve_bytes(model->bricks) : fea::conduct_bytes(model->bricks);
+  tell_size(a, session.console, model->bricks, bytes);
   fea::SolveOptions options;
   options.tolerance = a.tolerance;
   options.threads = a.threads;
+  options.solver = fea::Solver::automatic;
+  options.memory_bytes = static_cast<double>(parse_memory(a.memory)) - bytes;
   DataList files;
   if (is_mechanics)
     solve_stiffness(a, *model, options, session, files);

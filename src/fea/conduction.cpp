@@ -101,6 +101,7 @@ struct BrickSolver {
     const Convergence reached = Gradients(conductance, options, progress, stop).run(std::move(right), values);
     found.iterations = reached.iterations;
     found.residual = reached.residual;
+    found.direct = reached.direct;
     return values;
   }
 };

@@ -15,6 +15,7 @@ struct Conduction {
   std::vector<Prescribed> flows;  // W or A that enter where values are held, in the order of the conditions
   double lost_w = 0;              // through films
   size_t iterations = 0;          // 0: solved directly
+  std::optional<DirectUse> direct;
   double residual = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/json.h"
+#include "fea/direct.h"
 #include "fea/study.h"
 #include "fea/test_meshes.h"
 
@@ -82,6 +83,12 @@ TEST(Conduction, BricksGiveWhatAMatrixGives) {
   for (size_t n = 0; n < free.value.size(); ++n) EXPECT_NEAR(free.value[n], matrix.value[n], 1e-4);
   EXPECT_NEAR(free.lost_w, matrix.lost_w, 1e-6);
   EXPECT_GT(free.lost_w, 0.1);
+  if (!has_factorisations()) return;
+  SolveOptions by_factor{1e-12};
+  by_factor.solver = Solver::direct;
+  const Conduction factorised = conduct(model, conditions_from(study, model), by_factor);
+  EXPECT_LE(factorised.iterations, 4U);
+  for (size_t n = 0; n < free.value.size(); ++n) EXPECT_NEAR(free.value[n], factorised.value[n], 1e-7);
 }
 
 TEST(Conduction, MultigridKeepsIterationsFew) {

@@ -2,25 +2,32 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 
 #include "base/progress.h"
 #include "base/stopwatch.h"
 #include "fea/elastic.h"
-#include "fea/multigrid.h"
+#include "fea/preconditioner.h"
 
 namespace ombre::fea {
 
+class Factorisation;
+
 struct Convergence {
   size_t iterations = 0;
+  std::optional<DirectUse> direct;
   double residual = 0;  // of the last iteration, in the norm of the first
 };
 
-// Conjugate gradients (Hestenes and Stiefel, 1952) with a multigrid preconditioner, which is made once for several
-// right sides. What is passed must live as long.
+// Conjugate gradients (Hestenes and Stiefel, 1952) with a preconditioner, which is made once for several right sides.
+// What is passed must live as long.
 class Gradients {
  public:
-  Gradients(const BrickOperator& stiffness, const SolveOptions& options, Progress* progress, const StopFlag* stop)
-      : stiffness_(stiffness), options_(options), progress_(progress), stop_(stop), multigrid_(stiffness, stop) {}
+  // Throws Error when a factorisation is asked for that does not fit, and Cancelled.
+  Gradients(const BrickOperator& stiffness, const SolveOptions& options, Progress* progress, const StopFlag* stop);
+
+  ~Gradients();
 
   // Adds to the displacements `x` what balances the forces `residual`, which are 0 where it is held. Throws Error when
   // it does not converge, and Cancelled.
@@ -28,12 +35,20 @@ class Gradients {
 
  private:
   void tell(double residual);
+  void multigrid();
+  void factorise();
+  double iterations_left(double residual, double last) const;
+  bool change(double iterations);
+  void take(const DirectUse& use);
 
   const BrickOperator& stiffness_;
   const SolveOptions& options_;
   Progress* progress_;
   const StopFlag* stop_;
-  Multigrid multigrid_;
+  std::unique_ptr<Preconditioner> preconditioner_;
+  std::unique_ptr<Factorisation> prepared_;  // ordered and counted, no more
+  std::optional<DirectUse> direct_;
+  bool may_change_ = false;
   Stopwatch watch_;
   uint64_t farthest_ = 0;
 };

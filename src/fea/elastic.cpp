@@ -43,6 +43,7 @@ Solution solve(const Model& model, const Conditions& conditions, const SolveOpti
   const Convergence found = Gradients(stiffness, options, progress, stop).run(std::move(residual), x);
   solution.iterations = found.iterations;
   solution.residual = found.residual;
+  solution.direct = found.direct;
 
   stiffness.all_forces(x, forces);
   solution.energy_mj = 0.5 * dot(x, forces, options.threads);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "fea/brick_stiffness.h"
+#include "fea/direct.h"
 #include "fea/test_models.h"
 
 namespace ombre::fea {
@@ -181,7 +182,6 @@ TEST(Elastic, TheSameBitsWithAnyThreads) {
   EXPECT_EQ(one.iterations, four.iterations);
 }
 
-// Iterations hardly grow with the number of bricks.
 // The sums and differences of a brick's corners and its matrix give the same forces.
 TEST(Elastic, PatternsGiveWhatTheMatrixGives) {
   const BrickStiffness brick = brick_stiffness({1, 2, 0.5});
@@ -198,6 +198,7 @@ TEST(Elastic, PatternsGiveWhatTheMatrixGives) {
   }
 }
 
+// Iterations hardly grow with the number of bricks.
 TEST(Elastic, MultigridKeepsIterationsFew) {
   std::vector<size_t> iterations;
   for (const int32_t count : {8, 16, 32}) {
@@ -206,6 +207,82 @@ TEST(Elastic, MultigridKeepsIterationsFew) {
   }
   EXPECT_LT(iterations[2], 20U);
   EXPECT_LT(iterations[2], iterations[0] + 10);
+}
+
+// Thin struts of materials that differ 7,400 times, which coarse grids do not see.
+Model graded_lattice() {
+  constexpr int32_t size = 16, cell = 8;
+  std::vector<Cell> cells;
+  const auto is_strut = [](const Cell& at) {
+    const auto along = [&](size_t axis) { return std::abs(2 * (at[axis] % cell) - cell + 1); };
+    return along(0) == along(1) && along(1) == along(2);
+  };
+  for (int32_t k = 0; k < size; ++k)
+    for (int32_t j = 0; j < size; ++j)
+      for (int32_t i = 0; i < size; ++i)
+        if (is_strut({i, j, k}) || is_strut({i + 1, j, k}) || is_strut({i, j + 1, k}) || is_strut({i, j, k + 1}))
+          cells.push_back({i, j, k});
+  Model model{
+      make_bricks({}, {0.5, 0.5, 0.5}, std::move(cells)), {{"rigid", {2850, 0.39}}, {"soft", {0.383, 0.49}}}, {}, {}};
+  for (size_t n = 0; n < model.bricks.count(); ++n) model.section_of.push_back((n * 7919) % 5 < 2 ? 0 : 1);
+  return model;
+}
+
+// The sum of what holds the bottom.
+double force_of(const Solution& solution, const Bricks& bricks) {
+  double force = 0;
+  for (const Prescribed& here : solution.reactions_n)
+    if (here.axis == 2 && bricks.corners[here.node][2] == 0) force += here.value;
+  return force;
+}
+
+TEST(Elastic, AFactorisationGivesWhatMultigridGives) {
+  if (!has_factorisations()) GTEST_SKIP() << "built without MUMPS";
+  const Model model = graded_lattice();
+  SolveOptions options{1e-10, 20000, 2};
+  const Solution slow = solve(model, compressed(model.bricks), options);
+  options.solver = Solver::direct;
+  std::vector<double> disk;
+  options.announce = [&](const DirectUse& use) { disk.push_back(use.disk_bytes); };
+  const Solution quick = solve(model, compressed(model.bricks), options);
+  EXPECT_LE(quick.iterations, 8U);
+  EXPECT_GT(slow.iterations, 5 * quick.iterations);
+  EXPECT_NEAR(force_of(quick, model.bricks), force_of(slow, model.bricks),
+              1e-6 * std::abs(force_of(slow, model.bricks)));
+  EXPECT_NEAR(quick.energy_mj, slow.energy_mj, 1e-7 * slow.energy_mj);
+  ASSERT_TRUE(quick.direct);
+  options.threads = 1;
+  EXPECT_EQ(solve(model, compressed(model.bricks), options).displacement_mm, quick.displacement_mm);
+  // Less memory than the factor takes: it goes to the disk.
+  options.memory_bytes = quick.direct->memory_bytes - 1;
+  const Solution beside = solve(model, compressed(model.bricks), options);
+  EXPECT_NEAR(beside.energy_mj, quick.energy_mj, 1e-7 * quick.energy_mj);
+  ASSERT_EQ(disk.size(), 3U);
+  EXPECT_EQ(disk[0], 0);
+  EXPECT_GT(disk[2], 0);
+  options.memory_bytes = 1e5;
+  EXPECT_THROW(solve(model, compressed(model.bricks), options), Error);
+}
+
+TEST(Elastic, WhatIsSlowIsFactorised) {
+  if (!has_factorisations()) GTEST_SKIP() << "built without MUMPS";
+  const Model model = graded_lattice();
+  SolveOptions options{1e-10, 20000, 0, Solver::automatic};
+  const Solution found = solve(model, compressed(model.bricks), options);
+  EXPECT_TRUE(found.direct) << found.iterations;
+  options.memory_bytes = 1e5;
+  EXPECT_FALSE(solve(model, compressed(model.bricks), options).direct);
+  const Model even = model_of(block({12, 12, 12}, {0.3, 0.3, 0.3}), rigid);
+  EXPECT_FALSE(solve(even, compressed(even.bricks), {1e-8, 20000, 0, Solver::automatic}).direct);
+}
+
+TEST(Elastic, AFactorisationStops) {
+  if (!has_factorisations()) GTEST_SKIP() << "built without MUMPS";
+  const Model model = graded_lattice();
+  StopFlag stop;
+  SolveOptions options{1e-10, 20000, 0, Solver::direct};
+  options.announce = [&](const DirectUse&) { stop.request(); };
+  EXPECT_THROW(solve(model, compressed(model.bricks), options, nullptr, &stop), Cancelled);
 }
 
 TEST(Elastic, StopsAndFailsInWords) {

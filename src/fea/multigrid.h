@@ -6,18 +6,18 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "fea/brick_operator.h"
+#include "fea/preconditioner.h"
 
 namespace ombre::fea {
 
-class Multigrid {
+class Multigrid : public Preconditioner {
  public:
   // The operator must live as long, and `stop` if given: it and apply() throw Cancelled soon after a request.
   explicit Multigrid(const BrickOperator& finest, const StopFlag* stop = nullptr);
-  ~Multigrid();
+  ~Multigrid() override;
 
-  // About the displacements that these forces make: one V-cycle, a symmetric and positive operator.
-  void apply(const Vector& forces, Vector& displacements);
+  // One V-cycle.
+  void apply(const Vector& forces, Vector& displacements) override;
   size_t levels() const { return levels_.size(); }
 
  private:

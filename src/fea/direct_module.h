@@ -1,0 +1,46 @@
+// Between Factorisation and the module that holds MUMPS and METIS.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace ombre::fea {
+
+// A symmetric matrix as a sum over elements. Unknowns have numbers from 1.
+struct ElementEquations {
+  size_t nodes = 0, unknowns = 0;  // of a node
+  std::vector<int> numbers;        // of each unknown of each node; 0: held
+  size_t nodes_of_element = 0;
+  std::vector<int> element_nodes;       // from 0, of one element after another
+  std::vector<int> begins{1}, members;  // the free unknowns of an element are members[begins[n] - 1] and on
+  std::vector<float> matrices;          // of one element after another: its lower triangle, column by column
+
+  int size = 0;  // free unknowns
+};
+
+// What a factorisation takes, in single precision.
+struct FactorisationCost {
+  double operations = 0;                // of floating point
+  double bytes = 0, bytes_on_disk = 0;  // of memory, with the factor in it or on disk
+  double factor_bytes = 0;
+};
+
+// Throws Error from all of them. One at a time in a process.
+class Factoriser {
+ public:
+  virtual ~Factoriser() = default;
+  // Of what is analysed when it is made: matrices may be empty until factorise().
+  virtual FactorisationCost cost() const = 0;
+  // With a folder the factor is kept in files there.
+  virtual void factorise(const std::string& folder) = 0;
+  // Replaces the right side by the solution.
+  virtual void solve(std::vector<float>& values) = 0;
+};
+
+}  // namespace ombre::fea
+
+// The function that the module exports: orders and analyses equations, which must live as long.
+extern "C" void ombre_make_factoriser(ombre::fea::ElementEquations* equations,
+                                      std::unique_ptr<ombre::fea::Factoriser>* made);

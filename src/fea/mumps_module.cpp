@@ -1,0 +1,177 @@
+// Sparse factorisations by MUMPS (Amestoy, Duff, L'Excellent and Koster, 2001) in an order by METIS' nested dissection
+// (Karypis and Kumar, 1998).
+#include <metis.h>
+#include <smumps_c.h>
+
+#include <algorithm>
+#include <cstring>
+#include <mutex>
+#include <string>
+
+#include "base/error.h"
+#include "fea/direct_module.h"
+
+// Of OpenBLAS, where that is the BLAS of the system: sums have one order with one thread alone.
+extern "C" __attribute__((weak)) void openblas_set_num_threads(int threads);
+
+namespace ombre::fea {
+namespace {
+
+// MUMPS keeps what belongs to all of its instances in variables without locks.
+std::mutex& mumps_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+// Numbers of MUMPS' manual, from 1.
+enum Control : size_t { errors = 1, diagnostics, information, verbosity, elemental, ordering = 7, out_of_core = 22 };
+constexpr int start = -1, end = -2, analyse = 1, factorise_numbers = 2, solve_for = 3;
+constexpr int positive_definite = 1, order_is_given = 1;
+constexpr double bytes_of_megabyte = 1e6;
+constexpr int out_of_disk = -90, out_of_memory = -13, singular = -10;
+
+// The elements at each node; nodes that share one are neighbours.
+std::vector<idx_t> neighbours_of(const ElementEquations& equations, std::vector<idx_t>& begins) {
+  const size_t each = equations.nodes_of_element, count = equations.element_nodes.size() / each;
+  std::vector<size_t> first(equations.nodes + 1);
+  for (const int node : equations.element_nodes) ++first[static_cast<size_t>(node) + 1];
+  for (size_t n = 0; n < equations.nodes; ++n) first[n + 1] += first[n];
+  std::vector<size_t> next(first.begin(), first.end() - 1);
+  std::vector<uint32_t> elements(first.back());
+  for (size_t element = 0; element < count; ++element)
+    for (size_t n = 0; n < each; ++n)
+      elements[next[static_cast<size_t>(equations.element_nodes[element * each + n])]++] =
+          static_cast<uint32_t>(element);
+  std::vector<idx_t> neighbours, own;
+  begins.assign(1, 0);
+  for (size_t node = 0; node < equations.nodes; ++node) {
+    own.clear();
+    for (size_t at = first[node]; at < first[node + 1]; ++at)
+      for (size_t n = 0; n < each; ++n)
+        if (const int other = equations.element_nodes[elements[at] * each + n]; static_cast<size_t>(other) != node)
+          own.push_back(other);
+    std::ranges::sort(own);
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    neighbours.insert(neighbours.end(), own.begin(), own.end());
+    begins.push_back(static_cast<idx_t>(neighbours.size()));
+  }
+  return neighbours;
+}
+
+// The place of each unknown in the order of elimination, from 1.
+std::vector<int> order_of(const ElementEquations& equations) {
+  std::vector<idx_t> begins, neighbours = neighbours_of(equations, begins);
+  auto count = static_cast<idx_t>(equations.nodes);
+  std::vector<idx_t> nodes(equations.nodes), places(equations.nodes);
+  if (METIS_NodeND(&count, begins.data(), neighbours.data(), nullptr, nullptr, nodes.data(), places.data()) != METIS_OK)
+    throw Error("METIS found no order for the equations; memory may be short");
+  std::vector<int> order(static_cast<size_t>(equations.size));
+  int place = 0;
+  for (const idx_t node : nodes)
+    for (size_t n = 0; n < equations.unknowns; ++n)
+      if (const int number = equations.numbers[static_cast<size_t>(node) * equations.unknowns + n]; number > 0)
+        order[static_cast<size_t>(number) - 1] = ++place;
+  return order;
+}
+
+class Mumps : public Factoriser {
+ public:
+  explicit Mumps(ElementEquations& equations) : equations_(equations), order_(order_of(equations)) {
+    std::memset(&mumps_, 0, sizeof mumps_);
+    mumps_.par = 1;
+    mumps_.sym = positive_definite;
+    call(start);
+    for (const Control stream : {errors, diagnostics, information}) control(stream) = -1;
+    control(verbosity) = 0;
+    control(elemental) = 1;
+    control(ordering) = order_is_given;
+    mumps_.perm_in = order_.data();
+    mumps_.n = equations_.size;
+    mumps_.nelt = static_cast<int>(equations_.begins.size()) - 1;
+    mumps_.eltptr = equations_.begins.data();
+    mumps_.eltvar = equations_.members.data();
+    try {
+      call(analyse);
+    } catch (...) {
+      finish();
+      throw;
+    }
+    constexpr size_t in_core = 17, beside_disk = 27, entries = 3;
+    cost_.operations = mumps_.rinfog[0];
+    cost_.bytes = bytes_of_megabyte * mumps_.infog[in_core - 1];
+    cost_.bytes_on_disk = bytes_of_megabyte * mumps_.infog[beside_disk - 1];
+    // Negative numbers are millions.
+    const double count = mumps_.infog[entries - 1];
+    cost_.factor_bytes = sizeof(float) * (count < 0 ? -1e6 * count : count);
+  }
+  ~Mumps() override { finish(); }
+  Mumps(const Mumps&) = delete;
+  Mumps& operator=(const Mumps&) = delete;
+
+  FactorisationCost cost() const override { return cost_; }
+
+  void factorise(const std::string& folder) override {
+    if (folder.size() >= sizeof mumps_.ooc_tmpdir) throw Error("the name of the folder " + folder + " is too long");
+    if (!folder.empty()) {
+      std::memcpy(mumps_.ooc_tmpdir, folder.c_str(), folder.size() + 1);
+      std::memcpy(mumps_.ooc_prefix, "factor", sizeof "factor");
+      control(out_of_core) = 1;
+    }
+    mumps_.a_elt = equations_.matrices.data();
+    call(factorise_numbers);
+    constexpr size_t negative_pivots = 12;
+    if (mumps_.infog[negative_pivots - 1] > 0) throw Error(too_near_to_singular);
+  }
+
+  void solve(std::vector<float>& values) override {
+    mumps_.rhs = values.data();
+    mumps_.nrhs = 1;
+    call(solve_for);
+  }
+
+ private:
+  static constexpr const char* too_near_to_singular =
+      "the equations could not be factorised: they are too near to having no single solution for single precision; "
+      "parts may hang together at an edge or a corner";
+
+  int& control(Control which) { return mumps_.icntl[which - 1]; }
+
+  void call(int job) {
+    const std::lock_guard lock(mumps_mutex());
+    if (openblas_set_num_threads) openblas_set_num_threads(1);
+    mumps_.job = job;
+    constexpr int of_sequential_mpi = -987654;
+    mumps_.comm_fortran = of_sequential_mpi;
+    smumps_c(&mumps_);
+    if (const int failure = mumps_.infog[0]; failure < 0) fail(failure);
+  }
+
+  [[noreturn]] void fail(int failure) const {
+    if (failure == singular) throw Error(too_near_to_singular);
+    if (failure == out_of_memory) throw Error("memory ran out while the equations were factorised");
+    if (failure == out_of_disk)
+      throw Error("the factorisation could not be written to " + std::string(mumps_.ooc_tmpdir) +
+                  "; is there room? TMPDIR names another folder");
+    throw Error("the equations could not be factorised: MUMPS says " + std::to_string(failure) + ", " +
+                std::to_string(mumps_.infog[1]));
+  }
+
+  void finish() {
+    const std::lock_guard lock(mumps_mutex());
+    mumps_.job = end;
+    smumps_c(&mumps_);
+  }
+
+  ElementEquations& equations_;
+  std::vector<int> order_;
+  SMUMPS_STRUC_C mumps_;
+  FactorisationCost cost_;
+};
+
+}  // namespace
+}  // namespace ombre::fea
+
+extern "C" void ombre_make_factoriser(ombre::fea::ElementEquations* equations,
+                                      std::unique_ptr<ombre::fea::Factoriser>* made) {
+  *made = std::make_unique<ombre::fea::Mumps>(*equations);
+}
