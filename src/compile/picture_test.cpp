@@ -6,6 +6,7 @@
 
 #include "compile/build.h"
 #include "compile/colour_map.h"
+#include "compile/load.h"
 #include "compile/test_designs.h"
 #include "program/passes/passes.h"
 
