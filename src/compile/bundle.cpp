@@ -10,6 +10,7 @@
 #include "base/temporary_folder.h"
 #include "base/text.h"
 #include "compile/data_folder.h"
+#include "compile/load.h"
 #include "export/output_file.h"
 #include "formats/file.h"
 #include "formats/zip_archive.h"

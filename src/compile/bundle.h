@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
-#include "compile/load.h"
+#include "compile/loaded.h"
 
 namespace ombre::compile {
 

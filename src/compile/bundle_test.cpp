@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/temporary_folder.h"
+#include "compile/load.h"
 #include "formats/file.h"
 #include "formats/mesh_writers.h"
 #include "formats/zip_archive.h"

@@ -248,7 +248,7 @@ TEST(ContourJob, HeightsBesideThePartAreTold) {
   Diagnostics diagnostics;
   const LoadedPtr loaded = load_text("sphere(5);", diagnostics);
   EXPECT_FALSE(plan_contours(*loaded, at(5.1), diagnostics));
-  EXPECT_NE(to_text(diagnostics).find("--z 5.1 is beside the part, which lies from z -5 to 5 mm"), std::string::npos);
+  EXPECT_NE(to_text(diagnostics).find("z 5.1 mm is beside the part, which lies from z -5 to 5 mm"), std::string::npos);
 }
 
 }  // namespace ombre::compile

@@ -9,6 +9,7 @@
 #include "lang/ast_print.h"
 #include "lang/parser.h"
 #include "program/passes/passes.h"
+#include "program/program_text.h"
 
 namespace ombre::compile {
 namespace {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,31 +11,12 @@
 #include "base/error.h"
 #include "base/pitch.h"
 #include "compile/job_stages.h"
+#include "compile/loaded.h"
 #include "compile/slice_request.h"
 #include "compile/value_layers.h"
-#include "design/design.h"
-#include "sources/source_cache.h"
 #include "voxel/printer.h"
 
 namespace ombre::compile {
-
-struct LoadOptions {
-  std::string materials;                                   // path of a materials file; empty: the default set
-  std::vector<std::string> definitions;                    // "name=value", set before the script runs
-  std::vector<std::string> needed = {};                    // variables that a script must have
-  std::function<void(const std::string&)> echo = nullptr;  // where the script's echo goes; may be empty
-  const StopFlag* stop = nullptr;
-  int threads = 0;                        // 0: all cores
-  sources::SourceCache* cache = nullptr;  // of the running program; null: one that lasts as long as the call
-};
-
-// A design that was read and checked.
-struct Loaded {
-  std::string path;
-  SourcePtr source;
-  design::Design design;
-};
-using LoadedPtr = std::shared_ptr<const Loaded>;
 
 // Null, and diagnostics, when the design is wrong. Throws Error for files that cannot be read.
 LoadedPtr load_design(const std::string& path, const LoadOptions& options, Diagnostics& diagnostics);

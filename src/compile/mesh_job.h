@@ -7,7 +7,7 @@
 
 #include "base/progress.h"
 #include "compile/beam_bodies.h"
-#include "compile/load.h"
+#include "compile/loaded.h"
 #include "compile/region_request.h"
 #include "surface/bodies.h"
 

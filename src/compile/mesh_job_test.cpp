@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "compile/load.h"
 #include "compile/test_designs.h"
 
 namespace ombre::compile {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "compile/load.h"
 #include "compile/optimise_study.h"
 #include "optimise/search.h"
 

@@ -1,15 +1,13 @@
 // Studies of optimisation: what may change, what shall become small or stay within limits, and by which method.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/data.h"
 #include "base/diagnostic.h"
-#include "base/pitch.h"
-#include "compile/fea_job.h"
+#include "compile/model_choice.h"
 #include "optimise/search.h"
 
 namespace ombre::compile {
@@ -53,14 +51,6 @@ struct Limit {
   Measure measure;
   bool is_upper = true;
   double value = 0;
-};
-
-// How designs become models.
-struct ModelChoice {
-  std::array<std::optional<Pitch>, 3> cell;           // size of the bricks
-  std::optional<std::array<int64_t, 3>> brick_count;  // or into how many the design's box is cut along each axis
-  FeaRequest request;
-  fea::Study fea;
 };
 
 struct OptimiseStudy {

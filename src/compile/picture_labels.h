@@ -3,7 +3,8 @@
 
 #include <optional>
 
-#include "compile/picture.h"
+#include "compile/loaded.h"
+#include "compile/picture_request.h"
 #include "render/annotations.h"
 
 namespace ombre::compile {

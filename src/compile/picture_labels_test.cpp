@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "compile/colour_map.h"
+#include "compile/load.h"
+#include "compile/picture.h"
 #include "compile/test_designs.h"
 
 namespace ombre::compile {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compile/picture.h"
+#include "compile/picture_request.h"
 #include "draw/pen.h"
 
 namespace ombre::compile {

@@ -6,7 +6,9 @@
 
 #include "compile/build.h"
 #include "compile/colour_map.h"
+#include "compile/load.h"
 #include "compile/test_designs.h"
+#include "program/evaluate.h"
 #include "program/passes/passes.h"
 
 namespace ombre::compile {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/tasks.h"
+#include "program/evaluate.h"
 #include "program/passes/narrow.h"
 #include "program/passes/prepare.h"
 

@@ -8,6 +8,7 @@
 #include "base/tasks.h"
 #include "compile/question.h"
 #include "eval/rows.h"
+#include "program/evaluate.h"
 #include "program/passes/passes.h"
 
 namespace ombre::compile {

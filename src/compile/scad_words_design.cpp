@@ -3,6 +3,7 @@
 #include "base/tasks.h"
 #include "compile/build.h"
 #include "compile/design_sources.h"
+#include "compile/load.h"
 #include "compile/mesh_job.h"
 #include "lang/vocabulary/scad_words.h"
 #include "nodes/all_nodes.h"

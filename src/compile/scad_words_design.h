@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "compile/load.h"
+#include "compile/loaded.h"
 #include "lang/openscad/run.h"
 #include "solids/solid.h"
 

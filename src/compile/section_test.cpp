@@ -1,6 +1,7 @@
 // Sections seen flat, against geometry.
 #include <cmath>
 
+#include "compile/load.h"
 #include "compile/picture.h"
 #include "compile/test_designs.h"
 

@@ -9,7 +9,6 @@
 #include "base/box.h"
 #include "base/data.h"
 #include "base/diagnostic.h"
-#include "compile/optimise_study.h"
 
 namespace ombre::compile {
 
@@ -36,9 +35,5 @@ class StudyMembers {
   std::string what_;
   Diagnostics& diagnostics_;
 };
-
-// The members "fea", "cell", "bricks", "assign", "modulus" and "sections" of a study.
-inline const std::vector<std::string> model_members{"fea", "cell", "bricks", "assign", "modulus", "sections"};
-std::optional<ModelChoice> read_model_choice(StudyMembers& members, Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

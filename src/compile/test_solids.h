@@ -6,6 +6,7 @@
 
 #include "compile/build.h"
 #include "compile/test_designs.h"
+#include "program/evaluate.h"
 #include "program/passes/passes.h"
 
 namespace ombre::compile {

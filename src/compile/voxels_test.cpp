@@ -7,6 +7,7 @@
 #include "compile/build.h"
 #include "compile/find_printer.h"
 #include "compile/test_designs.h"
+#include "program/evaluate.h"
 
 namespace ombre::compile {
 namespace {

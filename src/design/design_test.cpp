@@ -6,6 +6,7 @@
 #include "base/json.h"
 #include "design/lowering.h"
 #include "design/spec.h"
+#include "program/evaluate.h"
 #include "program/passes/passes.h"
 
 namespace ombre::design {

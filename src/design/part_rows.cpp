@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/assert.h"
+#include "program/evaluate.h"
 #include "program/passes/passes.h"
 
 namespace ombre::design {

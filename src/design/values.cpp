@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "design/attributes.h"
 #include "design/outputs.h"
+#include "program/evaluate.h"
 
 namespace ombre::design {
 

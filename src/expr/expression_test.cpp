@@ -1,5 +1,7 @@
 #include "expr/expression.h"
 
+#include "program/evaluate.h"
+
 #include <gtest/gtest.h>
 
 #include <numbers>

@@ -9,6 +9,7 @@
 #include "design/lowering.h"
 #include "nodes/all_nodes.h"
 #include "nodes/test_sources.h"
+#include "program/evaluate.h"
 #include "program/gradient.h"
 #include "program/passes/passes.h"
 

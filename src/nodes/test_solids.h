@@ -9,6 +9,7 @@
 #include "design/design.h"
 #include "design/lowering.h"
 #include "nodes/all_nodes.h"
+#include "program/evaluate.h"
 #include "program/passes/passes.h"
 
 namespace ombre::nodes {

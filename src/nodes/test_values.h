@@ -12,6 +12,7 @@
 #include "design/lowering.h"
 #include "nodes/all_nodes.h"
 #include "nodes/test_sources.h"
+#include "program/evaluate.h"
 #include "program/passes/passes.h"
 
 namespace ombre::nodes::test {

@@ -1,5 +1,6 @@
 // Ramps, tables, colours, textures, mixtures and attributes against mathematics and SciPy.
 #include "nodes/test_values.h"
+#include "program/evaluate.h"
 
 namespace ombre::nodes {
 namespace {

@@ -7,6 +7,7 @@
 #include "base/json.h"
 #include "design/lowering.h"
 #include "nodes/all_nodes.h"
+#include "program/evaluate.h"
 #include "program/passes/passes.h"
 
 namespace ombre::nodes {

@@ -5,6 +5,7 @@
 
 #include "design/spec.h"
 #include "nodes/shapes.h"
+#include "program/evaluate.h"
 
 namespace ombre::nodes {
 

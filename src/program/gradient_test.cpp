@@ -1,5 +1,6 @@
 // Derivatives by rule, against differences in double precision and against calculus.
 #include "program/gradient.h"
+#include "program/evaluate.h"
 
 #include <gtest/gtest.h>
 

@@ -56,25 +56,10 @@ struct Program {
   bool has_parts() const { return !part_sets.empty(); }
 };
 
-// One line an instruction with how often it is computed, then the outputs; bodies after the program
-// that calls them.
-std::string to_text(const Program& program);
-
 // Says what a source can be over operands' ranges; by default what the source itself says.
 using SourceRanges = std::function<Interval(const Read&, const Box&)>;
 
 // Which evaluator's rounded values intervals enclose: the reference's, or those of float batches.
 enum class Precision : uint8_t { reference, batch };
-
-// Of an arithmetic instruction whose operands are in these intervals.
-Interval apply_interval(const Instruction& in, Interval a, Interval b, Interval c, Precision precision);
-
-// The value of each instruction over a box of inputs; encloses every point's rounded value.
-// `code` may not hold calls. For batches see program/single.h.
-void evaluate_intervals(const Program& program, const Box& box, std::vector<Interval>& values,
-                        const SourceRanges& source_ranges = nullptr, Precision precision = Precision::reference);
-
-// Value of each instruction at a point, in double precision: the reference. Without calls and parts.
-void evaluate_point(const Program& program, Vec3 p, std::vector<double>& values);
 
 }  // namespace ombre::program

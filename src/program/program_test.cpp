@@ -4,8 +4,10 @@
 #include <cmath>
 #include <random>
 
+#include "program/evaluate.h"
 #include "program/field.h"
 #include "program/passes/passes.h"
+#include "program/program_text.h"
 
 namespace ombre::program {
 namespace {

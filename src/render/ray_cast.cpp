@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/tasks.h"
 #include "program/passes/prepare.h"
 #include "render/end_colours.h"
 #include "render/ray_batch.h"

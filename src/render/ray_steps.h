@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "base/math.h"
-#include "render/ray_cast.h"
+#include "render/film.h"
+#include "render/scene.h"
 
 namespace ombre::render {
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "base/tasks.h"
+#include "program/evaluate.h"
 #include "program/field.h"
 
 namespace ombre::surface {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "eval/batch/batch.h"
+#include "program/evaluate.h"
 #include "program/passes/narrow.h"
 #include "voxel/draws.h"
 #include "voxel/leaf.h"

@@ -1,17 +1,11 @@
-// The names of dithering methods.
-#include <algorithm>
+#include "voxel/dither.h"
 
-#include "voxel/layers.h"
+#include <algorithm>
 
 namespace ombre::voxel {
 
 const std::vector<std::string>& dither_names() {
   static const std::vector<std::string> names{"stochastic", "blue-noise", "diffusion", "threshold"};
-  return names;
-}
-
-const std::vector<std::string>& evaluator_names() {
-  static const std::vector<std::string> names{"batch", "reference"};
   return names;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "voxel/blue_noise.h"
-#include "voxel/layers.h"
+#include "voxel/dither.h"
 #include "voxel/row_kernels.h"
 
 namespace ombre::voxel {

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "eval/batch/batch.h"
 #include "eval/rows.h"
+#include "program/evaluate.h"
 #include "program/passes/narrow.h"
 #include "program/passes/prepare.h"
 #include "voxel/place_sources.h"

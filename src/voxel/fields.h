@@ -4,6 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "base/progress.h"
+#include "voxel/evaluator.h"
 #include "voxel/tile.h"
 
 namespace ombre::voxel {

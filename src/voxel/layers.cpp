@@ -37,12 +37,6 @@ const eval::KernelSet& kernels_named(const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> instruction_sets() {
-  std::vector<std::string> names;
-  for (const eval::KernelSet& set : eval::kernel_sets()) names.emplace_back(set.name);
-  return names;
-}
-
 Evaluator best_evaluator(const Lattice& lattice) {
   return eval::kernel_sets().empty() || !floats_resolve(lattice) ? Evaluator::reference : Evaluator::batch;
 }

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "program/field.h"
+#include "program/program_text.h"
 #include "voxel/layers.h"
 
 namespace ombre::voxel {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/assert.h"
+#include "program/evaluate.h"
 
 namespace ombre::voxel {
 

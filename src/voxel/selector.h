@@ -2,7 +2,8 @@
 // which material.
 #pragma once
 
-#include "voxel/layers.h"
+#include "voxel/dither.h"
+#include "voxel/material_program.h"
 
 namespace ombre::voxel {
 

@@ -6,7 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "voxel/layers.h"
+#include "voxel/lattice.h"
+#include "voxel/material_program.h"
 
 namespace ombre::voxel {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "program/evaluate.h"
 #include "program/passes/passes.h"
 #include "program/passes/replay.h"
 

@@ -10,6 +10,7 @@
 #include "compile/build.h"
 #include "compile/node_registry.h"
 #include "design/design.h"
+#include "program/evaluate.h"
 #include "program/passes/passes.h"
 
 namespace {

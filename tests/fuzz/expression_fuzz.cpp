@@ -8,6 +8,7 @@
 
 #include "base/diagnostic.h"
 #include "expr/expression.h"
+#include "program/evaluate.h"
 
 namespace {
 

@@ -19,6 +19,7 @@
 #include "compile/partition_program.h"
 #include "compile/region_request.h"
 #include "off_soup.h"
+#include "program/evaluate.h"
 #include "surface/point_asker.h"
 
 namespace {

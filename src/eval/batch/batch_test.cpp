@@ -7,8 +7,10 @@
 
 #include "base/math.h"
 #include "eval/batch/batch.h"
+#include "program/evaluate.h"
 #include "program/field.h"
 #include "program/passes/passes.h"
+#include "program/program_text.h"
 #include "program/single.h"
 
 namespace ombre::eval {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/assert.h"
+#include "program/evaluate.h"
 #include "program/parts.h"
 
 namespace ombre::eval {

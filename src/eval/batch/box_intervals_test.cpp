@@ -9,8 +9,10 @@
 #include <random>
 
 #include "eval/batch/kernels.h"
+#include "program/evaluate.h"
 #include "program/field.h"
 #include "program/passes/passes.h"
+#include "program/program_text.h"
 #include "program/single.h"
 
 namespace ombre::eval {

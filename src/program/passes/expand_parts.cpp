@@ -1,6 +1,7 @@
 // Writes out those of many parts that reach a region, as far as the program needs them.
 #include <map>
 
+#include "program/evaluate.h"
 #include "program/parts.h"
 #include "program/passes/copy_tables.h"
 #include "program/passes/passes.h"

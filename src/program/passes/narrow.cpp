@@ -1,5 +1,7 @@
 #include "program/passes/narrow.h"
 
+#include "program/evaluate.h"
+
 namespace ombre::program {
 
 Remainder narrow(const Program& program, const Box& box, Precision precision, const SourceRanges& source_ranges) {
