@@ -8,6 +8,7 @@
 #include "compile/grid_job.h"
 #include "compile/load.h"
 #include "export/material_stack.h"
+#include "voxel/layers.h"
 
 namespace ombre::compile {
 namespace {

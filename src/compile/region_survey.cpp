@@ -7,6 +7,7 @@
 #include "compile/field_program.h"
 #include "compile/question.h"
 #include "voxel/fields.h"
+#include "voxel/layers.h"
 
 namespace ombre::compile {
 namespace {

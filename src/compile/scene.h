@@ -9,6 +9,7 @@
 
 #include "base/box.h"
 #include "design/design.h"
+#include "design/sub_design_memory.h"
 #include "render/camera.h"
 #include "render/scene.h"
 #include "render/section.h"

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "compile/build.h"
 #include "compile/field_program.h"
+#include "voxel/layers.h"
 
 namespace ombre::compile {
 namespace {

@@ -12,6 +12,7 @@
 #include "program/evaluate.h"
 #include "program/gradient.h"
 #include "program/passes/passes.h"
+#include "program/program_text.h"
 
 namespace ombre::nodes {
 namespace {

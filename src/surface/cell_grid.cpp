@@ -7,6 +7,7 @@
 #include "base/stopwatch.h"
 #include "base/tasks.h"
 #include "voxel/fields.h"
+#include "voxel/layers.h"
 
 namespace ombre::surface {
 namespace {

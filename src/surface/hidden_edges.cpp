@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/tasks.h"
 #include "voxel/fields.h"
+#include "voxel/layers.h"
 
 namespace ombre::surface {
 namespace {

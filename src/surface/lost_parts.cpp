@@ -9,6 +9,7 @@
 #include "base/tasks.h"
 #include "surface/point_asker.h"
 #include "voxel/fields.h"
+#include "voxel/layers.h"
 
 namespace ombre::surface {
 namespace {

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "surface/outline_crossings.h"
 #include "surface/outline_simplify.h"
+#include "voxel/layers.h"
 
 namespace ombre::surface {
 namespace {
