@@ -110,6 +110,7 @@ class DualMeshMaker {
     });
     mesh_.vertices.reserve(leaves);
     for (size_t p = 0; p < pieces.size(); ++p) {
+      workers_.check_stop();
       const auto before = static_cast<uint32_t>(mesh_.vertices.size());
       for (size_t n = p * piece; n < std::min((p + 1) * piece, leaves); ++n) first_vertex_[n] += before;
       for (const Part& part : pieces[p]) mesh_.vertices.push_back({part.leaf, part.parts_two, {}, {}, {}});
