@@ -164,6 +164,76 @@ TEST_F(StudioTest, ThumbnailsAreMadeOnce) {
   EXPECT_EQ(text(thumbnail(design, 9).first, "error"), "request");
 }
 
+TEST_F(StudioTest, PortsSayWhichNodesGoInWhere) {
+  const Data loaded =
+      ask("load", R"("file": "a.vcad", "text": )" +
+                      print_json_line("place = cells((5, 5, 5));\nbend = noise(size=3);\n"
+                                      "difference() {\n"
+                                      "  attribute(\"heat\", place.distance + 2 * bend) sphere(3, red);\n"
+                                      "  cube(1, red);\n"
+                                      "}"))
+          .first;
+  ASSERT_TRUE(loaded.find("nodes")) << print_json(loaded);
+  const DataList& nodes = *loaded.find("nodes")->list();
+  const auto find = [&](const std::string& type) {
+    return std::ranges::find_if(nodes, [&](const Data& node) { return text(node, "type") == type; });
+  };
+  const auto ports = [&](const std::string& type) {
+    std::string told;
+    for (const Data& port : *find(type)->find("ports")->list()) {
+      told += text(port, "name") + ": " + text(port, "type");
+      for (const Data& edge : *port.find("from")->list())
+        told += " <- " + text(nodes[static_cast<size_t>(number_in(edge, "node"))], "type") + " " + text(edge, "output");
+      told += '\n';
+    }
+    return told;
+  };
+  EXPECT_EQ(ports("difference"), "solids: solid <- attribute  <- cube \n");
+  EXPECT_EQ(ports("attribute"),
+            "solid: solid <- sphere \n"
+            "value: number, field, vector, colour or mixture <- cells distance <- noise value\n");
+  EXPECT_EQ(ports("sphere"), "");
+}
+
+// The slice through the middle of the design, here a square of 8 mm: numbers in the colours of the palette, mixtures in
+// those of their materials.
+TEST_F(StudioTest, ThumbnailsOfValuesShowThemOverASlice) {
+  const std::string script =
+      "warm = 2 * formula(\"x\") + 3;\nhue = mix(red, blue, formula(\"0.5 + x / 8\"));\n"
+      "translate(4, 0, 1) attribute(\"heat\", at(warm, [\"x\", \"y\", \"z\"])) rectprism((8, 8, 8), hue);";
+  const Data loaded = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(script)).first;
+  ASSERT_TRUE(loaded.find("nodes")) << print_json(loaded);
+  const DataList& nodes = *loaded.find("nodes")->list();
+  const auto picture = [&](const std::string& type) {
+    const auto found = std::ranges::find_if(nodes, [&](const Data& node) { return text(node, "type") == type; });
+    EXPECT_NE(found, nodes.end()) << type;
+    const auto [header, bytes] =
+        ask("thumbnail", R"("width": 32, "height": 32, "node": )" + std::to_string(found - nodes.begin()) +
+                             R"(, "design": ")" + text(loaded, "design") + '"');
+    EXPECT_FALSE(bytes.empty()) << print_json(header);
+    return formats::decode_png(bytes, "thumbnail");
+  };
+  const auto red_to_blue = picture("mix"), least_to_greatest = picture("at");
+  const Data hello = ask("hello").first;
+  const DataList& palette = *hello.find("palettes")->list()->front().find("colours")->list();
+  const auto differs = [](const formats::Rgba& colour, const Data& from) {
+    double most = 0;
+    for (size_t channel = 0; channel < 3; ++channel)
+      most = std::max(most, std::abs(colour[channel] - *from.list()->at(channel).number()));
+    return most;
+  };
+  int first = 0;
+  while (least_to_greatest.colour(static_cast<uint32_t>(first), 16)[3] == 0) ++first;
+  const auto left = static_cast<uint32_t>(first), right = 31 - left;
+  ASSERT_LT(left, 8U);
+  EXPECT_LT(differs(least_to_greatest.colour(left, 16), palette.front()), 24);
+  EXPECT_LT(differs(least_to_greatest.colour(right, 16), palette.back()), 24);
+  // What varies along x alone has columns of one colour.
+  EXPECT_EQ(least_to_greatest.colour(12, 10), least_to_greatest.colour(12, 22));
+  EXPECT_GT(red_to_blue.colour(left, 16)[0], red_to_blue.colour(right, 16)[0]);
+  EXPECT_LT(red_to_blue.colour(left, 16)[2], red_to_blue.colour(right, 16)[2]);
+}
+
 TEST_F(StudioTest, VolumesHoldValuesOfAttributes) {
   const std::string design = load("attribute(\"heat\", \"x\", unit=\"K\") rectprism((8, 4, 4), red);");
   const auto [header, bytes] = ask("volume", R"("side": 16, "by": "heat", "design": ")" + design + '"');

@@ -350,7 +350,9 @@ const checks = {
     await page.click("#tab-graph");
     await page.waitForSelector(".graph img[alt='What sphere makes']");
     await until(() => [...document.querySelectorAll(".graph img")].every((image) => image.naturalWidth >= 48));
-    assert.match(await page.innerText(".graph .node:has-text('fgrade') .ports"), /^1 solid → solid$/);
+    assert.equal(await page.innerText(".graph .node:has-text('fgrade') .outputs"), "→ solid");
+    assert.equal(await page.innerText(".graph li:has(> .port) > .port >> nth=0"), "solid: solid");
+    assert.match(await page.innerText(".graph li:has(> .node:has-text('sphere')) > ul .free >> nth=-1"), /radius: number or field/);
     await picture("graph");
     assert.deepEqual(await violations(), []);
     await page.click(".graph .node:has-text('sphere')");

@@ -52,8 +52,14 @@ export interface NodeCall {
 export interface GraphNode extends NodeCall {
   id: number;
   category: string;
-  inputs: number[];
-  values: number[];
+  ports: Port[]; // that have edges
+}
+
+// Where other nodes go in: solids, or a parameter that holds outputs of nodes.
+export interface Port {
+  name: string;
+  type: string;
+  from: { node: number; output?: string }[];
 }
 
 export interface Design {
