@@ -11,8 +11,8 @@
 namespace ombre::studio {
 namespace {
 
-constexpr int64_t most_side = 256;  // pixels
-constexpr double most_seconds = 2;  // that one may take: others wait
+constexpr int64_t most_thumbnail = 256;  // pixels
+constexpr double most_seconds = 2;       // that one may take: others wait
 constexpr const char* view = "iso";
 
 constexpr const char* shown_value = "value";
@@ -86,8 +86,8 @@ std::string made_now(const compile::Loaded& loaded, const compile::PictureReques
 Answer thumbnail_answer(OpenDesign& design, const Request& request, const StopFlag& cancelled) {
   compile::PictureRequest picture;
   const compile::Loaded loaded = shown(design, node_of(design, request), picture);
-  picture.width = request.whole("width", 1, most_side);
-  picture.height = request.whole("height", 1, most_side);
+  picture.width = request.whole("width", 1, most_thumbnail);
+  picture.height = request.whole("height", 1, most_thumbnail);
   picture.samples = 1;
   picture.background.is_transparent = true;
   picture.memory = &design.memory;

@@ -400,6 +400,19 @@ const checks = {
     await page.waitForSelector(".panel:has-text('926 layers of 11575 × 4606 pixels')");
     await page.selectOption(".place", "");
     await page.waitForSelector(".panel:has-text('926 layers of 591')"); // 25 mm
+    await page.click("summary:has-text('More options')");
+    await page.fill(".option-layer-height input", "0.5");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector(".panel:has-text('50 layers of 591')");
+    assert.match(await page.textContent(".panel details:has-text('command line') pre"), / --printer=j750 --layer-height=0\.5 /);
+    assert.deepEqual(await violations(), []);
+    await picture("options");
+    await page.fill(".option-layer-height input", "thin");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector(".panel .error:has-text('thin')");
+    await page.fill(".option-layer-height input", "");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector(".panel:has-text('926 layers of 591')");
     await page.click("text=Estimate");
     await page.waitForSelector(".estimate");
     assert.match(await page.innerText(".estimate"), /^About .* s, .* of images, at most .* of memory$/);
@@ -490,7 +503,7 @@ const checks = {
 
   async "a server that is killed and started again loses nothing"() {
     await page.click("#tab-export");
-    await page.fill(".panel input[type=text]", "again_slices");
+    await page.fill(".panel label:has-text('Folder') input", "again_slices");
     await page.click("button.main");
     await page.waitForSelector("[data-folder=again_slices][data-state=working]");
     await stopServer("SIGKILL");
