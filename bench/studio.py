@@ -308,7 +308,7 @@ def main():
             results["rows"].append(row(connection, example, folder, {}, True))
             show(table, results["rows"][-1], True)
         if not a.no_tray:
-            results["rows"].append(row(connection, Example("full tray", "inner", TRAY), folder, {"place": "tray"}, False))
+            results["rows"].append(row(connection, Example("full tray", "inner", TRAY), folder, {"tray": True}, False))
             show(table, results["rows"][-1], False)
         table.row("Foundry, Table 1", "3-16e9", "", "", "160-460", "", "7.5-23.3", "")
         print("(its own designs, on its machine; its full slice is one cross-section, ours is all files of the job)\n")

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "compile/question.h"
 #include "compile/scene.h"
+#include "design/outputs.h"
 #include "lang/openscad/customizer.h"
 
 namespace ombre::studio {
@@ -38,11 +39,48 @@ class NodeLister {
     return list;
   }
 
+  // Where nodes go in: the solids that it takes, and the parameters that hold nodes.
+  DataList ports(const design::Node& node) const {
+    DataList ports;
+    const auto add = [&](const std::string& name, std::string_view type, DataList edges) {
+      if (edges.empty()) return;
+      ports.emplace_back(DataMembers{{"name", name}, {"type", std::string(type)}, {"from", std::move(edges)}});
+    };
+    DataList solids;
+    for (const design::NodePtr& input : node.inputs()) add_edge(*input, "", solids);
+    add(node.type().inputs.most == 1 ? "solid" : "solids", "solid", std::move(solids));
+    if (node.values().empty()) return ports;
+    const auto& parameters = node.type().parameters;
+    for (size_t n = 0; n < parameters.size(); ++n) {
+      DataList edges;
+      add_edges(node.type().get(node, n, false), "", edges);
+      add(parameters[n].name, parameters[n].kind, std::move(edges));
+    }
+    return ports;
+  }
+
+  // An edge ends at each node of a parameter's data; `output` is the one that the data names.
+  void add_edges(const Data& data, const std::string& output, DataList& edges) const {
+    if (const auto object = std::dynamic_pointer_cast<const design::NodeObject>(data.host_object()))
+      return add_edge(*object->node(), output, edges);
+    if (const DataList* list = data.list())
+      for (const Data& element : *list) add_edges(element, "", edges);
+    if (!data.members()) return;
+    const Data* named = data.find("output");
+    for (const auto& [name, member] : *data.members())
+      add_edges(member, name == "from" && named && named->string() ? *named->string() : "", edges);
+  }
+
+  void add_edge(const design::Node& from, const std::string& output, DataList& edges) const {
+    const auto known = numbers_.find(&from);
+    if (known == numbers_.end()) return;
+    DataMembers edge{{"node", number(known->second)}};
+    if (!output.empty()) edge.emplace_back("output", output);
+    if (const Data added(std::move(edge)); std::ranges::find(edges, added) == edges.end()) edges.push_back(added);
+  }
+
   DataMembers describe_one(const design::Node& node, size_t id) const {
-    DataMembers members{{"id", number(id)},
-                        {"category", node.type().category},
-                        {"inputs", numbers(node.inputs())},
-                        {"values", numbers(node.values())}};
+    DataMembers members{{"id", number(id)}, {"category", node.type().category}, {"ports", ports(node)}};
     const DataMembers call = describe_call(node, source_, offsets_);
     members.insert(members.end(), call.begin(), call.end());
     return members;

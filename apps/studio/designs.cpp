@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "compile/find_printer.h"
-
 namespace ombre::studio {
 
 RequestError design_error(const Diagnostics& diagnostics) {
@@ -15,42 +13,48 @@ RequestError design_error(const Diagnostics& diagnostics) {
   return {"design", text};
 }
 
-CutDesignPtr OpenDesign::cut(const Cutting& cutting) {
+CutDesignPtr OpenDesign::cut(const JobChoices& choices) {
   std::shared_ptr<Slot> slot;
   {
     const std::lock_guard lock(mutex_);
-    auto& place = slots_[cutting];
+    auto& place = slots_[choices.key()];
     if (!place) place = std::make_shared<Slot>();
     slot = place;
   }
   const std::lock_guard lock(slot->mutex);
-  if (!slot->made) slot->made = make(cutting);
+  if (!slot->made) slot->made = make(choices);
   return slot->made;
 }
 
-CutDesignPtr OpenDesign::make(const Cutting& cutting) const {
-  auto made = std::make_shared<CutDesign>();
-  const auto printer = compile::find_printer(cutting.printer, made->remarks);
-  if (!printer) throw design_error(made->remarks);
-  made->printer = *printer;
-  compile::PlanOptions options;
-  options.program = program_;
-  options.memory = &memory;
-  options.printer = *printer;
-  options.printer_given = cutting.printer != "generic";
-  const auto dither = voxel::dither(cutting.dither);
-  if (!dither) throw RequestError("request", "there is no way of dithering called \"" + cutting.dither + "\"");
-  options.dither = *dither;
-  options.whole_tray = cutting.place == "tray";
-  if (cutting.place == "design") options.place = voxel::Placement::design;
-  if (cutting.place == "center") options.place = voxel::Placement::center;
-  if (cutting.level > 0) {
-    const bool own = loaded->design.sampling && !options.printer_given;
-    const auto& pitch = own ? loaded->design.sampling->pitch : printer->pitch;
-    for (size_t axis = 0; axis < 2; ++axis)
-      options.pitch[axis] =
-          Pitch::from_ratio(pitch[axis].numerator << cutting.level, pitch[axis].denominator).value_or(pitch[axis]);
+namespace {
+
+compile::PlanOptions plan_options(const JobChoices& choices, const std::string& program, Diagnostics& remarks) {
+  try {
+    auto options = compile::plan_options(program, choices.sampling, choices.images, remarks);
+    if (!options) throw design_error(remarks);
+    return *options;
+  } catch (const options::WrongValue& error) {
+    throw wrong_value(error);
   }
+}
+
+// Voxels 2^level times as long along x and y as those of the job.
+void make_coarser(compile::PlanOptions& options, const design::Design& design, int level) {
+  const auto& pitch = design.sampling && !options.printer_given ? design.sampling->pitch : options.printer.pitch;
+  for (size_t axis = 0; axis < 2; ++axis) {
+    const Pitch own = options.pitch[axis].value_or(pitch[axis]);
+    options.pitch[axis] = Pitch::from_ratio(own.numerator << level, own.denominator).value_or(own);
+  }
+}
+
+}  // namespace
+
+CutDesignPtr OpenDesign::make(const JobChoices& choices) const {
+  auto made = std::make_shared<CutDesign>();
+  compile::PlanOptions options = plan_options(choices, program_, made->remarks);
+  made->printer = options.printer;
+  options.memory = &memory;
+  if (choices.level > 0) make_coarser(options, loaded->design, choices.level);
   auto plan = compile::plan_slice(loaded, options, made->remarks);
   if (!plan || made->remarks.has_errors()) throw design_error(made->remarks);
   made->plan = std::move(*plan);

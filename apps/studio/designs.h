@@ -6,26 +6,13 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <tuple>
 
 #include "base/box.h"
 #include "compile/load.h"
 #include "compile/sub_design_cache.h"
-#include "studio/messages.h"
+#include "studio/job_choices.h"
 
 namespace ombre::studio {
-
-// Which voxels a design is cut into.
-struct Cutting {
-  std::string printer;  // a profile's name
-  std::string dither;
-  std::string place;  // "design", "center" or "tray", as on the command line; empty: as the printer has it
-  int level = 0;      // voxels are 2^level times as long along x and y: 0 are the job's own
-
-  bool operator<(const Cutting& other) const {
-    return std::tie(printer, dither, place, level) < std::tie(other.printer, other.dither, other.place, other.level);
-  }
-};
 
 struct CutDesign {
   compile::Plan plan;
@@ -49,18 +36,18 @@ class OpenDesign {
 
   // Planned when it is first asked for, and kept. Throws RequestError, which says what is wrong, when the design cannot
   // be cut so.
-  CutDesignPtr cut(const Cutting& cutting);
+  CutDesignPtr cut(const JobChoices& choices);
 
  private:
   struct Slot {
     std::mutex mutex;
     CutDesignPtr made;
   };
-  CutDesignPtr make(const Cutting& cutting) const;
+  CutDesignPtr make(const JobChoices& choices) const;
 
   std::string program_;  // that writes jobs: "ombre 0.1.0"
   std::mutex mutex_;
-  std::map<Cutting, std::shared_ptr<Slot>> slots_;
+  std::map<std::string, std::shared_ptr<Slot>> slots_;  // by the choices' key
 };
 using OpenDesignPtr = std::shared_ptr<OpenDesign>;
 

@@ -64,9 +64,7 @@ DataMembers Exports::describe(const Job& job) {
           {"folder", job.request.name},
           {"path", job.request.folder},
           {"file", job.request.file},
-          {"printer", job.request.cutting.printer},
-          {"dither", job.request.cutting.dither},
-          {"place", job.request.cutting.place},
+          {"options", job.request.choices.given},
           {"layers", number(job.layers)},
           {"done", number(job.how_far.done)},
           {"total", number(job.how_far.total)},
@@ -184,7 +182,7 @@ void Exports::work(Job& job) {
   const ExportRequest& request = job.request;
   const std::shared_ptr<StopFlag> stop = job.stop;
   try {
-    const CutDesignPtr cut = request.design->cut(request.cutting);
+    const CutDesignPtr cut = request.design->cut(request.choices);
     {
       const std::lock_guard lock(mutex_);
       job.layers = cut->plan.request.lattice.count[2];

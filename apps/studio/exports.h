@@ -17,7 +17,7 @@ namespace ombre::studio {
 
 struct ExportRequest {
   OpenDesignPtr design;
-  Cutting cutting;
+  JobChoices choices;
   std::string file;    // of the design, as the page knows it
   std::string name;    // of the folder, likewise
   std::string folder;  // its path

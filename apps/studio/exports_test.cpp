@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "base/json.h"
+#include "formats/png.h"
+#include "studio/job_choices.h"
 #include "studio/test_studio.h"
 
 namespace ombre::studio {
@@ -36,15 +38,74 @@ class FullDisk {
 };
 
 TEST_F(StudioTest, JobsCoverTheDesignOrTheTray) {
-  const std::string job = R"("design": ")" + load(ball) + R"(", "printer": "j750", "place": )";
-  const Data middle = ask("plan", job + R"("center")").first;
+  const std::string job = R"("design": ")" + load(ball) + R"(", "printer": "j750", )";
+  const Data middle = ask("plan", job + R"("place": "center")").first;
   // 490 x 390 mm, at 600 and 300 dpi; above the ball are no layers.
   EXPECT_EQ(*middle.find("count"), Data(DataList{number(11575), number(4606), number(223)}));
   EXPECT_NEAR(*middle.find("origin_mm")->list()->front().number(), -245, 0.05);
   // The ball stands around the tray's corner.
-  EXPECT_EQ(text(ask("plan", job + R"("tray")").first, "error"), "design");
-  EXPECT_EQ(*ask("plan", job + R"("design")").first.find("count")->list()->front().number(), 142);
-  EXPECT_EQ(text(ask("plan", job + R"("moon")").first, "error"), "request");
+  EXPECT_EQ(text(ask("plan", job + R"("tray": true)").first, "error"), "design");
+  EXPECT_EQ(*ask("plan", job + R"("place": "design")").first.find("count")->list()->front().number(), 142);
+  EXPECT_EQ(text(ask("plan", job + R"("place": "moon")").first, "error"), "request");
+}
+
+TEST_F(StudioTest, JobsTakeTheOptionsOfTheCommandLine) {
+  const std::string job = R"("design": ")" + load("attribute(\"heat\", \"x\") rectprism((2, 2, 2), red);") + R"(", )";
+  const auto plan = [&](const std::string& more) { return ask("plan", job + more).first; };
+  const auto job_of = [&](const std::string& more) {
+    Diagnostics none;
+    const Data planned = plan(more);
+    EXPECT_FALSE(planned.find("error")) << print_json(planned);
+    return *parse_json(make_source("job.json", text(planned, "job")), none);
+  };
+  EXPECT_EQ(text(*job_of(R"("seed": 7)").find("sampling"), "seed"), "7");
+  EXPECT_EQ(text(*job_of(R"("dither": "threshold", "evaluator": "reference")").find("sampling"), "dither"),
+            "threshold");
+  EXPECT_EQ(*plan(R"("voxel": [0.5, 0.25, 0.2])").find("count"), Data(DataList{number(4), number(8), number(10)}));
+  EXPECT_EQ(*plan(R"("dpi": "254", "layer-height": 0.5)").find("count"),
+            Data(DataList{number(20), number(20), number(4)}));
+  // A level makes the chosen voxels longer, too.
+  EXPECT_EQ(*plan(R"("voxel": [0.5, 0.25, 0.2], "level": 1)").find("count"),
+            Data(DataList{number(2), number(4), number(10)}));
+  const Data shades = *job_of(R"("by": "heat", "range": [-1, 1], "bits": "16")").find("shades");
+  EXPECT_EQ(number_in(shades, "bits"), 16);
+  EXPECT_EQ(number_in(shades, "black"), -1);
+  // Null, empty texts and false are as if nothing had been said.
+  EXPECT_EQ(text(plan(R"("printer": "", "place": null, "tray": false)"), "job"),
+            text(plan(R"("lane": "plan")"), "job"));
+
+  const auto message = [&](const std::string& more) {
+    const Data refused = plan(more);
+    EXPECT_EQ(text(refused, "error"), "request") << print_json(refused);
+    return text(refused, "message");
+  };
+  const std::string unknown = message(R"("ditter": "threshold")");
+  EXPECT_NE(unknown.find("did you mean \"dither\"?"), std::string::npos) << unknown;
+  for (const options::Option& option : JobChoices::options().options())
+    EXPECT_NE(unknown.find(option.name().substr(2)), std::string::npos) << unknown;
+  EXPECT_NE(message(R"("folder": "x")").find("no option \"folder\""), std::string::npos);  // which plans have not
+  EXPECT_EQ(message(R"("bits": "16")"), "\"bits\" needs \"by\"");
+  EXPECT_EQ(message(R"("tray": true, "place": "center")"), "\"tray\" and \"place\" exclude each other: leave one out");
+  EXPECT_NE(message(R"("dither": "random")").find("stochastic"), std::string::npos);
+  EXPECT_FALSE(message(R"("voxel": "wide")").empty());
+  EXPECT_FALSE(message(R"("tray": "yes")").empty());
+}
+
+// A tile of a job in shades has the shades of its file.
+TEST_F(StudioTest, TilesOfShadesAreTheJobsPixels) {
+  const std::string job = R"("design": ")" + load("attribute(\"heat\", \"x\") rectprism((2, 2, 2), red);") +
+                          R"(", "voxel": 0.25, "by": "heat")";
+  ASSERT_FALSE(ask("export", job + R"(, "folder": "shades")").first.find("error"));
+  const Data done = job_in("done");
+  ASSERT_FALSE(done.is_null());
+  EXPECT_EQ(text(*done.find("options"), "by"), "heat");
+  const auto written = formats::decode_png(folder.read("shades/slice_00004.png"), "layer");
+  const auto tile =
+      formats::decode_png(ask("tile", job + R"(, "layer": 4, "x": 0, "y": 0, "width": 8, "height": 8)").second, "tile");
+  for (uint32_t row = 0; row < 8; ++row)
+    for (uint32_t column = 0; column < 8; ++column)
+      ASSERT_EQ(tile.colour(column, row), written.colour(column, row)) << column << ' ' << row;
+  EXPECT_NE(tile.colour(0, 4), tile.colour(7, 4));
 }
 
 TEST_F(StudioTest, EstimatesWhatAJobTakes) {

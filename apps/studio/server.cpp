@@ -75,7 +75,11 @@ class Connection {
  public:
   virtual ~Connection() = default;
   virtual void close() = 0;
-  virtual bool is_idle() const = 0;  // has said nothing that was let in
+  // Closes it for a newer one, with words where it can take some.
+  virtual void give_way() = 0;
+  // Those that matter least give way first: who has said nothing that was let in, then who loads files, then pages.
+  enum class Matters { least, more, most };
+  virtual Matters matters() const = 0;
 };
 
 // What connections share. All of it runs on the one thread that calls serve().
@@ -94,12 +98,11 @@ struct Shared {
   }
   void make_room() {
     while (count() >= options.limits.connections) {
-      const auto idle = std::ranges::find_if(connections, [](const auto& weak) {
+      const auto chosen = std::ranges::min_element(connections, {}, [](const auto& weak) {
         const auto connection = weak.lock();
-        return connection && connection->is_idle();
+        return connection ? connection->matters() : Connection::Matters::least;
       });
-      const auto chosen = idle == connections.end() ? connections.begin() : idle;
-      if (const auto connection = chosen->lock()) connection->close();
+      if (const auto connection = chosen->lock()) connection->give_way();
       connections.erase(chosen);
     }
   }
@@ -154,7 +157,8 @@ class Page : public Client, public Connection, public std::enable_shared_from_th
     error_code ignored;
     beast::get_lowest_layer(socket_).socket().close(ignored);
   }
-  bool is_idle() const override { return false; }
+  void give_way() override { close(); }
+  Matters matters() const override { return Matters::most; }
 
  private:
   void read() {
@@ -218,15 +222,27 @@ class Visit : public Connection, public std::enable_shared_from_this<Visit> {
     stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
     stream_.socket().close(ignored);
   }
-  bool is_idle() const override { return !was_let_in_; }
+  Matters matters() const override { return was_let_in_ ? Matters::more : Matters::least; }
+
+  // The words are few, so that the socket takes them at once, or never.
+  void give_way() override {
+    if (!is_answering_) {
+      HttpResponse words = plain(last_request(), 503, "Too many connections to the studio are open; close some.");
+      error_code ignored;
+      http::write(stream_, words, ignored);
+    }
+    close();
+  }
 
  private:
-  void refuse_size() {
+  // Behind whose answer the connection closes.
+  static HttpRequest last_request() {
     HttpRequest request;
     request.version(11);
     request.keep_alive(false);
-    answer(plain(request, 413, "The request is too large."));
+    return request;
   }
+  void refuse_size() { answer(plain(last_request(), 413, "The request is too large.")); }
 
   void take(const HttpRequest& request) {
     if (websocket::is_upgrade(request)) return upgrade(request);
@@ -249,8 +265,10 @@ class Visit : public Connection, public std::enable_shared_from_this<Visit> {
 
   void answer(HttpResponse response) {
     response_ = std::move(response);
+    is_answering_ = true;
     stream_.expires_after(duration(shared_->options.limits.head_seconds));
     http::async_write(stream_, response_, [self = shared_from_this()](error_code error, size_t) {
+      self->is_answering_ = false;
       if (error || !self->response_.keep_alive()) return self->close();
       self->read();
     });
@@ -261,7 +279,7 @@ class Visit : public Connection, public std::enable_shared_from_this<Visit> {
   beast::flat_buffer buffer_{64 << 10};
   std::optional<http::request_parser<http::string_body>> parser_;
   HttpResponse response_;
-  bool was_let_in_ = false;
+  bool was_let_in_ = false, is_answering_ = false;
 };
 
 class Listener {

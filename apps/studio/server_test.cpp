@@ -224,12 +224,49 @@ TEST_F(ServerTest, ClosesThoseWhoSayNothing) {
   EXPECT_LT(watch.seconds(), 10);
 }
 
-TEST_F(ServerTest, AnswersWhileManyConnectionsAreOpen) {
+// The oldest make room.
+TEST_F(ServerTest, AnswersWhile200ConnectionsSayNothing) {
   start();
   std::vector<std::unique_ptr<Caller>> callers;
   for (int n = 0; n < 200; ++n) callers.push_back(std::make_unique<Caller>(port));
   EXPECT_TRUE(has(get("/", cookie()), " 200 "));
-  EXPECT_TRUE(callers.front()->is_closed());  // the oldest made room
+  const std::string words = callers.front()->hear("nothing: all of it");
+  EXPECT_TRUE(has(words, " 503 ") && has(words, "Too many connections to the studio are open; close some.")) << words;
+}
+
+TEST_F(ServerTest, Refuses200WindowsInClearWords) {
+  start();
+  const auto open_window = [&] {
+    auto caller = std::make_unique<Caller>(port);
+    caller->say(upgrade("/api", cookie()));
+    return caller;
+  };
+  std::vector<std::unique_ptr<Caller>> windows, refused;
+  for (int n = 0; n < 200; ++n) {
+    auto caller = open_window();
+    const std::string answer = caller->hear(windows.size() < ServerLimits().pages ? "\r\n\r\n" : "close some.");
+    if (has(answer, " 101 ")) {
+      windows.push_back(std::move(caller));
+    } else {
+      EXPECT_TRUE(has(answer, " 503 ") && has(answer, "open in too many windows")) << answer;
+      refused.push_back(std::move(caller));
+    }
+  }
+  EXPECT_EQ(windows.size(), ServerLimits().pages);
+  EXPECT_TRUE(has(open_window()->hear("close some."), " 503 "));  // the 201st
+  // Windows that are open stay so, and are answered.
+  for (const auto& window : windows) {
+    window->say(client_frame(0x81, R"({"id": 5, "do": "list"})"));
+    EXPECT_TRUE(has(window->hear("files"), R"("id":5)"));
+  }
+  EXPECT_TRUE(has(get("/", cookie()), " 200 "));
+  // And there is room again when they are closed, as soon as the server has seen it.
+  windows.clear();
+  refused.clear();
+  const Stopwatch watch;
+  std::string answer;
+  while (!has(answer, " 101 ") && watch.seconds() < 10) answer = open_window()->hear();
+  EXPECT_TRUE(has(answer, " 101 ")) << answer;
 }
 
 TEST(Server, EndsWhenNobodyLooksAtIt) {

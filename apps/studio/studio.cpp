@@ -233,7 +233,7 @@ Answer Studio::hello(const Request&, const StopFlag&) {
                  {"file", options_.first_file},
                  {"opens_folders", options_.open_folder != nullptr},
                  {"printers", describe_printers()},
-                 {"dithers", texts(voxel::dither_names())},
+                 {"job_options", describe_job_options()},
                  {"palettes", describe_palettes()},
                  {"nodes", describe_nodes()},
                  {"functions", describe_functions()}},
@@ -383,9 +383,12 @@ Answer Studio::estimate(const Request& request, const StopFlag& stop) {
 
 Answer Studio::start_export(const Request& request, const StopFlag&) {
   const std::string& name = request.text("folder");
-  ExportRequest job{
-      design_of(request),     cutting_of(request), request.text("file", ""), name, workspace_.path(name).string(),
-      request.flag("replace")};
+  ExportRequest job{design_of(request),
+                    read_job_choices(request, {"folder", "file", "replace"}),
+                    request.text("file", ""),
+                    name,
+                    workspace_.path(name).string(),
+                    request.flag("replace")};
   return {{{"job", exports_.start(job)}}, {}};
 }
 

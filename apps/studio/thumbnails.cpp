@@ -1,6 +1,9 @@
-// Small pictures of the nodes of a design. They are kept as long as there is room, by the hash of the node and of all
+// Small pictures of the nodes of a design: of solids from a corner; of values in colours, over the slice through the
+// middle of the design. They are kept as long as there is room, by the hash of the node and of all
 // below it, so that an edit makes only those again whose nodes it changed.
+#include "compile/node_registry.h"
 #include "compile/picture.h"
+#include "design/outputs.h"
 #include "formats/png.h"
 #include "studio/design_answer.h"
 #include "studio/views.h"
@@ -8,23 +11,61 @@
 namespace ombre::studio {
 namespace {
 
-constexpr int64_t most_side = 256;  // pixels
-constexpr double most_seconds = 2;  // that one may take: others wait
+constexpr int64_t most_thumbnail = 256;  // pixels
+constexpr double most_seconds = 2;       // that one may take: others wait
 constexpr const char* view = "iso";
 
-// The node as a design of its own. The nodes of the whole design live as long as it.
-compile::Loaded alone(const compile::Loaded& loaded, const design::Node& node) {
+constexpr const char* shown_value = "value";
+
+// The solid as a design of its own.
+compile::Loaded alone(const compile::Loaded& loaded, design::NodePtr solid) {
   design::Design design;
   design.materials = loaded.design.materials;
-  design.parts = {{"", design::NodePtr(std::shared_ptr<const design::Node>(), &node)}};
+  design.parts = {{"", std::move(solid)}};
   return {loaded.path, loaded.source, std::move(design)};
+}
+
+design::NodePtr make(const char* name, const design::Design& design,
+                     const std::vector<std::pair<const char*, Data>>& arguments, std::vector<design::NodePtr> inputs) {
+  const design::NodeType& type = *compile::node_registry().find(name);
+  std::vector<design::NamedValue> values;
+  for (const auto& [parameter, data] : arguments)
+    values.push_back({&type.parameters[static_cast<size_t>(type.parameter(parameter))], data});
+  Diagnostics diagnostics;
+  const design::Reader reader{design.materials, diagnostics, nullptr, {}, type.name, ""};
+  auto node = design::make_node(type, values, std::move(inputs), reader);
+  if (!node) throw design_error(diagnostics);
+  return node;
+}
+
+// A block around the design that is made of the node's mixture, or has its first output as an attribute.
+design::NodePtr block_of(const OpenDesign& open, const design::NodePtr& value) {
+  const design::Design& design = open.loaded->design;
+  const Vec3 size = open.bounds.size(), middle = open.bounds.center();
+  const Data output(HostObjectPtr(std::make_shared<design::NodeObject>(value)));
+  const bool is_mixture = value->first_output() == value->type().mixture_output();
+  std::vector<std::pair<const char*, Data>> arguments{{"size", list_of(size)}};
+  if (is_mixture) arguments.emplace_back("material", output);
+  const auto block = make("translate", design, {{"by", list_of(middle)}}, {make("rectprism", design, arguments, {})});
+  return is_mixture ? block : make("attribute", design, {{"name", shown_value}, {"value", output}}, {block});
+}
+
+// What the picture shows. The nodes of the whole design live as long as it.
+compile::Loaded shown(const OpenDesign& open, const design::Node& node, compile::PictureRequest& picture) {
+  const design::NodePtr not_held(design::NodePtr(), &node);
+  if (node.type().is_solid()) {
+    picture.view = *render::named_view(view);
+    return alone(*open.loaded, not_held);
+  }
+  picture.slice = compile::SliceView{2, open.bounds.center().z};
+  if (node.first_output() != node.type().mixture_output()) picture.by = shown_value;
+  return alone(*open.loaded, block_of(open, not_held));
 }
 
 const design::Node& node_of(const OpenDesign& design, const Request& request) {
   const std::vector<const design::Node*> nodes = listed_nodes(design.loaded->design);
   const design::Node& node =
       *nodes[static_cast<size_t>(request.whole("node", 0, static_cast<int64_t>(nodes.size()) - 1))];
-  if (!node.type().is_solid()) throw RequestError("unsupported", node.type().name + " is no solid");
   if (node.uses_cell()) throw RequestError("unsupported", node.type().name + " depends on the cell that repeats it");
   return node;
 }
@@ -43,12 +84,11 @@ std::string made_now(const compile::Loaded& loaded, const compile::PictureReques
 }  // namespace
 
 Answer thumbnail_answer(OpenDesign& design, const Request& request, const StopFlag& cancelled) {
-  const compile::Loaded loaded = alone(*design.loaded, node_of(design, request));
   compile::PictureRequest picture;
-  picture.width = request.whole("width", 1, most_side);
-  picture.height = request.whole("height", 1, most_side);
+  const compile::Loaded loaded = shown(design, node_of(design, request), picture);
+  picture.width = request.whole("width", 1, most_thumbnail);
+  picture.height = request.whole("height", 1, most_thumbnail);
   picture.samples = 1;
-  picture.view = *render::named_view(view);
   picture.background.is_transparent = true;
   picture.memory = &design.memory;
   const Hash key = hash_bytes("thumbnail " + design::hash(loaded.design).hex() + ' ' + std::to_string(picture.width) +

@@ -20,7 +20,6 @@ namespace {
 
 constexpr int64_t most_pixels = 4096;  // of a picture, each way
 constexpr int64_t most_tile = 1024;    // of a tile, each way
-constexpr int coarsest_level = 12;
 
 void read_camera(const Request& request, render::ViewOptions& view) {
   view.azimuth_deg = request.number("azimuth", view.azimuth_deg);
@@ -85,10 +84,11 @@ DataList colour_list(const formats::Rgba& colour) {
   return list;
 }
 
-// Tiles show materials in their colours with x to the right and y up, whatever the printer's files do.
+// Tiles show materials in their colours, or the job's shades, with x to the right and y up, whatever the printer's
+// files do.
 compile::SliceRequest shown(const compile::SliceRequest& request) {
   compile::SliceRequest tile = request;
-  tile.format = ImageFormat::rgba;
+  if (!tile.shades) tile.format = ImageFormat::rgba;
   tile.flip_x = tile.flip_y = false;
   tile.background = {0, 0, 0, 0};
   tile.files = {};
@@ -103,7 +103,7 @@ DataMembers members_of(const std::vector<std::pair<std::string, double>>& values
 
 // The voxel that holds the point, and what slicing puts there.
 DataMembers voxel_at(OpenDesign& design, const Request& request, Vec3 point, const StopFlag& stop) {
-  const CutDesignPtr cut = design.cut(cutting_of(request));
+  const CutDesignPtr cut = design.cut(read_job_choices(request, {"at"}));
   const compile::SliceRequest& job = cut->plan.request;
   std::array<int64_t, 3> voxel{};
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -113,26 +113,16 @@ DataMembers voxel_at(OpenDesign& design, const Request& request, Vec3 point, con
     voxel[axis] = static_cast<int64_t>(in_voxels);
   }
   const voxel::TileBox box{voxel, {voxel[0] + 1, voxel[1] + 1, voxel[2] + 1}};
+  const DataList index{number(voxel[0]), number(voxel[1]), number(voxel[2])};
+  if (job.shades) return {{"index", index}};
   const auto made = cut->plan.regions(box, &stop);
   std::string name = "void";
   for (const compile::SliceMaterial& material : job.materials)
     if (made.front().material_counts[material.id] > 0) name = material.name;
-  return {{"index", DataList{number(voxel[0]), number(voxel[1]), number(voxel[2])}}, {"material", name}};
+  return {{"index", index}, {"material", name}};
 }
 
 }  // namespace
-
-Cutting cutting_of(const Request& request) {
-  Cutting cutting{request.text("printer", "generic"), request.text("dither", "stochastic"), request.text("place", ""),
-                  0};
-  if (constexpr std::array places{"", "design", "center", "tray"};
-      std::ranges::find(places, cutting.place) == places.end())
-    throw RequestError("request", "\"place\" is design, center or tray");
-  if (cutting.printer.find('/') != std::string::npos || cutting.printer.ends_with(".json"))
-    throw RequestError("name", "\"printer\" is the name of a profile that comes with Ombre");
-  if (request.body.find("level")) cutting.level = static_cast<int>(request.whole("level", 0, coarsest_level));
-  return cutting;
-}
 
 Answer picture_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
   compile::PictureRequest picture = picture_request(request);
@@ -152,7 +142,7 @@ Answer picture_answer(OpenDesign& design, const Request& request, const StopFlag
 }
 
 Answer plan_answer(OpenDesign& design, const Request& request, const StopFlag&) {
-  const CutDesignPtr cut = design.cut(cutting_of(request));
+  const CutDesignPtr cut = design.cut(read_job_choices(request, {}));
   const compile::SliceRequest& job = cut->plan.request;
   DataList count, pitch, materials;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -172,7 +162,7 @@ Answer plan_answer(OpenDesign& design, const Request& request, const StopFlag&) 
 }
 
 Answer tile_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
-  const CutDesignPtr cut = design.cut(cutting_of(request));
+  const CutDesignPtr cut = design.cut(read_job_choices(request, {"layer", "x", "y", "width", "height"}));
   const auto& count = cut->plan.request.lattice.count;
   const int64_t layer = request.whole("layer", 0, count[2] - 1);
   const int64_t x = request.whole("x", 0, count[0] - 1), y = request.whole("y", 0, count[1] - 1);
@@ -213,7 +203,7 @@ Answer probe_answer(OpenDesign& design, const Request& request, const StopFlag& 
 }
 
 Answer estimate_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
-  const CutDesignPtr cut = design.cut(cutting_of(request));
+  const CutDesignPtr cut = design.cut(read_job_choices(request, {}));
   compile::SliceOptions options;
   options.stages = cut->plan.stages;
   const compile::SliceEstimate estimate =

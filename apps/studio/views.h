@@ -27,8 +27,6 @@ Answer measure_answer(OpenDesign& design, const Request& request, const StopFlag
 // "estimate": what a job would take, from a few of its layers.
 Answer estimate_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
 
-// Reads "printer", "dither", "place" and "level" of a request.
-Cutting cutting_of(const Request& request);
 // "compare": what `after` has more than `before`, less, and of other materials, in mm3.
 Answer compare_answer(const OpenDesign& before, const OpenDesign& after, const StopFlag& stop);
 

@@ -140,10 +140,56 @@ TEST_F(StudioTest, EditsLeaveStagesOfOthersAsTheyAre) {
     EXPECT_TRUE(ask("plan", R"("printer": "j750", "design": ")" + design + '"').first.find("count"));
     return studio.counts().made - before;
   };
-  EXPECT_EQ(made_by(3, 2, "red"), 1U);  // for the picture and the job
-  EXPECT_EQ(made_by(3, 2.5, "red"), 0U);
-  EXPECT_EQ(made_by(3, 2.5, "blue"), 0U);
-  EXPECT_EQ(made_by(3.25, 2.5, "blue"), 1U);
+  // One stage for the picture and the job, and the ends of the picture's rays.
+  EXPECT_EQ(made_by(3, 2, "red"), 2U);
+  EXPECT_EQ(made_by(3, 2.5, "red"), 1U);
+  EXPECT_LE(made_by(3, 2.5, "blue"), 1U);
+  EXPECT_EQ(made_by(3.25, 2.5, "blue"), 2U);
+}
+
+// Knows nothing yet.
+class FreshStudio : public StudioTest {
+ public:
+  using StudioTest::ask, StudioTest::load;
+
+ private:
+  void TestBody() override {}
+};
+
+// What only changes colours is shown by the ends of rays that are known, with the bytes of a studio that knows none.
+TEST_F(StudioTest, EditsOfColoursFollowNoRays) {
+  const std::string camera = R"("width": 90, "height": 60, "samples": 2, "target": [0, 0, 0], "height_mm": 12)";
+  const auto script = [](const std::string& from, const std::string& to) {
+    return "attribute(\"heat\", \"x\") fgrade([\"0.5 + x / 20\", \"0.5 - x / 20\"], [" + from + ", " + to +
+           "]) difference() { sphere(4); translate(2, -3, 1) cube(4); }";
+  };
+  const std::string red = load(script("red", "blue")), green = load(script("green", "red"));
+  const auto render = [&](const std::string& design, const std::string& more) {
+    return ask("render", camera + more + R"(, "design": ")" + design + '"').second;
+  };
+  for (const std::string& more :
+       {std::string(), std::string(R"(, "cuts": ["z>1"])"), std::string(R"(, "perspective": 40)")}) {
+    const std::string first = render(red, more);
+    const auto before = studio.counts();
+    const std::string second = render(green, more);
+    EXPECT_EQ(studio.counts().made, before.made) << more;
+    EXPECT_GT(studio.counts().found, before.found) << more;
+    EXPECT_NE(first, second);
+    const std::string by_heat = render(green, more + R"(, "by": "heat")");
+    EXPECT_EQ(studio.counts().made, before.made) << more;
+    FreshStudio fresh;
+    const std::string same = R"(, "design": ")" + fresh.load(script("green", "red")) + '"';
+    EXPECT_EQ(fresh.ask("render", camera + more + R"(, "by": "heat")" + same).second, by_heat) << more;
+    FreshStudio fresher;
+    fresher.load(script("green", "red"));
+    EXPECT_EQ(fresher.ask("render", camera + more + same).second, second) << more;
+  }
+  // Another camera sees other ends, and so does light that goes through.
+  const size_t made = studio.counts().made;
+  render(red, R"(, "azimuth": 10)");
+  EXPECT_EQ(studio.counts().made, made + 1);
+  render(red, R"(, "opacity": {"red": 0.2})");
+  EXPECT_EQ(studio.counts().made, made + 1);
 }
 
 TEST_F(StudioTest, ThumbnailsAreMadeOnce) {
@@ -162,6 +208,76 @@ TEST_F(StudioTest, ThumbnailsAreMadeOnce) {
   EXPECT_NE(thumbnail(edited, 2).second, thumbnail(design, 2).second);
   EXPECT_GT(studio.counts().made, made);
   EXPECT_EQ(text(thumbnail(design, 9).first, "error"), "request");
+}
+
+TEST_F(StudioTest, PortsSayWhichNodesGoInWhere) {
+  const Data loaded =
+      ask("load", R"("file": "a.vcad", "text": )" +
+                      print_json_line("place = cells((5, 5, 5));\nbend = noise(size=3);\n"
+                                      "difference() {\n"
+                                      "  attribute(\"heat\", place.distance + 2 * bend) sphere(3, red);\n"
+                                      "  cube(1, red);\n"
+                                      "}"))
+          .first;
+  ASSERT_TRUE(loaded.find("nodes")) << print_json(loaded);
+  const DataList& nodes = *loaded.find("nodes")->list();
+  const auto find = [&](const std::string& type) {
+    return std::ranges::find_if(nodes, [&](const Data& node) { return text(node, "type") == type; });
+  };
+  const auto ports = [&](const std::string& type) {
+    std::string told;
+    for (const Data& port : *find(type)->find("ports")->list()) {
+      told += text(port, "name") + ": " + text(port, "type");
+      for (const Data& edge : *port.find("from")->list())
+        told += " <- " + text(nodes[static_cast<size_t>(number_in(edge, "node"))], "type") + " " + text(edge, "output");
+      told += '\n';
+    }
+    return told;
+  };
+  EXPECT_EQ(ports("difference"), "solids: solid <- attribute  <- cube \n");
+  EXPECT_EQ(ports("attribute"),
+            "solid: solid <- sphere \n"
+            "value: number, field, vector, colour or mixture <- cells distance <- noise value\n");
+  EXPECT_EQ(ports("sphere"), "");
+}
+
+// The slice through the middle of the design, here a square of 8 mm: numbers in the colours of the palette, mixtures in
+// those of their materials.
+TEST_F(StudioTest, ThumbnailsOfValuesShowThemOverASlice) {
+  const std::string script =
+      "warm = 2 * formula(\"x\") + 3;\nhue = mix(red, blue, formula(\"0.5 + x / 8\"));\n"
+      "translate(4, 0, 1) attribute(\"heat\", at(warm, [\"x\", \"y\", \"z\"])) rectprism((8, 8, 8), hue);";
+  const Data loaded = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(script)).first;
+  ASSERT_TRUE(loaded.find("nodes")) << print_json(loaded);
+  const DataList& nodes = *loaded.find("nodes")->list();
+  const auto picture = [&](const std::string& type) {
+    const auto found = std::ranges::find_if(nodes, [&](const Data& node) { return text(node, "type") == type; });
+    EXPECT_NE(found, nodes.end()) << type;
+    const auto [header, bytes] =
+        ask("thumbnail", R"("width": 32, "height": 32, "node": )" + std::to_string(found - nodes.begin()) +
+                             R"(, "design": ")" + text(loaded, "design") + '"');
+    EXPECT_FALSE(bytes.empty()) << print_json(header);
+    return formats::decode_png(bytes, "thumbnail");
+  };
+  const auto red_to_blue = picture("mix"), least_to_greatest = picture("at");
+  const Data hello = ask("hello").first;
+  const DataList& palette = *hello.find("palettes")->list()->front().find("colours")->list();
+  const auto differs = [](const formats::Rgba& colour, const Data& from) {
+    double most = 0;
+    for (size_t channel = 0; channel < 3; ++channel)
+      most = std::max(most, std::abs(colour[channel] - *from.list()->at(channel).number()));
+    return most;
+  };
+  int first = 0;
+  while (least_to_greatest.colour(static_cast<uint32_t>(first), 16)[3] == 0) ++first;
+  const auto left = static_cast<uint32_t>(first), right = 31 - left;
+  ASSERT_LT(left, 8U);
+  EXPECT_LT(differs(least_to_greatest.colour(left, 16), palette.front()), 24);
+  EXPECT_LT(differs(least_to_greatest.colour(right, 16), palette.back()), 24);
+  // What varies along x alone has columns of one colour.
+  EXPECT_EQ(least_to_greatest.colour(12, 10), least_to_greatest.colour(12, 22));
+  EXPECT_GT(red_to_blue.colour(left, 16)[0], red_to_blue.colour(right, 16)[0]);
+  EXPECT_LT(red_to_blue.colour(left, 16)[2], red_to_blue.colour(right, 16)[2]);
 }
 
 TEST_F(StudioTest, VolumesHoldValuesOfAttributes) {

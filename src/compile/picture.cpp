@@ -14,6 +14,7 @@
 #include "compile/picture_marks.h"
 #include "compile/question.h"
 #include "compile/region_survey.h"
+#include "render/ray_ends.h"
 
 namespace ombre::compile {
 namespace {
@@ -55,6 +56,23 @@ struct Shot {
   render::Film film;
   render::Lighting lighting = render::Lighting::from_the_eye;
   std::function<render::RayBand(int64_t begin, int64_t end)> cast;
+};
+
+// Ends of rays among what is kept of sub-designs.
+class EndsMemory : public render::KnownEnds {
+ public:
+  explicit EndsMemory(design::SubDesignMemory& memory) : memory_(memory) {}
+
+  std::shared_ptr<const render::RayEnds> find(const Hash& key) override {
+    return std::static_pointer_cast<const render::RayEnds>(memory_.find(key));
+  }
+  void keep(const Hash& key, std::shared_ptr<const render::RayEnds> ends) override {
+    const size_t bytes = ends->bytes();
+    memory_.keep(key, std::move(ends), bytes);
+  }
+
+ private:
+  design::SubDesignMemory& memory_;
 };
 
 constexpr int64_t most_rays = 2'000'000;  // of a band
@@ -253,7 +271,11 @@ class Studio {
     auto scene = make_scene(design_for(shot.film), box, shot.camera, options_, diagnostics_);
     if (!scene) return std::nullopt;
     shot.cast = [this, film = shot.film, scene = std::move(*scene)](int64_t begin, int64_t end) {
-      return render::cast_rays(scene, film, begin - 1, end + 1, request_.threads, [&] { return stop_.requested(); });
+      std::optional<EndsMemory> ends;
+      if (request_.memory) ends.emplace(*request_.memory);
+      return render::cast_rays(
+          scene, film, begin - 1, end + 1, request_.threads, [&] { return stop_.requested(); },
+          ends ? &*ends : nullptr);
     };
     return shot;
   }

@@ -13,6 +13,7 @@
 #include "program/passes/prepare.h"
 #include "render/end_colours.h"
 #include "render/ray_batch.h"
+#include "render/ray_ends.h"
 #include "voxel/place_sources.h"
 
 namespace ombre::render {
@@ -46,16 +47,26 @@ bool reads_sources(const program::Program& program) {
   return std::ranges::any_of(program.code, [](const program::Instruction& in) { return in.op == program::Op::source; });
 }
 
+// The ends of a band's rays: known, or to be found.
+struct BandEnds {
+  int64_t begin = 0, width = 0;  // row, rays of a row
+  std::shared_ptr<const RayEnds> known = {};
+  std::shared_ptr<RayEnds> found = {};  // null: not to be kept
+
+  size_t place(int64_t column, int64_t row) const { return static_cast<size_t>((row - begin) * width + column); }
+};
+
 // One thread's.
 class RayCaster {
  public:
   RayCaster(const Scene& scene, const Programs& programs, const RaySteps& steps, const Clarity& clarity,
-            const std::function<bool()>& is_stopped, RayBand& hits)
+            const std::function<bool()>& is_stopped, const BandEnds& ends, RayBand& hits)
       : scene_(scene),
         programs_(programs),
         steps_(steps),
         clarity_(clarity),
         is_stopped_(is_stopped),
+        band_ends_(ends),
         batch_(steps),
         colours_(programs.whole, steps, hits),
         blocks_(steps),
@@ -68,11 +79,25 @@ class RayCaster {
     is_open_.fill(1);
     for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row)
       std::ranges::fill(hits_.part(row, tile.lo[1], tile.hi[1]), RayHit::nothing());
-    descend(programs_.walk, tile, 0);
+    if (band_ends_.known)
+      recall(tile);
+    else
+      descend(programs_.walk, tile, 0);
     colours_.take(sources, is_stopped_);
   }
 
  private:
+  // Ends that are known, without a sample.
+  void recall(const TileBox& tile) {
+    for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row)
+      for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column) {
+        const int64_t fine = band_ends_.known->fine[band_ends_.place(column, row)];
+        if (fine == RayEnds::none) continue;
+        const Ray ray{column, row, fine};
+        hit(ray).surface = hit(ray).end = static_cast<float>(steps_.depth(fine));
+        colours_.note(ray);
+      }
+  }
   RayHit& hit(const Ray& ray) { return hits_.at(ray.column, ray.row); }
   // 1 until an end of the ray is found.
   uint8_t& is_open(int64_t column, int64_t row) {
@@ -320,6 +345,8 @@ class RayCaster {
       if (!is_end) continue;
       found.end = depth;
       colours_.note(ray);
+      if (band_ends_.found)
+        band_ends_.found->fine[band_ends_.place(ray.column, ray.row)] = static_cast<int32_t>(ray.first);
     }
   }
 
@@ -328,6 +355,7 @@ class RayCaster {
   const RaySteps& steps_;
   const Clarity& clarity_;
   const std::function<bool()>& is_stopped_;
+  const BandEnds& band_ends_;
   const StripSources* sources_ = nullptr;
   RayBatch batch_;
   EndColours colours_;
@@ -393,7 +421,7 @@ int64_t tile_edge(int64_t columns, int64_t rows) {
 }  // namespace
 
 RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t end, int threads,
-                  const std::function<bool()>& is_stopped) {
+                  const std::function<bool()>& is_stopped, KnownEnds* known) {
   if (eval::kernel_sets().empty()) throw Error("pictures need a processor with hardware multiply-add");
   const RaySteps steps(scene, film);
   const Clarity clarity(RaySteps::length_of(film) / scene.clarity_mm);
@@ -401,7 +429,17 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
   const auto samplers = place_sources(reference, scene, steps);
   const Programs programs(scene, reference);
   RayBand band(begin, end, film.width);
-  RayCasters casters([&] { return std::make_unique<RayCaster>(scene, programs, steps, clarity, is_stopped, band); });
+  BandEnds ends{begin, film.width};
+  std::optional<Hash> key;
+  if (known && !scene.is_translucent) {
+    program::Program shape = shape_alone(programs.walk);
+    key = key_of_ends(shape, scene, steps, begin, end);
+    if (key) ends.known = known->find(*key);
+    if (key && !ends.known)
+      ends.found = std::make_shared<RayEnds>(RayEnds{std::move(shape), std::vector(band.all().size(), RayEnds::none)});
+  }
+  RayCasters casters(
+      [&] { return std::make_unique<RayCaster>(scene, programs, steps, clarity, is_stopped, ends, band); });
   const int64_t edge = tile_edge(film.width, end - begin);
   const int64_t across = tiles_along(film.width, edge), down = tiles_along(end - begin, edge);
   run_parallel(static_cast<size_t>(across * down), threads, [&](size_t n) {
@@ -414,6 +452,7 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
     const StripSources sources(samplers, strip);
     casters.with_one([&](RayCaster& caster) { caster.cast(tile, sources); });
   });
+  if (ends.found && !is_stopped()) known->keep(*key, std::move(ends.found));
   return band;
 }
 

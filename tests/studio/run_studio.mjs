@@ -350,7 +350,9 @@ const checks = {
     await page.click("#tab-graph");
     await page.waitForSelector(".graph img[alt='What sphere makes']");
     await until(() => [...document.querySelectorAll(".graph img")].every((image) => image.naturalWidth >= 48));
-    assert.match(await page.innerText(".graph .node:has-text('fgrade') .ports"), /^1 solid → solid$/);
+    assert.equal(await page.innerText(".graph .node:has-text('fgrade') .outputs"), "→ solid");
+    assert.equal(await page.innerText(".graph li:has(> .port) > .port >> nth=0"), "solid: solid");
+    assert.match(await page.innerText(".graph li:has(> .node:has-text('sphere')) > ul .free >> nth=-1"), /radius: number or field/);
     await picture("graph");
     assert.deepEqual(await violations(), []);
     await page.click(".graph .node:has-text('sphere')");
@@ -398,6 +400,19 @@ const checks = {
     await page.waitForSelector(".panel:has-text('926 layers of 11575 × 4606 pixels')");
     await page.selectOption(".place", "");
     await page.waitForSelector(".panel:has-text('926 layers of 591')"); // 25 mm
+    await page.click("summary:has-text('More options')");
+    await page.fill(".option-layer-height input", "0.5");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector(".panel:has-text('50 layers of 591')");
+    assert.match(await page.textContent(".panel details:has-text('command line') pre"), / --printer=j750 --layer-height=0\.5 /);
+    assert.deepEqual(await violations(), []);
+    await picture("options");
+    await page.fill(".option-layer-height input", "thin");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector(".panel .error:has-text('thin')");
+    await page.fill(".option-layer-height input", "");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector(".panel:has-text('926 layers of 591')");
     await page.click("text=Estimate");
     await page.waitForSelector(".estimate");
     assert.match(await page.innerText(".estimate"), /^About .* s, .* of images, at most .* of memory$/);
@@ -488,7 +503,7 @@ const checks = {
 
   async "a server that is killed and started again loses nothing"() {
     await page.click("#tab-export");
-    await page.fill(".panel input[type=text]", "again_slices");
+    await page.fill(".panel label:has-text('Folder') input", "again_slices");
     await page.click("button.main");
     await page.waitForSelector("[data-folder=again_slices][data-state=working]");
     await stopServer("SIGKILL");

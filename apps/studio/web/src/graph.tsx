@@ -1,56 +1,74 @@
 // What the design is made of, as a tree whose entries lead to the script.
 import { useState } from "preact/hooks";
 import { reveal } from "./session";
-import { Design, GraphNode, state, useStore } from "./store";
+import { Design, GraphNode, Port, state, useStore } from "./store";
 import { Thumbnail } from "./thumbnails";
 
 const mostShown = 600;
 
 interface Branch {
   node: GraphNode;
+  output?: string; // that the edge begins at
   isRepeated: boolean;
-  below: Branch[];
+  below: { port: Port; branches: Branch[] }[];
 }
 
 // Nodes that are used more than once are shown once.
-function branchOf(node: GraphNode, design: Design, seen: Set<number>): Branch {
-  if (seen.has(node.id)) return { node, isRepeated: true, below: [] };
+function branchOf(node: GraphNode, design: Design, seen: Set<number>, output?: string): Branch {
+  if (seen.has(node.id)) return { node, output, isRepeated: true, below: [] };
   seen.add(node.id);
-  const below: Branch[] = [];
-  for (const id of [...node.inputs, ...node.values])
-    if (design.nodes[id] && seen.size < mostShown) below.push(branchOf(design.nodes[id], design, seen));
-  return { node, isRepeated: false, below };
+  const below = node.ports.map((port) => ({
+    port,
+    branches: port.from.filter((edge) => design.nodes[edge.node] && seen.size < mostShown).map((edge) => branchOf(design.nodes[edge.node], design, seen, edge.output)),
+  }));
+  return { node, output, isRepeated: false, below: below.filter(({ branches }) => branches.length > 0) };
 }
 
-const counted = (count: number, noun: string) => `${count} ${noun}${count === 1 ? "" : "s"}`;
+const typeOf = (node: GraphNode) => state.hello?.nodes.find((known) => known.name === node.type);
 
-// What comes in, and what goes out with its type.
-function ports(node: GraphNode): string {
-  const type = state.hello?.nodes.find((known) => known.name === node.type);
-  const inputs = [node.inputs.length > 0 && counted(node.inputs.length, "solid"), node.values.length > 0 && counted(node.values.length, "value")].filter(Boolean);
-  const outputs = type?.gives === "values" ? type.outputs.map((output) => `${output.name}: ${output.type}`).join(", ") : "solid";
-  return `${inputs.length > 0 ? `${inputs.join(", ")} ` : ""}→ ${outputs}`;
+// Parameters that may hold nodes, but hold numbers or names.
+const freePorts = (node: GraphNode) =>
+  (typeOf(node)?.parameters ?? []).filter((parameter) => /field|mixture|solid/.test(parameter.kind) && !node.ports.some((port) => port.name === parameter.name));
+
+function outputs(node: GraphNode): string {
+  const type = typeOf(node);
+  return type?.gives === "values" ? type.outputs.map((output) => `${output.name}: ${output.type}`).join(", ") : "solid";
 }
 
-const isSolid = (node: GraphNode) => state.hello?.nodes.find((known) => known.name === node.type)?.gives !== "values";
+function Ports({ branch, depth }: { branch: Branch; depth: number }) {
+  const free = freePorts(branch.node);
+  return (
+    <ul>
+      {branch.below.map(({ port, branches }) => (
+        <li>
+          <span class="port">{port.name}: {port.type}</span>
+          <ul>{branches.map((b) => <Entry branch={b} depth={depth + 1} />)}</ul>
+        </li>
+      ))}
+      {free.length > 0 && <li class="free">{free.map((parameter) => `${parameter.name}: ${parameter.kind}`).join(" · ")}</li>}
+    </ul>
+  );
+}
 
 function Entry({ branch, depth }: { branch: Branch; depth: number }) {
-  const { node, isRepeated, below } = branch;
+  const { node, output, isRepeated } = branch;
   const [isOpen, setOpen] = useState(depth < 6);
+  const hasPorts = !isRepeated && (branch.below.length > 0 || freePorts(node).length > 0);
   return (
     <li>
-      {below.length > 0 && (
-        <button class="fold" aria-expanded={isOpen} aria-label={`What ${node.type} is made of`} onClick={() => setOpen(!isOpen)}>
+      {hasPorts && (
+        <button class="fold" aria-expanded={isOpen} aria-label={`Inputs of ${node.type}`} onClick={() => setOpen(!isOpen)}>
           {isOpen ? "▾" : "▸"}
         </button>
       )}
-      {!isRepeated && isSolid(node) && <Thumbnail node={node.id} type={node.type} />}
+      {!isRepeated && <Thumbnail node={node.id} type={node.type} />}
       <button class="node" disabled={node.from === undefined} onClick={() => reveal(node.from!, node.to ?? node.from!)}>
         {node.type}
-        <span class="ports">{ports(node)}</span>
+        {output && `.${output}`}
+        <span class="outputs">→ {outputs(node)}</span>
         <span class="place">{isRepeated ? "see above" : node.line ? `line ${node.line}` : ""}</span>
       </button>
-      {isOpen && below.length > 0 && <ul>{below.map((b) => <Entry branch={b} depth={depth + 1} />)}</ul>}
+      {isOpen && hasPorts && <Ports branch={branch} depth={depth} />}
     </li>
   );
 }

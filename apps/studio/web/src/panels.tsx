@@ -3,10 +3,10 @@ import { useEffect, useState } from "preact/hooks";
 import { FileMenu, mayNameFile } from "./filechoice";
 import { listExamples, openExample } from "./files";
 import { page } from "./language";
-import { changeJob, choosePlace, compare, estimate, forgetMark, insert, jobKey, markVersion, measure, openFolder, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
+import { changeJob, compare, estimate, forgetMark, insert, jobKey, markVersion, measure, openFolder, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
 import { Presets } from "./presets";
-import { PrinterChoice } from "./slices";
-import { Job, NodeType, Place, State, Value, Variable, set, state, useStore } from "./store";
+import { OptionForm, optionWords, printerOf } from "./joboptions";
+import { Job, NodeType, State, Value, Variable, set, state, useStore } from "./store";
 
 function numberRange(v: Variable): { min: number; max: number; step: number | "any" } {
   const value = v.value as number;
@@ -150,7 +150,7 @@ function JobRow({ job }: { job: Job }) {
   return (
     <li class="job" data-state={job.state} data-folder={job.folder}>
       <span>
-        <strong>{job.folder}</strong> {job.printer}: {job.state}
+        <strong>{job.folder}</strong> {printerOf(job.options)}: {job.state}
       </span>
       <progress value={share} max={1} aria-label={`Layers of ${job.folder}`} />
       <span>
@@ -170,10 +170,7 @@ function JobRow({ job }: { job: Job }) {
 
 function commandLine(folder: string): string {
   const words = ["ombre", "slice", state.file];
-  if (state.printer !== "generic") words.push("--printer", state.printer);
-  if (state.dither !== "stochastic") words.push("--dither", state.dither);
-  if (state.place === "tray") words.push("--tray");
-  else if (state.place) words.push("--place", state.place);
+  words.push(...optionWords());
   if (state.rotate.some((degrees) => degrees !== 0)) words.push("--rotate", state.rotate.join());
   for (const [name, value] of Object.entries(state.values)) words.push("-D", `'${name}=${JSON.stringify(value)}'`);
   return [...words, "-o", folder].join(" ");
@@ -201,21 +198,6 @@ function EstimateText() {
       {known.free_bytes !== undefined && known.bytes > known.free_bytes && <p class="error">The disk has {bytesText(known.free_bytes)} left.</p>}
       {known.checks.map((text) => <p class="warning">{text}</p>)}
     </div>
-  );
-}
-
-function PlaceChoice() {
-  const { place } = useStore();
-  return (
-    <label>
-      Place
-      <select class="place" value={place} onChange={(e) => choosePlace(e.currentTarget.value as Place)}>
-        <option value="">as the printer has it</option>
-        <option value="design">the design alone</option>
-        <option value="center">middle of the tray</option>
-        <option value="tray">whole tray, as designed</option>
-      </select>
-    </label>
   );
 }
 
@@ -261,8 +243,7 @@ function Export() {
   const voxels = plan ? plan.count[0] * plan.count[1] * plan.count[2] : 0;
   return (
     <div class="panelbody">
-      <p class="controls"><PrinterChoice /></p>
-      <p class="controls"><PlaceChoice /></p>
+      <OptionForm />
       <Turns />
       {plan && (
         <p class="hint">

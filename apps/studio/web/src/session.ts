@@ -2,7 +2,7 @@
 import { Connection, Refused, Reply } from "./connection";
 import { listFileChoices } from "./filechoice";
 import { hearPresets, listPresets } from "./presets";
-import { DataFile, Job, Mark, Place, Plan, State, Value, set, state } from "./store";
+import { DataFile, Hello, Job, JobOption, JobOptions, Mark, Plan, State, Value, set, state } from "./store";
 
 // What the session needs of the editor.
 export interface Editor {
@@ -36,11 +36,18 @@ export function setEditor(made: Editor) {
 const draftKey = (file: string) => `ombre:draft:${state.hello?.folder}:${file}`;
 const jobsKey = () => `ombre:jobs:${state.hello?.folder}`;
 
+// Those of another version of the program may be unknown.
+const knownOptions = (hello: Hello) =>
+  Object.fromEntries(
+    Object.entries(state.options).filter(([name, value]) =>
+      name === "printer" ? hello.printers.some((p) => p.name === value) : hello.job_options.some((o) => o.name === name && (o.choices.length === 0 || o.choices.includes(String(value)))),
+    ),
+  );
+
 async function greet() {
   const hello = (await connection.ask("hello").answer) as any;
   const isFirst = !state.hello;
-  const printer = hello.printers.some((p: { name: string }) => p.name === state.printer) ? state.printer : "generic";
-  set({ status: "open", hello, files: hello.files, data: hello.data, printer });
+  set({ status: "open", hello, files: hello.files, data: hello.data, options: knownOptions(hello) });
   adoptJobs((await connection.ask("jobs").answer).jobs);
   if (!isFirst) return comeBack();
   const last = localStorage.getItem(`ombre:file:${hello.folder}`);
@@ -287,15 +294,19 @@ function fieldToShow(attributes: { name: string }[]): string {
 
 let shown = { file: "", text: "", definitions: [] as string[], rotate: [0, 0, 0] }; // what the design was made of
 
+let loads = 0;
+
 async function load(isRun = false) {
   if (!editor || !state.file || !connection.isOpen || state.kind === "table") return;
   if (isPython() && !isRun) return set({ isOld: state.design !== undefined, problem: "" });
   isLoading = true;
   isWanted = false;
+  const number = ++loads;
   set({ isBusy: true });
   const sent = { file: state.file, text: editor.text(), definitions: definitions(), rotate: state.rotate };
   try {
     const reply = await connection.ask("load", { ...sent, ...(isRun ? { run: true } : {}) }, "load").answer;
+    if (number !== loads) return; // it crossed the cancelling by a newer one
     const change: any = { isBusy: false, problem: "", diagnostics: reply.diagnostics, echo: reply.echo, variables: reply.variables ?? [], isOld: !reply.ok };
     if (reply.ok) change.design = reply;
     if (reply.ok && state.kind === "results") change.by = fieldToShow(reply.attributes);
@@ -307,7 +318,7 @@ async function load(isRun = false) {
     if (reply.ok) plan();
   } catch (error) {
     const refused = error as Refused;
-    if (refused.isCancelled) return;
+    if (refused.isCancelled || number !== loads) return;
     set({ isBusy: false, isOld: state.design !== undefined, problem: refused.message, diagnostics: [], variables: refused.code === "unsupported" ? [] : state.variables });
     editor.setDiagnostics();
   } finally {
@@ -326,29 +337,30 @@ export async function about(what: string, members: Record<string, unknown>, lane
   }
 }
 
-export const cutting = () => ({ printer: state.printer, dither: state.dither, place: state.place });
-
 // Two jobs with the same key are the same job.
-export const jobKey = () => JSON.stringify([state.design?.design, cutting()]);
+export const jobKey = () => JSON.stringify([state.design?.design, state.options]);
 
 export async function plan() {
   if (!state.design) return;
   const design = state.design.design;
   try {
-    const reply = await about("plan", cutting(), "plan");
+    const reply = await about("plan", state.options, "plan");
     set({ plan: { ...(reply as unknown as Plan), design }, planProblem: "" });
   } catch (error) {
     if (!(error as Refused).isCancelled) set({ planProblem: (error as Error).message });
   }
 }
 
-export function choosePrinter(printer: string, dither: string) {
-  set({ printer, dither });
-  plan();
-}
-
-export function choosePlace(place: Place) {
-  set({ place });
+// An empty text, or false, is no choice. What it excludes is given up.
+export function chooseOption(option: JobOption, value: string | boolean) {
+  const others = Object.entries(state.options).filter(([name]) => {
+    const other = state.hello!.job_options.find((o) => o.name === name);
+    return name !== option.name && !(value && (option.excludes.includes(name) || other?.excludes.includes(option.name)));
+  });
+  const options: JobOptions = Object.fromEntries(value ? [...others, [option.name, value]] : others);
+  // What needs another option goes with it.
+  for (const { name, needs } of state.hello!.job_options) if (needs.some((needed) => !(needed in options))) delete options[name];
+  set({ options });
   plan();
 }
 
@@ -365,7 +377,7 @@ export async function openFolder(job: Job) {
 export async function estimate(): Promise<string> {
   const of = jobKey();
   try {
-    set({ estimate: { of, ...((await about("estimate", cutting(), "estimate")) as any) } });
+    set({ estimate: { of, ...((await about("estimate", state.options, "estimate")) as any) } });
     return "";
   } catch (error) {
     return (error as Refused).isCancelled ? "" : (error as Error).message;
@@ -423,7 +435,7 @@ export async function compare() {
 
 export async function probe(at: number[]) {
   try {
-    const probe = (await about("probe", { at, ...cutting() }, "probe")) as any;
+    const probe = (await about("probe", { at, ...state.options }, "probe")) as any;
     set({ probe, probeBefore: state.probe?.at });
   } catch {
     // The next probe says more.
@@ -452,7 +464,7 @@ function takeJob(job: Job) {
 
 export async function startExport(folder: string, replace: boolean): Promise<string> {
   try {
-    const reply = await about("export", { folder, file: state.file, replace, ...cutting() }, "");
+    const reply = await about("export", { folder, file: state.file, replace, ...state.options }, "");
     takeJob({ ...reply.job, rotate: state.rotate });
     return "";
   } catch (error) {
@@ -464,7 +476,7 @@ export async function changeJob(job: Job, to: "pause" | "resume" | "cancel") {
   if (job.state === "interrupted") {
     if (to === "cancel") return setJobs(state.jobs.filter((known) => known !== job));
     if (job.file && job.file !== state.file) return set({ problem: `open ${job.file} to go on with its layers` });
-    set({ printer: job.printer, dither: job.dither, place: job.place ?? "" });
+    set({ options: job.options });
     if (job.rotate && job.rotate.join() !== state.rotate.join()) {
       set({ rotate: job.rotate });
       await load();

@@ -1,7 +1,8 @@
 // Layers at the printer's resolution: pixels are those of the job's files.
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { length } from "./camera";
-import { choosePrinter, probe, reveal } from "./session";
+import { OptionControl } from "./joboptions";
+import { probe, reveal } from "./session";
 import { NodeCall, Plan, set, state, useStore } from "./store";
 import { Legend, ScaleBar } from "./surface";
 import { Tile, Tiles, tileSize } from "./tiles";
@@ -228,7 +229,8 @@ export function SliceView() {
   return (
     <section class="view slices" aria-label="Slices">
       <div class="viewbar">
-        <PrinterChoice />
+        <OptionControl name="printer" />
+        <OptionControl name="dither" />
         <label class="grow">
           Layer
           <input type="range" min={0} max={plan ? plan.count[2] - 1 : 0} value={layer} disabled={!plan}
@@ -256,25 +258,5 @@ export function SliceView() {
         {painter.current?.look && <ScaleBar pixelMm={painter.current.look.scale} />}
       </div>
     </section>
-  );
-}
-
-export function PrinterChoice() {
-  const { hello, printer, dither } = useStore();
-  return (
-    <>
-      <label>
-        Printer
-        <select class="printer" value={printer} onChange={(e) => choosePrinter(e.currentTarget.value, dither)}>
-          {hello?.printers.map((p) => <option value={p.name} title={p.title}>{p.name}</option>)}
-        </select>
-      </label>
-      <label class="dither">
-        Mixtures
-        <select value={dither} onChange={(e) => choosePrinter(printer, e.currentTarget.value)}>
-          {hello?.dithers.map((name) => <option value={name}>{name}</option>)}
-        </select>
-      </label>
-    </>
   );
 }

@@ -52,8 +52,14 @@ export interface NodeCall {
 export interface GraphNode extends NodeCall {
   id: number;
   category: string;
-  inputs: number[];
-  values: number[];
+  ports: Port[]; // that have edges
+}
+
+// Where other nodes go in: solids, or a parameter that holds outputs of nodes.
+export interface Port {
+  name: string;
+  type: string;
+  from: { node: number; output?: string }[];
 }
 
 export interface Design {
@@ -97,7 +103,7 @@ export interface Hello {
   opens_folders: boolean;
   files: string[];
   printers: { name: string; title: string }[];
-  dithers: string[];
+  job_options: JobOption[]; // of `ombre slice`
   palettes: { name: string; colours: number[][] }[]; // from the least value to the greatest, mixed in linear light
   nodes: NodeType[];
   functions: { name: string; signature: string }[];
@@ -121,9 +127,7 @@ export interface Job {
   rotate?: number[]; // which the page remembers
   folder: string;
   file: string;
-  printer: string;
-  dither: string;
-  place?: Place;
+  options: JobOptions;
   layers: number;
   done: number;
   total: number;
@@ -155,7 +159,19 @@ export interface Cut {
   box?: [number[], number[]];
 }
 
-export type Place = "" | "design" | "center" | "tray";
+// A row of the options of a job, from which the form is made.
+export interface JobOption {
+  name: string;
+  help: string;
+  placeholder: string;
+  kind: string; // "flag", "word", "number", ...
+  choices: string[];
+  needs: string[];
+  excludes: string[];
+  least?: number;
+  most?: number;
+}
+export type JobOptions = Record<string, string | boolean>;
 
 // The server estimates a job before it begins; `of` is the job's request as text, so that an old answer is known as such.
 export interface Estimate {
@@ -223,9 +239,7 @@ export interface State {
   shownRange?: { of: string; range: [number, number] }; // of the last picture
   opacity: Record<string, number>;
   curves: Record<string, CurvePoint[]>; // opacities by an attribute's values, in the volume view
-  printer: string;
-  dither: string;
-  place: Place;
+  options: JobOptions; // that were chosen; others are as the printer and the design have them
   rotate: number[]; // degrees about x, then y, then z: how the part lies
   estimate?: Estimate;
   plan?: Plan;
@@ -246,7 +260,7 @@ export interface State {
 }
 
 // What a person chose of the page, which stays when it is loaded again.
-const kept = ["perspective", "printer", "dither", "place", "view", "panel", "theme"] as const;
+const kept = ["perspective", "options", "view", "panel", "theme"] as const;
 const known: Partial<State> = JSON.parse(localStorage.getItem("ombre:choices") ?? "{}");
 
 const listeners = new Set<() => void>();
@@ -275,9 +289,7 @@ export let state: State = {
   palette: "",
   opacity: {},
   curves: {},
-  printer: "generic",
-  dither: "stochastic",
-  place: "",
+  options: {},
   rotate: [0, 0, 0],
   planProblem: "",
   z: NaN,

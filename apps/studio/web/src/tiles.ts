@@ -1,6 +1,6 @@
 // Tiles of layers, as the printer gets them: asked for when they are seen, kept while there is room.
 import { Refused } from "./connection";
-import { about, connection, cutting } from "./session";
+import { about, connection } from "./session";
 import { Plan, state } from "./store";
 
 export const tileSize = 256; // pixels
@@ -38,7 +38,7 @@ export class Tiles {
     while (this.plans.size > mostPlans) this.plans.delete(this.plans.keys().next().value!);
     try {
       const design = state.design!.design;
-      this.plans.set(key, { ...((await about("plan", { ...cutting(), level }, "")) as unknown as Plan), design });
+      this.plans.set(key, { ...((await about("plan", { ...state.options, level }, "")) as unknown as Plan), design });
       this.changed();
     } catch {
       this.plans.delete(key);
@@ -46,7 +46,7 @@ export class Tiles {
   }
 
   private key(level: number) {
-    return `${state.design?.design} ${state.printer} ${state.dither} ${state.place} ${level}`;
+    return `${state.design?.design} ${JSON.stringify(state.options)} ${level}`;
   }
 
   // The tiles of these numbers; those that are missing are asked for, and what else was asked for is not.
@@ -77,7 +77,7 @@ export class Tiles {
   private ask() {
     while (this.wanted.length > 0 && this.atWork.size < mostAtOnce && connection.isOpen) {
       const { key, members, tile } = this.wanted.shift()!;
-      const question = connection.ask("tile", { design: state.design!.design, ...cutting(), ...members });
+      const question = connection.ask("tile", { design: state.design!.design, ...state.options, ...members });
       this.atWork.set(key, question.cancel);
       question.answer
         .then((reply) => createImageBitmap(new Blob([reply.bytes as BlobPart], { type: "image/png" })))

@@ -1,0 +1,35 @@
+// What is chosen of a slice job, by the options of `ombre slice`.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "compile/job_options.h"
+#include "studio/messages.h"
+
+namespace ombre::studio {
+
+struct JobChoices {
+  compile::SamplingOptions sampling;
+  compile::ImageOptions images;
+  int level = 0;      // voxels are 2^level times as long along x and y: 0 are the job's own
+  DataMembers given;  // the options as the request has them, in the order of the rows
+
+  static const options::Spec<JobChoices>& options();
+  // Equal choices have equal keys.
+  std::string key() const;
+};
+
+// Reads options by their names without dashes, values as texts, numbers, lists of numbers, or true for flags, and
+// "level". `others` are the request's members that say something else. Throws RequestError for members that nobody
+// knows, which names those that there are, and for wrong values.
+JobChoices read_job_choices(const Request& request, std::initializer_list<std::string_view> others);
+
+// A list of {"name", "help", "placeholder", "kind", "choices", "least", "most", "needs", "excludes"}, for forms.
+DataList describe_job_options();
+
+// What an option cannot take, in the studio's words.
+RequestError wrong_value(const options::WrongValue& error);
+
+}  // namespace ombre::studio

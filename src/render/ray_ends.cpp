@@ -1,0 +1,51 @@
+#include "render/ray_ends.h"
+
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "program/passes/passes.h"
+
+namespace ombre::render {
+namespace {
+
+// The bytes of some numbers, one after the other.
+class Bytes {
+ public:
+  template <class... Numbers>
+  void add(Numbers... numbers) {
+    (text_.append(reinterpret_cast<const char*>(&numbers), sizeof numbers), ...);
+  }
+  Hash hash() const { return hash_bytes(text_); }
+
+ private:
+  std::string text_ = "ends of rays ";
+};
+
+void add(Bytes& bytes, const program::Program& program) {
+  bytes.add(program.code.size(), program.maps.size(), program.reads.size(), program.part_sets.size());
+  for (const program::Instruction& in : program.code)
+    bytes.add(static_cast<uint64_t>(in.op), in.a, in.b, in.c, in.aux, in.value);
+  for (const program::AffineRow& row : program.maps) bytes.add(row);
+  for (const program::Read& read : program.reads) bytes.add(read.source.get(), read.channel, read.tag);
+  for (const auto& set : program.part_sets) bytes.add(set.get());
+  for (const program::ValueId output : program.outputs) bytes.add(output);
+}
+
+}  // namespace
+
+program::Program shape_alone(const program::Program& walk) {
+  return program::shorten(walk, std::vector<Interval>(walk.code.size(), Interval::everything()));
+}
+
+std::optional<Hash> key_of_ends(const program::Program& shape, const Scene& scene, const RaySteps& steps, int64_t begin,
+                                int64_t end) {
+  if (shape.has_calls() || steps.steps >= std::numeric_limits<int32_t>::max() / fine_per_step) return std::nullopt;
+  Bytes bytes;
+  add(bytes, shape);
+  bytes.add(scene.eye_mm, scene.near_mm, scene.far_mm, begin, end);
+  bytes.add(steps.film.width, steps.film.height, steps.film.pixel_mm, steps.film.samples);
+  return bytes.hash();
+}
+
+}  // namespace ombre::render
