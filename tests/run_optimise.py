@@ -184,12 +184,6 @@ def wrong_studies_are_told(folder):
     expect("has no objectives" in error({**LIGHT, "objectives": []}), "objectives")
     expect('either "minimise" or "maximise"' in error({**LIGHT, "objectives": [{}]}), "an objective")
     expect('either "at_most" or "at_least"' in error({**LIGHT, "constraints": [{"measure": "mass"}]}), "a limit")
-    for displacement, wanted in (({"on": "xmax"}, '"direction" is missing'), ({"direction": [0, 1, 0]}, '"on" is missing'),
-                                 ({"on": "xmax", "direction": [0, 0, 0]}, "a direction without a length"),
-                                 ({"on": "xmax", "direction": [0, 1, 0], "goal": "most"}, "least"),
-                                 ({"on": {"box": [90, 0, 0, 91, 1, 1]}, "direction": [0, 1, 0]}, "in this box")):
-        told = error({**MBB, "topology": {**MBB["topology"], "displacement": displacement}})
-        expect(wanted in told, told)
     expect("needs loads" in error({**LIGHT, "fea": {**PULL, "loads": []}}), "loads")
     expect('"fea" is missing' in error({name: LIGHT[name] for name in LIGHT if name != "fea"}), "fea")
     expect('did you mean "cobyla"?' in error({**LIGHT, "method": "cobila"}), "a method")
@@ -318,6 +312,12 @@ def wrong_topologies_are_told(folder):
     expect('needs "volume_fraction"' in error({**MBB, "topology": {}}), "a volume")
     expect("a number from 0.01 to 1" in error({**MBB, "topology": {"volume_fraction": 2}}), "a large volume")
     expect("did you mean" in error({**MBB, "topology": {"volume_fraction": 0.5, "radios": 2}}), "a member")
+    for displacement, wanted in (({"on": "xmax"}, '"direction" is missing'), ({"direction": [0, 1, 0]}, '"on" is missing'),
+                                 ({"on": "xmax", "direction": [0, 0, 0]}, "a direction without a length"),
+                                 ({"on": "xmax", "direction": [0, 1, 0], "goal": "most"}, "least"),
+                                 ({"on": {"box": [90, 0, 0, 91, 1, 1]}, "direction": [0, 1, 0]}, "in this box")):
+        told = error({**MBB, "topology": {**MBB["topology"], "displacement": displacement}})
+        expect(wanted in told, told)
     expect("needs loads" in error({**MBB, "fea": {**MBB["fea"], "loads": []}}), "loads")
     expect("takes no gravity" in error({**MBB, "fea": {**MBB["fea"], "gravity_mm_s2": [0, -9810, 0]}}), "gravity")
     expect("supports that do not move" in error({**MBB, "fea": {**MBB["fea"], "supports": [
