@@ -109,6 +109,35 @@ def mixtures_are_drawn_or_mixed(folder):
     near(folder.array("m.vtu", "fraction of blue")[0], 0.25, 1e-6, "a fraction")
 
 
+def mixtures_that_are_no_numbers_are_told(folder):
+    """The root of x is no number at x = -4 and -2, two of five columns of 25 bricks; powers whose sum overflows are
+    no shares."""
+    def grade(red, blue):
+        folder.write("root.vcad", f'fgrade(["{red}", "{blue}"], [red, blue]) {{ rectprism((10, 10, 10), red); }}')
+
+    def fea(*arguments, status=0):
+        return folder.run("root.vcad", "--study", "pull.json", *arguments, "-o", "root.vtu", "--force",
+                          status=status).stderr
+
+    sizes = [("--cell", "2")] + [("--elements", "tet4", "--size", "3")] * has_tetrahedra(folder)
+    grade("sqrt(x)", "1 - sqrt(x)")
+    told = fea(*sizes[0])
+    expect("(50 of 125 elements, the first around (-4, -4, -4); they are of red)" in told, told)
+    expect("fractions of fgrade are all zero or not finite" in fea(*sizes[-1]), "elements up to the surface")
+    for red, blue in ("sqrt(x - 20)", "1"), ("if(x < 20, 1e308, 1)", "1e308"):
+        grade(red, blue)
+        for size in sizes:
+            (folder.path / "root.vtu").unlink(missing_ok=True)
+            told = fea(*size, status=1)
+            expect("error: the mixture is no number in any of the" in told, told)
+            expect(not (folder.path / "root.vtu").exists(), "a file of a design without mixture")
+    grade("if(x < -1, 1e308, 1)", "if(x < -1, 1e308, 1)")
+    told = fea(*sizes[0])
+    expect("the mixture is no number in 50 of 125 elements, the first around (-4, -4, -4)" in told, told)
+    grade("sqrt(x + 20)", "1")
+    expect("warning" not in fea(*sizes[0]), "a warning of numbers")
+
+
 def moduli_come_from_attributes(folder):
     """A bar whose modulus grows along z: its ends part by the integral of stress / modulus."""
     folder.write("graded.vcad", 'attribute("stiffness", "100 * exp(z/10)", unit="MPa") ' + CUBE)
@@ -608,7 +637,7 @@ def main():
             return function(Folder(ombre, scratch))
 
     checks = [bars_stretch_by_hookes_law, results_are_in_the_grid, vectors_are_one_field, mixtures_are_drawn_or_mixed,
-              moduli_come_from_attributes, decks_are_complete, tetrahedra_reach_the_surface,
+              mixtures_that_are_no_numbers_are_told, moduli_come_from_attributes, decks_are_complete, tetrahedra_reach_the_surface,
               tetrahedra_of_any_size_come_to_an_end, cells_that_repeat_fit_their_copies, designs_with_rough_edges_come_to_an_end,
               adaptive_meshes_cost_less, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix,
               solvers_agree,

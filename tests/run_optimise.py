@@ -269,6 +269,39 @@ def projection_draws_densities_apart(folder):
     expect(apart < 0.5 * even, f"{apart:.0%} of the bricks are neither void nor solid, {even:.0%} without a projection")
 
 
+def displacements_are_goals_of_topologies(folder):
+    """Where the only load pulls, least displacement is least compliance: the same densities, and the compliance is force
+    times displacement. Elsewhere a displacement is changed as it is told, at the same volume."""
+    load = MBB["fea"]["loads"][0]
+    force = math.dist(load["force_n"], (0, 0, 0))
+
+    def found(name, steps, **displacement):
+        goal = {"displacement": displacement} if displacement else {}
+        folder.write("goal.json", {**MBB, "topology": {**MBB["topology"], "steps": steps, **goal}})
+        events = folder.events(STUDIES / "half_beam.vcad", "--study", "goal.json", "-o", name)
+        return next(event for event in events if event["event"] == "topology")
+
+    def densities(name):
+        return array.array("f", (folder.path / name / "density.nrrd").read_bytes().partition(b"\n\n")[2])
+
+    stiffest = found("stiffest", 30)
+    stillest = found("stillest", 30, on=load["on"], direction=[10 * f for f in load["force_n"]], goal="least")
+    near(stillest["compliance_n_mm"], stiffest["compliance_n_mm"], 1e-4 * stiffest["compliance_n_mm"], "the compliance")
+    near(force * stillest["displacement_mm"], stillest["compliance_n_mm"], 1e-6 * stillest["compliance_n_mm"], "the work")
+    expect(max(abs(a - b) for a, b in zip(densities("stiffest"), densities("stillest"))) < 1e-3, "other densities")
+    expect(stiffest["displacement_mm"] is None, "a displacement without a goal")
+
+    # The roller's end moves along x.
+    end = {"on": {"box": [60, 0, 0, 60, 0, 1]}, "direction": [1, 0, 0]}
+    found("end", 25, **end)
+    steps = [float(row["displacement [mm]"]) for row in folder.table("end/history.csv")]
+    expect(steps[-1] < 0.6 * steps[0], f"least: {steps}")
+    greatest = found("far", 10, **end, goal="greatest")
+    steps = [float(row["displacement [mm]"]) for row in folder.table("far/history.csv")]
+    expect(steps[-1] > 1.2 * steps[0], f"greatest: {steps}")
+    near(greatest["volume_fraction"], 0.5, 1e-3, "the volume")
+
+
 def wrong_topologies_are_told(folder):
     folder.write("mbb.vcad", "translate(30, 10, 0.5) rectprism((60, 20, 1), red);\n")
 
@@ -279,6 +312,12 @@ def wrong_topologies_are_told(folder):
     expect('needs "volume_fraction"' in error({**MBB, "topology": {}}), "a volume")
     expect("a number from 0.01 to 1" in error({**MBB, "topology": {"volume_fraction": 2}}), "a large volume")
     expect("did you mean" in error({**MBB, "topology": {"volume_fraction": 0.5, "radios": 2}}), "a member")
+    for displacement, wanted in (({"on": "xmax"}, '"direction" is missing'), ({"direction": [0, 1, 0]}, '"on" is missing'),
+                                 ({"on": "xmax", "direction": [0, 0, 0]}, "a direction without a length"),
+                                 ({"on": "xmax", "direction": [0, 1, 0], "goal": "most"}, "least"),
+                                 ({"on": {"box": [90, 0, 0, 91, 1, 1]}, "direction": [0, 1, 0]}, "in this box")):
+        told = error({**MBB, "topology": {**MBB["topology"], "displacement": displacement}})
+        expect(wanted in told, told)
     expect("needs loads" in error({**MBB, "fea": {**MBB["fea"], "loads": []}}), "loads")
     expect("takes no gravity" in error({**MBB, "fea": {**MBB["fea"], "gravity_mm_s2": [0, -9810, 0]}}), "gravity")
     expect("supports that do not move" in error({**MBB, "fea": {**MBB["fea"], "supports": [
@@ -299,6 +338,7 @@ def main():
     checks = [bars_are_as_light_as_hookes_law_lets_them, the_best_design_is_a_script, beams_follow_beam_theory,
               fronts_are_found, whole_variables_are_whole, searches_go_on, ctrl_c_keeps_the_history,
               wrong_studies_are_told, designs_that_fail_are_left_out, topologies_are_as_stiff_as_published, projection_draws_densities_apart,
+              displacements_are_goals_of_topologies,
               wrong_topologies_are_told]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
 

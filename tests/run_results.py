@@ -98,6 +98,33 @@ def the_mesh_is_a_solid(folder):
     near(counts["blue"], 4000, 150, "the voxels of blue")
 
 
+def coverage_is_reported(folder):
+    """A block of twice the length of the cube of the mesh lies in it by a half; a cube moved by 2.5 mm along each axis
+    has (3/4)^3 of its volume there, unless its results move along."""
+    folder.solve()
+    mixed = 'mix(red, blue, results("cube.vtu", "von_mises", outside="nearest").value / 200)'
+
+    def info(design, *arguments):
+        folder.write("covered.vcad", design)
+        return folder.run("info", "covered.vcad", *arguments).stdout
+
+    def shares(design):
+        events = map(json.loads, info(design, "--json").splitlines())
+        found = next(event["results"] for event in events if event["event"] == "design")
+        expect(all(mesh["file"].endswith("cube.vtu") for mesh in found), str(found))
+        return [mesh["share_in_mesh"] for mesh in found]
+
+    expect(shares("cube(10, red);") == [], "a design without results")
+    near(shares(f"rectprism((20, 10, 10), {mixed});")[0], 0.5, 1e-9, "a half")
+    near(shares(f"rectprism((10, 10, 10), {mixed});")[0], 1, 1e-9, "all of it")
+    near(shares(f"translate(20, 0, 0) rectprism((10, 10, 10), {mixed});")[0], 1, 1e-9, "results that move along")
+    corner = shares('attribute("s", results("cube.vtu", "von_mises").value) '
+                    'translate(2.5, 2.5, 2.5) rectprism((10, 10, 10), red);')
+    near(corner[0], 0.75**3, 0.02, "a corner")
+    told = info(f"rectprism((20, 10, 10), {mixed});")
+    expect("cube.vtu  about 50 % of the design's volume lies in the mesh" in told, told)
+
+
 def bytes_do_not_depend_on_threads(folder):
     folder.solve()
     folder.write("graded.vcad", 'r = results("cube.vtu", "displacement", outside="nearest");\n'
@@ -201,8 +228,8 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             function(Folder(ombre, scratch))
 
-    checks = [own_results_are_read_back, outside_is_as_told, the_mesh_is_a_solid, bytes_do_not_depend_on_threads,
-              calculix_is_read, tables_are_read, results_are_described, results_are_drawn, wrong_use_is_told]
+    checks = [own_results_are_read_back, outside_is_as_told, the_mesh_is_a_solid, coverage_is_reported,
+              bytes_do_not_depend_on_threads, calculix_is_read, tables_are_read, results_are_described, results_are_drawn, wrong_use_is_told]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
 
 

@@ -6,6 +6,7 @@
 #include "base/json.h"
 #include "base/text.h"
 #include "compile/attribute_survey.h"
+#include "compile/mesh_coverage.h"
 #include "formats/file.h"
 #include "lang/openscad/customizer.h"
 #include "ombre/checks.h"
@@ -66,18 +67,39 @@ Data attribute_data(const compile::SurveyedAttribute& attribute) {
                      {"values", std::move(numbers)}};
 }
 
+// "results seat.vtu  99.2 % of the design's volume lies in the mesh"
+std::string coverage_text(const std::vector<compile::MeshCoverage>& coverage) {
+  std::string text;
+  for (const compile::MeshCoverage& mesh : coverage)
+    text +=
+        "results " + mesh.file + "  " +
+        (mesh.share ? "about " + format_rounded(100 * *mesh.share, 3) + " % of the design's volume lies in the mesh\n"
+                    : std::string("no sample lies in the design\n"));
+  return text;
+}
+
+DataList coverage_data(const std::vector<compile::MeshCoverage>& coverage) {
+  DataList list;
+  for (const compile::MeshCoverage& mesh : coverage)
+    list.emplace_back(DataMembers{{"file", mesh.file}, {"share_in_mesh", mesh.share ? Data(*mesh.share) : Data()}});
+  return list;
+}
+
 int show_design(const std::string& path, Session& session) {
   Diagnostics diagnostics;
   const compile::LoadedPtr loaded = load_design({path, "", {}}, session, diagnostics);
   const auto attributes = loaded ? compile::survey_attributes(*loaded, diagnostics) : std::nullopt;
+  const auto coverage = attributes ? compile::survey_coverage(*loaded, diagnostics) : std::nullopt;
   session.console.diagnose(diagnostics);
-  if (!attributes) return wrong_input;
+  if (!coverage) return wrong_input;
   DataList list;
   for (const compile::SurveyedAttribute& attribute : *attributes) list.push_back(attribute_data(attribute));
   if (session.console.voice() == Voice::programs)
-    session.console.event("design", {{"file", path}, {"attributes", std::move(list)}});
+    session.console.event("design",
+                          {{"file", path}, {"attributes", std::move(list)}, {"results", coverage_data(*coverage)}});
   else
-    session.console.print(attributes->empty() ? "the design has no attributes\n" : attributes_text(*attributes));
+    session.console.print((attributes->empty() ? "the design has no attributes\n" : attributes_text(*attributes)) +
+                          coverage_text(*coverage));
   return done;
 }
 
@@ -127,7 +149,8 @@ Command add_info(CLI::App& program, OutputOptions& output) {
   CLI::App* app = program.add_subcommand(
       "info",
       "Say what a volume (a scan, a grid) holds: size, voxels, orientation, values and how often they occur; or which "
-      "attributes a design gives, with type, unit and range; or which fields the results of a simulation have; or "
+      "attributes a design gives, with type, unit and range, and how much of it the meshes of its results hold; or "
+      "which fields the results of a simulation have; or "
       "which "
       "parameters an OpenSCAD script has");
   auto file = std::make_shared<std::string>();

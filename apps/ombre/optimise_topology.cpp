@@ -20,7 +20,18 @@ namespace fs = std::filesystem;
 struct TopologyCase {
   fea::Model model;
   fea::Conditions conditions;
+  std::optional<optimise::TopologyGoal> goal;
 };
+
+// The study with the goal's force alone says which nodes move, and how much each counts.
+std::optional<optimise::TopologyGoal> make_goal(const compile::TopologyStudy& study, const fea::Model& model,
+                                                Diagnostics& diagnostics) {
+  fea::Study alone = study.model.fea;
+  alone.loads = {*study.goal};
+  auto conditions = fea::conditions_of(alone, model, diagnostics);
+  if (!conditions) return std::nullopt;
+  return optimise::TopologyGoal{std::move(conditions->forces), study.is_greatest};
+}
 
 std::optional<TopologyCase> make_topology_case(const TopologyArguments& a, const compile::TopologyStudy& study,
                                                Session& session, Diagnostics& diagnostics) {
@@ -38,7 +49,9 @@ std::optional<TopologyCase> make_topology_case(const TopologyArguments& a, const
   if (!model) return std::nullopt;
   auto conditions = fea::conditions_of(study.model.fea, *model, diagnostics);
   if (!conditions) return std::nullopt;
-  return TopologyCase{std::move(*model), std::move(*conditions)};
+  std::optional<optimise::TopologyGoal> goal;
+  if (study.goal && !(goal = make_goal(study, *model, diagnostics))) return std::nullopt;
+  return TopologyCase{std::move(*model), std::move(*conditions), std::move(goal)};
 }
 
 // Densities as a grid around the bricks; 0 where there is none.
@@ -72,24 +85,37 @@ void write_density(const std::string& path, const fea::Bricks& bricks, const std
   file.commit();
 }
 
-std::string history_of(const optimise::Topology& topology) {
-  std::string text = "step,compliance [N mm],volume fraction,change,greyness\n";
+std::string history_of(const optimise::Topology& topology, bool has_goal) {
+  std::string text = "step,compliance [N mm],volume fraction,change,greyness";
+  text += has_goal ? ",displacement [mm]\n" : "\n";
   for (const optimise::TopologyStep& step : topology.steps)
     text += std::to_string(step.number) + "," + format_number(step.compliance) + "," +
             format_number(step.volume_fraction) + "," + format_number(step.change) + "," +
-            format_rounded(step.greyness, 6) + "\n";
+            format_rounded(step.greyness, 6) + (has_goal ? "," + format_number(step.displacement) : "") + "\n";
   return text;
 }
 
-std::string chart_of(const optimise::Topology& topology) {
+std::string chart_of(const optimise::Topology& topology, bool has_goal) {
   optimise::Chart chart;
-  chart.title = "Compliance of each step";
+  chart.title = has_goal ? "Displacement of each step" : "Compliance of each step";
   chart.x_label = "step";
-  chart.y_label = "compliance [N mm]";
+  chart.y_label = has_goal ? "displacement [mm]" : "compliance [N mm]";
   chart.joins_best = true;
   for (const optimise::TopologyStep& step : topology.steps)
-    chart.points.push_back({static_cast<double>(step.number), step.compliance, optimise::ChartPoint::Kind::best});
+    chart.points.push_back({static_cast<double>(step.number), has_goal ? step.displacement : step.compliance,
+                            optimise::ChartPoint::Kind::best});
   return optimise::chart_svg(chart);
+}
+
+// "the compliance fell from 9 to 3 N mm"
+std::string change_of(const optimise::Topology& topology, bool has_goal) {
+  const optimise::TopologyStep &first = topology.steps.front(), &last = topology.steps.back();
+  const auto from_to = [](double from, double to) {
+    return " from " + format_rounded(from, 5) + " to " + format_rounded(to, 5);
+  };
+  const std::string compliance = from_to(first.compliance, last.compliance) + " N mm";
+  if (!has_goal) return "the compliance fell" + compliance;
+  return "the displacement went" + from_to(first.displacement, last.displacement) + " mm, the compliance" + compliance;
 }
 
 // A design that uses the result: it is solid where the density is above a half.
@@ -124,6 +150,7 @@ int optimise_topology(const TopologyArguments& a, const Data& data, Session& ses
 
   optimise::TopologyOptions options = study->options;
   options.threads = a.threads;
+  options.goal = made->goal;
   const Vec3 size = made->model.bricks.size_mm;
   if (!(options.radius_mm > 0)) options.radius_mm = 1.5 * std::max({size.x, size.y, size.z});
   ProgressLine progress(session.console, Counted::steps);
@@ -134,18 +161,18 @@ int optimise_topology(const TopologyArguments& a, const Data& data, Session& ses
 
   write_density(files[0], made->model.bricks, topology.density);
   exporting::write_file(files[1], script_of(a));
-  exporting::write_file(files[2], history_of(topology));
-  exporting::write_file(files[3], chart_of(topology));
-  const optimise::TopologyStep &first = topology.steps.front(), &last = topology.steps.back();
-  session.console.say(format_count(topology.steps.size()) + " steps: the compliance fell from " +
-                      format_rounded(first.compliance, 5) + " to " + format_rounded(last.compliance, 5) +
-                      " N mm with " + format_rounded(100 * last.volume_fraction, 3) + " % of the volume, " +
+  exporting::write_file(files[2], history_of(topology, made->goal.has_value()));
+  exporting::write_file(files[3], chart_of(topology, made->goal.has_value()));
+  const optimise::TopologyStep& last = topology.steps.back();
+  session.console.say(format_count(topology.steps.size()) + " steps: " + change_of(topology, made->goal.has_value()) +
+                      " with " + format_rounded(100 * last.volume_fraction, 3) + " % of the volume, " +
                       format_rounded(100 * last.greyness, 3) + " % grey" +
-                      (last.change > options.change ? ", and would fall further with more steps" : ""));
+                      (last.change > options.change ? ", and would change further with more steps" : ""));
   session.console.say("densities in " + files[0] + ", a solid of them in " + files[1]);
   session.console.event("topology", {{"bricks", static_cast<double>(made->model.bricks.count())},
                                      {"steps", static_cast<double>(topology.steps.size())},
                                      {"compliance_n_mm", last.compliance},
+                                     {"displacement_mm", made->goal ? Data(last.displacement) : Data()},
                                      {"volume_fraction", last.volume_fraction},
                                      {"change", last.change},
                                      {"greyness", last.greyness},

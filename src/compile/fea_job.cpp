@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "compile/grid_job.h"
 #include "compile/question.h"
+#include "compile/unusable_mixtures.h"
 
 namespace ombre::compile {
 namespace {
@@ -53,7 +54,7 @@ class ModelMaker {
     fea::Model model;
     const voxel::Lattice& lattice = plan_.request.lattice;
     model.bricks = fea::make_bricks(lattice.origin, lattice.voxel_mm(), std::move(cells_));
-    if (!find_fields(model)) return std::nullopt;
+    if (!find_fields(model) || !has_numbers(model.bricks)) return std::nullopt;
     auto sections = make_sections(*loaded_, study_, request_, {model.bricks.count(), drawn_, fractions_, &model.fields},
                                   diagnostics_);
     if (!sections) return std::nullopt;
@@ -118,6 +119,16 @@ class ModelMaker {
     };
     each_slab(*job, request_.threads, take, progress_, stop_);
     return true;
+  }
+
+  bool has_numbers(const fea::Bricks& bricks) {
+    const voxel::Lattice& lattice = plan_.request.lattice;
+    design::Design design = design::for_lattice(loaded_->design, {lattice.origin, lattice.pitch});
+    design.stages = plan_.stages;
+    const fea::MeshView view(bricks);
+    std::vector<Vec3> middles;
+    for (size_t n = 0; n < view.count(); ++n) middles.push_back(view.centroid(n));
+    return check_mixtures(design, {middles, drawn_}, request_.threads, stop_, diagnostics_);
   }
 
   const LoadedPtr& loaded_;

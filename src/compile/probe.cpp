@@ -24,6 +24,8 @@ void take(ProbeResult& result, const Sampler::Column& column, double value) {
     case Kind::part:
       if (value != 0) result.parts.push_back(column.name);
       return;
+    case Kind::check:
+      return;
   }
 }
 

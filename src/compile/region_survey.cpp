@@ -31,8 +31,9 @@ voxel::Lattice coarse_lattice(const Box& box) {
   return lattice;
 }
 
-// An output's values at all samples, x fastest, then y, then z.
-std::vector<std::vector<float>> sample(const program::Program& program, const Box& box) {
+}  // namespace
+
+std::vector<std::vector<float>> sample_coarsely(const program::Program& program, const Box& box) {
   const voxel::Lattice lattice = coarse_lattice(box);
   const voxel::FieldEvaluator evaluator(program, lattice, voxel::best_evaluator(lattice));
   std::vector<std::vector<float>> values(program.outputs.size(), std::vector<float>(lattice.voxels()));
@@ -49,6 +50,8 @@ std::vector<std::vector<float>> sample(const program::Program& program, const Bo
   return values;
 }
 
+namespace {
+
 // Of all materials there are, without void.
 std::optional<std::vector<std::vector<float>>> sample_fractions(const design::Design& design, const Box& box,
                                                                 std::vector<MaterialId>& ids,
@@ -59,7 +62,7 @@ std::optional<std::vector<std::vector<float>>> sample_fractions(const design::De
   const auto program = build_field_program(design, wishes, diagnostics);
   if (!program) return std::nullopt;
   for (const std::string& name : program->output_names) ids.push_back(design.materials.find(name)->id);
-  return sample(*program, box);
+  return sample_coarsely(*program, box);
 }
 
 // Fractions are 0 outside, so all of a design's materials together say what is inside.
@@ -112,12 +115,12 @@ std::optional<Interval> value_range(const design::Design& design, const Box& box
   if (!value) return std::nullopt;
   const auto program = question.program({{name, *value}, {"inside", question.inside()}}, diagnostics);
   if (!program) return std::nullopt;
-  const auto values = sample(*program, box);
+  const auto values = sample_coarsely(*program, box);
   return range_inside(values[0], values[1]);
 }
 
 std::optional<Interval> score_range(const Partition& partition, const Box& box) {
-  const auto values = sample(partition.details.whole(), box);
+  const auto values = sample_coarsely(partition.details.whole(), box);
   return range_inside(values[Partition::first_score], values[Partition::label_output]);
 }
 
@@ -128,7 +131,7 @@ std::vector<design::Rgba> mean_colours(const design::Design& design, const Parti
   std::vector<MaterialId> ids;
   const auto fractions = sample_fractions(design, box, ids, diagnostics);
   if (!fractions) return colours;
-  const std::vector<float> labels = sample(partition.label, box).front();
+  const std::vector<float> labels = sample_coarsely(partition.label, box).front();
   std::vector<std::array<double, 5>> sums(partition.regions);  // of four channels and the fractions
   for (size_t n = 0; n < labels.size(); ++n) {
     if (labels[n] < 1) continue;

@@ -7,9 +7,13 @@
 
 #include "base/box.h"
 #include "design/design.h"
+#include "program/program.h"
 #include "surface/partition.h"
 
 namespace ombre::compile {
+
+// The values of each of a program's outputs at points of a coarse lattice over the box, x fastest, then y, then z.
+std::vector<std::vector<float>> sample_coarsely(const program::Program& program, const Box& box);
 
 // The material whose fraction differs most within the design; of about equals the first. Nothing when it is empty.
 std::optional<MaterialId> most_varying_material(const design::Design& design, const Box& box, Diagnostics& diagnostics);

@@ -92,7 +92,7 @@ std::optional<Sampler> Sampler::build(const design::Design& design, const Sample
   Sampler sampler;
   program::Outputs outputs;
   const auto add = [&](Kind kind, const std::string& name, program::Field field, MaterialId material = 0) {
-    sampler.columns_.push_back({kind, name, material});
+    sampler.columns_.push_back({kind, name, material, {}});
     outputs.emplace_back(name, field);
   };
   if (wishes.inside) add(Kind::inside, "inside", question.inside());
@@ -107,6 +107,12 @@ std::optional<Sampler> Sampler::build(const design::Design& design, const Sample
   }
   if (wishes.parts)
     for (size_t n = 0; n < design.parts.size(); ++n) add(Kind::part, design.parts[n].name, question.part(n));
+  if (wishes.checks)
+    for (const auto& [number, mark] : question.composition().checks) {
+      const design::Check& check = question.check(number);
+      add(Kind::check, check.message, mark);
+      sampler.columns_.back().where = check.where;
+    }
   auto program = question.program(outputs, diagnostics);
   if (!program) return std::nullopt;
   sampler.program_ = std::move(*program);

@@ -19,6 +19,7 @@ struct SampleWishes {
   bool fractions = false;
   bool parts = false;  // 1 in the part, 0 outside of it
   std::vector<std::string> attributes;
+  bool checks = false;  // 1 where something is wrong with the composition; meant inside only
 };
 
 // Thread-safe. Values have the bits of the reference evaluator.
@@ -26,9 +27,10 @@ class Sampler {
  public:
   // What one column of the answer is.
   struct Column {
-    enum class Kind { inside, distance, fraction, attribute, part } kind;
-    std::string name;  // of the material, attribute or part
+    enum class Kind { inside, distance, fraction, attribute, part, check } kind;
+    std::string name;  // of the material, attribute or part; what the check tells
     MaterialId material = 0;
+    SourceRange where = {};  // of the node that checks
   };
 
   // Columns in the order of the wishes; fractions by id. Nothing, and diagnostics, when the design is too large or

@@ -11,6 +11,7 @@
 #include "compile/question.h"
 #include "compile/sampler.h"
 #include "compile/sharp_edges.h"
+#include "compile/unusable_mixtures.h"
 #include "solids/tetrahedra.h"
 #include "voxel/quantise.h"
 
@@ -63,7 +64,9 @@ class TetraMaker {
     if (made.model.mesh.nodes.empty())
       return fail("no tetrahedron lies inside the design", "choose a smaller " + spelled::option("--size"));
     if (!add_fields(made.model)) return std::nullopt;
-    auto sections = make_sections(*loaded_, study_, request_.sections, materials(made.model), diagnostics_);
+    const ElementMaterials found = materials(made.model);
+    if (!has_numbers(made.model, found)) return std::nullopt;
+    auto sections = make_sections(*loaded_, study_, request_.sections, found, diagnostics_);
     if (!sections) return std::nullopt;
     made.model.sections = std::move(sections->sections);
     made.model.section_of = std::move(sections->section_of);
@@ -250,6 +253,18 @@ class TetraMaker {
     }
   }
 
+  static std::vector<Vec3> middles_of(const fea::MeshModel& model) {
+    const fea::MeshView view(model.mesh);
+    std::vector<Vec3> middles;
+    for (size_t n = 0; n < view.count(); ++n) middles.push_back(view.centroid(n));
+    return middles;
+  }
+
+  bool has_numbers(const fea::MeshModel& model, const ElementMaterials& found) {
+    const std::vector<Vec3> middles = middles_of(model);
+    return check_mixtures(design_, {middles, found.drawn}, request_.sections.threads, stop_, diagnostics_);
+  }
+
   // Fractions without void, whose sum is one, and attributes, in the middles of elements.
   bool add_fields(fea::MeshModel& model) {
     SampleWishes wishes;
@@ -257,9 +272,7 @@ class TetraMaker {
     wishes.attributes = all_attribute_parts(design_);
     const auto sampler = Sampler::build(design_, wishes, diagnostics_);
     if (!sampler) return false;
-    const fea::MeshView view(model.mesh);
-    std::vector<Vec3> middles;
-    for (size_t n = 0; n < view.count(); ++n) middles.push_back(view.centroid(n));
+    const std::vector<Vec3> middles = middles_of(model);
     std::vector<std::vector<double>> values(sampler->columns().size(), std::vector<double>(middles.size()));
     std::vector<double*> columns;
     for (auto& column : values) columns.push_back(column.data());

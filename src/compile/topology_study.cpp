@@ -7,10 +7,37 @@
 namespace ombre::compile {
 namespace {
 
+// The place is that of a load of the study, the direction its force.
+std::optional<fea::Load> read_goal(const Data& data, bool& is_greatest, Diagnostics& diagnostics) {
+  StudyMembers members(data, "a displacement of a topology", {"on", "direction", "goal"}, diagnostics);
+  if (!data.members()) return std::nullopt;
+  is_greatest = members.choice("goal", "least", {"least", "greatest"}) == "greatest";
+  const Data *on = members.find("on"), *direction = members.find("direction");
+  if (!direction) {
+    members.fail(data, "\"direction\" is missing, along which it is measured", "write for example [0, 0, -1]");
+    return std::nullopt;
+  }
+  DataMembers force{{"force_n", *direction}};
+  if (on) force.emplace_back("on", *on);
+  Data load(std::move(force));
+  load.where = data.where;
+  const auto study = fea::read_study(DataMembers{{"loads", DataList{load}}}, diagnostics);
+  if (!study) return std::nullopt;
+  fea::Load goal = study->loads.front();
+  const double size = length(goal.force_n);
+  if (!(size > 0)) {
+    members.fail(*direction, "a direction without a length", "write for example [0, 0, -1]");
+    return std::nullopt;
+  }
+  goal.force_n = (1 / size) * goal.force_n;
+  return goal;
+}
+
 void read_topology(const Data& data, optimise::TopologyOptions& options, Diagnostics& diagnostics) {
   constexpr double longest_mm = 1e6;
-  StudyMembers members(data, "a topology",
-                       {"volume_fraction", "radius", "penalty", "steps", "move", "change", "projection"}, diagnostics);
+  StudyMembers members(
+      data, "a topology",
+      {"volume_fraction", "radius", "penalty", "steps", "move", "change", "projection", "displacement"}, diagnostics);
   if (!data.members()) return;
   options.volume_fraction = members.number("volume_fraction", std::nullopt, 0.01, 1);
   options.radius_mm = members.number("radius", 0, 0, longest_mm);
@@ -44,6 +71,8 @@ std::optional<TopologyStudy> read_topology_study(const Data& data, Diagnostics& 
   if (diagnostics.has_errors()) return std::nullopt;
   TopologyStudy study;
   read_topology(*members.find("topology"), study.options, diagnostics);
+  if (const Data* goal = members.find("topology")->find("displacement"))
+    study.goal = read_goal(*goal, study.is_greatest, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   auto model = read_model_choice(members, diagnostics);
   if (!model) return std::nullopt;

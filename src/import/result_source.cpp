@@ -182,4 +182,8 @@ program::SourceField make_result_source(std::string name, std::shared_ptr<const 
   return std::make_shared<ResultSource>(std::move(name), std::move(mesh), outside, content);
 }
 
+bool is_mesh_result(const program::FieldSource& source) {
+  return dynamic_cast<const ResultSource*>(&source) != nullptr;
+}
+
 }  // namespace ombre::importing

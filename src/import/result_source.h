@@ -24,6 +24,9 @@ std::string result_channel_name(size_t field, size_t component);
 program::SourceField make_result_source(std::string name, std::shared_ptr<const ResultMesh> mesh,
                                         const OutsideRule& outside, const Hash& content);
 
+// Is it a source of results on a mesh, which says what is inside of it?
+bool is_mesh_result(const program::FieldSource& source);
+
 // The same of points without a mesh: between them the nearest one's value, or the mean of the nearest eight, weighted
 // by the inverse of their squared distances (D. Shepard, A two-dimensional interpolation function for
 // irregularly-spaced data, 1968). Where no point is within `within_mm` there is no value, or the rule's; "inside" is 0.

@@ -16,6 +16,7 @@ using fea::Vector;
 
 constexpr size_t most_iterations = 20'000;
 constexpr double least_cost = 1e-30;  // of a density that no step moves
+constexpr double damped_power = 0.3;
 
 // Displacements under loads that stay the same, for moduli that change a little from one solution to the next.
 class Equilibrium {
@@ -28,25 +29,36 @@ class Equilibrium {
         free_(3 * model.bricks.node_count(), 1),
         loads_(free_.size()),
         x_(free_.size()),
+        adjoint_(options.goal ? free_.size() : 0),
         stiffness_(fea::brick_stiffness(model.bricks.size_mm)) {
     for (const fea::Prescribed& held : conditions.displacements) free_[3 * size_t{held.node} + held.axis] = 0;
-    for (const fea::Prescribed& force : conditions.forces)
-      if (free_[3 * size_t{force.node} + force.axis] != 0) loads_[3 * size_t{force.node} + force.axis] = force.value;
+    take_forces(conditions.forces, loads_);
+    if (!options.goal) return;
+    unit_.resize(free_.size());
+    take_forces(options.goal->unit_forces, unit_);
+    if (fea::dot(unit_, unit_, 1) > 0) return;
+    throw Error(Code::not_solved,
+                "the supports hold the displacement that the topology is to change: choose it elsewhere");
   }
 
-  // The compliance, N mm, where each brick has this share of its modulus.
-  double solve(const Vector& shares) {
+  // Where each brick has this share of its modulus.
+  void solve(const Vector& shares) {
     std::vector<fea::Moduli> moduli(shares.size());
     for (size_t n = 0; n < shares.size(); ++n) {
       const fea::Moduli full = full_moduli(n);
       moduli[n] = {full.shear * shares[n], full.bulk * shares[n]};
     }
     const fea::BrickOperator stiffness(model_.bricks, std::move(moduli), free_, options_.threads);
-    run_gradients(stiffness);
-    return fea::dot(loads_, x_, options_.threads);
+    fea::Multigrid multigrid(stiffness);
+    run_gradients(stiffness, multigrid, loads_, x_);
+    if (options_.goal) run_gradients(stiffness, multigrid, unit_, adjoint_);
   }
 
-  // Twice the strain energy of each brick, if it had its full modulus.
+  double compliance() const { return fea::dot(loads_, x_, options_.threads); }  // N mm
+  double displacement() const { return options_.goal ? fea::dot(unit_, x_, options_.threads) : 0; }
+
+  // Twice the strain energy of each brick, if it had its full modulus; with a goal, that of the displacements with the
+  // adjoint ones. Minus the derivative by the share of the modulus of the compliance, or of the goal.
   Vector energies() const {
     Vector result(model_.bricks.count());
     fea::for_pieces(result.size(), options_.threads, [&](size_t begin, size_t end) {
@@ -56,31 +68,41 @@ class Equilibrium {
   }
 
  private:
+  void take_forces(const std::vector<fea::Prescribed>& forces, Vector& into) const {
+    for (const fea::Prescribed& force : forces)
+      if (free_[3 * size_t{force.node} + force.axis] != 0) into[3 * size_t{force.node} + force.axis] = force.value;
+  }
+
   fea::Moduli full_moduli(size_t brick) const {
     const fea::Elastic& elastic = model_.elastic(brick);
     return fea::moduli_of(elastic.modulus_mpa, elastic.poissons_ratio);
   }
 
   double energy(size_t brick) const {
-    fea::BrickVector u{}, forces{};
+    fea::BrickVector u{}, v{}, forces{};
+    const Vector& other = options_.goal ? adjoint_ : x_;
     for (size_t c = 0; c < 8; ++c)
-      for (size_t axis = 0; axis < 3; ++axis) u[3 * c + axis] = x_[3 * size_t{model_.bricks.nodes[brick][c]} + axis];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const size_t at = 3 * size_t{model_.bricks.nodes[brick][c]} + axis;
+        u[3 * c + axis] = x_[at];
+        v[3 * c + axis] = other[at];
+      }
     const fea::Moduli full = full_moduli(brick);
     stiffness_.add_forces(full.shear, full.bulk, u, forces);
     double sum = 0;
-    for (size_t n = 0; n < u.size(); ++n) sum += u[n] * forces[n];
+    for (size_t n = 0; n < u.size(); ++n) sum += v[n] * forces[n];
     return sum;
   }
 
   // Conjugate gradients from the last displacements.
-  void run_gradients(const fea::BrickOperator& stiffness) {
+  void run_gradients(const fea::BrickOperator& stiffness, fea::Multigrid& multigrid, const Vector& loads,
+                     Vector& x) const {
     const int threads = options_.threads;
-    fea::Multigrid multigrid(stiffness);
     Vector residual, z, p, q;
-    stiffness.forces(x_, q);
-    residual = loads_;
+    stiffness.forces(x, q);
+    residual = loads;
     for (size_t n = 0; n < residual.size(); ++n) residual[n] -= q[n];
-    const double scale = std::sqrt(fea::dot(loads_, loads_, threads));
+    const double scale = std::sqrt(fea::dot(loads, loads, threads));
     double rz = 0;
     for (size_t iteration = 0;; ++iteration) {
       if (stop_ && stop_->requested()) throw Cancelled();
@@ -101,7 +123,7 @@ class Equilibrium {
       const double alpha = rz / fea::dot(p, q, threads);
       fea::for_pieces(p.size(), threads, [&](size_t begin, size_t end) {
         for (size_t n = begin; n < end; ++n) {
-          x_[n] += alpha * p[n];
+          x[n] += alpha * p[n];
           residual[n] -= alpha * q[n];
         }
       });
@@ -113,6 +135,7 @@ class Equilibrium {
   const StopFlag* stop_;
   std::vector<uint8_t> free_;
   Vector loads_, x_;
+  Vector unit_, adjoint_;  // of the goal
   fea::BrickStiffness stiffness_;
 };
 
@@ -132,6 +155,20 @@ struct Projection {
   }
 };
 
+// The share of its modulus that a brick of this density has, and its derivative.
+double share_of_density(const TopologyOptions& options, double density) {
+  return options.least + std::pow(density, options.penalty) * (1 - options.least);
+}
+double slope_of_share(const TopologyOptions& options, double density) {
+  return options.penalty * std::pow(density, options.penalty - 1) * (1 - options.least);
+}
+
+Vector shares_of_densities(const TopologyOptions& options, const Vector& density) {
+  Vector shares(density.size());
+  for (size_t n = 0; n < shares.size(); ++n) shares[n] = share_of_density(options, density[n]);
+  return shares;
+}
+
 class TopologySearch {
  public:
   TopologySearch(const fea::Model& model, const fea::Conditions& conditions, const TopologyOptions& options,
@@ -148,7 +185,8 @@ class TopologySearch {
     find_density(design_);
     size_t since = 0;  // steps with this projection
     for (size_t number = 1; number <= options_.steps; ++number) {
-      TopologyStep step{number, equilibrium_.solve(shares()), mean(density_), 0, greyness()};
+      equilibrium_.solve(shares_of_densities(options_, density_));
+      TopologyStep step{number, equilibrium_.compliance(), equilibrium_.displacement(), mean(density_), 0, greyness()};
       step.change = move();
       topology.steps.push_back(step);
       if (told) told(step);
@@ -164,6 +202,10 @@ class TopologySearch {
   }
 
  private:
+  static double power_of(double value, double power) {
+    return power == 0.5 ? std::sqrt(value) : std::pow(value, power);
+  }
+
   static double mean(const Vector& values) {
     double sum = 0;
     for (const double value : values) sum += value;
@@ -182,32 +224,30 @@ class TopologySearch {
     for (double& density : density_) density = projection_(density);
   }
 
-  Vector shares() const {
-    Vector result(count_);
-    for (size_t n = 0; n < count_; ++n)
-      result[n] = options_.least + std::pow(density_[n], options_.penalty) * (1 - options_.least);
-    return result;
-  }
-
   // A step by optimality criteria, with the multiplier that keeps the volume. Returns the greatest change.
   double move() {
     const Vector energies = equilibrium_.energies();
+    const double sign = options_.goal && options_.goal->is_greatest ? -1 : 1;
     Vector gain(count_), cost(count_);
     for (size_t n = 0; n < count_; ++n) {
       cost[n] = projection_.slope(filtered_[n]);
-      gain[n] =
-          options_.penalty * std::pow(density_[n], options_.penalty - 1) * (1 - options_.least) * energies[n] * cost[n];
+      gain[n] = sign * slope_of_share(options_, density_[n]) * energies[n] * cost[n];
     }
     gain = filter_.apply_transposed(gain);
     cost = filter_.apply_transposed(cost);
     for (double& here : cost) here = std::max(here, least_cost);
+    // The volume stays the same, so a gain for all of it alike changes nothing: none is below 0 with it.
+    double shift = 0;
+    for (size_t n = 0; n < count_; ++n) shift = std::max(shift, -gain[n] / cost[n]);
+    for (size_t n = 0; n < count_; ++n) gain[n] += shift * cost[n];
+    const double power = shift > 0 ? damped_power : 0.5;
     Vector next(count_);
     double low = 0, high = 1e9;
     for (size_t n = 0; n < count_; ++n) high = std::max(high, 1e9 * gain[n] / cost[n]);
     while ((high - low) / (low + high) > 1e-6) {
       const double multiplier = (low + high) / 2;
       for (size_t n = 0; n < count_; ++n) {
-        const double wanted = design_[n] * std::sqrt(std::max(gain[n] / cost[n] / multiplier, 0.0));
+        const double wanted = design_[n] * power_of(std::max(gain[n] / cost[n] / multiplier, 0.0), power);
         next[n] =
             std::clamp(wanted, std::max(0.0, design_[n] - options_.move), std::min(1.0, design_[n] + options_.move));
       }
@@ -233,6 +273,17 @@ class TopologySearch {
 Topology find_topology(const fea::Model& model, const fea::Conditions& conditions, const TopologyOptions& options,
                        const std::function<void(const TopologyStep&)>& told, const StopFlag* stop) {
   return TopologySearch(model, conditions, options, stop).run(told);
+}
+
+TopologySlopes topology_slopes(const fea::Model& model, const fea::Conditions& conditions,
+                               const TopologyOptions& options, const std::vector<double>& density) {
+  Equilibrium equilibrium(model, conditions, options, nullptr);
+  equilibrium.solve(shares_of_densities(options, Vector(density.begin(), density.end())));
+  TopologySlopes slopes{options.goal ? equilibrium.displacement() : equilibrium.compliance(), {}};
+  const Vector energies = equilibrium.energies();
+  for (size_t n = 0; n < density.size(); ++n)
+    slopes.by_density.push_back(-slope_of_share(options, density[n]) * energies[n]);
+  return slopes;
 }
 
 }  // namespace ombre::optimise

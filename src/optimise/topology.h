@@ -2,12 +2,20 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "base/progress.h"
 #include "fea/model.h"
 
 namespace ombre::optimise {
+
+// A displacement as what becomes least, or greatest: the work that forces whose sum is 1 would do, which is the mean of
+// displacements along them.
+struct TopologyGoal {
+  std::vector<fea::Prescribed> unit_forces;
+  bool is_greatest = false;
+};
 
 struct TopologyOptions {
   double volume_fraction = 0.5;  // of the bricks' volume
@@ -22,12 +30,14 @@ struct TopologyOptions {
   // `projection_steps` steps, or when densities hardly change (Wang, Lazarov and Sigmund, 2011, about a half).
   double projection = 0;
   size_t projection_steps = 30;
+  std::optional<TopologyGoal> goal;  // else the compliance, which becomes least
   int threads = 0;
 };
 
 struct TopologyStep {
   size_t number = 1;
-  double compliance = 0;  // N mm, of the densities before the step
+  double compliance = 0;    // N mm, of the densities before the step
+  double displacement = 0;  // mm, of the goal, where there is one
   double volume_fraction = 0, change = 0;
   double greyness = 0;  // the mean of 4 density (1 - density): 0 where all are 0 or 1
 };
@@ -37,11 +47,22 @@ struct Topology {
   std::vector<TopologyStep> steps;
 };
 
-// Least compliance by SIMP with optimality criteria and a filter of densities (Andreassen,
+// Least compliance, or a goal, by SIMP with optimality criteria and a filter of densities (Andreassen,
 // Clausen, Schevenels, Lazarov and Sigmund: Efficient topology optimization in MATLAB using 88 lines of code, 2011), on
-// the fea's bricks, each with its own modulus. Displacements must be held at 0. The same bits with any number of
-// threads. `told` gets each step. Throws Error when equations do not converge, and Cancelled.
+// the fea's bricks, each with its own modulus. A goal's derivatives come from the adjoint displacements, under its unit
+// forces; where more material would harm the goal, gains are moved up by one number, and steps are damped (Bendsoe and
+// Sigmund, Topology Optimization, 2003, 2.3). Displacements must be held at 0. The same bits with any number of
+// threads. `told` gets each step. Throws Error when equations do not converge, or the goal's place is held, and
+// Cancelled.
 Topology find_topology(const fea::Model& model, const fea::Conditions& conditions, const TopologyOptions& options,
                        const std::function<void(const TopologyStep&)>& told = nullptr, const StopFlag* stop = nullptr);
+
+// The compliance, N mm, or the goal's displacement, mm, of bricks with these densities, and its derivatives by them.
+struct TopologySlopes {
+  double value = 0;
+  std::vector<double> by_density;
+};
+TopologySlopes topology_slopes(const fea::Model& model, const fea::Conditions& conditions,
+                               const TopologyOptions& options, const std::vector<double>& density);
 
 }  // namespace ombre::optimise

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/error.h"
 #include "fea/test_models.h"
 #include "optimise/density_filter.h"
 
@@ -68,6 +69,85 @@ TEST(Topology, OfAllTheMaterialIsTheSolid) {
   TopologyOptions options;
   options.volume_fraction = 1;
   for (const float density : Bracket().find(options).density) EXPECT_NEAR(density, 1, 1e-5);
+}
+
+// The load's point and direction: the displacement there is the compliance, for a load of 1 N.
+TopologyGoal goal_of_load(const Bracket& bracket) { return {bracket.conditions.forces, false}; }
+
+// Downwards and along the bracket, at its upper far corner.
+TopologyGoal goal_of_corner(const Bracket& bracket) {
+  TopologyGoal goal;
+  for (uint32_t n = 0; n < bracket.model.bricks.node_count(); ++n)
+    if (const Vec3 p = bracket.model.bricks.node(n); p.x == 12 && p.y == 6) {
+      goal.unit_forces.push_back({n, 0, 0.3});
+      goal.unit_forces.push_back({n, 1, -0.4});
+    }
+  return goal;
+}
+
+TEST(Topology, SlopesAreThoseOfFiniteDifferences) {
+  const Bracket bracket;
+  TopologyOptions options;
+  options.tolerance = 1e-12;
+  std::vector<double> density(bracket.model.bricks.count());
+  for (size_t n = 0; n < density.size(); ++n) density[n] = 0.6 + 0.3 * std::sin(static_cast<double>(n));
+  const auto slopes = [&] { return topology_slopes(bracket.model, bracket.conditions, options, density); };
+  for (const bool has_goal : {false, true}) {
+    if (has_goal) options.goal = goal_of_corner(bracket);
+    const TopologySlopes here = slopes();
+    for (const size_t n : {size_t{0}, size_t{7}, size_t{29}, size_t{40}, size_t{71}}) {
+      constexpr double step = 1e-4;
+      const double at = density[n];
+      density[n] = at + step;
+      const double above = slopes().value;
+      density[n] = at - step;
+      const double below = slopes().value;
+      density[n] = at;
+      const double difference = (above - below) / (2 * step);
+      EXPECT_NEAR(here.by_density[n], difference, 1e-5 * std::abs(difference) + 1e-8) << n << ", goal " << has_goal;
+    }
+  }
+}
+
+TEST(Topology, LeastDisplacementAtTheLoadIsLeastCompliance) {
+  const Bracket bracket;
+  TopologyOptions options;
+  options.steps = 30;
+  const Topology stiffest = bracket.find(options);
+  options.goal = goal_of_load(bracket);
+  const Topology stillest = bracket.find(options);
+  for (size_t n = 0; n < stiffest.density.size(); ++n) EXPECT_NEAR(stillest.density[n], stiffest.density[n], 1e-3);
+  EXPECT_NEAR(stillest.steps.back().compliance, stiffest.steps.back().compliance,
+              1e-4 * stiffest.steps.back().compliance);
+  EXPECT_NEAR(stillest.steps.back().displacement, stillest.steps.back().compliance,
+              1e-9 * stillest.steps.back().compliance);
+}
+
+// Far from the load and along the bracket, where an even density moves by less.
+TEST(Topology, GreatestDisplacementGrowsAndLeastFalls) {
+  const Bracket bracket;
+  TopologyOptions options;
+  options.steps = 30;
+  options.goal = goal_of_corner(bracket);
+  const auto displacements = [&] {
+    const Topology topology = bracket.find(options);
+    EXPECT_NEAR(topology.steps.back().volume_fraction, 0.5, 1e-3);
+    return std::pair(topology.steps.front().displacement, topology.steps.back().displacement);
+  };
+  const auto [even, least] = displacements();
+  EXPECT_LT(least, 0.5 * even);
+  options.steps = 6;
+  options.goal->is_greatest = true;
+  const auto [same, greatest] = displacements();
+  EXPECT_DOUBLE_EQ(same, even);
+  EXPECT_GT(greatest, 1.5 * even);
+}
+
+TEST(Topology, PlacesThatAreHeldAreNoGoals) {
+  Bracket bracket;
+  TopologyOptions options;
+  options.goal = TopologyGoal{{{bracket.conditions.displacements.front().node, 0, 1}}, false};
+  EXPECT_THROW(bracket.find(options), Error);
 }
 
 TEST(Topology, IsTheSameWithAnyNumberOfThreads) {

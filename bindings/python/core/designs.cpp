@@ -47,7 +47,7 @@ compile::SampleWishes wishes_for(const std::string& question, const design::Desi
 }
 
 const char* name(compile::Sampler::Column::Kind kind) {
-  constexpr const char* names[] = {"inside", "distance", "fraction", "attribute", "part"};
+  constexpr const char* names[] = {"inside", "distance", "fraction", "attribute", "part", "check"};
   return names[static_cast<size_t>(kind)];
 }
 
