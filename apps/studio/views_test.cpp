@@ -184,6 +184,13 @@ TEST_F(StudioTest, EditsOfColoursFollowNoRays) {
     fresher.load(script("green", "red"));
     EXPECT_EQ(fresher.ask("render", camera + more + same).second, second) << more;
   }
+  // Rays that end where they begin, at the face of a block.
+  const std::string face = R"(, "azimuth": 0, "elevation": 0)";
+  render(load("cube(4, red);"), face);
+  const std::string again = render(load("cube(4, green);"), face);
+  FreshStudio fresh;
+  const std::string block = R"(, "design": ")" + fresh.load("cube(4, green);") + '"';
+  EXPECT_EQ(fresh.ask("render", camera + face + block).second, again);
   // Another camera sees other ends, and so does light that goes through.
   const size_t made = studio.counts().made;
   render(red, R"(, "azimuth": 10)");

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -420,6 +422,21 @@ int64_t tile_edge(int64_t columns, int64_t rows) {
 
 }  // namespace
 
+namespace {
+
+// Nothing where the ends are not to be kept.
+std::optional<Hash> key_of_band(const program::Program& shape, const Scene& scene, const RaySteps& steps, int64_t begin,
+                                int64_t end) {
+  if (steps.steps >= std::numeric_limits<int32_t>::max() / fine_per_step) return std::nullopt;
+  const auto number = [](int64_t whole) { return static_cast<double>(whole); };
+  const Film& film = steps.film;
+  const double where[] = {scene.eye_mm,       scene.near_mm,       scene.far_mm,  number(begin),       number(end),
+                          number(film.width), number(film.height), film.pixel_mm, number(film.samples)};
+  return key_of_ends(shape, where);
+}
+
+}  // namespace
+
 RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t end, int threads,
                   const std::function<bool()>& is_stopped, KnownEnds* known) {
   if (eval::kernel_sets().empty()) throw Error("pictures need a processor with hardware multiply-add");
@@ -433,7 +450,7 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
   std::optional<Hash> key;
   if (known && !scene.is_translucent) {
     program::Program shape = shape_alone(programs.walk);
-    key = key_of_ends(shape, scene, steps, begin, end);
+    key = key_of_band(shape, scene, steps, begin, end);
     if (key) ends.known = known->find(*key);
     if (key && !ends.known)
       ends.found = std::make_shared<RayEnds>(RayEnds{std::move(shape), std::vector(band.all().size(), RayEnds::none)});

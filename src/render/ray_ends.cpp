@@ -1,6 +1,5 @@
 #include "render/ray_ends.h"
 
-#include <limits>
 #include <string>
 #include <string_view>
 
@@ -38,13 +37,11 @@ program::Program shape_alone(const program::Program& walk) {
   return program::shorten(walk, std::vector<Interval>(walk.code.size(), Interval::everything()));
 }
 
-std::optional<Hash> key_of_ends(const program::Program& shape, const Scene& scene, const RaySteps& steps, int64_t begin,
-                                int64_t end) {
-  if (shape.has_calls() || steps.steps >= std::numeric_limits<int32_t>::max() / fine_per_step) return std::nullopt;
+std::optional<Hash> key_of_ends(const program::Program& shape, std::span<const double> where) {
+  if (shape.has_calls()) return std::nullopt;
   Bytes bytes;
   add(bytes, shape);
-  bytes.add(scene.eye_mm, scene.near_mm, scene.far_mm, begin, end);
-  bytes.add(steps.film.width, steps.film.height, steps.film.pixel_mm, steps.film.samples);
+  for (const double number : where) bytes.add(number);
   return bytes.hash();
 }
 

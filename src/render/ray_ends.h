@@ -2,20 +2,22 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/hash.h"
 #include "program/program.h"
-#include "render/ray_steps.h"
 
 namespace ombre::render {
 
 // Of the rays of a band. It holds the sources of the shape, so that no other ones get their addresses, by which the key
 // knows them.
 struct RayEnds {
-  static constexpr int32_t none = -1;
+  // Ends lie up to a step before the first one, so that small negative numbers are places.
+  static constexpr int32_t none = std::numeric_limits<int32_t>::min();
   program::Program shape;
   std::vector<int32_t> fine;  // row by row: the fine place of the end, or none
 
@@ -34,9 +36,8 @@ class KnownEnds {
 // What of the program says where the rays end: what its outputs need.
 program::Program shape_alone(const program::Program& walk);
 
-// Of all that decides where the rays of rows [begin, end) end: the shape as its program, and where it is sampled.
-// Nothing for programs that cannot be told apart so, and for rays that are too long.
-std::optional<Hash> key_of_ends(const program::Program& shape, const Scene& scene, const RaySteps& steps, int64_t begin,
-                                int64_t end);
+// Of all that decides where rays end: the shape as its program, and the numbers that say where it is sampled. Nothing
+// for programs that cannot be told apart so.
+std::optional<Hash> key_of_ends(const program::Program& shape, std::span<const double> where);
 
 }  // namespace ombre::render

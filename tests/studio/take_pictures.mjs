@@ -1,0 +1,73 @@
+// Takes the pictures of docs/user/studio.md that show a knob: studio.png and studio_slices.png.
+//
+//     node tests/studio/take_pictures.mjs build/release/apps/ombre/ombre /usr/bin/chromium docs/user
+import { spawn } from "node:child_process";
+import { copyFileSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const source = join(dirname(fileURLToPath(import.meta.url)), "../..");
+const require = createRequire(join(source, "apps/studio/web/package.json"));
+const { chromium } = require("playwright-core");
+
+const [ombre, browserPath, target] = process.argv.slice(2);
+const above = mkdtempSync(join(tmpdir(), "ombre-"));
+const folder = join(above, "my_parts");
+mkdirSync(folder);
+copyFileSync(join(source, "examples/knob.vcad"), join(folder, "knob.vcad"));
+
+const server = spawn(ombre, ["studio", join(folder, "knob.vcad"), "--json", "--no-browser"], { env: { ...process.env, OMBRE_DATA: source }, stdio: ["ignore", "pipe", "inherit"] });
+const url = await new Promise((resolve, reject) => {
+  let text = "";
+  server.once("exit", (code) => reject(new Error(`the server ended with ${code}`)));
+  server.stdout.on("data", (data) => {
+    const found = /"url": ?"([^"]+)"/.exec((text += data));
+    if (found) resolve(found[1]);
+  });
+});
+server.removeAllListeners("exit");
+
+const browser = await chromium.launch({ executablePath: browserPath, args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+try {
+  const page = await browser.newPage({ viewport: { width: 1360, height: 800 }, colorScheme: "light" });
+  const isReady = (view) => page.waitForSelector(`.${view} canvas[data-state=ready]`);
+  const take = async (name) => {
+    await page.waitForTimeout(3000); // the pictures become as fine as the screen
+    await page.screenshot({ path: join(target, name) });
+  };
+  await page.goto(url);
+  await isReady("surface");
+  await page.selectOption(".surface select.cut", "y<");
+  await page.click("#tab-materials");
+  await page.click("text=Measure volumes");
+  await page.waitForSelector(".material .amount");
+  await page.click("#tab-all");
+  for (const view of ["surface", "slices", "volume"]) await isReady(view);
+  await take("studio.png");
+
+  await page.click("#tab-slices");
+  await page.click("#tab-export");
+  await page.selectOption(".slices .printer", "j750");
+  await page.waitForSelector(".panel:has-text('926 layers')");
+  await page.click("button.main");
+  await page.waitForSelector(".job[data-state=done]");
+  await isReady("slices");
+  await page.click(".slices button:has-text('fit')");
+  await page.waitForTimeout(1000);
+  const box = await page.locator(".slices canvas").boundingBox();
+  await page.click(".slices canvas", { position: { x: 0.25 * box.width, y: 0.6 * box.height } });
+  await page.waitForSelector(".probe .calls", { timeout: 8000 });
+  await take("studio_slices.png");
+} catch (error) {
+  console.log(String(error));
+  process.exitCode = 1;
+  await browser.contexts()[0].pages()[0].screenshot({ path: join(tmpdir(), "ombre-pictures-failed.png") });
+} finally {
+  await browser.close();
+  const ended = new Promise((resolve) => server.once("exit", resolve));
+  server.kill("SIGINT");
+  await ended;
+  rmSync(above, { recursive: true, force: true });
+}
