@@ -42,7 +42,7 @@ JOBS = {
     "slice_of_supports": (SUPPORTS, ["slice", "--voxel", "0.03", "-o", "out"], (0.3, 2)),
     "voxels": (FOAM, ["voxels", "--voxel", "0.03", "--what", "distance,fractions", "-o", "out.npy"], (0.3, 2)),
     "voxels_of_supports": (SUPPORTS, ["voxels", "--voxel", "0.03", "-o", "out.vdb"], (0.3, 2)),
-    "mesh": (FOAM, ["mesh", "--cell", "0.3", "-o", "out.stl"], (0.3, 3, 9)),
+    "mesh": (FOAM, ["mesh", "--cell", "0.3", "-o", "out.stl"], (0.3, 3)),
     "render": (FOAM, ["render", "--size", "6000x6000", "-o", "out.png"], (0.3, 2)),
     "render_of_a_slice": (FOAM, ["render", "--size", "16000x16000", "--slice", "z=0", "-o", "out.png"], (0.3, 2)),
     "contours": (FOAM, ["contours", "--cell", "0.02", "--layer-height", "0.02", "-o", "out"], (0.3, 2)),
@@ -50,7 +50,7 @@ JOBS = {
     "layer_of_supports": (SUPPORTS, ["layer", "--voxel", "0.02", "--z", "0", "-o", "out.png"], (0.3, 2)),
     # Its solver looks between iterations, each of which takes longer with more bricks.
     "fea": (FOAM, ["fea", "--study", "study.json", "--cell", "1", "--solve", "-o", "out.vtu"], (0.3, 1)),
-    "tetrahedra": (FOAM, ["fea", "--study", "study.json", "--elements", "tet4", "--size", "0.6", "-o", "out.vtu"], (0.3, 8)),
+    "tetrahedra": (FOAM, ["fea", "--study", "study.json", "--elements", "tet4", "--size", "0.6", "-o", "out.vtu"], (0.3, 3)),
 }
 # Of work after the interrupt, which a machine under load does not make more.
 MOST_SECONDS = 0.3
