@@ -119,7 +119,8 @@ std::shared_ptr<const ManyParts> LoweringContext::remembered(const PartsQuestion
   auto made = make_if_it_pays(question, threads_);
   // What nodes report is reported by each job.
   if (reports() == reports_before && !(made && has_checks(*made)))
-    memory_->keep(key, std::make_shared<const KeptParts>(KeptParts{made}), made ? bytes_of_row * question.list.count() : 0);
+    memory_->keep(key, std::make_shared<const KeptParts>(KeptParts{made}),
+                  made ? bytes_of_row * question.list.count() : 0);
   return made;
 }
 

@@ -9,7 +9,8 @@
 namespace ombre::formats {
 namespace {
 
-// "C3D10M", "DC3D4": the number of nodes of solid elements; nothing for other types. Types of solids have one or two digits.
+// "C3D10M", "DC3D4": the number of nodes of solid elements; nothing for other types. Types of solids have one or two
+// digits.
 std::optional<size_t> solid_nodes(std::string_view type) {
   const size_t at = type.find("c3d");
   if (at == std::string_view::npos) return std::nullopt;

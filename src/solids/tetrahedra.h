@@ -15,8 +15,8 @@ using Polyline = std::vector<Vec3>;
 
 struct TetrahedraRequest {
   Box box;  // holds the solid, with some room around it; or the cell that repeats, a cube
-  // The mesh repeats after the box: it is made of tetrahedra of which some reach out of it on one side and leave as much
-  // room on the other, so that it fits its copies node by node. Sharp edges and fixed points are not kept.
+  // The mesh repeats after the box: it is made of tetrahedra of which some reach out of it on one side and leave as
+  // much room on the other, so that it fits its copies node by node. Sharp edges and fixed points are not kept.
   bool is_periodic = false;
   // The number of the region at a point, from 1; 0 is outside. What it throws goes through.
   std::function<uint32_t(Vec3)> region;
