@@ -48,12 +48,16 @@ fs::path new_folder(const Workspace& workspace, const std::string& name) {
 // The name of the bundle's design in the workspace.
 std::string unpack(const Workspace& workspace, const std::string& name, std::string_view bytes) {
   const fs::path folder = new_folder(workspace, fs::path(name).stem().string());
-  Diagnostics diagnostics;
-  const auto unpacked = compile::unpack_bundle(name, bytes, folder, diagnostics);
-  if (unpacked) return workspace.name_of(unpacked->design);
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
-  throw design_error(diagnostics);
+  try {
+    Diagnostics diagnostics;
+    const auto unpacked = compile::unpack_bundle(name, bytes, folder, diagnostics);
+    if (!unpacked) throw design_error(diagnostics);
+    return workspace.name_of(unpacked->design);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    throw;
+  }
 }
 
 fs::path examples_folder() { return fs::path(compile::data_folder()) / "examples"; }
