@@ -21,13 +21,15 @@ class Bytes {
   std::string text_ = "ends of rays ";
 };
 
+uintptr_t address_of(const void* thing) { return reinterpret_cast<uintptr_t>(thing); }
+
 void add(Bytes& bytes, const program::Program& program) {
   bytes.add(program.code.size(), program.maps.size(), program.reads.size(), program.part_sets.size());
   for (const program::Instruction& in : program.code)
     bytes.add(static_cast<uint64_t>(in.op), in.a, in.b, in.c, in.aux, in.value);
   for (const program::AffineRow& row : program.maps) bytes.add(row);
-  for (const program::Read& read : program.reads) bytes.add(read.source.get(), read.channel, read.tag);
-  for (const auto& set : program.part_sets) bytes.add(set.get());
+  for (const program::Read& read : program.reads) bytes.add(address_of(read.source.get()), read.channel, read.tag);
+  for (const auto& set : program.part_sets) bytes.add(address_of(set.get()));
   for (const program::ValueId output : program.outputs) bytes.add(output);
 }
 
