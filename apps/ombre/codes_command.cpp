@@ -13,11 +13,12 @@ void list_codes(const Session& session) {
   size_t width = 0;
   for (const CodeInfo& info : codes()) width = std::max(width, info.name.size());
   for (const CodeInfo& info : codes()) {
-    const std::string name(info.name), sentence(info.sentence);
+    std::string name(info.name);
+    const std::string sentence(info.sentence);
     if (session.console.voice() == Voice::programs)
       session.console.event("code", {{"name", name}, {"help", sentence}, {"values", std::string(info.values)}});
     else
-      session.console.print(name + std::string(width + 2 - name.size(), ' ') + sentence + '\n');
+      session.console.print(name.append(width + 2 - name.size(), ' ').append(sentence).append("\n"));
   }
 }
 
