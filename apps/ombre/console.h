@@ -41,7 +41,7 @@ class Console {
   bool has_colour() const;
 
  private:
-  // What --json prints of it, beside its severity.
+  // Returns what --json prints of a diagnostic beside its severity.
   DataMembers members_of(const Diagnostic& diagnostic) const;
 
   Voice voice_ = Voice::people;

@@ -39,7 +39,7 @@ class NodeLister {
     return list;
   }
 
-  // Where nodes go in: the solids that it takes, and the parameters that hold nodes.
+  // A node's ports are where nodes go in: the solids that it takes, and the parameters that hold nodes.
   DataList ports(const design::Node& node) const {
     DataList ports;
     const auto add = [&](const std::string& name, std::string_view type, DataList edges) {

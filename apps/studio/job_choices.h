@@ -1,4 +1,4 @@
-// What is chosen of a slice job, by the options of `ombre slice`.
+// The options of `ombre slice` that the studio lets people choose, as data for forms and jobs.
 #pragma once
 
 #include <initializer_list>
@@ -29,7 +29,7 @@ JobChoices read_job_choices(const Request& request, std::initializer_list<std::s
 // A list of {"name", "help", "placeholder", "kind", "choices", "least", "most", "needs", "excludes"}, for forms.
 DataList describe_job_options();
 
-// What an option cannot take, in the studio's words.
+// Says in the studio's words what an option cannot take.
 RequestError wrong_value(const options::WrongValue& error);
 
 }  // namespace ombre::studio

@@ -30,8 +30,8 @@ struct Request {
   std::string lane;  // a newer request of the same lane and connection cancels this one; empty: none does
   Data body;         // the whole JSON object
 
-  // These return members of the body. Those without `otherwise` throw RequestError when the member is missing or of
-  // another type, the others only when it is of another type.
+  // The functions below return members of the body. Those without `otherwise` throw RequestError when the member is
+  // missing or of another type, the others only when it is of another type.
   const std::string& text(std::string_view name) const;
   double number(std::string_view name) const;
   std::string text(std::string_view name, const std::string& otherwise) const;

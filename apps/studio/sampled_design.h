@@ -1,4 +1,4 @@
-// What a design is made of, on a coarse lattice of cubes.
+// Samples what a design is made of on a coarse lattice of cubes.
 #pragma once
 
 #include "base/progress.h"

@@ -77,12 +77,12 @@ class Connection {
   virtual void close() = 0;
   // Closes it for a newer one, with words where it can take some.
   virtual void give_way() = 0;
-  // Those that matter least give way first: who has said nothing that was let in, then who loads files, then pages.
+  // Connections that matter least give way first: silent ones, then those that load files, then pages.
   enum class Matters { least, more, most };
   virtual Matters matters() const = 0;
 };
 
-// What connections share. All of it runs on the one thread that calls serve().
+// Connections share this state. All of it runs on the one thread that calls serve().
 struct Shared {
   Studio& studio;
   const ServerOptions& options;

@@ -1,4 +1,4 @@
-// What the studio answers about the folder, scripts and their mistakes.
+// The studio answers questions about its folder, about scripts and about their mistakes.
 #include "base/json.h"
 #include "studio/test_studio.h"
 

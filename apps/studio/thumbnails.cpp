@@ -50,7 +50,7 @@ design::NodePtr block_of(const OpenDesign& open, const design::NodePtr& value) {
   return is_mixture ? block : make("attribute", design, {{"name", shown_value}, {"value", output}}, {block});
 }
 
-// What the picture shows. The nodes of the whole design live as long as it.
+// The design that the small picture shows. The nodes of the whole design live as long as it.
 compile::Loaded shown(const OpenDesign& open, const design::Node& node, compile::PictureRequest& picture) {
   const design::NodePtr not_held(design::NodePtr(), &node);
   if (node.type().is_solid()) {

@@ -8,7 +8,7 @@
 namespace ombre::studio {
 namespace {
 
-// What tiles and probes show is what the job writes.
+// Tiles and probes show what the job writes.
 
 TEST_F(StudioTest, PicturesStayWhereTheirCameraIs) {
   const std::string design = load("sphere(1, red);");
@@ -128,7 +128,7 @@ TEST_F(StudioTest, VolumesHoldFractions) {
   }
 }
 
-// What an edit leaves as it is, is not made again.
+// An edit makes nothing again that it leaves as it is.
 TEST_F(StudioTest, EditsLeaveStagesOfOthersAsTheyAre) {
   const auto made_by = [&](double radius, double beside, const std::string& material) {
     const size_t before = studio.counts().made;
@@ -156,7 +156,7 @@ class FreshStudio : public StudioTest {
   void TestBody() override {}
 };
 
-// What only changes colours is shown by the ends of rays that are known, with the bytes of a studio that knows none.
+// A change of colours alone uses the known ends of rays, and gives the bytes of a studio that knows none.
 TEST_F(StudioTest, EditsOfColoursFollowNoRays) {
   const std::string camera = R"("width": 90, "height": 60, "samples": 2, "target": [0, 0, 0], "height_mm": 12)";
   const auto script = [](const std::string& from, const std::string& to) {
