@@ -5,61 +5,18 @@
     python3 tests/run_fea.py build/dev/apps/ombre/ombre --write-calculix    # tests/fixtures/calculix.json anew
 """
 import argparse
-import functools
 import json
 import math
 import pathlib
-import re
 import shutil
 import signal
-import struct
 import subprocess
 import tempfile
 import time
 
 import program
+from fea_jobs import CUBE, PULL, RED, Folder, check_all, has_tetrahedra
 from program import expect, near
-
-RED = {"modulus_mpa": 2850, "poissons_ratio": 0.39}
-CUBE = "rectprism((10, 10, 10), red);"
-MIX = 'fgrade(["0.75", "0.25"], [red, blue]) { rectprism((10, 10, 10), red); }'
-PULL = {"materials": {"red": RED, "blue": {"modulus_mpa": 50, "poissons_ratio": 0.39}},
-        "supports": [{"on": "xmin", "fix": "x"}, {"on": "ymin", "fix": "y"}, {"on": "zmin", "fix": "z"}],
-        "loads": [{"on": "zmax", "pressure_mpa": -100}]}
-
-
-class Folder:
-    def __init__(self, ombre, scratch):
-        self.ombre, self.path = ombre, pathlib.Path(scratch)
-        self.write("cube.vcad", CUBE)
-        self.write("mix.vcad", MIX)
-        self.write("pull.json", json.dumps(PULL))
-
-    def write(self, name, text):
-        (self.path / name).write_text(text, encoding="utf-8")
-
-    def read(self, name):
-        return (self.path / name).read_text(encoding="utf-8")
-
-    def run(self, *arguments, status=0):
-        result = program.run([self.ombre, "fea", *arguments], cwd=self.path)
-        expect(result.returncode == status, f"status {result.returncode}, not {status}: {result.stderr[-1500:]}")
-        return result
-
-    def events(self, *arguments):
-        lines = self.run(*arguments, "--json").stdout.splitlines()
-        return {event["event"]: event for event in map(json.loads, lines)}
-
-    def array(self, name, field):
-        """The floats of a field of a .vtu file."""
-        data = (self.path / name).read_bytes()
-        tag = re.search(rb'Name="' + re.escape(field.encode()) + rb'" NumberOfComponents="\d+" format="appended" '
-                        rb'offset="(\d+)"', data)
-        expect(tag, f"{name} has no {field}")
-        begin = data.index(b'<AppendedData encoding="raw">\n_') + 31 + int(tag[1])
-        size = struct.unpack_from("<Q", data, begin)[0]
-        return struct.unpack_from(f"<{size // 4}f", data, begin + 8)
-
 
 def bars_stretch_by_hookes_law(folder):
     """100 MPa along z: 100/2850 of 10 mm longer, 0.39 of that narrower, for each of x and y."""
@@ -214,12 +171,6 @@ def agree(got, wanted, tolerance, what):
             near(a, b, tolerance * scale, f"{what}: {key}")
 
 
-def has_tetrahedra(folder):
-    return "built without CGAL" not in program.run(
-        [folder.ombre, "fea", "cube.vcad", "--study", "pull.json", "--elements", "tet4", "--size", "5", "--solve"],
-        cwd=folder.path).stderr
-
-
 def solutions_agree_with_calculix(folder):
     """The numbers of CalculiX 2.20 on bricks; where it is installed, those that it gives now on all."""
     write_studies(folder)
@@ -269,134 +220,6 @@ def write_calculix(ombre):
         solutions = {name: solve_case(folder, name, "calculix") for name, case in CALCULIX.items()
                      if "--elements" not in case[2]}
     CALCULIX_FILE.write_text(json.dumps(solutions, indent=2) + "\n", encoding="utf-8")
-
-
-def tetrahedra_reach_the_surface(folder):
-    """A cylinder's volume, its quality, and the same bytes with any number of threads; a deck that has its sets."""
-    if not has_tetrahedra(folder):
-        return
-    folder.write("rod.vcad", "cylinder(3, 12, red);")
-    study = {**PULL, "supports": [{"on": "zmin", "fix": "xyz", "name": "foot"}]}
-    folder.write("rod.json", json.dumps(study))
-    command = ("rod.vcad", "--study", "rod.json", "--elements", "tet10", "--size", "1.2")
-    events = folder.events(*command, "-o", "rod.inp", "-o", "rod.vtu")
-    near(events["model"]["volume_mm3"], math.pi * 9 * 12, 0.03 * math.pi * 9 * 12, "the volume")
-    expect(events["quality"]["inverted"] == 0 and events["quality"]["least_dihedral_degrees"] > 5, str(events))
-    folder.run(*command, "-o", "again.vtu", "--threads", "1")
-    expect((folder.path / "rod.vtu").read_bytes() == (folder.path / "again.vtu").read_bytes(), "bytes differ")
-    deck = folder.read("rod.inp")
-    expect("*ELEMENT, TYPE=C3D10, ELSET=RED\n" in deck and "*NSET, NSET=FOOT\n" in deck, "the deck")
-    expect(max(len(field) for line in deck.splitlines() for field in line.split(",")) <= 40, "a long field")
-
-
-def tetrahedra_of_any_size_come_to_an_end(folder):
-    """Two balls that meet in a groove, with volumes by calculus: whatever the size, the mesher must not go on for ever where
-    slivers cannot be mended; a mesh may be too coarse for the curves, but no tetrahedron is inside out."""
-    if not has_tetrahedra(folder):
-        return
-    folder.write("balls.vcad", "union() { sphere(2, red); translate(2.5, 0, 0) sphere(2, red); }")
-    folder.write("slab.vcad", "rectprism((20, 5, 2), red);")
-    folder.write("held.json", json.dumps({**PULL, "supports": [{"on": {"where": "1"}, "fix": "xyz"}], "loads": []}))
-
-    def mesh(design, size):
-        events = folder.events(design, "--study", "held.json", "--elements", "tet4", "--size", size, "-o", "held.inp", "--force")
-        expect(events["quality"]["inverted"] == 0, str(events["quality"]))
-        return events["model"]["volume_mm3"]
-
-    cap = math.pi * 0.75**2 * (3 * 2 - 0.75) / 3
-    balls = 2 * (4 / 3 * math.pi * 2**3 - cap)
-    for size, share in (("0.75", 0.04), ("1.25", 0.06), ("2", 0.1), ("2.5", 0.12), ("3.75", 0.18)):
-        near(mesh("balls.vcad", size), balls, share * balls, f"the balls' volume at {size}")
-    near(mesh("slab.vcad", "3.75"), 20 * 5 * 2, 0.1, "the slab's volume")
-
-
-GYROID = ('root((-5, -5, -5), (5, 5, 5), (0.5, 0.5, 0.5)) { intersection() { rectprism((10.001, 10.001, 10.001), red); function('
-          '"sin(2*pi*x/10)*cos(2*pi*y/10) + sin(2*pi*y/10)*cos(2*pi*z/10) + sin(2*pi*z/10)*cos(2*pi*x/10)", red); } }')
-
-
-def equations_of(deck):
-    """The nodes' places, and each equation as {(node, direction): coefficient}, the nodes of periods as their places."""
-    nodes, equations, block = {}, [], ""
-    lines = iter(deck.splitlines())
-    for line in lines:
-        if line.startswith("*"):
-            block = line.split(",")[0]
-        elif block == "*NODE":
-            number, *place = line.split(",")
-            nodes[int(number)] = tuple(map(float, place))
-        elif block == "*EQUATION":
-            count, numbers = int(line), []
-            while len(numbers) < 3 * count:
-                numbers += [float(word) for word in next(lines).split(",")]
-            equations.append({(int(numbers[n]), int(numbers[n + 1])): numbers[n + 2] for n in range(0, 3 * count, 3)})
-    return nodes, equations
-
-
-def cells_that_repeat_fit_their_copies(folder):
-    """A gyroid fills half of its cell. Each copy of a node lies whole periods from the node that it is tied to."""
-    folder.write("gyroid.vcad", GYROID)
-    folder.write("strain.json", json.dumps({"materials": {"red": {"modulus_mpa": 1000, "poissons_ratio": 0}},
-                                            "mean_strain": [0.01, 0, 0, 0, 0, 0.02]}))
-    kinds = [("--cell", "0.625")]
-    if has_tetrahedra(folder):
-        kinds += [("--elements", "tet4", "--size", "1"), ("--elements", "tet10", "--size", "1.5")]
-    for kind in kinds:
-        events = folder.events("gyroid.vcad", "--study", "strain.json", *kind, "-o", "cell.inp", "--force")
-        near(events["model"]["volume_mm3"], 500, 3, f"half of the cell by {kind}")
-        nodes, equations = equations_of(folder.read("cell.inp"))
-        last = max(nodes)
-        expect(len(equations) > 300 and len(equations) % 3 == 0, f"{len(equations)} equations")
-        for equation in equations:
-            (copy, _), (original, _) = list(equation)[:2]
-            periods = [-equation.get((last - 2 + axis, list(equation)[0][1]), 0) for axis in range(3)]
-            for axis in range(3):
-                near(nodes[copy][axis] - nodes[original][axis], 10 * periods[axis], 1e-5, "a copy's place")
-    error = folder.run("gyroid.vcad", "--study", "strain.json", "--cell", "1", "--solve", status=1).stderr
-    expect("ombre homogenise" in error, error)
-    if not shutil.which("ccx"):
-        return
-    # Layers of two materials, without Poisson's ratio: in series across them, side by side along them.
-    folder.write("layers.vcad", "union() { translate(0, 0, 2.5) rectprism((10, 10, 5), red); "
-                                "translate(0, 0, -2.5) rectprism((10, 10, 5), blue); }")
-    folder.write("strain.json", json.dumps({
-        "materials": {"red": {"modulus_mpa": 1000, "poissons_ratio": 0}, "blue": {"modulus_mpa": 100, "poissons_ratio": 0}},
-        "mean_strain": [0.01, 0, 0.03, 0.002, 0.004, 0]}))
-    events = folder.events("layers.vcad", "--study", "strain.json", "--cell", "2.5", "--solve", "--solver", "calculix")
-    side_by_side, in_series = (1000 + 100) / 2, 2 / (1 / 1000 + 1 / 100)
-    wanted = (0.01 * side_by_side, 0, 0.03 * in_series, 0.002 * side_by_side / 2, 0.004 * in_series / 2, 0)
-    for stress, value in zip(events["mean_stress"]["mpa"], wanted, strict=True):
-        near(stress, value, 1e-5, "a mean stress")
-
-
-def designs_with_rough_edges_come_to_an_end(folder):
-    """Slivers of a surface are no edges; where edges lie too close together, a warning says which are cut off."""
-    if not has_tetrahedra(folder):
-        return
-    colours = {name: RED for name in ("red", "clear", "cyan", "magenta")}
-    folder.write("held.json", json.dumps({**PULL, "materials": colours, "supports": [{"on": {"where": "1"}, "fix": "xyz"}],
-                                          "loads": []}))
-
-    def mesh(design, size):
-        result = folder.run(program.SOURCE / "examples" / design, "--study", "held.json", "--elements", "tet4", "--size", size,
-                            "-o", "held.inp", "--force")
-        expect(" 0 inverted" in result.stdout + result.stderr, result.stderr)
-        return result.stderr
-
-    expect("cut off" not in mesh("two_lobes.vcad", "3"), "edges of two lobes are cut off")
-    expect("a sharp edge is cut off, since others lie too close" in mesh("mug.vcad", "3"), "no warning")
-
-
-def adaptive_meshes_cost_less(folder):
-    """Fig. 7 of the 2025 paper: a graded bar; small elements where the mixture is even."""
-    if not has_tetrahedra(folder):
-        return
-    folder.write("bar.vcad", 'fgrade(["0.5 + x/40", "0.5 - x/40"], [red, blue]) { rectprism((40, 6, 6), red); }')
-    def nodes(*size):
-        return folder.events("bar.vcad", "--study", "pull.json", "--elements", "tet4", *size, "-o", "bar.inp",
-                             "--force")["model"]["nodes"]
-    coarse, fine = nodes("--size", "3"), nodes("--size", "0.8")
-    adaptive = nodes("--size-by", "min_cell + h*(max_cell - min_cell)", "--min-cell", "0.8", "--max-cell", "3")
-    expect(coarse < 0.5 * adaptive and adaptive < 0.5 * fine, f"{coarse}, {adaptive} and {fine} nodes")
 
 
 def walls_conduct(folder):
@@ -632,19 +455,12 @@ def main():
     if arguments.write_calculix:
         return write_calculix(ombre)
 
-    def check(function):
-        with tempfile.TemporaryDirectory() as scratch:
-            return function(Folder(ombre, scratch))
-
-    checks = [bars_stretch_by_hookes_law, results_are_in_the_grid, vectors_are_one_field, mixtures_are_drawn_or_mixed,
-              mixtures_that_are_no_numbers_are_told, moduli_come_from_attributes, decks_are_complete, tetrahedra_reach_the_surface,
-              tetrahedra_of_any_size_come_to_an_end, cells_that_repeat_fit_their_copies, designs_with_rough_edges_come_to_an_end,
-              adaptive_meshes_cost_less, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix,
-              solvers_agree,
-              a_hook_holds_its_coat, a_mug_cools, materials_that_are_nowhere_need_no_properties, results_are_in_xdmf, rounds_follow_their_results,
-              wrong_use_of_rounds_is_told, wrong_use_is_told,
-              ctrl_c_ends_it]
-    return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
+    return check_all(ombre, [bars_stretch_by_hookes_law, results_are_in_the_grid, vectors_are_one_field,
+                             mixtures_are_drawn_or_mixed, mixtures_that_are_no_numbers_are_told, moduli_come_from_attributes,
+                             decks_are_complete, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix,
+                             solvers_agree, a_hook_holds_its_coat, a_mug_cools, materials_that_are_nowhere_need_no_properties,
+                             results_are_in_xdmf, rounds_follow_their_results, wrong_use_of_rounds_is_told, wrong_use_is_told,
+                             ctrl_c_ends_it])
 
 
 if __name__ == "__main__":
