@@ -100,6 +100,8 @@ void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scop
   node_arguments(statement.arguments, scope, invocation);
   if (const Value* facets = find_special(facets_name_); facets && facets->number())
     invocation.facets = *facets->number();
+  else if (facets && invocation.has_own_facets && !facets->is_undef())
+    invocation.wrong_facets = describe(*facets);
   if (!statement.children.statements.empty()) {
     struct Inside {
       int& depth;

@@ -36,6 +36,7 @@ struct Invocation {
   enum class Braces : uint8_t { none, empty, filled } braces = Braces::none;  // filled also by a single child without
   double facets = 0;                                                          // $fn there; 0: nobody set it
   bool has_own_facets = false;                                                // $fn is one of the arguments
+  std::string wrong_facets;              // what $fn is where it is no number: "a string"
   bool has_wrong_children = false;       // there were mistakes in the braces, and they were told
   bool is_top_level = false;             // a statement of the main file, outside of any call
   std::vector<SourceRange> called_from;  // user module calls around it, innermost first, at most 8

@@ -109,6 +109,9 @@ bool takes_facets(std::string_view name) { return name == "cylinder" || name == 
 }  // namespace
 
 NodePtr with_facets(NodePtr round, const Invocation& call, const design::Registry& registry, const Reader& reader) {
+  if (!call.wrong_facets.empty())
+    reader.diagnostics.warning(reader.where, "$fn does nothing: it needs a number, found " + call.wrong_facets,
+                               "write for example $fn=6");
   if (!round || !(call.facets > 0 && call.facets < least_round)) return round;
   const std::string& name = round->type().name;
   const int sides = std::max(3, static_cast<int>(call.facets));
