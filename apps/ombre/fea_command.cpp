@@ -95,45 +95,60 @@ compile::SizeRequest size_of(const FeaArguments& a) {
   return {a.min_cell, a.max_cell, a.size_by};
 }
 
-compile::LoadedPtr repeating(const FeaArguments& a, const compile::LoadedPtr& loaded, Diagnostics& diagnostics) {
-  const auto period = period_of(*loaded, diagnostics);
-  return period ? with_repeating_bricks(a, loaded, *period, diagnostics) : nullptr;
-}
+// The model of a study of this design; with a period it repeats.
+class ModelMaker {
+ public:
+  ModelMaker(const FeaArguments& a, const compile::LoadedPtr& loaded, const fea::Study& study,
+             const std::optional<Box>& period, Session& session, Diagnostics& diagnostics)
+      : a_(a), loaded_(loaded), study_(study), period_(period), session_(session), diagnostics_(diagnostics) {}
 
-std::optional<decltype(Case::made)> make_model(const FeaArguments& a, const compile::LoadedPtr& loaded,
-                                               const fea::Study& study, Session& session, Diagnostics& diagnostics) {
-  ProgressLine progress(session.console, a.elements == "brick" ? Counted::voxels : Counted::steps);
-  if (a.elements == "brick") {
-    const compile::LoadedPtr sampled = study.mean_strain ? repeating(a, loaded, diagnostics) : loaded;
+  std::optional<fea::Model> bricks() {
+    FeaArguments own = a_;
+    compile::LoadedPtr sampled = loaded_;
+    if (period_) {
+      sampled = with_repeating_bricks(a_, loaded_, *period_, diagnostics_);
+      own.cell.clear();  // the bricks of the period are the design's own
+    }
     if (!sampled) return std::nullopt;
-    FeaArguments own = a;
-    if (study.mean_strain) own.cell.clear();  // the bricks of the period are the design's own
-    const auto plan = plan_bricks(own, sampled, session, diagnostics);
+    const auto plan = plan_bricks(own, sampled, session_, diagnostics_);
     if (!plan) return std::nullopt;
-    auto model = compile::fea_model(sampled, *plan, study, request_of(a), diagnostics, &progress, &session.stop);
-    if (!model) return std::nullopt;
-    return std::move(*model);
+    ProgressLine progress(session_.console, Counted::voxels);
+    return compile::fea_model(sampled, *plan, study_, request_of(a_), diagnostics_, &progress, &session_.stop);
   }
-  const auto options = plan_options_of(a, diagnostics);
-  if (!options) return std::nullopt;
-  compile::TetraRequest request;
-  request.size = size_of(a);
-  request.quadratic = a.elements == "tet10";
-  request.by_material = !a.subdomains.empty();
-  request.sections = request_of(a);
-  request.seed = options->seed;
-  if (study.mean_strain) {
-    request.period = period_of(*loaded, diagnostics);
-    if (!request.period) return std::nullopt;
+
+  std::optional<compile::TetraModel> tetrahedra() {
+    const auto options = plan_options_of(a_, diagnostics_);
+    if (!options) return std::nullopt;
+    compile::TetraRequest request;
+    request.size = size_of(a_);
+    request.quadratic = a_.elements == "tet10";
+    request.by_material = !a_.subdomains.empty();
+    request.sections = request_of(a_);
+    request.seed = options->seed;
+    request.period = period_;
+    request.memory_bytes = parse_memory(a_.memory);
+    request.announce = [&](const compile::TetraPlan& plan) {
+      session_.console.say("about " + format_rounded(plan.elements, 2) + " tetrahedra; meshing takes about " +
+                           format_bytes(plan.memory_bytes));
+    };
+    ProgressLine progress(session_.console, Counted::steps);
+    return compile::tetra_model(loaded_, study_, request, diagnostics_, &progress, &session_.stop);
   }
-  request.memory_bytes = parse_memory(a.memory);
-  request.announce = [&](const compile::TetraPlan& plan) {
-    session.console.say("about " + format_rounded(plan.elements, 2) + " tetrahedra; meshing takes about " +
-                        format_bytes(plan.memory_bytes));
-  };
-  auto made = compile::tetra_model(loaded, study, request, diagnostics, &progress, &session.stop);
-  if (!made) return std::nullopt;
-  return std::move(*made);
+
+ private:
+  const FeaArguments& a_;
+  const compile::LoadedPtr& loaded_;
+  const fea::Study& study_;
+  const std::optional<Box>& period_;
+  Session& session_;
+  Diagnostics& diagnostics_;
+};
+
+// Nothing where the maker found nothing.
+template <class Model>
+std::optional<Case> case_of(std::optional<Model> model) {
+  if (!model) return std::nullopt;
+  return Case{std::move(*model), {}};
 }
 
 // Elements that are too stiff for their material, and meshes that miss some of the part.
@@ -163,19 +178,24 @@ std::optional<Case> make_case(const FeaArguments& a, Session& session, Diagnosti
   if (study->mean_strain) check_repeats(a);
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
   if (!loaded) return std::nullopt;
-  auto model = make_model(a, loaded, *study, session, diagnostics);
-  if (!model) return std::nullopt;
-  Case here{std::move(*model), {}};
-  warn_of_mesh(here, *study, diagnostics);
-  const fea::ModelView view = here.view();
+  std::optional<Box> period;
   if (study->mean_strain) {
-    here.conditions = repeating_conditions(view, *period_of(*loaded, diagnostics), *study->mean_strain);
+    period = period_of(*loaded, diagnostics);
+    if (!period) return std::nullopt;
+  }
+  ModelMaker maker(a, loaded, *study, period, session, diagnostics);
+  auto here = a.elements == "brick" ? case_of(maker.bricks()) : case_of(maker.tetrahedra());
+  if (!here) return std::nullopt;
+  warn_of_mesh(*here, *study, diagnostics);
+  const fea::ModelView view = here->view();
+  if (period) {
+    here->conditions = repeating_conditions(view, *period, *study->mean_strain);
     return here;
   }
   const auto choose = compile::node_chooser(*loaded, view.mesh, a.threads, &session.stop);
   auto conditions = fea::conditions_of(*study, view, diagnostics, choose);
   if (!conditions) return std::nullopt;
-  here.conditions = std::move(*conditions);
+  here->conditions = std::move(*conditions);
   return here;
 }
 

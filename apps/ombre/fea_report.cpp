@@ -3,17 +3,13 @@
 #include <algorithm>
 
 #include "base/json.h"
+#include "base/point_text.h"
 #include "base/text.h"
 #include "fea/mesh_elastic.h"
 #include "fea/node_matrix.h"
 
 namespace ombre::cli {
 namespace {
-
-std::string text_of(Vec3 v, int digits = 4) {
-  return "(" + format_rounded(v.x, digits) + ", " + format_rounded(v.y, digits) + ", " + format_rounded(v.z, digits) +
-         ")";
-}
 
 Data triple(Vec3 v) { return DataList{v.x, v.y, v.z}; }
 
@@ -59,11 +55,11 @@ void tell_solution(const FeaArguments& a, const Console& console, const fea::Mes
   for (const fea::Prescribed& here : solution.reactions_n) reaction[here.axis] += here.value;
   const Vec3 u = solution.displacement_mm[far];
   console.say(solved_text(a, solution.iterations, solution.direct.has_value(), seconds));
-  console.say("moves by at most " + format_rounded(length(u)) + " mm, " + text_of(u) + " at " +
-              text_of(mesh.node(far)));
+  console.say("moves by at most " + format_rounded(length(u)) + " mm, " + format_point(u) + " at " +
+              format_point(mesh.node(far)));
   console.say("von Mises stress at most " + format_rounded(mises[strong]) + " MPa, at " +
-              text_of(mesh.centroid(strong)));
-  console.say("the supports hold with " + text_of(reaction, 5) + " N; strain energy " +
+              format_point(mesh.centroid(strong)));
+  console.say("the supports hold with " + format_point(reaction, 5) + " N; strain energy " +
               format_rounded(solution.energy_mj, 5) + " mJ");
   console.event("solution", {{"iterations", static_cast<double>(solution.iterations)},
                              {"residual", solution.residual},
@@ -92,9 +88,9 @@ void tell_conduction(const FeaArguments& a, const Console& console, const Case& 
   console.say(solved_text(a, found.iterations, found.direct.has_value(), seconds));
   console.say(std::string(is_heat ? "temperatures" : "potentials") + " from " + format_rounded(*least) + " to " +
               format_rounded(*most) + unit + ", the latter at " +
-              text_of(model.mesh.node(static_cast<size_t>(most - found.value.begin()))));
+              format_point(model.mesh.node(static_cast<size_t>(most - found.value.begin()))));
   console.say(std::string(is_heat ? "heat flux" : "current density") + " at most " + format_rounded(flux[strong]) +
-              flow_unit + "/mm2, at " + text_of(model.mesh.centroid(strong)));
+              flow_unit + "/mm2, at " + format_point(model.mesh.centroid(strong)));
   console.say(format_rounded(enters, 5) + flow_unit + " enter, " + format_rounded(leaves, 5) + flow_unit + " leave");
   console.event("solution", {{"iterations", static_cast<double>(found.iterations)},
                              {"residual", found.residual},

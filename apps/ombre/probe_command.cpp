@@ -1,6 +1,7 @@
 // ombre probe: what a design says at single points.
 #include <memory>
 
+#include "base/point_text.h"
 #include "base/text.h"
 #include "compile/probe.h"
 #include "ombre/command_line.h"
@@ -34,8 +35,7 @@ DataMembers to_members(const std::vector<std::pair<std::string, double>>& values
 }
 
 std::string for_people(const compile::ProbeResult& result) {
-  std::string text = "(" + format_rounded(result.point.x, 6) + ", " + format_rounded(result.point.y, 6) + ", " +
-                     format_rounded(result.point.z, 6) + "): " + (result.inside ? "inside" : "outside") +
+  std::string text = format_point(result.point, 6) + ": " + (result.inside ? "inside" : "outside") +
                      ", g = " + format_rounded(result.distance, 6) + " mm";
   for (const auto& [name, fraction] : result.composition) text += ", " + name + " " + format_rounded(fraction, 6);
   for (const auto& [name, value] : result.attributes) text += ", " + name + " = " + format_rounded(value, 6);

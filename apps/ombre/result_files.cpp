@@ -6,6 +6,7 @@
 
 #include "base/box.h"
 #include "base/json.h"
+#include "base/point_text.h"
 #include "base/text.h"
 #include "formats/file.h"
 #include "formats/results.h"
@@ -49,15 +50,11 @@ std::string field_text(const formats::ResultField& field) {
   return text + "\n";
 }
 
-std::string vector_words(Vec3 v) {
-  return "(" + format_rounded(v.x, 6) + ", " + format_rounded(v.y, 6) + ", " + format_rounded(v.z, 6) + ")";
-}
-
 std::string results_text(const std::string& path, const formats::Results& results) {
   const Box box = box_of_points(results);
   const auto counts = counts_of_kinds(results);
   std::string text = path + ": results of a simulation\n  nodes     " + format_count(results.points.size()) +
-                     ", from " + vector_words(box.lo) + " to " + vector_words(box.hi) + " mm\n";
+                     ", from " + format_point(box.lo, 6) + " to " + format_point(box.hi, 6) + " mm\n";
   for (size_t n = 0; n < counts.size(); ++n)
     if (counts[n] > 0) text += "  elements  " + format_count(counts[n]) + " " + std::string(kind_names[n]) + "\n";
   text += results.fields.empty() ? "\nno fields\n" : "\nfields\n";

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "base/json.h"
+#include "base/point_text.h"
 #include "base/text.h"
 #include "export/output_file.h"
 #include "formats/png.h"
@@ -56,19 +57,15 @@ DataList to_list(Vec3 v) { return {v.x, v.y, v.z}; }
 // The step from voxel to voxel along an axis of the grid.
 Vec3 step_of(const Affine& map, int axis) { return {map.rows[0][axis], map.rows[1][axis], map.rows[2][axis]}; }
 
-std::string vector_text(Vec3 v) {
-  return "(" + format_rounded(v.x, 6) + ", " + format_rounded(v.y, 6) + ", " + format_rounded(v.z, 6) + ")";
-}
-
 std::string placement_text(const formats::VoxelVolume& volume) {
   if (!volume.space_from_index) return "  voxels    the file does not say how large they are\n";
   const Affine& map = *volume.space_from_index;
   std::string text = "  voxels    ";
   for (int axis = 0; axis < 3; ++axis) text += (axis > 0 ? " x " : "") + format_rounded(length(step_of(map, axis)), 6);
-  text += " mm\n  origin    " + vector_text(map.offset) + " mm, the centre of the first voxel\n";
+  text += " mm\n  origin    " + format_point(map.offset, 6) + " mm, the centre of the first voxel\n";
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 step = step_of(map, axis);
-    text += "  axis " + std::to_string(axis + 1) + "    along " + vector_text((1 / length(step)) * step) + "\n";
+    text += "  axis " + std::to_string(axis + 1) + "    along " + format_point((1 / length(step)) * step, 6) + "\n";
   }
   return text;
 }

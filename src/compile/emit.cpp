@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/json.h"
+#include "base/point_text.h"
 #include "base/text.h"
 #include "compile/build.h"
 #include "compile/load.h"
@@ -14,12 +15,7 @@
 namespace ombre::compile {
 namespace {
 
-std::string box_text(const Box& box) {
-  const auto corner = [](Vec3 v) {
-    return "(" + format_rounded(v.x, 6) + ", " + format_rounded(v.y, 6) + ", " + format_rounded(v.z, 6) + ")";
-  };
-  return corner(box.lo) + " to " + corner(box.hi) + " mm";
-}
+std::string box_text(const Box& box) { return format_point(box.lo, 6) + " to " + format_point(box.hi, 6) + " mm"; }
 
 std::string stats(const design::Design& design) {
   size_t nodes = 0;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/point_text.h"
 #include "base/text.h"
 #include "fea/study.h"
 
@@ -54,7 +55,7 @@ class Selector {
     if (diagnostics_.error_count() == errors && std::ranges::find(chosen.nodes, true) == chosen.nodes.end())
       diagnostics_.error(selection.where,
                          std::string("no node of the mesh lies ") + (selection.box ? "in this box" : "there"),
-                         "the mesh lies from " + text(bounds_.lo) + " to " + text(bounds_.hi) + " mm");
+                         "the mesh lies from " + format_point(bounds_.lo) + " to " + format_point(bounds_.hi) + " mm");
     return chosen;
   }
 
@@ -125,10 +126,6 @@ class Selector {
     chosen.nodes.assign(mesh_.node_count(), false);
     for (const OuterSide& side : chosen.sides)
       for (const uint32_t n : side_nodes(mesh_, side)) chosen.nodes[n] = true;
-  }
-
-  static std::string text(Vec3 p) {
-    return "(" + format_rounded(p.x) + ", " + format_rounded(p.y) + ", " + format_rounded(p.z) + ")";
   }
 
   const ModelView& model_;
@@ -254,9 +251,7 @@ void report_loose(const Study& study, const MeshView& mesh, const Pieces& pieces
   const auto loose = static_cast<size_t>(std::ranges::count(is_fixed, false));
   if (loose == 0) return;
   const auto example = static_cast<size_t>(std::ranges::find(is_fixed, false) - is_fixed.begin());
-  const Vec3 at = mesh.centroid(pieces.first[example]);
-  const std::string place =
-      "(" + format_rounded(at.x) + ", " + format_rounded(at.y) + ", " + format_rounded(at.z) + ")";
+  const std::string place = format_point(mesh.centroid(pieces.first[example]));
   const bool is_one = is_fixed.size() == 1;
   diagnostics.error(
       study.where,

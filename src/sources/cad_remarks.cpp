@@ -3,14 +3,11 @@
 
 #include <cmath>
 
+#include "base/point_text.h"
 #include "base/text.h"
 
 namespace ombre::sources {
 namespace {
-
-std::string place_text_of(Vec3 p) {
-  return "(" + format_rounded(p.x) + ", " + format_rounded(p.y) + ", " + format_rounded(p.z) + ")";
-}
 
 std::string time_text(double seconds) {
   const double minutes = seconds / 60, hours = minutes / 60;
@@ -26,7 +23,7 @@ design::Remark remark_on_gaps(const std::string& path, const std::vector<importi
   std::string message = "the triangles of the CAD file \"" + path + "\"";
   if (!name.empty()) message += ", of its solid \"" + name + "\",";
   message += " are open along " + format_count(edges.count) + (edges.count == 1 ? " edge" : " edges") +
-             ", for example from " + place_text_of(edges.example[0]) + " to " + place_text_of(edges.example[1]);
+             ", for example from " + format_point(edges.example[0]) + " to " + format_point(edges.example[1]);
   if (std::isfinite(edges.gap_mm)) message += ", by up to about " + format_rounded(edges.gap_mm, 2) + " mm";
   if (open.size() > 1)
     message += ", and so are those of " + format_count(open.size() - 1) + (open.size() == 2 ? " other" : " others");

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "base/point_text.h"
 #include "base/text.h"
 #include "import/corner_welder.h"
 #include "import/mesh_source.h"
@@ -9,10 +10,6 @@
 
 namespace ombre::sources {
 namespace {
-
-std::string point_text(Vec3 p) {
-  return "(" + format_rounded(p.x) + ", " + format_rounded(p.y) + ", " + format_rounded(p.z) + ")";
-}
 
 bool has_inside(const importing::MeshReport& report, std::string_view rule) {
   return report.is_closed() || rule == "generalized" || (rule == "parity" && report.open_edges == 0);
@@ -27,7 +24,8 @@ std::string faults(const importing::MeshReport& report) {
     message += std::string(report.open_edges > 0 ? " and " : "") + "has triangles facing different ways along " +
                format_count(report.inconsistent_edges) + (report.inconsistent_edges == 1 ? " edge" : " edges");
   if (!report.examples.empty())
-    message += ", for example from " + point_text(report.examples[0][0]) + " to " + point_text(report.examples[0][1]);
+    message +=
+        ", for example from " + format_point(report.examples[0][0]) + " to " + format_point(report.examples[0][1]);
   return message;
 }
 
