@@ -18,6 +18,23 @@ TEST_F(StudioTest, MeasuresABall) {
     EXPECT_NEAR(number_in(material, "volume_mm3"), volume / 2, 1e-3 * volume);
 }
 
+TEST_F(StudioTest, MeasuresNamedParts) {
+  const Data measured = ask("measure", R"("design": ")" +
+                                           load("part(\"arm\") rectprism((8, 8, 8), red);\n"
+                                                "part(\"foot\") translate(10, 0, 0) rectprism((4, 8, 8), blue);\n"
+                                                "translate(-8, 0, 0) rectprism((2, 8, 8), red);") +
+                                           '"')
+                            .first;
+  const DataList* parts = measured.find("parts")->list();
+  ASSERT_TRUE(parts && parts->size() == 3U) << print_json(measured);
+  const std::vector<std::pair<std::string, double>> wanted{{"rest", 128}, {"arm", 512}, {"foot", 256}};
+  for (size_t n = 0; n < wanted.size(); ++n) {
+    EXPECT_EQ(text((*parts)[n], "name"), wanted[n].first);
+    EXPECT_NEAR(number_in((*parts)[n], "volume_mm3"), wanted[n].second, 0.05 * wanted[n].second) << wanted[n].first;
+  }
+  EXPECT_FALSE(ask("measure", R"("design": ")" + load(ball) + '"').first.find("parts"));
+}
+
 TEST_F(StudioTest, ComparesTwoVersions) {
   const std::string before = load("translate(4, 4, 4) rectprism((8, 8, 8), red);");
   const std::string after = load(

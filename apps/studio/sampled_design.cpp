@@ -22,6 +22,11 @@ Pitch pitch_for(const Box& box, double voxels) {
 
 SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, const StopFlag& stop,
                      const compile::GridWishes& wishes) {
+  return sample(design, design.loaded, box, voxels, stop, wishes);
+}
+
+SampledDesign sample(const OpenDesign& design, const compile::LoadedPtr& form, const Box& box, double voxels,
+                     const StopFlag& stop, const compile::GridWishes& wishes) {
   Diagnostics diagnostics;
   const auto printer = compile::find_printer("generic", diagnostics);
   if (!printer) throw design_error(diagnostics);
@@ -30,11 +35,10 @@ SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, co
   options.pitch.fill(pitch_for(box, voxels));
   options.stop = &stop;
   options.memory = &design.memory;
-  auto plan = compile::plan_over(design.loaded, box, options, diagnostics);
+  auto plan = compile::plan_over(form, box, options, diagnostics);
   if (!plan) throw design_error(diagnostics);
   const auto& count = plan->request.lattice.count;
-  auto job =
-      compile::plan_grids(design.loaded, *plan, wishes, {{0, 0, 0}, {count[0], count[1], count[2]}}, diagnostics);
+  auto job = compile::plan_grids(form, *plan, wishes, {{0, 0, 0}, {count[0], count[1], count[2]}}, diagnostics);
   if (!job) throw design_error(diagnostics);
   return {std::move(*plan), std::move(*job)};
 }

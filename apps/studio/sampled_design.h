@@ -27,5 +27,8 @@ inline compile::GridWishes all_fractions() {
 // be sampled, and Cancelled.
 SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, const StopFlag& stop,
                      const compile::GridWishes& wishes = all_fractions());
+// The same of another form of the design.
+SampledDesign sample(const OpenDesign& design, const compile::LoadedPtr& form, const Box& box, double voxels,
+                     const StopFlag& stop, const compile::GridWishes& wishes);
 
 }  // namespace ombre::studio

@@ -1,4 +1,4 @@
-// Grids of a design's materials and attributes: for the page's volume view, and to measure.
+// Grids of a design's materials and attributes for the page's volume view.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -104,21 +104,6 @@ class ValueTexture {
   std::vector<float> sums_;  // of 8 voxels
 };
 
-double sum_of(const voxel::FieldTile& tile, size_t output) {
-  const float* values = tile.output(output);
-  if (tile.is_uniform) return static_cast<double>(*values) * static_cast<double>(tile.box.voxels());
-  double sum = 0;
-  for (int64_t n = 0; n < tile.box.voxels(); ++n) sum += static_cast<double>(values[n]);
-  return sum;
-}
-
-// Returns the mass in g; nothing where the material does not say its density in g/cm3.
-std::optional<double> mass_of(const design::Material& material, double volume_mm3) {
-  for (const auto& [name, value] : material.properties)
-    if (name == "density" && value.number()) return *value.number() * volume_mm3 / 1000;
-  return std::nullopt;
-}
-
 DataMembers describe_texels(const std::array<int64_t, 3>& texels, const voxel::Lattice& lattice) {
   DataList count;
   for (const int64_t n : texels) count.emplace_back(number(n));
@@ -178,29 +163,6 @@ Answer volume_answer(OpenDesign& design, const Request& request, const StopFlag&
   answer.members.emplace_back("materials", std::move(materials));
   answer.members.emplace_back("left_out", number(sampled.job.grids.size() - textures.materials()));
   return answer;
-}
-
-Answer measure_answer(OpenDesign& design, const Request&, const StopFlag& stop) {
-  const SampledDesign sampled = sample(design, design.bounds, measured_voxels, stop);
-  const auto& grids = sampled.job.grids;
-  std::vector<double> voxels(grids.size(), 0);
-  const auto take = [&](const compile::GridSlab& slab) {
-    for (const voxel::FieldTile& tile : slab.tiles)
-      for (size_t m = 0; m < grids.size(); ++m) voxels[m] += sum_of(tile, m);
-  };
-  if (!grids.empty()) compile::each_slab(sampled.job, 0, take, nullptr, &stop);
-  const double pitch = sampled.plan.request.lattice.pitch[0].mm();
-  DataList materials;
-  double total = 0;
-  for (size_t m = 0; m < grids.size(); ++m) {
-    const double volume = voxels[m] * pitch * pitch * pitch;
-    total += volume;
-    DataMembers members{{"name", grids[m].material->name}, {"volume_mm3", volume}};
-    if (const auto mass = mass_of(design.loaded->design.materials.all()[grids[m].material->id], volume))
-      members.emplace_back("mass_g", *mass);
-    materials.emplace_back(std::move(members));
-  }
-  return {{{"volume_mm3", total}, {"pitch_mm", pitch}, {"materials", std::move(materials)}}, {}};
 }
 
 }  // namespace ombre::studio

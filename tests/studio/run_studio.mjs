@@ -179,6 +179,24 @@ const checks = {
     await status("[data-old=false][data-saved=saved]");
   },
 
+  async "shows the reference's page of what the pointer is on"() {
+    await editor.locator(".tok-typeName, .tok-keyword, span", { hasText: /^fgrade$/ }).first().hover();
+    await page.waitForSelector(".cm-tooltip-hover:has-text('fgrade')");
+    await page.mouse.move(5, 5);
+    await page.waitForSelector(".cm-tooltip-hover", { state: "detached" });
+  },
+
+  async "puts lines in their places"() {
+    await type("translate(30, 0, 0) union() {\nsphere(1, red);\n      }");
+    await page.keyboard.press("Shift+Alt+F");
+    await status("[data-old=false][data-saved=saved]");
+    assert.equal(onDisk(), script + "translate(30, 0, 0) union() {\n  sphere(1, red);\n}\n");
+    await page.keyboard.press("Control+z");
+    await page.keyboard.press("Control+z");
+    await status("[data-old=false][data-saved=saved]");
+    assert.equal(onDisk(), script);
+  },
+
   async "a slider changes the design, and the camera stays"() {
     const bar = await page.innerText(".surface .scalebar");
     const before = await page.getAttribute(".surface canvas", "data-design");
@@ -532,6 +550,7 @@ const checks = {
     assert.equal((await alphaInMiddle("surface"))[3], 255);
     await page.selectOption("select.file", "drop.py");
     await page.waitForSelector(".cm-line:has-text('import ombre')");
+    await page.waitForSelector(".tok-keyword:text-is('import')"); // which is a word of Python alone
     const before = await page.getAttribute(".surface canvas", "data-design");
     await page.click("button:has-text('Run')");
     await until((old) => document.querySelector(".surface canvas").dataset.design !== old, before);

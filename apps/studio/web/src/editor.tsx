@@ -1,6 +1,7 @@
 // The text of a design, with what is wrong in it.
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, indentWithTab, undoDepth } from "@codemirror/commands";
+import { pythonLanguage } from "@codemirror/lang-python";
 import { bracketMatching, indentOnInput, indentUnit, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
@@ -8,6 +9,7 @@ import { Annotation, EditorState } from "@codemirror/state";
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from "@codemirror/view";
 import { classHighlighter } from "@lezer/highlight";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { formatted } from "./format";
 import { complete, hover, vcad } from "./language";
 import { edited, keepAsDesign, newFile, reveal, save, setEditor, settle } from "./session";
 import { Diagnostic, set, state, useStore } from "./store";
@@ -25,6 +27,20 @@ function shown(diagnostic: Diagnostic, length: number) {
   };
 }
 
+const isPython = () => state.file.toLowerCase().endsWith(".py");
+
+// The lines in their places, as one step back for undo. In Python the places of lines have a meaning.
+function format(view: EditorView): boolean {
+  if (state.kind !== "" || isPython()) return false;
+  const text = view.state.doc.toString(), wanted = formatted(text);
+  if (wanted === text) return true;
+  const row = view.state.doc.lineAt(view.state.selection.main.head).number;
+  view.dispatch({ changes: { from: 0, to: text.length, insert: wanted } });
+  const line = view.state.doc.line(Math.min(row, view.state.doc.lines));
+  view.dispatch({ selection: { anchor: line.to }, scrollIntoView: true });
+  return true;
+}
+
 function makeEditor(parent: HTMLElement): EditorView {
   const extensions = [
     lineNumbers(),
@@ -40,12 +56,12 @@ function makeEditor(parent: HTMLElement): EditorView {
     syntaxHighlighting(classHighlighter),
     lintGutter(),
     EditorView.lineWrapping,
-    vcad,
     hover,
     autocompletion({ override: [complete] }),
     EditorView.contentAttributes.of({ "aria-label": "Script of the design", tabindex: "0" }),
     keymap.of([
       { key: "Mod-s", run: () => (save(), true), preventDefault: true },
+      { key: "Shift-Alt-f", run: format, preventDefault: true },
       ...closeBracketsKeymap,
       ...completionKeymap,
       ...lintKeymap,
@@ -58,8 +74,8 @@ function makeEditor(parent: HTMLElement): EditorView {
       if (update.docChanged && !update.transactions.some((t) => t.annotation(fromElsewhere))) edited();
     }),
   ];
-  const extended = () => [...extensions, EditorState.readOnly.of(state.kind !== "")];
-  const view: EditorView = new EditorView({ parent, state: EditorState.create({ extensions }) });
+  const extended = () => [...extensions, isPython() ? pythonLanguage : vcad, EditorState.readOnly.of(state.kind !== "")];
+  const view: EditorView = new EditorView({ parent, state: EditorState.create({ extensions: extended() }) });
   setEditor({
     text: () => view.state.doc.toString(),
     replace(text) {

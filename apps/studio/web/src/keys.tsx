@@ -46,6 +46,7 @@ const list: [string, string][] = [
   ["Alt G", "a turntable, as GIF; again: stop it"],
   ["Alt B", "the design with its files as a bundle"],
   ["Ctrl S, Ctrl F, Ctrl Space", "in the script: save, find, complete"],
+  ["Shift Alt F", "in the script: put lines in their places"],
   ["Escape, then Tab", "in the script: leave it"],
   ["arrows, Shift arrows, + -, Home", "in a view: turn, move, zoom, show all"],
   ["Page Up, Page Down, Enter", "in slices: the layer above or below, what is in the middle"],

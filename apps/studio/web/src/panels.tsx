@@ -6,7 +6,7 @@ import { page } from "./language";
 import { changeJob, compare, estimate, forgetMark, insert, jobKey, markVersion, measure, openFolder, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
 import { Presets } from "./presets";
 import { OptionForm, optionWords, printerOf } from "./joboptions";
-import { Job, NodeType, State, Value, Variable, set, state, useStore } from "./store";
+import { Amount, Job, NodeType, State, Value, Variable, set, state, useStore } from "./store";
 
 function numberRange(v: Variable): { min: number; max: number; step: number | "any" } {
   const value = v.value as number;
@@ -103,6 +103,9 @@ function Versions() {
   );
 }
 
+const amountText = (amount: Amount) =>
+  volumeText(amount.volume_mm3) + (amount.mass_g === undefined ? "" : `, ${amount.mass_g.toPrecision(4)} g`);
+
 function Materials() {
   const { design, opacity, measure: known } = useStore();
   const measured = known && design && known.design === design.design ? known : undefined;
@@ -118,7 +121,7 @@ function Materials() {
             <label for={`opacity-${m.name}`}>{m.name}</label>
             <input id={`opacity-${m.name}`} type="range" min={0} max={1} step={0.01} value={opacity[m.name] ?? usual} aria-label={`Opacity of ${m.name}`}
                    onInput={(e) => set({ opacity: { ...state.opacity, [m.name]: +e.currentTarget.value } })} />
-            {own && <span class="amount">{volumeText(own.volume_mm3)}{own.mass_g !== undefined && `, ${own.mass_g.toPrecision(4)} g`}</span>}
+            {own && <span class="amount">{amountText(own)}</span>}
           </div>
         );
       })}
@@ -127,6 +130,16 @@ function Materials() {
           <button onClick={measure}>Measure volumes</button>
           <button disabled={Object.keys(opacity).length === 0} onClick={() => set({ opacity: {} })}>Reset opacities</button>
         </p>
+      )}
+      {measured?.parts && (
+        <dl class="parts" aria-label="Parts">
+          {measured.parts.filter((part) => part.volume_mm3 > 0).map((part) => (
+            <>
+              <dt>{part.name}</dt>
+              <dd>{amountText(part)}</dd>
+            </>
+          ))}
+        </dl>
       )}
       {measured && <p class="hint">{volumeText(measured.volume_mm3)} in all, from voxels of {measured.pitch_mm} mm.</p>}
       <Versions />

@@ -135,6 +135,12 @@ export interface Job {
   message: string;
 }
 
+export interface Amount {
+  name: string;
+  volume_mm3: number;
+  mass_g?: number; // where all materials have a density
+}
+
 export interface Probe {
   at: number[];
   inside: boolean;
@@ -247,7 +253,7 @@ export interface State {
   z: number; // mm
   probe?: Probe;
   probeBefore?: number[]; // where the one before was, mm
-  measure?: { design: string; volume_mm3: number; pitch_mm: number; materials: { name: string; volume_mm3: number; mass_g?: number }[] };
+  measure?: { design: string; volume_mm3: number; pitch_mm: number; materials: Amount[]; parts?: Amount[] };
   mark?: Mark;
   comparison?: Comparison;
   comparisonProblem: string;
