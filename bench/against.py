@@ -65,7 +65,11 @@ def compare(commit, head, jobs, size, threads, runs, scratch):
                       ("of processor time", 18))
         results = []
         for job in jobs:
-            taken = _in_turns((build, head), job, size, threads, runs, scratch)
+            try:
+                taken = _in_turns((build, head), job, size, threads, runs, scratch)
+            except programs.Failed as problem:  # an older program may lack what a row needs
+                print(f"{job.name}: not compared.\n{problem}", flush=True)
+                continue
             base, ours = map(Side, taken)
             table.row(job.name, seconds(base.wall), f"{base.spread:.0%}", seconds(ours.wall), f"{ours.spread:.0%}",
                       f"{base.wall / ours.wall:.2f}", f"{base.cpu / ours.cpu:.2f}")
