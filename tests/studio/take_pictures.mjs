@@ -1,4 +1,4 @@
-// Takes the pictures of docs/user/studio.md that show a knob: studio.png and studio_slices.png.
+// Takes the pictures of docs/user/studio.md: a knob (studio.png, studio_slices.png), a scan and results of a simulation.
 //
 //     node tests/studio/take_pictures.mjs build/release/apps/ombre/ombre /usr/bin/chromium docs/user
 import { spawn } from "node:child_process";
@@ -17,6 +17,7 @@ const above = mkdtempSync(join(tmpdir(), "ombre-"));
 const folder = join(above, "my_parts");
 mkdirSync(folder);
 copyFileSync(join(source, "examples/knob.vcad"), join(folder, "knob.vcad"));
+for (const name of ["head.nrrd", "bent_beam.vtu"]) copyFileSync(join(source, "examples/models", name), join(folder, name));
 
 const server = spawn(ombre, ["studio", join(folder, "knob.vcad"), "--json", "--no-browser"], { env: { ...process.env, OMBRE_DATA: source }, stdio: ["ignore", "pipe", "inherit"] });
 const url = await new Promise((resolve, reject) => {
@@ -60,6 +61,22 @@ try {
   await page.click(".slices canvas", { position: { x: 0.25 * box.width, y: 0.6 * box.height } });
   await page.waitForSelector(".probe .calls", { timeout: 8000 });
   await take("studio_slices.png");
+
+  await page.selectOption("select.file", "head.nrrd");
+  await page.waitForSelector(".plane canvas[data-state=ready] >> nth=2");
+  await page.click("#tab-variables");
+  await page.hover(".plane canvas >> nth=1");
+  await page.waitForSelector(".scaninfo dt:has-text('pointer')");
+  await take("studio_scan.png");
+
+  await page.selectOption("select.file", "bent_beam.vtu");
+  await page.waitForSelector(".colours");
+  await page.click("#tab-surface");
+  await page.click("#tab-variables");
+  await page.fill("[aria-label='deform, exactly']", "10");
+  await page.keyboard.press("Enter");
+  await isReady("surface");
+  await take("studio_results.png");
 } catch (error) {
   console.log(String(error));
   process.exitCode = 1;
