@@ -21,7 +21,7 @@ Pitch pitch_for(const Box& box, double voxels) {
 }  // namespace
 
 SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, const StopFlag& stop,
-                     const compile::GridWishes& wishes) {
+                     const compile::GridQuery& query) {
   Diagnostics diagnostics;
   const auto printer = compile::find_printer("generic", diagnostics);
   if (!printer) throw design_error(diagnostics);
@@ -33,8 +33,7 @@ SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, co
   auto plan = compile::plan_over(design.loaded, box, options, diagnostics);
   if (!plan) throw design_error(diagnostics);
   const auto& count = plan->request.lattice.count;
-  auto job =
-      compile::plan_grids(design.loaded, *plan, wishes, {{0, 0, 0}, {count[0], count[1], count[2]}}, diagnostics);
+  auto job = compile::plan_grids(design.loaded, *plan, query, {{0, 0, 0}, {count[0], count[1], count[2]}}, diagnostics);
   if (!job) throw design_error(diagnostics);
   return {std::move(*plan), std::move(*job)};
 }
