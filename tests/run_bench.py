@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Runs the benchmark suite at a tiny size: all rows are there, the published method counts the same voxels
-where nothing is left to chance, scaling is told, and no folder stays. Times are not judged.
+where nothing is left to chance, scaling is reported, and no folder stays. Times are not judged.
 
     python3 tests/run_bench.py build/bench
 """

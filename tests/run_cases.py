@@ -67,8 +67,8 @@ def events(command, cwd):
     result = program.run(command, cwd=cwd)
     found = [json.loads(line) for line in result.stdout.splitlines()]
     if result.returncode != 0:
-        told = [e.get("message", "") for e in found if e["event"] == "message"]
-        raise AssertionError(f"status {result.returncode}: " + "; ".join(told) + result.stderr[:500])
+        reported = [e.get("message", "") for e in found if e["event"] == "message"]
+        raise AssertionError(f"status {result.returncode}: " + "; ".join(reported) + result.stderr[:500])
     return found
 
 
@@ -81,7 +81,7 @@ class Case:
         self.problems = []
         points = [e for e in self.expected if e.startswith("at ")]
         rest = [e for e in self.expected if not e.startswith("at ")]
-        self.told = []
+        self.reported = []
         if points:
             self.check_points(ombre, points)
         if rest:
@@ -91,7 +91,7 @@ class Case:
             self.problems.append("nothing is expected of it")
 
     def note(self, events_of_run):
-        self.told += [e["message"] for e in events_of_run if e["event"] == "message"]
+        self.reported += [e["message"] for e in events_of_run if e["event"] == "message"]
 
     def check_points(self, ombre, expected):
         parsed = []
@@ -107,28 +107,28 @@ class Case:
         found = events(command, self.design.parent)
         self.note(found)
         results = [e for e in found if e["event"] == "point"]
-        for (text, _, wishes), result in zip(parsed, results):
-            self.check_point(text, wishes, result)
+        for (text, _, expectations), result in zip(parsed, results):
+            self.check_point(text, expectations, result)
 
-    def check_point(self, text, wishes, result):
+    def check_point(self, text, expectations, result):
         composition, parts = {}, []
-        for wish in wishes:
-            if wish in ("inside", "outside"):
-                good = result["inside"] == (wish == "inside")
-            elif wish.startswith("part ") and " = " not in wish:
-                parts.append(wish[len("part "):])
+        for expectation in expectations:
+            if expectation in ("inside", "outside"):
+                good = result["inside"] == (expectation == "inside")
+            elif expectation.startswith("part ") and " = " not in expectation:
+                parts.append(expectation[len("part "):])
                 continue
-            elif " = " in wish:
-                name, value = wish.split(" = ")
+            elif " = " in expectation:
+                name, value = expectation.split(" = ")
                 good = close(result["attributes"].get(name), number(value))
             else:
-                name, value = wish.split(" ", 1)
+                name, value = expectation.split(" ", 1)
                 if name != "distance":
                     composition[name] = number(value)
                     continue
                 good = close(result["distance_mm"], number(value))
             if not good:
-                self.problems.append(f"{text}: {wish}, found {json.dumps(result)}")
+                self.problems.append(f"{text}: {expectation}, found {json.dumps(result)}")
         found = result["composition"]
         if composition and not (found.keys() == composition.keys() and
                                 all(close(found[name], share) for name, share in composition.items())):
@@ -174,9 +174,9 @@ class Case:
     def check_warnings(self):
         wanted = [e[len("warning "):] for e in self.expected if e.startswith("warning ")]
         for text in wanted:
-            if not any(text in message for message in self.told):
+            if not any(text in message for message in self.reported):
                 self.problems.append(f"there was no warning: {text}")
-        for message in dict.fromkeys(self.told):
+        for message in dict.fromkeys(self.reported):
             if not any(text in message for text in wanted):
                 self.problems.append(f"it warned: {message}")
 

@@ -190,7 +190,7 @@ def files_are_kept(drawing):
     expect("is no folder" in error, error)
 
 
-def unwritable_folders_are_told(drawing):
+def unwritable_folders_are_reported(drawing):
     if os.geteuid() == 0:
         return "skipped: root may write everywhere"
     locked = drawing.folder / "locked"
@@ -230,7 +230,7 @@ def interrupts_leave_nothing(drawing):
 
 CHECKS = [rings_are_in_millimetres, commands_are_those_of_the_interface, halves_share_points,
           examples_have_the_areas_of_their_voxels, threads_change_no_byte, slips_get_remedies, files_are_kept,
-          unwritable_folders_are_told, full_disks_leave_nothing, interrupts_leave_nothing]
+          unwritable_folders_are_reported, full_disks_leave_nothing, interrupts_leave_nothing]
 
 
 def in_a_folder(ombre, check):

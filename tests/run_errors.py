@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Wrong designs, and what a person is told about them.
+"""Wrong designs, and their messages.
 
 tests/errors/NAME.vcad, NAME.scad or NAME.json is a design with a mistake, NAME.txt the text on stderr. The first lines of
 a .vcad may say how it is run:
@@ -7,7 +7,7 @@ a .vcad may say how it is run:
     // arguments: --printer j750 --voxel 0.1
     // status: 0
 
-The status is 1 unless it is stated. A job that starts also tells sizes and times: with another status only the
+The status is 1 unless it is stated. A job that starts also reports sizes and times: with another status only the
 errors, warnings and notes are compared.
 
     python3 tests/run_errors.py build/dev/apps/ombre/ombre [--update] [NAME...]
@@ -25,7 +25,7 @@ import program
 
 FOLDER = program.TESTS / "errors"
 DIRECTIVE = re.compile(r"// (arguments|status): (.*)")
-TOLD = re.compile(r"(^|: )(error|warning|note): |^ +\d* \| ")
+REPORTED = re.compile(r"(^|: )(error|warning|note): |^ +\d* \| ")
 
 
 def directives(design):
@@ -52,12 +52,12 @@ def check(ombre, design, update):
         output = pathlib.Path(scratch) / "out"
         result = program.run([ombre, "slice", design.name, "-o", output, *arguments], cwd=FOLDER, timeout=60)
         written = final_names(output)
-    told = result.stderr.replace(scratch, "OUT").replace(str(FOLDER), "HERE")
+    reported = result.stderr.replace(scratch, "OUT").replace(str(FOLDER), "HERE")
     if status != 1:
-        told = "".join(line for line in told.splitlines(keepends=True) if TOLD.search(line))
+        reported = "".join(line for line in reported.splitlines(keepends=True) if REPORTED.search(line))
     expected = design.with_suffix(".txt")
     if update:
-        expected.write_text(told, encoding="utf-8")
+        expected.write_text(reported, encoding="utf-8")
     problems = []
     if result.returncode != status:
         problems.append(f"status {result.returncode}, expected {status}")
@@ -67,9 +67,9 @@ def check(ombre, design, update):
         problems.append("written all the same: " + ", ".join(written[:5]))
     if not expected.exists():
         problems.append(f"{expected.name} is missing; --update writes it")
-    elif told != expected.read_text(encoding="utf-8"):
-        problems += difflib.unified_diff(expected.read_text(encoding="utf-8").splitlines(), told.splitlines(),
-                                         "expected", "told", lineterm="")
+    elif reported != expected.read_text(encoding="utf-8"):
+        problems += difflib.unified_diff(expected.read_text(encoding="utf-8").splitlines(), reported.splitlines(),
+                                         "expected", "reported", lineterm="")
     return "\n".join(problems)
 
 

@@ -66,7 +66,7 @@ def mixtures_are_drawn_or_mixed(folder):
     near(folder.array("m.vtu", "fraction of blue")[0], 0.25, 1e-6, "a fraction")
 
 
-def mixtures_that_are_no_numbers_are_told(folder):
+def mixtures_that_are_no_numbers_are_reported(folder):
     """The root of x is no number at x = -4 and -2, two of five columns of 25 bricks; powers whose sum overflows are
     no shares."""
     def grade(red, blue):
@@ -78,19 +78,19 @@ def mixtures_that_are_no_numbers_are_told(folder):
 
     sizes = [("--cell", "2")] + [("--elements", "tet4", "--size", "3")] * has_tetrahedra(folder)
     grade("sqrt(x)", "1 - sqrt(x)")
-    told = fea(*sizes[0])
-    expect("(50 of 125 elements, the first around (-4, -4, -4); they are of red)" in told, told)
+    reported = fea(*sizes[0])
+    expect("(50 of 125 elements, the first around (-4, -4, -4); they are of red)" in reported, reported)
     expect("fractions of fgrade are all zero or not finite" in fea(*sizes[-1]), "elements up to the surface")
     for red, blue in ("sqrt(x - 20)", "1"), ("if(x < 20, 1e308, 1)", "1e308"):
         grade(red, blue)
         for size in sizes:
             (folder.path / "root.vtu").unlink(missing_ok=True)
-            told = fea(*size, status=1)
-            expect("error: the mixture is no number in any of the" in told, told)
+            reported = fea(*size, status=1)
+            expect("error: the mixture is no number in any of the" in reported, reported)
             expect(not (folder.path / "root.vtu").exists(), "a file of a design without mixture")
     grade("if(x < -1, 1e308, 1)", "if(x < -1, 1e308, 1)")
-    told = fea(*sizes[0])
-    expect("the mixture is no number in 50 of 125 elements, the first around (-4, -4, -4)" in told, told)
+    reported = fea(*sizes[0])
+    expect("the mixture is no number in 50 of 125 elements, the first around (-4, -4, -4)" in reported, reported)
     grade("sqrt(x + 20)", "1")
     expect("warning" not in fea(*sizes[0]), "a warning of numbers")
 
@@ -135,7 +135,7 @@ HEAT = {"physics": "heat", "materials": {"red": {"conductivity_w_mk": 0.5}},
                   {"on": "xmax", "film_w_m2k": 50, "ambient_c": 30}]}
 BEND = {**PULL, "supports": [{"on": "xmin", "fix": "xyz"}],
         "loads": [{"on": {"facing": [0, 0, 1]}, "pressure_mpa": 2}, {"on": "xmax", "force_n": [0, 30, 0]}]}
-# Where CalculiX has the same elements, numbers agree: all that are told of a solution, but for places.
+# Where CalculiX has the same elements, numbers agree: all that are reported of a solution, but for places.
 CALCULIX = {
     "bricks pulled": ("cube.vcad", "pull.json", ["--cell", "2.5"], 1e-5),
     "tet4 bent": ("holed.vcad", "bend.json", ["--elements", "tet4", "--size", "3"], 1e-5),
@@ -157,8 +157,8 @@ def write_studies(folder):
 def solve_case(folder, name, solver):
     design, study, arguments, _ = CALCULIX[name]
     solution = folder.events(design, "--study", study, *arguments, "--solve", "--solver", solver)["solution"]
-    told = {key: value for key, value in solution.items() if isinstance(value, (float, int, list))}
-    return {key: value for key, value in told.items()
+    reported = {key: value for key, value in solution.items() if isinstance(value, (float, int, list))}
+    return {key: value for key, value in reported.items()
             if key not in ("iterations", "residual", "seconds") and not key.endswith("_at_mm")}
 
 
@@ -309,9 +309,9 @@ def results_are_in_xdmf(folder):
     for name in ("bend.vtu", "bend.xdmf"):
         folder.write("asks.vcad", f'attribute("zx", results("{name}", "stress", component="zx").value)'
                                   f'attribute("move", results("{name}", "displacement").vector) cube(10, red);')
-        asked = program.run([folder.ombre, "probe", "asks.vcad", *places, "--json"], cwd=folder.path)
-        expect(asked.returncode == 0, asked.stderr[-1000:])
-        answers.append([json.loads(line)["attributes"] for line in asked.stdout.splitlines() if '"point"' in line])
+        probed = program.run([folder.ombre, "probe", "asks.vcad", *places, "--json"], cwd=folder.path)
+        expect(probed.returncode == 0, probed.stderr[-1000:])
+        answers.append([json.loads(line)["attributes"] for line in probed.stdout.splitlines() if '"point"' in line])
     expect(answers[0] == answers[1] and len(answers[0]) == 2, str(answers))
     pictures = []
     for name in ("bend.vtu", "bend.xdmf"):
@@ -379,7 +379,7 @@ def rounds_follow_their_results(folder):
     expect(min(wanted) <= min(shares) and max(shares) <= max(wanted) and max(shares) > 0.3, f"{min(shares)} to {max(shares)}")
 
 
-def wrong_use_of_rounds_is_told(folder):
+def wrong_use_of_rounds_is_reported(folder):
     def error(*arguments):
         return folder.run("cube.vcad", "--study", "pull.json", "--cell", "2.5", *arguments, status=1).stderr
 
@@ -395,7 +395,7 @@ def wrong_use_of_rounds_is_told(folder):
     expect(not (folder.path / "x_1.vtu").exists(), "a file is written")
 
 
-def wrong_use_is_told(folder):
+def wrong_use_is_reported(folder):
     def error(*arguments, status=1):
         return folder.run(*arguments, status=status).stderr
 
@@ -456,10 +456,10 @@ def main():
         return write_calculix(ombre)
 
     return check_all(ombre, [bars_stretch_by_hookes_law, results_are_in_the_grid, vectors_are_one_field,
-                             mixtures_are_drawn_or_mixed, mixtures_that_are_no_numbers_are_told, moduli_come_from_attributes,
+                             mixtures_are_drawn_or_mixed, mixtures_that_are_no_numbers_are_reported, moduli_come_from_attributes,
                              decks_are_complete, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix,
                              solvers_agree, a_hook_holds_its_coat, a_mug_cools, materials_that_are_nowhere_need_no_properties,
-                             results_are_in_xdmf, rounds_follow_their_results, wrong_use_of_rounds_is_told, wrong_use_is_told,
+                             results_are_in_xdmf, rounds_follow_their_results, wrong_use_of_rounds_is_reported, wrong_use_is_reported,
                              ctrl_c_ends_it])
 
 

@@ -163,8 +163,8 @@ def gray_images_show_brightness(job):
     expect(found == wanted, "other brightness than in colour")
     alike = job.write("alike.json", json.dumps({"materials": [
         {"name": "red", "r": 100, "g": 100, "b": 100}, {"name": "blue", "r": 100, "g": 100, "b": 100}]}))
-    told = job.slice("alike", *SMALL, "--format", "gray", "--layers", "50", "--materials", alike).stderr
-    expect("both gray 100" in told, f"no word about two materials of one gray: {told}")
+    reported = job.slice("alike", *SMALL, "--format", "gray", "--layers", "50", "--materials", alike).stderr
+    expect("both gray 100" in reported, f"no word about two materials of one gray: {reported}")
 
 
 def masks_resume_and_are_replaced(job):
@@ -227,9 +227,9 @@ def layers_have_names_and_are_not_overwritten(job):
     command = [str(a) for a in (job.ombre, "layer", job.design, *SMALL, "--index", "7", "-o", "-")]
     piped = subprocess.run(command, cwd=job.folder, env=program.environment(), capture_output=True, check=True).stdout
     expect(piped == before, "other bytes on stdout")
-    told = json.loads(ombre_layer(job, *SMALL, "--index", "7", "--force", "--json").stdout.splitlines()[-1])
-    expect(told["event"] == "done" and told["files"] == [name.name] and told["layer"] == 7, str(told))
-    expect([round(z, 9) for z in told["z_mm"]] == [-4.3, -4.2], str(told))
+    reported = json.loads(ombre_layer(job, *SMALL, "--index", "7", "--force", "--json").stdout.splitlines()[-1])
+    expect(reported["event"] == "done" and reported["files"] == [name.name] and reported["layer"] == 7, str(reported))
+    expect([round(z, 9) for z in reported["z_mm"]] == [-4.3, -4.2], str(reported))
 
 
 def wrong_layers_are_explained(job):
@@ -249,9 +249,9 @@ def wrong_layers_are_explained(job):
 def example_slices(job, example):
     command = [job.ombre, "slice", example, "-o", job.folder / "out", "--voxel", "0.5", "--json"]
     result = program.run(command, cwd=job.folder)
-    told = [e["message"] for e in map(json.loads, result.stdout.splitlines()) if e["event"] == "message"]
-    expect(result.returncode == 0, f"status {result.returncode}: {told} {result.stderr}")
-    expect(not told, f"it warned: {told}")
+    reported = [e["message"] for e in map(json.loads, result.stdout.splitlines()) if e["event"] == "message"]
+    expect(result.returncode == 0, f"status {result.returncode}: {reported} {result.stderr}")
+    expect(not reported, f"it warned: {reported}")
     expect((EXAMPLES / "pictures" / (example.stem + ".png")).exists(), "it has no picture in examples/pictures")
 
 
@@ -292,8 +292,8 @@ def designs_of_openscad_are_explained(job):
     for command, made in (("mesh", "part.stl"), ("render", "picture.png")):
         program.run([job.ombre, command, ball, "-o", job.folder / made, "-q"])
     for theirs, ours in instead.items():
-        told = program.run(job.command("told", "--dry-run", design=job.write("theirs.vcad", theirs)))
-        expect(told.returncode == 1 and ours.partition("(")[0] in told.stderr, f"{theirs}: {told.stderr}")
+        reported = program.run(job.command("told", "--dry-run", design=job.write("theirs.vcad", theirs)))
+        expect(reported.returncode == 1 and ours.partition("(")[0] in reported.stderr, f"{theirs}: {reported.stderr}")
         made = program.run(job.command("made", "--dry-run", "--voxel", "0.5", design=job.write("ours.vcad", ours)))
         expect(made.returncode == 0, f"{ours}: {made.stderr}")
 
@@ -312,12 +312,12 @@ def links_lead_to_what_lies_beside_them(job):
     (job.folder / "near/part.vcad").symlink_to(job.folder / "mid/part.vcad")
     (job.folder / "two_steps.vcad").symlink_to("mid/part.vcad")
     for name, side in (("far", 10), ("mid/part", 6), ("near/part", 3), ("two_steps", 6)):
-        told = job.slice("out", "--voxel", "1", "--dry-run", design=job.folder / f"{name}.vcad")
-        expect(f"box {side} x " in told.stderr + told.stdout, f"{name}: {told.stderr}")
+        reported = job.slice("out", "--voxel", "1", "--dry-run", design=job.folder / f"{name}.vcad")
+        expect(f"box {side} x " in reported.stderr + reported.stdout, f"{name}: {reported.stderr}")
     (job.folder / "real/lost.vcad").write_text("include <lost_sizes.vcad>\n")
     (job.folder / "lost.vcad").symlink_to("real/lost.vcad")
-    told = job.slice("out", "--dry-run", design="lost.vcad", status=1).stderr
-    expect("looked for lost_sizes.vcad and real/lost_sizes.vcad" in told, told)
+    reported = job.slice("out", "--dry-run", design="lost.vcad", status=1).stderr
+    expect("looked for lost_sizes.vcad and real/lost_sizes.vcad" in reported, reported)
 
 
 def bundles_slice_as_their_designs_do(job):

@@ -67,7 +67,7 @@ class Scene:
         return {f.stem.removeprefix("part").strip("-_."): np.load(f).transpose(2, 1, 0) for f in files}
 
     def shares(self, filtered, count_void=False):
-        """Fractions of red and blue after a filter of the three marks; void counts or not; none beyond the map."""
+        """Fractions of red and blue after a filter of the three flags; void counts or not; none beyond the map."""
         red, blue = (np.maximum(filtered(m), 0) for m in (self.red, self.blue))
         void = np.maximum(filtered(1 - self.inside, 1), 0) if count_void else 0
         total = red + blue + void
@@ -148,8 +148,8 @@ def medians_are_those_of_scipy(scene):
     def middle(values):
         known = np.sort(values[~np.isnan(values)])
         return known[(len(known) - 1) // 2] if len(known) else 0
-    marked = np.where(scene.inside > 0, scene.value, np.nan)
-    expected = ndimage.generic_filter(marked, middle, size=(3, 3, 3), mode="constant", cval=np.nan)
+    masked = np.where(scene.inside > 0, scene.value, np.nan)
+    expected = ndimage.generic_filter(masked, middle, size=(3, 3, 3), mode="constant", cval=np.nan)
     (grid,) = scene.sample("median([\"load\"])", "load").values()
     difference = np.abs(grid - expected)[scene.inside > 0].max()
     expect(difference < 1e-5, f"median differs by {difference}")

@@ -104,21 +104,21 @@ def differences_are_counted(*_):
         ("a.glb", b"\0\1", b"\0\1\2", "3 bytes, were 2"),
     ]
     for name, before, now, part in wanted:
-        told = guard_differences.of_contents(name, before, now)
-        expect(part in told, f"{name}: {told}")
-    told = guard_differences.of_files({"a.npy": b"\0\1", "b": b"", "c": b"\0"},
+        reported = guard_differences.of_contents(name, before, now)
+        expect(part in reported, f"{name}: {reported}")
+    reported = guard_differences.of_files({"a.npy": b"\0\1", "b": b"", "c": b"\0"},
                                       {"a.npy": b"\0\2", "c": b"\0", "d": b""})
-    expect(told == "1 missing, the first b; 1 new, the first d; "
-           "1 of 3 files differ, a.npy: 1 of 2 bytes differ, the first at 1", told)
+    expect(reported == "1 missing, the first b; 1 new, the first d; "
+           "1 of 3 files differ, a.npy: 1 of 2 bytes differ, the first at 1", reported)
 
 
 def times_and_paths_are_taken_out(ombre, scratch):
     runner = guard_run.Runner(ombre, 1, scratch)
-    told = runner.normalised("a\nabout 0:00, 9 KiB of images (gray), at most 2 KiB of memory; nothing was written\n", "x")
-    expect(told == "a\nESTIMATE\n", told)
+    reported = runner.normalised("a\nabout 0:00, 9 KiB of images (gray), at most 2 KiB of memory; nothing was written\n", "x")
+    expect(reported == "a\nESTIMATE\n", reported)
     said = f"9 layers written to {scratch}/x/out; 9 KiB in 1.5e-05 s, 2.5 M voxels/s; 3 mm {guard_jobs.ROOT}/a"
-    told = runner.normalised(said, scratch / "x")
-    expect(told == "9 layers written to OUT/out; 9 KiB in TIME s, SPEED voxels/s; 3 mm SOURCE/a", told)
+    reported = runner.normalised(said, scratch / "x")
+    expect(reported == "9 layers written to OUT/out; 9 KiB in TIME s, SPEED voxels/s; 3 mm SOURCE/a", reported)
 
 
 CHECKS = [builds_that_write_the_same_pass, changed_designs_are_reported, jobs_that_are_gone_are_reported, records_are_checked,

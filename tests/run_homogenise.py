@@ -78,8 +78,8 @@ def charts_are_written(ombre, folder):
     text = (folder / "chart.svg").read_text(encoding="utf-8")
     expect(text.startswith("<svg") and text.count('class="modulus"') == 3, "three diagrams")
     before = text
-    told = run(ombre, folder, "cube(2);", "--study", STUDY, "--cell", "1", "-o", "chart.svg", status=2).stderr
-    expect("--force" in told and (folder / "chart.svg").read_text(encoding="utf-8") == before, "overwriting")
+    reported = run(ombre, folder, "cube(2);", "--study", STUDY, "--cell", "1", "-o", "chart.svg", status=2).stderr
+    expect("--force" in reported and (folder / "chart.svg").read_text(encoding="utf-8") == before, "overwriting")
 
 
 def layers_conduct_in_series_and_parallel(ombre, folder):
@@ -91,19 +91,19 @@ def layers_conduct_in_series_and_parallel(ombre, folder):
         found = next(e for e in map(json.loads, lines) if e["event"] == "homogenised")[unit]
         for axis, wanted in enumerate(((15 + 0.2) / 2, (15 + 0.2) / 2, 2 / (1 / 15 + 1 / 0.2))):
             near(found[axis][axis], wanted, 1e-6, f"the conductivity along {'xyz'[axis]}")
-    told = run(ombre, folder, design, "--study", "heat.json", "--cell", "1", "-o", "chart.svg", status=1).stderr
-    expect("conductivities have none" in told and not (folder / "chart.svg").exists(), told)
+    reported = run(ombre, folder, design, "--study", "heat.json", "--cell", "1", "-o", "chart.svg", status=1).stderr
+    expect("conductivities have none" in reported and not (folder / "chart.svg").exists(), reported)
 
 
-def wrong_use_is_told(ombre, folder):
-    def told(design, *arguments, status=1):
+def wrong_use_is_reported(ombre, folder):
+    def reported(design, *arguments, status=1):
         return run(ombre, folder, design, *arguments, status=status).stderr
     study = ("--study", STUDY)
-    expect('no elastic properties of "green"' in told("sphere(2, green);", "--cell", "1", *study), "properties")
-    expect("from 1 to 4096" in told("cube(2, red);", "--cell", "0.0001", *study), "too many bricks")
-    expect("no brick's centre" in told("cube(2, red);", "--cell", "1", "--box=8,8,8,9,9,9", *study), "nothing there")
-    expect(".svg" in told("cube(2, red);", "--cell", "1", "-o", "chart.png", *study), "ending")
-    expect("more than the" in told("cube(9, red);", "--cell", "0.1", "--memory", "1M", *study, status=2), "memory")
+    expect('no elastic properties of "green"' in reported("sphere(2, green);", "--cell", "1", *study), "properties")
+    expect("from 1 to 4096" in reported("cube(2, red);", "--cell", "0.0001", *study), "too many bricks")
+    expect("no brick's centre" in reported("cube(2, red);", "--cell", "1", "--box=8,8,8,9,9,9", *study), "nothing there")
+    expect(".svg" in reported("cube(2, red);", "--cell", "1", "-o", "chart.png", *study), "ending")
+    expect("more than the" in reported("cube(9, red);", "--cell", "0.1", "--memory", "1M", *study, status=2), "memory")
 
 
 def main():
@@ -117,7 +117,7 @@ def main():
 
     checks = [plain_blocks_are_their_material, layers_share_strain_in_the_plane, boxes_cut_and_repeat,
               draws_are_softer_than_means, charts_are_written, layers_conduct_in_series_and_parallel,
-              wrong_use_is_told]
+              wrong_use_is_reported]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
 
 

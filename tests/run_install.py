@@ -60,9 +60,9 @@ def main():
         packages = next(installed.glob("lib/python3*/*-packages"))
         use = f"import sys; sys.path.insert(0, {str(packages)!r}); import ombre, pyvcad; print(pyvcad.resources_path()); " \
               "ombre.sphere(5).write_voxels('part.vdb', voxel=1)"
-        told = run(sys.executable, "-B", "-c", use, folder=folder)
-        assert told.stdout.strip() == str(installed / "share/ombre"), told.stdout
-        modules_come_from(installed, told.stderr)
+        reported = run(sys.executable, "-B", "-c", use, folder=folder)
+        assert reported.stdout.strip() == str(installed / "share/ombre"), reported.stdout
+        modules_come_from(installed, reported.stderr)
 
         script = installed / "share/bash-completion/completions/ombre"
         words = run("bash", "-c", COMPLETE, "bash", script, ombre, folder=folder).stdout.splitlines()

@@ -154,7 +154,7 @@ def supports_are_the_same_in_pieces(job):
     expect_same(job.folder / "whole", job.folder / "pieces")
 
 
-def supports_are_told_of(job):
+def supports_are_reported(job):
     design = job.write("holes.vcad", HOLES)
     result = job.slice("out", "--voxel", "0.02", "--memory", "5M", design=design, status=2)
     expect("supports: computing them takes about" in result.stderr and "--memory" in result.stderr, result.stderr)
@@ -237,8 +237,8 @@ def full_disk(job):
     try:
         job.slice("whole", *SMALL)
         (disk / "filler").write_bytes(bytes((1 << 20) - 64 * 1024))
-        told = job.slice("disk/out", *SMALL, "--dry-run").stderr
-        expect("KiB left" in told and not (disk / "out").exists(), f"no word about the disk: {told}")
+        reported = job.slice("disk/out", *SMALL, "--dry-run").stderr
+        expect("KiB left" in reported and not (disk / "out").exists(), f"no word about the disk: {reported}")
         result = job.slice("disk/out", *SMALL, status=2)
         expect(str(disk / "out") in result.stderr, f"it does not name the path: {result.stderr}")
         for path in layers(disk / "out"):
@@ -251,7 +251,7 @@ def full_disk(job):
     return ""
 
 
-CHECKS = [supports_take_the_threads_given_and_stop_at_once, supports_are_the_same_in_pieces, supports_are_told_of,
+CHECKS = [supports_take_the_threads_given_and_stop_at_once, supports_are_the_same_in_pieces, supports_are_reported,
           killed_jobs_resume, killed_twice_resumes, interrupted_jobs_resume, large_layers_stop_and_resume,
           resume_refuses_another_job, damaged_layers_are_made_again, foreign_files_are_left_alone,
           finished_jobs_are_not_overwritten, force_removes_the_old_layers, output_that_is_a_file,

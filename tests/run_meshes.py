@@ -53,7 +53,7 @@ class Meshes:
         for line in self.mesh(*arguments, "--json", **options).stdout.splitlines():
             if json.loads(line)["event"] == "bodies":
                 return json.loads(line)
-        raise AssertionError("no bodies were told")
+        raise AssertionError("no bodies were reported")
 
     def events(self, *arguments):
         done = program.run(self.command(*arguments, "--json"), cwd=self.folder)
@@ -79,7 +79,7 @@ def near(a, b, share, what):
     expect(abs(a - b) <= share * abs(b), f"{what}: {a}, expected {b}")
 
 
-def is_as_near_as_asked(design, meshes, tolerance):
+def is_as_near_as_requested(design, meshes, tolerance):
     for way, side in meshes.compared(design, "part.off", tolerance).items():
         expect(side["samples"] > 10_000, f"{way}: {side}")
         expect(side["farthest_mm"] <= (1 + 1e-6) * tolerance, f"{way}: {side}, tolerance {tolerance}")
@@ -100,12 +100,12 @@ def is_closed_and_as_large_as_its_voxels(design, meshes):
         near(found["volume"], body["volume_mm3"], 1e-5, "CGAL's volume")
         expect(found["intersections"] <= CROSSING_WHERE_TOO_FINE.get(design.stem, MOST_CROSSING), str(found))
     if meshes.comparer:
-        is_as_near_as_asked(design, meshes, bodies["tolerance_mm"])
+        is_as_near_as_requested(design, meshes, bodies["tolerance_mm"])
     pitch = (body["volume_mm3"] / 3e7) ** (1 / 3)
     done = program.run(meshes.command("slice", design, "-o", "slices", "--voxel", f"{pitch:.4f}", "--json"),
                        cwd=meshes.folder)
-    told = [json.loads(line) for line in done.stdout.splitlines()]
-    voxels = sum(m["volume_mm3"] for event in told if event["event"] == "done" for m in event["materials"])
+    reported = [json.loads(line) for line in done.stdout.splitlines()]
+    voxels = sum(m["volume_mm3"] for event in reported if event["event"] == "done" for m in event["materials"])
     error = 1.5e-3 * voxels if design.stem in CURVED else body["area_mm2"] * pitch / 4 + 1e-3 * voxels
     expect(abs(voxels - body["volume_mm3"]) < error, f"{body}, {voxels} mm3 of voxels of {pitch} mm")
 
@@ -123,17 +123,17 @@ def wing_is_right_where_cells_can_follow_it(meshes):
 
 def bands_fill_the_whole(meshes):
     for name, arguments in [("stl", []), ("off", ["--by", "red", "--borders", "0.25,0.5,0.75"])]:
-        told = meshes.bodies("-o", "bands." + name, "--bands" if not arguments else "--keep-all",
+        reported = meshes.bodies("-o", "bands." + name, "--bands" if not arguments else "--keep-all",
                              *(["4"] if not arguments else []), *arguments)
-        expect([round(b["volume_mm3"], 4) for b in told["bodies"]] == [250] * 4, str(told))
-        names = [b["name"] for b in told["bodies"]]
+        expect([round(b["volume_mm3"], 4) for b in reported["bodies"]] == [250] * 4, str(reported))
+        names = [b["name"] for b in reported["bodies"]]
         expect(names == ["red below 25 %", "red 25 to 50 %", "red 50 to 75 %", "red from 75 %"], str(names))
 
 
 def materials_get_a_body_each(meshes):
-    told = meshes.bodies("-o", "materials.3mf", "--by", "materials")
-    expect([b["name"] for b in told["bodies"]] == ["red", "blue"], str(told))
-    for body in told["bodies"]:
+    reported = meshes.bodies("-o", "materials.3mf", "--by", "materials")
+    expect([b["name"] for b in reported["bodies"]] == ["red", "blue"], str(reported))
+    for body in reported["bodies"]:
         near(body["volume_mm3"], 500, 1e-6, body["name"])
 
 
@@ -141,8 +141,8 @@ def steps_have_borders(meshes):
     """Beyond the step both fractions are the same, and the first material wins."""
     (meshes.folder / "step.vcad").write_text('fgrade(["if(x < 0.1, 0, 0.5)", "if(x < 0.1, 1, 0.5)"], ["red", "blue"]) '
                                              'cube(10);', encoding="utf-8")
-    told = meshes.bodies("-o", "step.off", "--by", "materials", "--cell", "0.3", design="step.vcad")
-    for body, volume in zip(told["bodies"], (490, 510), strict=True):
+    reported = meshes.bodies("-o", "step.off", "--by", "materials", "--cell", "0.3", design="step.vcad")
+    for body, volume in zip(reported["bodies"], (490, 510), strict=True):
         near(body["volume_mm3"], volume, 1e-4, body["name"])
 
 
@@ -155,7 +155,7 @@ def materials_come_back(meshes):
     for name, rule in [("ball.3mf", "names"), ("ball.amf", "names"), ("ball.obj", "names"), ("ball.3mf", "colours"),
                        ("prusa.3mf", "names"), ("bambu.3mf", "colours")]:
         flavour = ["--flavour", name[:5]] if name in ("prusa.3mf", "bambu.3mf") else []
-        told = meshes.bodies("-o", name, "--by", "materials", "--force", "--tolerance", "0.05", *flavour,
+        reported = meshes.bodies("-o", name, "--by", "materials", "--force", "--tolerance", "0.05", *flavour,
                              design="ball.vcad")
         again = meshes.folder / "again.vcad"
         again.write_text(f'mesh("{name}", "gray", materials="{rule}");', encoding="utf-8")
@@ -165,7 +165,7 @@ def materials_come_back(meshes):
                    if event["event"] == "done"]
         voxels = {material["name"]: material["volume_mm3"] for material in done["materials"]}
         expect(set(voxels) == {"red", "blue"}, f"{name}: {voxels}")
-        for body in told["bodies"]:
+        for body in reported["bodies"]:
             near(voxels[body["name"]], body["volume_mm3"], 2e-3, f"{body['name']} of {name}")
 
 
@@ -218,7 +218,7 @@ def interrupts_leave_nothing(meshes):
     expect(meshes.names() == ["bar.vcad"], str(meshes.names()))
 
 
-def memory_is_told_and_kept(meshes):
+def memory_is_reported_and_kept(meshes):
     result = meshes.mesh("-o", "bar.stl", "--cell", "0.005", "--json", status=1)
     events = [json.loads(line) for line in result.stdout.splitlines()]
     (plan,) = [event for event in events if event["event"] == "plan"]
@@ -229,7 +229,7 @@ def memory_is_told_and_kept(meshes):
     expect(meshes.names() == ["bar.vcad"], str(meshes.names()))
 
 
-def thin_parts_are_told(meshes):
+def thin_parts_are_reported(meshes):
     (meshes.folder / "thin.vcad").write_text("translate(0, 0, 0.013) rectprism((100, 100, 0.05));\n"
                                              "translate(0, 0, 20) cube(10);", encoding="utf-8")
     result = meshes.mesh("-o", "thin.stl", design="thin.vcad")
@@ -241,7 +241,7 @@ def thin_parts_are_told(meshes):
 
 CHECKS = [wing_is_right_where_cells_can_follow_it, bands_fill_the_whole, materials_get_a_body_each, steps_have_borders,
           materials_come_back, slicers_get_settings_of_each_band, slips_get_remedies, files_are_kept,
-          interrupts_leave_nothing, memory_is_told_and_kept, thin_parts_are_told]
+          interrupts_leave_nothing, memory_is_reported_and_kept, thin_parts_are_reported]
 
 
 def in_a_folder(ombre, checker, comparer, check):

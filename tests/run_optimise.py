@@ -159,13 +159,13 @@ def ctrl_c_keeps_the_history(folder):
     while time.monotonic() < end and not (history.exists() and history.read_text().count("\n") > 2):
         time.sleep(0.05)
     process.send_signal(signal.SIGINT)
-    _, told = process.communicate(timeout=60)
-    expect(process.returncode == 130 and "--resume goes on" in told, f"{process.returncode}: {told}")
+    _, reported = process.communicate(timeout=60)
+    expect(process.returncode == 130 and "--resume goes on" in reported, f"{process.returncode}: {reported}")
     expect(history.read_text().endswith("\n") and len(folder.table("fine/history.csv")) >= 2, "the history is gone")
     expect(not list((folder.path / "fine").glob("*.part")), "a part of a file is left")
 
 
-def wrong_studies_are_told(folder):
+def wrong_studies_are_reported(folder):
     def error(study, design="bars.vcad", *options, status=1):
         folder.write("wrong.json", study)
         return folder.run(design, "--study", "wrong.json", "-o", "wrong", "--force", *options, status=status).stderr
@@ -173,8 +173,8 @@ def wrong_studies_are_told(folder):
     def with_variables(**variables):
         return {**LIGHT, "variables": variables}
 
-    told = error(with_variables(width={"from": 0, "to": 1}))
-    expect('no top-level variable "width"' in told and "it has a, b" in told and "wrong.json:1:" in told, told)
+    reported = error(with_variables(width={"from": 0, "to": 1}))
+    expect('no top-level variable "width"' in reported and "it has a, b" in reported and "wrong.json:1:" in reported, reported)
     expect("the range of \"a\" is empty" in error(with_variables(a={"from": 1, "to": 1})), "range")
     expect('a variable needs "to"' in error(with_variables(a={"from": 1})), "a bound")
     expect('"start" is a number from 0 to 1, not 3' in error(with_variables(a={"from": 0, "to": 1, "start": 3})), "start")
@@ -207,8 +207,8 @@ def wrong_studies_are_told(folder):
     again = ("schaffer.vcad", "--study", "front.json", "-o", "there")
     expect("--resume to go on" in folder.run(*again, status=1).stderr, "a folder that is there")
     folder.write("other.json", {**FRONT, "seed": 1})
-    told = folder.run("schaffer.vcad", "--study", "other.json", "-o", "there", "--resume", status=1).stderr
-    expect("of another study" in told, told)
+    reported = folder.run("schaffer.vcad", "--study", "other.json", "-o", "there", "--resume", status=1).stderr
+    expect("of another study" in reported, reported)
     folder.write("schaffer.vcad", SCHAFFER + "cube(1);\n")
     expect("of another study" in folder.run(*again, "--resume", status=1).stderr, "another design")
     expect(folder.read("there/history.csv") == before, "the history changed")
@@ -245,8 +245,8 @@ def topologies_are_as_stiff_as_published(folder):
     folder.write("mixed.vcad", 'd = volume("mbb/density.nrrd", clamp=true);\n'
                  "fgrade([d.value, 1 - d.value], [red, blue]) translate(30, 10, 0.5) rectprism((60, 20, 1), red);\n")
     for at, share in (("0.5,19.5,0.5", 1), ("0.5,10.5,0.5", 0)):
-        told = folder.run("mixed.vcad", "--at", at, "--json", command="probe").stdout
-        expect(('"red":1' if share else '"blue":1') in told, told)
+        reported = folder.run("mixed.vcad", "--at", at, "--json", command="probe").stdout
+        expect(('"red":1' if share else '"blue":1') in reported, reported)
         wanted = "inside" if share else "outside"
         expect(wanted in folder.run("mbb/topology.vcad", "--at", at, command="probe").stdout, f"{at} is not {wanted}")
 
@@ -271,7 +271,7 @@ def projection_draws_densities_apart(folder):
 
 def displacements_are_goals_of_topologies(folder):
     """Where the only load pulls, least displacement is least compliance: the same densities, and the compliance is force
-    times displacement. Elsewhere a displacement is changed as it is told, at the same volume."""
+    times displacement. Elsewhere a displacement is changed as requested, at the same volume."""
     load = MBB["fea"]["loads"][0]
     force = math.dist(load["force_n"], (0, 0, 0))
 
@@ -302,7 +302,7 @@ def displacements_are_goals_of_topologies(folder):
     near(greatest["volume_fraction"], 0.5, 1e-3, "the volume")
 
 
-def wrong_topologies_are_told(folder):
+def wrong_topologies_are_reported(folder):
     folder.write("mbb.vcad", "translate(30, 10, 0.5) rectprism((60, 20, 1), red);\n")
 
     def error(study, *options):
@@ -316,8 +316,8 @@ def wrong_topologies_are_told(folder):
                                  ({"on": "xmax", "direction": [0, 0, 0]}, "a direction without a length"),
                                  ({"on": "xmax", "direction": [0, 1, 0], "goal": "most"}, "least"),
                                  ({"on": {"box": [90, 0, 0, 91, 1, 1]}, "direction": [0, 1, 0]}, "in this box")):
-        told = error({**MBB, "topology": {**MBB["topology"], "displacement": displacement}})
-        expect(wanted in told, told)
+        reported = error({**MBB, "topology": {**MBB["topology"], "displacement": displacement}})
+        expect(wanted in reported, reported)
     expect("needs loads" in error({**MBB, "fea": {**MBB["fea"], "loads": []}}), "loads")
     expect("takes no gravity" in error({**MBB, "fea": {**MBB["fea"], "gravity_mm_s2": [0, -9810, 0]}}), "gravity")
     expect("supports that do not move" in error({**MBB, "fea": {**MBB["fea"], "supports": [
@@ -337,9 +337,9 @@ def main():
 
     checks = [bars_are_as_light_as_hookes_law_lets_them, the_best_design_is_a_script, beams_follow_beam_theory,
               fronts_are_found, whole_variables_are_whole, searches_go_on, ctrl_c_keeps_the_history,
-              wrong_studies_are_told, designs_that_fail_are_left_out, topologies_are_as_stiff_as_published, projection_draws_densities_apart,
+              wrong_studies_are_reported, designs_that_fail_are_left_out, topologies_are_as_stiff_as_published, projection_draws_densities_apart,
               displacements_are_goals_of_topologies,
-              wrong_topologies_are_told]
+              wrong_topologies_are_reported]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
 
 

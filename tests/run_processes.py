@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Jobs as processes: Ctrl-C is answered at once, --threads 1 means one busy thread, at any moment of any job, and --memory
-is kept or told of.
+is kept or reported.
 
     python3 tests/run_processes.py build/dev/apps/ombre/ombre [NAME...]
 """
@@ -48,7 +48,7 @@ JOBS = {
     "contours": (FOAM, ["contours", "--cell", "0.02", "--layer-height", "0.02", "-o", "out"], (0.3, 2)),
     "layer": (FOAM, ["layer", "--voxel", "0.001", "--z", "0", "-o", "out.png"], (0.3, 2)),
     "layer_of_supports": (SUPPORTS, ["layer", "--voxel", "0.02", "--z", "0", "-o", "out.png"], (0.3, 2)),
-    # Its solver looks between iterations, each of which takes longer with more bricks.
+    # Its solver checks between iterations, each of which takes longer with more bricks.
     "fea": (FOAM, ["fea", "--study", "study.json", "--cell", "1", "--solve", "-o", "out.vtu"], (0.3, 1)),
     "tetrahedra": (FOAM, ["fea", "--study", "study.json", "--elements", "tet4", "--size", "0.6", "-o", "out.vtu"], (0.3, 3)),
 }
@@ -121,18 +121,18 @@ def little_memory_gives_the_same_bytes(job):
     for words, name in ((["voxels", "ball.vcad", "--voxel", "0.04", "--what", "fractions"], "grid.raw"),
                         (["contours", "ball.vcad", "--cell", "0.02", "--layer-height", "0.5"], "part.cli")):
         stem, ending = name.split(".")
-        told = {}
+        reported = {}
         for memory in ("1M", "1G"):
             out = f"{stem}{memory}.{ending}"
             events = run(job, *words, "-o", out, "--memory", memory, "--threads", "4", "--json").stdout.splitlines()
-            told[memory] = next(e for e in map(json.loads, events) if e["event"] == "plan")["memory_bytes"]
+            reported[memory] = next(e for e in map(json.loads, events) if e["event"] == "plan")["memory_bytes"]
         few, many = ({p.name.replace(memory, ""): p.read_bytes() for p in job.folder.glob(f"{stem}{memory}*.{ending}")}
                      for memory in ("1M", "1G"))
         expect(few and few == many, f"{words[0]}: other bytes with less memory")
-        expect(0 < told["1M"] < told["1G"] <= 1 << 30, f"{words[0]} says that it takes {told}")
+        expect(0 < reported["1M"] < reported["1G"] <= 1 << 30, f"{words[0]} says that it takes {reported}")
 
 
-def too_little_memory_is_told_of(job):
+def too_little_memory_is_reported(job):
     error = run(job, "render", "ball.vcad", "--size", "9000x9000", "--memory", "100M", "-o", "a.png", status=2).stderr
     expect("takes about" in error and "--memory" in error and "--size" in error, error)
     warning = run(job, "layer", "ball.vcad", "--voxel", "0.003", "--z", "0", "--memory", "1M", "-o", "b.png").stderr
@@ -141,7 +141,7 @@ def too_little_memory_is_told_of(job):
 
 
 CHECKS = {name: lambda job, name=name: check_job(job, name) for name in JOBS}
-CHECKS |= {check.__name__: check for check in (little_memory_gives_the_same_bytes, too_little_memory_is_told_of)}
+CHECKS |= {check.__name__: check for check in (little_memory_gives_the_same_bytes, too_little_memory_is_reported)}
 
 
 if __name__ == "__main__":

@@ -72,7 +72,7 @@ def own_results_are_read_back(folder):
         expect(values["in"] == 1, "not inside")
 
 
-def outside_is_as_told(folder):
+def outside_is_as_requested(folder):
     folder.solve()
     design = 'attribute("a", results("cube.vtu", "displacement", component="z"{}).value) translate(0, 0, 5) {{ cube(10); }}'
     top = STRAIN * 10
@@ -81,11 +81,11 @@ def outside_is_as_told(folder):
         found = folder.attributes(design.format(rule), (0, 0, 8))[0]["a"]
         near(found, wanted, 1e-6, rule)
     folder.write("mixed.vcad", 'cube(12, mix(red, blue, results("cube.vtu", "von_mises").value / 200));')
-    told = folder.run("slice", "mixed.vcad", "--voxel", "0.5", "-o", "mixed").stderr
-    expect("is not a finite number" in told, told)
+    reported = folder.run("slice", "mixed.vcad", "--voxel", "0.5", "-o", "mixed").stderr
+    expect("is not a finite number" in reported, reported)
     folder.write("mixed.vcad", 'cube(12, mix(red, blue, results("cube.vtu", "von_mises", outside="nearest").value / 200));')
-    told = folder.run("slice", "mixed.vcad", "--voxel", "0.5", "-o", "mixed", "--force").stderr
-    expect("finite" not in told, told)
+    reported = folder.run("slice", "mixed.vcad", "--voxel", "0.5", "-o", "mixed", "--force").stderr
+    expect("finite" not in reported, reported)
 
 
 def the_mesh_is_a_solid(folder):
@@ -121,8 +121,8 @@ def coverage_is_reported(folder):
     corner = shares('attribute("s", results("cube.vtu", "von_mises").value) '
                     'translate(2.5, 2.5, 2.5) rectprism((10, 10, 10), red);')
     near(corner[0], 0.75**3, 0.02, "a corner")
-    told = info(f"rectprism((20, 10, 10), {mixed});")
-    expect("cube.vtu  about 50 % of the design's volume lies in the mesh" in told, told)
+    reported = info(f"rectprism((20, 10, 10), {mixed});")
+    expect("cube.vtu  about 50 % of the design's volume lies in the mesh" in reported, reported)
 
 
 def bytes_do_not_depend_on_threads(folder):
@@ -197,7 +197,7 @@ def results_are_drawn(folder):
     expect(not (folder.path / "never.png").exists(), "a picture is left")
 
 
-def wrong_use_is_told(folder):
+def wrong_use_is_reported(folder):
     folder.solve()
 
     def error(design, status=1):
@@ -209,8 +209,8 @@ def wrong_use_is_told(folder):
                        (("cube.vtu", "von_mises", "x"), "leave component out"),
                        (("cube.vtu", "displacement", "w"), "it has x, y, z"),
                        (("cube.vcad", "a"), "cube.vcad")):
-        told = error("r = results(%s);" % ", ".join(json.dumps(word) for word in call))
-        expect(what in told and "wrong.vcad:1:5" in told, told)
+        reported = error("r = results(%s);" % ", ".join(json.dumps(word) for word in call))
+        expect(what in reported and "wrong.vcad:1:5" in reported, reported)
     expect("outside=\"nearest\"" in error('r = results("cube.vtu", "von_mises", within=2);'), "within")
     data = (folder.path / "cube.vtu").read_bytes()
     for size in (100, 600, len(data) // 2, len(data) - 3000):
@@ -228,8 +228,8 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             function(Folder(ombre, scratch))
 
-    checks = [own_results_are_read_back, outside_is_as_told, the_mesh_is_a_solid, coverage_is_reported,
-              bytes_do_not_depend_on_threads, calculix_is_read, tables_are_read, results_are_described, results_are_drawn, wrong_use_is_told]
+    checks = [own_results_are_read_back, outside_is_as_requested, the_mesh_is_a_solid, coverage_is_reported,
+              bytes_do_not_depend_on_threads, calculix_is_read, tables_are_read, results_are_described, results_are_drawn, wrong_use_is_reported]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
 
 

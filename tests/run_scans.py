@@ -498,8 +498,8 @@ def facts_and_pictures_name_nobody(folder):
                             capture_output=True, text=True)
     expect(result.returncode == 0, result.stderr)
     picture = (folder / "planes.png").read_bytes()
-    for told in (result.stdout.encode(), result.stderr.encode(), picture):
-        expect(b"Doe" not in told and b"12345" not in told, "a patient is named")
+    for reported in (result.stdout.encode(), result.stderr.encode(), picture):
+        expect(b"Doe" not in reported and b"12345" not in reported, "a patient is named")
     expect("12 x 10 x 6 voxels" in result.stdout, result.stdout)
     image = np.asarray(PIL.Image.open(folder / "planes.png").convert("L")).astype(float)
     # 6 x 7.5 x 18 mm: 480 pixels are 18 mm.

@@ -169,9 +169,9 @@ def attributes_come_back(grid):
     at = ["--at=" + ",".join(map(repr, point)) for point in points]
 
     def values_of(design):
-        told = program.run([grid.ombre, "probe", design, "--json", *at], cwd=grid.folder)
-        expect(told.returncode == 0, told.stdout + told.stderr)
-        found = [json.loads(line) for line in told.stdout.splitlines()]
+        reported = program.run([grid.ombre, "probe", design, "--json", *at], cwd=grid.folder)
+        expect(reported.returncode == 0, reported.stdout + reported.stderr)
+        found = [json.loads(line) for line in reported.stdout.splitlines()]
         return [event["attributes"] for event in found if event["event"] == "point"]
 
     def source(ending, name):
@@ -322,10 +322,10 @@ def openvdb_prints_the_same(grid):
     if "without OpenVDB" in made.stderr:
         return "skipped: no OpenVDB"
     expect(made.returncode == 0, made.stderr)
-    told = program.run(["vdb_print", "-l", "ball.vdb"], cwd=grid.folder)
-    expect(told.returncode == 0, told.stderr)
+    reported = program.run(["vdb_print", "-l", "ball.vdb"], cwd=grid.folder)
+    expect(reported.returncode == 0, reported.stderr)
     found = {}
-    for text in told.stdout.split("Name: ")[1:]:
+    for text in reported.stdout.split("Name: ")[1:]:
         box = re.search(r"Bounding box of active voxels: *(.*)", text)[1]
         found[text.splitlines()[0]] = (re.search(r"class: (.*)", text)[1], box, re.search(r"voxel size: (.*)", text)[1])
     expect(found == {"distance": ("level set", "[-3, -3, -3] -> [22, 22, 22]", "0.5"),

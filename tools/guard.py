@@ -118,7 +118,7 @@ def recorded(a, runner, archive, before):
     return record, {task.name: task for task in tasks}
 
 
-def tell_what_ran(record, tasks, seconds, runner):
+def report_runs(record, tasks, seconds, runner):
     outputs = [line for name, line in record.lines.items() if name.endswith(" files")]
     print(f"{len(tasks)} jobs in {seconds:.0f} s, {sum(line.size for line in outputs) / 1e6:.1f} MB of files")
     slowest = sorted(tasks.values(), key=lambda task: -task.seconds)[:SLOWEST]
@@ -169,7 +169,7 @@ def files_of(store, listing_hash):
     return {name: store.get(digest) for name, digest in hashes_of(store.get(listing_hash)).items()}
 
 
-def tell_differences(comparison, names, tasks, runner, kept):
+def report_differences(comparison, names, tasks, runner, kept):
     """By design and kind of job: what differs, and how to see it."""
     groups = collections.defaultdict(lambda: collections.defaultdict(list))
     for name in sorted(names):
@@ -196,7 +196,7 @@ def missing_from(names, others, quick, only):
     return [name for name in names - others if not quick and re.search(only, name.rpartition(" ")[0])]
 
 
-def tell_of_jobs(word, names):
+def report_jobs(word, names):
     jobs = sorted({name.rpartition(" ")[0] for name in names})
     if jobs:
         print(f"{len(jobs)} {word}: {', '.join(jobs[:5])}{', ...' if len(jobs) > 5 else ''}")
@@ -206,19 +206,19 @@ def compare(a, runner, scratch):
     before, start = Record.read(a.file), time.monotonic()
     archive = pathlib.Path(scratch) / "now.zip"
     now, tasks = recorded(a, runner, archive, before)
-    tell_what_ran(now, tasks, time.monotonic() - start, runner)
+    report_runs(now, tasks, time.monotonic() - start, runner)
     kept = a.file.resolve().with_name(a.file.name + ".differences")
     shutil.rmtree(kept, ignore_errors=True)
     with contextlib.ExitStack() as stack:
         old = stack.enter_context(Store(archive_of(a.file))) if archive_of(a.file).exists() else None
         comparison = Comparison(before, now, old, stack.enter_context(Store(archive)))
         different, internal = comparison.different("output"), comparison.different("internal")
-        tell_differences(comparison, different, tasks, runner, kept)
+        report_differences(comparison, different, tasks, runner, kept)
     expected = {name for name in before.lines if runner.has_package or not name.startswith("python/")}
     gone = missing_from(expected, now.lines.keys(), a.quick, a.only)
-    tell_of_jobs("jobs were recorded and are no more", gone)
-    tell_of_jobs("jobs are new", now.lines.keys() - before.lines.keys())
-    tell_of_jobs("internal forms differ, which no output shows", internal)
+    report_jobs("jobs were recorded and are no more", gone)
+    report_jobs("jobs are new", now.lines.keys() - before.lines.keys())
+    report_jobs("internal forms differ, which no output shows", internal)
     same = len({name for name, line in now.lines.items() if line.shape == "output"}) - len(different)
     print(f"{same} outputs are the same, {len(different)} differ")
     return 1 if different or gone else 0
@@ -229,7 +229,7 @@ def record_to_file(a, runner):
     a.file.parent.mkdir(parents=True, exist_ok=True)
     record, tasks = recorded(a, runner, archive_of(a.file), Record())
     record.write(a.file)
-    tell_what_ran(record, tasks, time.monotonic() - start, runner)
+    report_runs(record, tasks, time.monotonic() - start, runner)
     print(f"recorded in {a.file} and {archive_of(a.file).name}")
     return 0
 

@@ -13,27 +13,27 @@ LINES_SHOWN, LETTERS_SHOWN = 6, 160
 
 def of_files(before, now):
     """Of two sets of files (contents by name): how many differ, and how one of them does."""
-    told = []
+    lines = []
     for word, names in (("missing", before.keys() - now.keys()), ("new", now.keys() - before.keys())):
         if names:
-            told.append(f"{len(names)} {word}, the first {min(names)}")
+            lines.append(f"{len(names)} {word}, the first {min(names)}")
     different = sorted(name for name in before.keys() & now.keys() if before[name] != now[name])
     if different:
         # A job's description changes with its images, which say more.
         name = next((each for each in different if not each.endswith((".json", ".jsonl"))), different[0])
         which = name if len(now) == 1 else f"{len(different)} of {len(now)} files differ, {name}"
-        told.append(f"{which}: {of_contents(name, before[name], now[name])}")
-    return "; ".join(told)
+        lines.append(f"{which}: {of_contents(name, before[name], now[name])}")
+    return "; ".join(lines)
 
 
 def of_contents(name, before, now):
     for describe in (of_pictures, of_meshes, of_texts):
         try:
-            told = describe(name, before, now)
+            lines = describe(name, before, now)
         except (ValueError, KeyError, struct.error, zipfile.BadZipFile):
-            told = ""
-        if told:
-            return told
+            lines = ""
+        if lines:
+            return lines
     return of_bytes(before, now)
 
 

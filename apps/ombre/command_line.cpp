@@ -85,8 +85,8 @@ class CommandLine {
       if (const std::string problem = unknown_command(program_, argv[1]); !problem.empty()) return wrong(problem);
     try {
       program_.parse(argc, argv);
-    } catch (const CLI::Success& asked) {  // --help, --version
-      return program_.exit(asked);
+    } catch (const CLI::Success& success) {  // --help, --version
+      return program_.exit(success);
     } catch (const CLI::ParseError& error) {
       return wrong(explain(program_, error));
     } catch (const WrongArgument& error) {

@@ -55,7 +55,7 @@ TEST(CommandLine, SlipsGetSuggestions) {
   expect_wrong({"nodes", "spere"}, "did you mean \"sphere\"?");
 }
 
-TEST(CommandLine, ValuesThatDoNotFitAreToldWithThoseThatDo) {
+TEST(CommandLine, ValuesThatDoNotFitAreReportedWithThoseThatDo) {
   expect_wrong({"slice", "part.vcad", "--threads", "x"}, "--threads: \"x\" is not a whole number from 1 to 1024");
   for (const char* command : {"slice", "render", "mesh", "voxels", "contours"})
     expect_wrong({command, "part.vcad", "--threads", "0"}, "--threads: \"0\" is not a whole number from 1 to 1024");
@@ -67,7 +67,7 @@ TEST(CommandLine, ValuesThatDoNotFitAreToldWithThoseThatDo) {
   expect_wrong({"mesh", "part.vcad", "--flavor", "cura"}, "there is no \"cura\"; there are generic, prusa, bambu; see");
 }
 
-TEST(CommandLine, WhatIsMissingIsTold) {
+TEST(CommandLine, WhatIsMissingIsReported) {
   expect_wrong({"slice"}, "the design is missing; write for example ombre slice part.vcad; see ombre slice --help");
   expect_wrong({"probe", "part.vcad"}, "--at is missing; write ombre probe ... --at X,Y,Z; see");
   expect_wrong({"bundle"}, "the design is missing; write for example ombre bundle part.vcad; see");

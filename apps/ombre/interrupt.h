@@ -22,7 +22,7 @@ class InterruptGuard {
 };
 
 // While one exists, the first signal ends the program at once: nothing has been written yet, and what is under way, in
-// libraries of others, cannot be told to stop.
+// libraries of others, cannot be asked to stop.
 class QuitAtOnce {
  public:
   QuitAtOnce();

@@ -139,7 +139,7 @@ void warn_of_folds(const Console& console, const compile::MeshedDesign& made) {
   std::vector<std::string> what;
   if (crossing == 1) what.emplace_back("1 pair of triangles goes through each other");
   if (crossing > 1) what.push_back(format_count(crossing) + " pairs of triangles go through each other");
-  if (folded == 1) what.emplace_back("1 triangle looks inwards");
+  if (folded == 1) what.emplace_back("1 triangle faces inwards");
   if (folded > 1) what.push_back(format_count(folded) + " triangles look inwards");
   if (what.empty()) return;
   console.warn(join(what, " and ") + ", where the design is finer than the cells of " +
@@ -188,10 +188,10 @@ void check_beams(const MeshChoices& a, const compile::MeshRequest& request, cons
 int mesh(const MeshChoices& a, Session& session) {
   compile::MeshRequest request = a.request();
   Diagnostics diagnostics;
-  size_t told = 0;
+  size_t reported = 0;
   const auto diagnose = [&] {
-    session.console.diagnose(diagnostics.after(told));
-    told = diagnostics.list().size();
+    session.console.diagnose(diagnostics.after(reported));
+    reported = diagnostics.list().size();
   };
   request.announce = [&](const compile::MeshPlan& plan) {
     diagnose();

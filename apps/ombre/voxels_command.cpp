@@ -189,7 +189,7 @@ int write(const GridChoices& a, const compile::GridJob& job, const Format& forma
   return write_dense(a, job, std::get<exporting::VolumeFormat>(format), session, stop);
 }
 
-std::optional<compile::GridJob> plan_job(const GridChoices& a, const compile::GridWishes& wishes, Session& session,
+std::optional<compile::GridJob> plan_job(const GridChoices& a, const compile::GridQuery& query, Session& session,
                                          Diagnostics& diagnostics) {
   const auto options = plan_options(a.sampling, a.work, session, diagnostics);
   if (!options) return std::nullopt;
@@ -202,20 +202,20 @@ std::optional<compile::GridJob> plan_job(const GridChoices& a, const compile::Gr
   if (!loaded) return std::nullopt;
   const auto plan = compile::plan_slice(loaded, *options, diagnostics);
   if (!plan) return std::nullopt;
-  auto job = compile::plan_grids(loaded, *plan, wishes, chosen_region(a, plan->request.lattice), diagnostics);
+  auto job = compile::plan_grids(loaded, *plan, query, chosen_region(a, plan->request.lattice), diagnostics);
   if (job) job->memory_bytes = a.work.memory_bytes;
   return job;
 }
 
 int voxels(const GridChoices& a, Session& session) {
-  // A slip is better told before a long load.
+  // A slip is reported before a long load, not after it.
   const Format format = chosen_format(a);
   const std::string usual = is_scan(a.design.design) ? "number"
                             : is_sparse(format)      ? "distance,fractions"
                                                      : "materials";
-  const compile::GridWishes wishes = a.wishes(usual, is_sparse(format));
+  const compile::GridQuery query = a.query(usual, is_sparse(format));
   Diagnostics diagnostics;
-  const auto job = plan_job(a, wishes, session, diagnostics);
+  const auto job = plan_job(a, query, session, diagnostics);
   session.console.diagnose(diagnostics);
   if (!job || diagnostics.has_errors()) return wrong_input;
   warn_of_metric(session.console, *job);

@@ -29,20 +29,20 @@ class Exports::Watch : public Progress {
     {
       const std::lock_guard lock(exports_.mutex_);
       job_.how_far = how_far;
-      if (told_.seconds() < 0.2) return;
-      told_ = {};
+      if (since_report_.seconds() < 0.2) return;
+      since_report_ = {};
       now = describe(job_);
     }
-    exports_.tell_(now);
+    exports_.report_(now);
   }
 
  private:
   Exports& exports_;
   Job& job_;
-  Stopwatch told_;
+  Stopwatch since_report_;
 };
 
-Exports::Exports(Tell tell) : tell_(std::move(tell)), thread_([this] { run(); }) {}
+Exports::Exports(Report report) : report_(std::move(report)), thread_([this] { run(); }) {}
 
 Exports::~Exports() {
   {
@@ -112,7 +112,7 @@ void Exports::stop(int64_t id, State state) {
     job->state = state;
     now = describe(*job);
   }
-  tell_(now);
+  report_(now);
 }
 
 void Exports::pause(int64_t id) { stop(id, State::paused); }
@@ -130,7 +130,7 @@ void Exports::resume(int64_t id) {
     job->stop = std::make_shared<StopFlag>();
     now = describe(*job);
   }
-  tell_(now);
+  report_(now);
   news_.notify_all();
 }
 
@@ -161,7 +161,7 @@ void Exports::run() {
     job->state = State::working;
     const DataMembers now = describe(*job);
     lock.unlock();
-    tell_(now);
+    report_(now);
     work(*job);
     lock.lock();
   }
@@ -175,7 +175,7 @@ void Exports::end(Job& job, State state, const std::string& message) {
     job.message = message;
     now = describe(job);
   }
-  tell_(now);
+  report_(now);
 }
 
 void Exports::work(Job& job) {

@@ -29,9 +29,9 @@ struct ExportRequest {
 class Exports {
  public:
   // Called with a job's state when it changes, and now and then while it works, from any thread.
-  using Tell = std::function<void(const DataMembers& job)>;
+  using Report = std::function<void(const DataMembers& job)>;
 
-  explicit Exports(Tell tell);
+  explicit Exports(Report report);
   // Pauses what is at work, and waits for it.
   ~Exports();
   Exports(const Exports&) = delete;
@@ -61,7 +61,7 @@ class Exports {
   void stop(int64_t id, State state);
   static DataMembers describe(const Job& job);
 
-  Tell tell_;
+  Report report_;
   mutable std::mutex mutex_;
   std::condition_variable news_;
   std::list<JobPtr> jobs_;

@@ -64,8 +64,8 @@ TEST_F(StudioTest, ShowsDeepDesignsAndRefusesDeeperOnes) {
     const Data refused = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(script)).first;
     EXPECT_EQ(*refused.find("ok"), Data(false));
     ASSERT_FALSE(refused.find("diagnostics")->list()->empty());
-    const std::string told = text(refused.find("diagnostics")->list()->front(), "message");
-    EXPECT_NE(told.find(why), std::string::npos) << told;
+    const std::string message = text(refused.find("diagnostics")->list()->front(), "message");
+    EXPECT_NE(message.find(why), std::string::npos) << message;
   }
   studio.take(client, R"({"id": 900, "do": "load", "x": )" + std::string(100'000, '[') + "}");
   EXPECT_EQ(text(answer(-1).first, "error"), "request");

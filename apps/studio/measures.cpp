@@ -103,9 +103,9 @@ compile::LoadedPtr with_labels(const compile::Loaded& loaded) {
 Answer measure_answer(OpenDesign& design, const Request&, const StopFlag& stop) {
   const compile::LoadedPtr labelled = with_labels(*design.loaded);
   const std::vector<std::string> parts = compile::part_names(labelled->design);
-  compile::GridWishes wishes = all_fractions();
-  if (!parts.empty()) wishes.attributes = {compile::part_label};
-  const SampledDesign sampled = sample(design, labelled, design.bounds, measured_voxels, stop, wishes);
+  compile::GridQuery query = all_fractions();
+  if (!parts.empty()) query.attributes = {compile::part_label};
+  const SampledDesign sampled = sample(design, labelled, design.bounds, measured_voxels, stop, query);
   Amounts amounts(sampled.job, design.loaded->design.materials, parts);
   const auto take = [&](const compile::GridSlab& slab) {
     for (const voxel::FieldTile& tile : slab.tiles) amounts.add(tile);

@@ -14,7 +14,7 @@ namespace {
 using design::Node;
 using design::NodePtr;
 
-// Solids that are asked about a point at once, each of which is compiled; bounds have left out most before.
+// Solids that are evaluated at a point at once, each of which is compiled; bounds have left out most before.
 constexpr size_t most_candidates = 64;
 
 // Is the shape that of its one input, as it is or in other places?
@@ -60,28 +60,28 @@ class Descent {
 
   NodePtr first_around(std::vector<NodePtr> solids, bool is_last) const {
     if (is_last) std::ranges::reverse(solids);
-    design::Design asked = design_;
-    asked.parts.clear();
+    design::Design alone = design_;
+    alone.parts.clear();
     std::vector<NodePtr> candidates;
     for (const NodePtr& solid : solids) {
       NodePtr there = placed(solid);
       if (there->bounds({point_, point_}).is_empty()) continue;
       if (candidates.size() == most_candidates) return nullptr;
-      asked.parts.push_back({std::to_string(candidates.size()), std::move(there)});
+      alone.parts.push_back({std::to_string(candidates.size()), std::move(there)});
       candidates.push_back(solid);
     }
-    const size_t found = candidates.empty() ? 0 : first_inside(asked);
+    const size_t found = candidates.empty() ? 0 : first_inside(alone);
     return found < candidates.size() ? candidates[found] : nullptr;
   }
 
   // The number of the part, or one beyond the last.
-  size_t first_inside(const design::Design& asked) const {
+  size_t first_inside(const design::Design& alone) const {
     if (stop_.requested()) throw Cancelled();
-    compile::SampleWishes wishes;
-    wishes.parts = true;
+    compile::SampleQuery query;
+    query.parts = true;
     Diagnostics ignored;
-    const auto sampler = compile::Sampler::build(asked, wishes, ignored);
-    if (!sampler) return asked.parts.size();
+    const auto sampler = compile::Sampler::build(alone, query, ignored);
+    if (!sampler) return alone.parts.size();
     std::vector<double> values(sampler->columns().size());
     std::vector<double*> columns;
     for (double& value : values) columns.push_back(&value);

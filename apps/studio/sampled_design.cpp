@@ -21,12 +21,12 @@ Pitch pitch_for(const Box& box, double voxels) {
 }  // namespace
 
 SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, const StopFlag& stop,
-                     const compile::GridWishes& wishes) {
-  return sample(design, design.loaded, box, voxels, stop, wishes);
+                     const compile::GridQuery& query) {
+  return sample(design, design.loaded, box, voxels, stop, query);
 }
 
 SampledDesign sample(const OpenDesign& design, const compile::LoadedPtr& form, const Box& box, double voxels,
-                     const StopFlag& stop, const compile::GridWishes& wishes) {
+                     const StopFlag& stop, const compile::GridQuery& query) {
   Diagnostics diagnostics;
   const auto printer = compile::find_printer("generic", diagnostics);
   if (!printer) throw design_error(diagnostics);
@@ -38,7 +38,7 @@ SampledDesign sample(const OpenDesign& design, const compile::LoadedPtr& form, c
   auto plan = compile::plan_over(form, box, options, diagnostics);
   if (!plan) throw design_error(diagnostics);
   const auto& count = plan->request.lattice.count;
-  auto job = compile::plan_grids(form, *plan, wishes, {{0, 0, 0}, {count[0], count[1], count[2]}}, diagnostics);
+  auto job = compile::plan_grids(form, *plan, query, {{0, 0, 0}, {count[0], count[1], count[2]}}, diagnostics);
   if (!job) throw design_error(diagnostics);
   return {std::move(*plan), std::move(*job)};
 }

@@ -7,7 +7,7 @@
 
 namespace ombre::studio {
 
-constexpr double measured_voxels = 1e6;  // that volumes are told by
+constexpr double measured_voxels = 1e6;  // samples from which volumes are estimated
 
 struct SampledDesign {
   compile::Plan plan;
@@ -17,18 +17,18 @@ struct SampledDesign {
 };
 
 // A grid for each material: its fraction.
-inline compile::GridWishes all_fractions() {
-  compile::GridWishes wishes;
-  wishes.fractions = true;
-  return wishes;
+inline compile::GridQuery all_fractions() {
+  compile::GridQuery query;
+  query.fractions = true;
+  return query;
 }
 
 // About so many voxels fill the box: equal boxes and numbers give equal lattices. Throws RequestError for what cannot
 // be sampled, and Cancelled.
 SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, const StopFlag& stop,
-                     const compile::GridWishes& wishes = all_fractions());
+                     const compile::GridQuery& query = all_fractions());
 // The same of another form of the design.
 SampledDesign sample(const OpenDesign& design, const compile::LoadedPtr& form, const Box& box, double voxels,
-                     const StopFlag& stop, const compile::GridWishes& wishes);
+                     const StopFlag& stop, const compile::GridQuery& query);
 
 }  // namespace ombre::studio

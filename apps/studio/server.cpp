@@ -328,7 +328,7 @@ class Listener {
   asio::steady_timer pause_;
 };
 
-// Looks around now and then, and ends the server when it is asked to stop.
+// Checks the folder now and then, and ends the server when it is asked to stop.
 class Clock {
  public:
   Clock(asio::io_context& context, Studio& studio, double idle_seconds, const StopFlag& stop)
@@ -337,7 +337,7 @@ class Clock {
   void tick() {
     if (stop_.requested()) return context_.stop();
     if (idle_seconds_ > 0 && studio_.idle_seconds() > idle_seconds_) return context_.stop();
-    if (++ticks_ % ticks_between_looks == 0) studio_.look_around();
+    if (++ticks_ % ticks_between_checks == 0) studio_.check_disk();
     timer_.expires_after(duration(0.1));
     timer_.async_wait([this](error_code error) {
       if (!error) tick();
@@ -345,7 +345,7 @@ class Clock {
   }
 
  private:
-  static constexpr int ticks_between_looks = 5;
+  static constexpr int ticks_between_checks = 5;
 
   asio::io_context& context_;
   asio::steady_timer timer_;

@@ -269,7 +269,7 @@ TEST_F(ServerTest, Refuses200WindowsInClearWords) {
   EXPECT_TRUE(has(answer, " 101 ")) << answer;
 }
 
-TEST(Server, EndsWhenNobodyLooksAtIt) {
+TEST(Server, EndsWhenNobodyUsesIt) {
   const TestFolder folder;
   sources::SourceCache cache;
   Studio studio(folder.path, {"ombre test", {}, "", 60}, cache);

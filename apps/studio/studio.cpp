@@ -120,7 +120,7 @@ Studio::Studio(const std::filesystem::path& folder, StudioOptions options, sourc
       scans_(workspace_),
       presets_(workspace_),
       exports_([this](const DataMembers& job) {
-        tell_all("job", {{"job", job}});
+        broadcast("job", {{"job", job}});
       }),
       // A few at once, so that short questions are answered while a long one is at work; each uses all cores.
       queue_(std::max(4, core_count())) {}
@@ -138,7 +138,7 @@ void Studio::remove(const ClientPtr& client) {
   clients_.erase(client);
 }
 
-void Studio::tell_all(const std::string& event, const DataMembers& members) {
+void Studio::broadcast(const std::string& event, const DataMembers& members) {
   std::vector<ClientPtr> clients;
   {
     const std::lock_guard lock(mutex_);
@@ -206,10 +206,10 @@ void Studio::give_memory_back() {
 #endif
 }
 
-void Studio::look_around() {
+void Studio::check_disk() {
   give_memory_back();
   for (const Workspace::Change& change : workspace_.changes())
-    tell_all("changed", {{"file", change.name}, {"version", change.version}});
+    broadcast("changed", {{"file", change.name}, {"version", change.version}});
 }
 
 // Lists the files of the folder: designs, and the data beside them.
@@ -270,7 +270,7 @@ Answer Studio::save(const Request& request, const StopFlag&) {
     return {std::move(members), {}};
   }
   const std::string version = std::get<std::string>(saved);
-  tell_all("changed", {{"file", name}, {"version", version}});
+  broadcast("changed", {{"file", name}, {"version", version}});
   return {{{"saved", true}, {"version", version}}, {}};
 }
 
@@ -299,16 +299,16 @@ Answer Studio::save_preset(const Request& request, const StopFlag&) {
   if (!values || !values->members())
     throw RequestError("request", "the request needs \"values\", an object: {\"width\": 3}");
   const std::string& file = request.text("file");
-  return tell_presets(file, presets_.save(file, request.text("name"), *values->members(), request.flag("replace")));
+  return presets_answer(file, presets_.save(file, request.text("name"), *values->members(), request.flag("replace")));
 }
 
 Answer Studio::delete_preset(const Request& request, const StopFlag&) {
   const std::string& file = request.text("file");
-  return tell_presets(file, presets_.remove(file, request.text("name")));
+  return presets_answer(file, presets_.remove(file, request.text("name")));
 }
 
-Answer Studio::tell_presets(const std::string& file, DataList presets) {
-  tell_all("presets", {{"file", file}, {"presets", presets}});
+Answer Studio::presets_answer(const std::string& file, DataList presets) {
+  broadcast("presets", {{"file", file}, {"presets", presets}});
   return {{{"presets", std::move(presets)}}, {}};
 }
 

@@ -49,7 +49,7 @@ class Studio {
   // A request of the client; its answer comes when it is done.
   void take(const ClientPtr& client, const std::string& text);
   // To be called a few times a second: tells clients which files others have changed.
-  void look_around();
+  void check_disk();
   // How long it has had neither a client nor a job at work.
   double idle_seconds();
   // How often something was made of a sub-design, and how often it was there already.
@@ -60,7 +60,7 @@ class Studio {
   static const std::vector<Kind>& kinds();
 
   void answer(const ClientPtr& client, const Request& request, const Kind& kind, const StopFlag& cancelled);
-  void tell_all(const std::string& event, const DataMembers& members);
+  void broadcast(const std::string& event, const DataMembers& members);
   OpenDesignPtr design_of(const Request& request) { return designs_.find(request.text("design")); }
 
   Answer hello(const Request& request, const StopFlag& stop);
@@ -71,7 +71,7 @@ class Studio {
   Answer presets(const Request& request, const StopFlag& stop);
   Answer save_preset(const Request& request, const StopFlag& stop);
   Answer delete_preset(const Request& request, const StopFlag& stop);
-  Answer tell_presets(const std::string& file, DataList presets);
+  Answer presets_answer(const std::string& file, DataList presets);
   compile::LoadedPtr read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
                           Diagnostics& diagnostics);
   Answer load(const Request& request, const StopFlag& stop);

@@ -68,9 +68,9 @@ TEST_F(StudioTest, KeepsPresets) {
   const Data saved = ask("save_preset", R"("file": "a.vcad", "name": "large", "values": {"radius": 4.5})").first;
   const Data expected(DataList{DataMembers{{"name", "large"}, {"values", DataMembers{{"radius", "4.5"}}}}});
   EXPECT_EQ(*saved.find("presets"), expected);
-  const Data told = client->wait([](const Data& data) { return data.find("event") != nullptr; }).first;
-  EXPECT_EQ(text(told, "event") + text(told, "file"), "presetsa.vcad");
-  EXPECT_EQ(*told.find("presets"), expected);
+  const Data message = client->wait([](const Data& data) { return data.find("event") != nullptr; }).first;
+  EXPECT_EQ(text(message, "event") + text(message, "file"), "presetsa.vcad");
+  EXPECT_EQ(*message.find("presets"), expected);
   EXPECT_EQ(*ask("presets", R"("file": "a.vcad")").first.find("presets"), expected);
   EXPECT_EQ(text(ask("save_preset", R"("file": "a.vcad", "name": "large", "values": {})").first, "error"), "exists");
   EXPECT_EQ(text(ask("save_preset", R"("file": "a.vcad", "name": "large")").first, "error"), "request");
@@ -117,7 +117,7 @@ TEST_F(StudioTest, TellsOfChangesOnTheDisk) {
   folder.write("a.vcad", "one");
   const std::string version = text(ask("open", R"("file": "a.vcad")").first, "version");
   folder.write("a.vcad", "three");
-  studio.look_around();
+  studio.check_disk();
   const Data event = client->wait([](const Data& data) { return data.find("event") != nullptr; }).first;
   EXPECT_EQ(text(event, "file"), "a.vcad");
   const Data saved = ask("save", R"("file": "a.vcad", "text": "mine", "version": ")" + version + '"').first;

@@ -232,14 +232,15 @@ TEST_F(StudioTest, PortsSayWhichNodesGoInWhere) {
     return std::ranges::find_if(nodes, [&](const Data& node) { return text(node, "type") == type; });
   };
   const auto ports = [&](const std::string& type) {
-    std::string told;
+    std::string text_of_graph;
     for (const Data& port : *find(type)->find("ports")->list()) {
-      told += text(port, "name") + ": " + text(port, "type");
+      text_of_graph += text(port, "name") + ": " + text(port, "type");
       for (const Data& edge : *port.find("from")->list())
-        told += " <- " + text(nodes[static_cast<size_t>(number_in(edge, "node"))], "type") + " " + text(edge, "output");
-      told += '\n';
+        text_of_graph +=
+            " <- " + text(nodes[static_cast<size_t>(number_in(edge, "node"))], "type") + " " + text(edge, "output");
+      text_of_graph += '\n';
     }
-    return told;
+    return text_of_graph;
   };
   EXPECT_EQ(ports("difference"), "solids: solid <- attribute  <- cube \n");
   EXPECT_EQ(ports("attribute"),

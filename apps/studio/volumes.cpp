@@ -74,14 +74,14 @@ class ValueTexture {
 
   // A tile of the value, and of the mark of what is inside.
   void add(const voxel::FieldTile& tile) {
-    const float *value = tile.output(0), *mark = tile.output(1);
+    const float *value = tile.output(0), *inside = tile.output(1);
     const int64_t next = tile.is_uniform ? 0 : 1;
     const voxel::TileBox& box = tile.box;
     for (int64_t k = box.lo[2]; k < box.hi[2]; ++k)
       for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
         const int64_t row = (k / 2 * count_[1] + j / 2) * count_[0];
-        for (int64_t i = box.lo[0]; i < box.hi[0]; ++i, value += next, mark += next)
-          if (*mark > 0 && !std::isnan(*value)) add(static_cast<size_t>(row + i / 2), static_cast<double>(*value));
+        for (int64_t i = box.lo[0]; i < box.hi[0]; ++i, value += next, inside += next)
+          if (*inside > 0 && !std::isnan(*value)) add(static_cast<size_t>(row + i / 2), static_cast<double>(*value));
       }
   }
   const std::array<int64_t, 3>& count() const { return count_; }
@@ -124,9 +124,9 @@ Answer value_volume(OpenDesign& design, const std::string& attribute, double vox
   Diagnostics diagnostics;
   const auto range = compile::value_range(design.loaded->design, design.bounds, attribute, diagnostics);
   if (!range) throw diagnostics.has_errors() ? design_error(diagnostics) : RequestError("design", "nothing is inside");
-  compile::GridWishes wishes;
-  wishes.attributes = {attribute};
-  const SampledDesign sampled = sample(design, design.bounds, voxels, stop, wishes);
+  compile::GridQuery query;
+  query.attributes = {attribute};
+  const SampledDesign sampled = sample(design, design.bounds, voxels, stop, query);
   const voxel::Lattice& lattice = sampled.job.request.lattice;
   ValueTexture texture(lattice.count, *range);
   const auto take = [&](const compile::GridSlab& slab) {

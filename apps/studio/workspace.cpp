@@ -55,7 +55,7 @@ Workspace::Workspace(const fs::path& folder) {
   if (error || !fs::is_directory(root_)) throw Error(folder.string() + " is no folder that the studio could show");
 }
 
-void Workspace::walk(const std::function<bool(const std::string& name, bool is_folder)>& take) const {
+void Workspace::each_entry(const std::function<bool(const std::string& name, bool is_folder)>& take) const {
   std::error_code error;
   fs::recursive_directory_iterator files(root_, fs::directory_options::skip_permission_denied, error);
   for (const fs::recursive_directory_iterator end; !error && files != end; files.increment(error)) {
@@ -73,7 +73,7 @@ void Workspace::walk(const std::function<bool(const std::string& name, bool is_f
 
 std::vector<std::string> Workspace::list() const {
   std::vector<std::string> names;
-  walk([&](const std::string& name, bool is_folder) {
+  each_entry([&](const std::string& name, bool is_folder) {
     if (!is_folder && is_design_name(name) && !is_presets_file(root_ / name)) names.push_back(name);
     return names.size() < most_files;
   });
@@ -83,7 +83,7 @@ std::vector<std::string> Workspace::list() const {
 
 std::vector<Workspace::DataFile> Workspace::list_data() const {
   std::vector<DataFile> found;
-  walk([&](const std::string& name, bool is_folder) {
+  each_entry([&](const std::string& name, bool is_folder) {
     const bool is_series = is_folder && is_dicom_folder(root_ / name);
     const DataKind kind = is_series ? DataKind::scan : is_folder ? DataKind::none : data_kind(name);
     if (kind != DataKind::none) found.push_back({name, kind});
@@ -95,7 +95,7 @@ std::vector<Workspace::DataFile> Workspace::list_data() const {
 
 std::vector<std::string> Workspace::list_ending_in(const std::vector<std::string>& endings) const {
   std::vector<std::string> names;
-  walk([&](const std::string& name, bool is_folder) {
+  each_entry([&](const std::string& name, bool is_folder) {
     const auto is_of_name = [lower = to_lower(name)](const std::string& ending) { return lower.ends_with(ending); };
     if (!is_folder && std::ranges::any_of(endings, is_of_name)) names.push_back(name);
     return names.size() < most_files;

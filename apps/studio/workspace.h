@@ -69,7 +69,7 @@ class Workspace {
   };
   // Calls the function with the names of files and folders that are not hidden, until it returns false for a file; a
   // folder is entered if it returns true.
-  void walk(const std::function<bool(const std::string& name, bool is_folder)>& take) const;
+  void each_entry(const std::function<bool(const std::string& name, bool is_folder)>& take) const;
   void note(const std::string& name, const std::filesystem::path& file, const std::string& version);
 
   std::filesystem::path root_;

@@ -27,13 +27,13 @@ TEST(BoxTree, FindsWhatMeetsABox) {
   for (const size_t count : {0, 1, 4, 5, 17, 300}) {
     const std::vector<Box> boxes = scattered_boxes(count);
     const BoxTree tree(boxes);
-    const Box asked{{2, 2, 0}, {6, 5, 1}};
+    const Box query{{2, 2, 0}, {6, 5, 1}};
     std::set<uint32_t> found, expected;
-    tree.each_that_meets(asked, [&](uint32_t n) { EXPECT_TRUE(found.insert(n).second); });
+    tree.each_that_meets(query, [&](uint32_t n) { EXPECT_TRUE(found.insert(n).second); });
     for (uint32_t n = 0; n < boxes.size(); ++n)
-      if (meet(asked, boxes[n])) expected.insert(n);
+      if (meet(query, boxes[n])) expected.insert(n);
     EXPECT_EQ(found, expected) << count;
-    EXPECT_EQ(tree.meets_any(asked), !expected.empty()) << count;
+    EXPECT_EQ(tree.meets_any(query), !expected.empty()) << count;
   }
 }
 

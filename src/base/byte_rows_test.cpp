@@ -107,9 +107,9 @@ TEST(ByteRows, NumbersAndWhatBelongsToThem) {
     ASSERT_EQ(numbers, expected);
 
     for (size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<uint8_t>((numbers[i] + i) % 16);
-    Bytes looked_up(4 * numbers.size());
-    look_up_four_bytes(numbers, table, looked_up.data());
-    for (size_t i = 0; i < looked_up.size(); ++i) ASSERT_EQ(looked_up[i], table[numbers[i / 4]][i % 4]);
+    Bytes result(4 * numbers.size());
+    look_up_four_bytes(numbers, table, result.data());
+    for (size_t i = 0; i < result.size(); ++i) ASSERT_EQ(result[i], table[numbers[i / 4]][i % 4]);
   });
 }
 

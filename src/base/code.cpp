@@ -37,7 +37,7 @@ constexpr CodeInfo table[] = {
     {Code::twice, "twice", "A name is given twice", "name"},
     {Code::limit, "limit", "A limit of designs or scripts is passed", ""},
     {Code::unbounded, "unbounded", "The design, or a solid that must end, has no end along an axis", ""},
-    {Code::nothing_inside, "nothing-inside", "Nothing of the design is where the job looks, or it is empty", ""},
+    {Code::nothing_inside, "nothing-inside", "Nothing of the design lies in the job's box, or it is empty", ""},
     {Code::outside_box, "outside-box", "The design, or what is asked for, does not lie in the box or on the tray", ""},
     {Code::distance_unknown, "distance-unknown", "A solid gives a sign where a distance in mm is needed", ""},
     {Code::file_missing, "file-missing", "There is no file of that name", "file"},

@@ -1,4 +1,4 @@
-// What a designer is told about a design: where, what was expected, what to write instead.
+// Messages to a designer about a design: where, what was expected, what to write instead.
 #pragma once
 
 #include <string>
@@ -43,7 +43,7 @@ class Diagnostics {
   void tell_code(size_t count, Code code, const CodeValues& values = {});
 
   const std::vector<Diagnostic>& list() const { return list_; }
-  // All but the first `count`, which were told already.
+  // All but the first `count`, which were reported already.
   Diagnostics after(size_t count) const;
   size_t error_count() const { return error_count_; }
   bool has_errors() const { return error_count_ > 0; }

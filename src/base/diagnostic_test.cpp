@@ -80,16 +80,16 @@ TEST(Diagnostic, HintsAndSeverities) {
 
 TEST(Diagnostic, HintsAreInTheLanguageOfTheDesign) {
   const Phrase hint = "write " + spelled::parameter("angle", "90") + ", or " + spelled::option("--cell", "1");
-  const auto told = [&](const char* file, FrontEnd front_end) {
+  const auto worded_for = [&](const char* file, FrontEnd front_end) {
     return sentence_of(Diagnostic{Severity::error, {make_source(file, ""), 0, 0}, "wrong", hint}, front_end);
   };
-  EXPECT_EQ(told("a.vcad", FrontEnd::command_line), "wrong; write angle=90, or --cell 1");
-  EXPECT_EQ(told("a.json", FrontEnd::command_line), "wrong; write \"angle\": 90, or --cell 1");
-  EXPECT_EQ(told("a.py", FrontEnd::python), "wrong; write angle=90, or cell=1");
-  EXPECT_EQ(told("a.vcad", FrontEnd::studio), "wrong; write angle=90, or cell 1");
+  EXPECT_EQ(worded_for("a.vcad", FrontEnd::command_line), "wrong; write angle=90, or --cell 1");
+  EXPECT_EQ(worded_for("a.json", FrontEnd::command_line), "wrong; write \"angle\": 90, or --cell 1");
+  EXPECT_EQ(worded_for("a.py", FrontEnd::python), "wrong; write angle=90, or cell=1");
+  EXPECT_EQ(worded_for("a.vcad", FrontEnd::studio), "wrong; write angle=90, or cell 1");
 }
 
-TEST(Diagnostics, CodesAreToldOnce) {
+TEST(Diagnostics, CodesAreReportedOnce) {
   Diagnostics diagnostics;
   diagnostics.error({}, "before");
   const size_t known = diagnostics.list().size();

@@ -22,7 +22,7 @@
 namespace ombre {
 namespace {
 
-constexpr int look_around_ms = 50;
+constexpr int check_interval_ms = 50;
 
 // The child sends this before its bytes.
 struct Header {
@@ -99,7 +99,7 @@ class Child {
   // Appends what has come. False at the end.
   bool read(std::string& bytes) {
     pollfd wait{pipe_, POLLIN, 0};
-    if (::poll(&wait, 1, look_around_ms) <= 0) return true;
+    if (::poll(&wait, 1, check_interval_ms) <= 0) return true;
     static thread_local std::array<char, 1 << 16> some;
     const ssize_t count = ::read(pipe_, some.data(), some.size());
     if (count < 0) return errno == EINTR;

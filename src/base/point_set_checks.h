@@ -1,4 +1,4 @@
-// What can be wrong with points of which something is asked.
+// What can be wrong with the points of a query.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// How a long job tells how far it is, and how it is asked to stop.
+// How a long job reports its progress, and how it is asked to stop.
 #pragma once
 
 #include <atomic>
@@ -27,7 +27,7 @@ class Progress {
   virtual void preparing(const std::string& /*what*/, const HowFar&) {}
 };
 
-// Set from a signal handler or another thread; work looks at it every tenth of a second or so and throws Cancelled.
+// Set from a signal handler or another thread; work checks it every tenth of a second or so and throws Cancelled.
 class StopFlag {
  public:
   StopFlag() = default;

@@ -152,7 +152,7 @@ TEST(Threads, EveryIndexOnce) {
   }
 }
 
-TEST(Threads, NeverMoreThanAsked) {
+TEST(Threads, NeverMoreThanRequested) {
   for (const int threads : {1, 2, 3}) {
     std::atomic<int> now{0}, most{0};
     run_parallel(200, threads, [&](size_t i) {

@@ -1,4 +1,4 @@
-// One solid of Open CASCADE: what is asked of it.
+// Queries of one solid of Open CASCADE.
 #ifdef OMBRE_CAD
 
 #include <BRepBndLib.hxx>
@@ -152,7 +152,7 @@ class OcctSolid final : public Solid {
     return triangles;
   }
 
-  // With geometry of its own: the library's surfaces remember what they were asked last.
+  // With geometry of its own: the library's surfaces keep their last query.
   std::unique_ptr<Query> query() const override {
     const std::lock_guard lock(mutex_);
     return guarded(what(), [&] { return std::make_unique<OcctQuery>(copy_of(shape_, true), what()); });

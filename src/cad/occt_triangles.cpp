@@ -50,7 +50,7 @@ class Joiner {
   Triangles take() { return std::move(result_); }
 
  private:
-  // The edge's nodes have the same places in its order whichever face they are asked of.
+  // The edge's nodes have the same places in its order whichever face gives them.
   void join(const TopoDS_Edge& edge, const opencascade::handle<Poly_Triangulation>& mesh,
             const TopLoc_Location& place) {
     const opencascade::handle<Poly_PolygonOnTriangulation> polygon =

@@ -175,7 +175,7 @@ TEST_F(Cad, ThreadsAskAtOnce) {
   EXPECT_EQ(wrong, std::vector<int>(4, 0));
 }
 
-TEST_F(Cad, WhatIsNoSolidIsToldOf) {
+TEST_F(Cad, WhatIsNoSolidIsReported) {
   EXPECT_NE(message_of([] { read("open_box.step"); }).find("5 surfaces and no solid"), std::string::npos);
   EXPECT_NE(message_for("", ".step").find("no valid file"), std::string::npos);
   EXPECT_NE(message_for("", ".igs"), "");

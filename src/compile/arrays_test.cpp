@@ -110,7 +110,7 @@ TEST(Arrays, AreUnionsOfTheirCopies) { expect_equal("first"); }
 TEST(Arrays, MixWhereCopiesOverlap) { expect_equal("mix"); }
 TEST(Arrays, LetTheLastCopyWin) { expect_equal("last"); }
 
-// Between the copies the distance is that to the nearest one, whatever lies between: these are asked about all.
+// Between the copies the distance is that to the nearest one, whatever lies between: these need all.
 TEST(Arrays, AreExactBetweenTheirCopies) {
   const char* const ball = "sphere(0.5, \"red\");";
   const TestSolid array(std::string("array_grid((50, 40, 30), (7, 9, 5)) ") + ball);

@@ -103,7 +103,7 @@ class BeamSampler {
     return BeamSampler(std::move(*sampler), threads, stop);
   }
 
-  // Looks only at the beams from number `first` on.
+  // Checks only the beams from number `first` on.
   void sample(const BeamBody& body, size_t first, size_t count) {
     std::vector<Vec3> points;
     for (size_t n = first; n < first + count; ++n) {

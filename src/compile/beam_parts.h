@@ -22,7 +22,7 @@ struct BeamParts {
   design::NodePtr rest;       // null: all of the design are the struts
 };
 
-// Looks for lattices through unions, similarities, nodes that give materials, tiles, and sharp intersections and
+// Searches for lattices through unions, similarities, nodes that give materials, tiles, and sharp intersections and
 // differences with other solids, which become clips. Where other nodes stand above struts, these stay in the rest, with
 // a warning that counts them. On up to `threads` threads; 0: all cores. Nothing, and diagnostics, where there are no
 // struts, or too many.

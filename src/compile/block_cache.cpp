@@ -4,7 +4,7 @@ namespace ombre::compile {
 
 uint64_t BlockCache::new_owner() {
   const std::scoped_lock lock(mutex_);
-  return ++owners_;
+  return ++last_owner_;
 }
 
 void BlockCache::set_limit(size_t bytes) {

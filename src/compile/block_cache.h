@@ -48,7 +48,7 @@ class BlockCache {
   std::condition_variable made_;
   std::map<Key, Entry> entries_;
   std::list<Key> uses_;  // of blocks that are made, the latest first
-  uint64_t owners_ = 0;
+  uint64_t last_owner_ = 0;
   size_t limit_ = size_t{1} << 30;
   Counts counts_;
 };

@@ -44,15 +44,15 @@ bool report_beyond_limit(const design::Node& solid, Diagnostics& diagnostics) {
 namespace {
 
 // The outputs say where there is material, and which.
-program::Outputs ask_for_materials(Question& question, Built& built) {
+program::Outputs add_materials(Question& question, Built& built) {
   program::Outputs outputs{{"inside", question.inside()}};
   const design::Composition composition = question.composition();
   for (const auto& [id, fraction] : composition.fractions) {
     outputs.emplace_back(question.design().materials.all()[id].name, fraction);
     built.materials.materials.push_back(id);
   }
-  for (const auto& [number, mark] : composition.checks) {
-    outputs.emplace_back("check " + std::to_string(number), mark);
+  for (const auto& [number, flag] : composition.checks) {
+    outputs.emplace_back("check " + std::to_string(number), flag);
     built.checks.push_back(question.check(number));
   }
   built.materials.check_count = built.checks.size();
@@ -64,7 +64,7 @@ program::Outputs ask_for_materials(Question& question, Built& built) {
 Built build_program(const design::Design& design, int threads) {
   Question question(design, {.threads = threads});
   Built built;
-  const program::Outputs outputs = ask_for_materials(question, built);
+  const program::Outputs outputs = add_materials(question, built);
   built.materials.program = question.program_with_calls(outputs);
   return built;
 }
@@ -73,7 +73,7 @@ std::optional<Built> build_flat_program(const design::Design& design, Diagnostic
                                         design::SubDesignMemory* memory) {
   Question question(design, {.threads = threads, .memory = memory});
   Built built;
-  auto program = question.program(ask_for_materials(question, built), diagnostics);
+  auto program = question.program(add_materials(question, built), diagnostics);
   if (!program) return std::nullopt;
   built.materials.program = std::move(*program);
   return built;

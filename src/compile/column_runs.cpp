@@ -8,7 +8,7 @@
 namespace ombre::compile {
 namespace {
 
-constexpr int64_t most_columns_asked = 1024;
+constexpr int64_t most_columns_queried = 1024;
 
 }  // namespace
 
@@ -67,7 +67,7 @@ float ColumnTable::at(size_t channel, int64_t i, int64_t j, int64_t k) const {
 }
 
 Interval ColumnTable::range(size_t channel, const IndexBox& cells, Interval otherwise) const {
-  if (cells.size(0) * cells.size(1) > most_columns_asked) return otherwise;
+  if (cells.size(0) * cells.size(1) > most_columns_queried) return otherwise;
   std::optional<Interval> range;
   const auto add = [&](float value) { range = range ? hull(*range, value) : Interval(value); };
   for (int64_t j = cells.lo[1]; j < cells.hi[1]; ++j)

@@ -244,7 +244,7 @@ TEST(ContourJob, ThreadsChangeNothing) {
   EXPECT_EQ(draw(text, request, 1).layers, draw(text, request, 2).layers);
 }
 
-TEST(ContourJob, HeightsBesideThePartAreTold) {
+TEST(ContourJob, HeightsBesideThePartAreReported) {
   Diagnostics diagnostics;
   const LoadedPtr loaded = load_text("sphere(5);", diagnostics);
   EXPECT_FALSE(plan_contours(*loaded, at(5.1), diagnostics));

@@ -76,25 +76,25 @@ TEST(CostProfile, SpreadChoosesEachSlabOnce) {
   EXPECT_TRUE(spread({}, 9).empty());
 }
 
-TEST(Forecast, LooksAheadAndFollowsTheShape) {
+TEST(Forecast, SamplesAheadAndFollowsTheShape) {
   for (const auto of : {plate, cone, ball}) {
     Forecast forecast(slabs(), 1, 0);
     double left = cost(all, of).bytes;
     EXPECT_FALSE(forecast.left());
     size_t samples = 0;
     for (const LayerRange& slab : slabs()) {
-      if (const auto sample = forecast.look_ahead()) {
+      if (const auto sample = forecast.sample_ahead()) {
         ++samples;
         EXPECT_GT(sample->begin, slab.begin);
         forecast.add_sample(*sample, cost(*sample, of));
       }
       left -= cost(slab, of).bytes;
       forecast.add_written(cost(slab, of), 0);
-      const auto told = forecast.left();
+      const auto estimate = forecast.left();
       if (samples < 5 || slab.begin > 3000) continue;
-      ASSERT_TRUE(told);
-      EXPECT_NEAR(told->bytes / left, 1, 0.3) << slab.begin;
-      EXPECT_DOUBLE_EQ(told->seconds, told->bytes);
+      ASSERT_TRUE(estimate);
+      EXPECT_NEAR(estimate->bytes / left, 1, 0.3) << slab.begin;
+      EXPECT_DOUBLE_EQ(estimate->seconds, estimate->bytes);
     }
     EXPECT_EQ(samples, 15U);
     EXPECT_EQ(forecast.left()->seconds, 0);

@@ -72,9 +72,9 @@ class ModelMaker {
   TileBox everything() const { return {{0, 0, 0}, plan_.request.lattice.count}; }
 
   bool find_cells() {
-    GridWishes wishes;
-    wishes.materials = true;
-    const auto job = plan_grids(loaded_, plan_, wishes, everything(), diagnostics_);
+    GridQuery query;
+    query.materials = true;
+    const auto job = plan_grids(loaded_, plan_, query, everything(), diagnostics_);
     if (!job) return false;
     const auto take = [&](const GridSlab& slab) {
       const std::vector<float> ids = numbers_of(slab, 0);
@@ -93,10 +93,10 @@ class ModelMaker {
   }
 
   bool find_fields(fea::Model& model) {
-    GridWishes wishes;
-    wishes.fractions = true;
-    wishes.all_attributes = !declared_attributes(loaded_->design).empty();
-    const auto job = plan_grids(loaded_, plan_, wishes, everything(), diagnostics_);
+    GridQuery query;
+    query.fractions = true;
+    query.all_attributes = !declared_attributes(loaded_->design).empty();
+    const auto job = plan_grids(loaded_, plan_, query, everything(), diagnostics_);
     if (!job) return false;
     for (const Grid& grid : job->grids) {
       const std::string unit = grid.attribute.unit == "1" ? "" : grid.attribute.unit;

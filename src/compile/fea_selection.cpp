@@ -24,9 +24,9 @@ std::optional<Nodes> of_part(const design::Design& design, const fea::MeshView& 
                       slip.empty() ? "its parts are " + join(names, ", ") : slip);
     return std::nullopt;
   }
-  SampleWishes wishes;
-  wishes.parts = true;
-  const auto sampler = Sampler::build(design, wishes, diagnostics);
+  SampleQuery query;
+  query.parts = true;
+  const auto sampler = Sampler::build(design, query, diagnostics);
   if (!sampler) return std::nullopt;
   std::vector<Vec3> middles;
   for (size_t n = 0; n < mesh.count(); ++n) middles.push_back(mesh.centroid(n));

@@ -16,27 +16,27 @@ Field cut_off(Field distance, double band_mm) {
 
 }  // namespace
 
-std::optional<program::Program> build_field_program(const design::Design& design, const FieldWishes& wishes,
+std::optional<program::Program> build_field_program(const design::Design& design, const FieldQuery& query,
                                                     Diagnostics& diagnostics) {
   Question question(design);
   program::Outputs outputs;
-  if (wishes.distance) {
+  if (query.distance) {
     const Field distance = question.distance();
-    outputs.emplace_back("distance", wishes.band_mm ? cut_off(distance, *wishes.band_mm) : distance);
+    outputs.emplace_back("distance", query.band_mm ? cut_off(distance, *query.band_mm) : distance);
   }
-  if (!wishes.fractions.empty()) {
+  if (!query.fractions.empty()) {
     const Field inside = question.inside(), none = question.builder().constant(0);
     for (const auto& [id, part] : shares(question.composition()))
-      if (std::find(wishes.fractions.begin(), wishes.fractions.end(), id) != wishes.fractions.end())
+      if (std::find(query.fractions.begin(), query.fractions.end(), id) != query.fractions.end())
         outputs.emplace_back(design.materials.all()[id].name, select(inside, part, none));
   }
-  for (const std::string& name : wishes.attributes) {
+  for (const std::string& name : query.attributes) {
     const auto value = question.attribute(name, diagnostics);
     if (!value) return std::nullopt;
     const Field usual = question.builder().constant(design::default_of(*question.declaration(name), name));
     outputs.emplace_back(name, select(question.inside(), *value, usual));
   }
-  if (wishes.inside) outputs.emplace_back("inside", question.inside());
+  if (query.inside) outputs.emplace_back("inside", question.inside());
   return question.program(outputs, diagnostics);
 }
 

@@ -29,7 +29,7 @@ size_t Forecast::samples_wanted() const {
   return std::min(samples_.size(), (slabs_.size() - written_) / slabs_for_a_sample);
 }
 
-std::optional<LayerRange> Forecast::look_ahead() {
+std::optional<LayerRange> Forecast::sample_ahead() {
   const std::scoped_lock lock(mutex_);
   if (watch_.seconds() < patience_) return std::nullopt;
   while (samples_begun_ < samples_wanted()) {

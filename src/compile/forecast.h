@@ -21,7 +21,7 @@ class Forecast {
   Forecast(std::vector<LayerRange> slabs, int threads, double patience = 1);
 
   // A slab to look at now.
-  std::optional<LayerRange> look_ahead();
+  std::optional<LayerRange> sample_ahead();
   void add_sample(LayerRange slab, LayerCost cost);
   // The next of the slabs is written.
   void add_written(LayerCost cost, double writing_seconds);

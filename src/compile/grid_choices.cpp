@@ -4,9 +4,9 @@
 
 namespace ombre::compile {
 
-GridWishes GridChoices::wishes(const std::string& usual, bool is_sparse) const {
-  GridWishes wishes;
-  wishes.narrow_band = is_sparse;
+GridQuery GridChoices::query(const std::string& usual, bool is_sparse) const {
+  GridQuery query;
+  query.narrow_band = is_sparse;
   for (const std::string& word : split(what.empty() ? usual : what, ',')) {
     const auto name = trim(word);
     if (name.empty())
@@ -14,17 +14,17 @@ GridWishes GridChoices::wishes(const std::string& usual, bool is_sparse) const {
                                 " lacks a word; write materials, fractions, distance, attributes " +
                                 "or an attribute's name, or several with commas");
     if (name == "materials")
-      wishes.materials = true;
+      query.materials = true;
     else if (name == "fractions")
-      wishes.fractions = true;
+      query.fractions = true;
     else if (name == "distance")
-      wishes.distance = true;
+      query.distance = true;
     else if (name == "attributes")
-      wishes.all_attributes = true;
+      query.all_attributes = true;
     else
-      wishes.attributes.emplace_back(name);
+      query.attributes.emplace_back(name);
   }
-  return wishes;
+  return query;
 }
 
 }  // namespace ombre::compile

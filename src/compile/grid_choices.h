@@ -39,7 +39,7 @@ struct GridChoices {
   }
   // `usual`: what voxels hold where --what does not say. Sparse grids hold distances near the surface alone. Throws
   // options::WrongValue.
-  GridWishes wishes(const std::string& usual, bool is_sparse) const;
+  GridQuery query(const std::string& usual, bool is_sparse) const;
 };
 
 }  // namespace ombre::compile

@@ -101,18 +101,18 @@ TileBox with_band(const TileBox& region, const voxel::Lattice& lattice, const de
 }
 
 std::optional<TileProducer> field_tiles(const LoadedPtr& loaded, const GridJob& job, Diagnostics& diagnostics) {
-  FieldWishes wishes;
+  FieldQuery query;
   for (const Grid& grid : job.grids) {
-    if (grid.material) wishes.fractions.push_back(grid.material->id);
-    wishes.distance |= grid.kind == GridKind::distance;
-    if (grid.kind == GridKind::attribute) wishes.attributes.push_back(grid.name);
+    if (grid.material) query.fractions.push_back(grid.material->id);
+    query.distance |= grid.kind == GridKind::distance;
+    if (grid.kind == GridKind::attribute) query.attributes.push_back(grid.name);
   }
-  wishes.inside = job.has_mark;
-  if (job.band_mm > 0) wishes.band_mm = job.band_mm;
+  query.inside = job.has_inside_flag;
+  if (job.band_mm > 0) query.band_mm = job.band_mm;
   const voxel::Lattice& lattice = job.request.lattice;
   design::Design design = design::for_lattice(loaded->design, {lattice.origin, lattice.pitch});
   design.stages = job.stages;
-  auto program = build_field_program(design, wishes, diagnostics);
+  auto program = build_field_program(design, query, diagnostics);
   if (!program) return std::nullopt;
   auto evaluator = std::make_shared<const voxel::FieldEvaluator>(std::move(*program), lattice, job.request.evaluator);
   return [loaded, evaluator](const TileBox& region, const StopFlag* stop) { return evaluator->tiles(region, stop); };
@@ -125,18 +125,18 @@ void add_numbers(const design::AttributeDeclaration& attribute, const std::strin
 }
 
 // Nothing, and a diagnostic, when the design has none of that name.
-std::optional<std::vector<Grid>> attribute_grids(const design::Design& design, const GridWishes& wishes,
+std::optional<std::vector<Grid>> attribute_grids(const design::Design& design, const GridQuery& query,
                                                  Diagnostics& diagnostics) {
   const std::vector<design::AttributeDeclaration> known = declared_attributes(design);
   std::vector<Grid> grids;
-  if (wishes.all_attributes && known.empty()) {
+  if (query.all_attributes && known.empty()) {
     diagnostics.error(design.parts[0].solid->where(), "the design has no attributes",
                       "give it one, for example " + spelled::call("attribute", {{"", "\"density\""}, {"", "0.4"}}));
     return std::nullopt;
   }
-  if (wishes.all_attributes)
+  if (query.all_attributes)
     for (const auto& attribute : known) add_numbers(attribute, attribute.name, grids);
-  for (const std::string& name : wishes.attributes) {
+  for (const std::string& name : query.attributes) {
     const auto found = std::ranges::find(known, design::attribute_of_part(name), &design::AttributeDeclaration::name);
     const size_t before = grids.size();
     if (found != known.end()) add_numbers(*found, name, grids);
@@ -144,16 +144,16 @@ std::optional<std::vector<Grid>> attribute_grids(const design::Design& design, c
       report_unknown_attribute(design, name, diagnostics);
       return std::nullopt;
     }
-    if (wishes.all_attributes) grids.resize(before);
+    if (query.all_attributes) grids.resize(before);
   }
   return grids;
 }
 
-std::vector<Grid> wished_grids(const Sampling& request, const GridWishes& wishes) {
+std::vector<Grid> requested_grids(const Sampling& request, const GridQuery& query) {
   std::vector<Grid> grids;
-  if (wishes.materials) grids.push_back({GridKind::material, "material", std::nullopt});
-  if (wishes.distance) grids.push_back({GridKind::distance, "distance", std::nullopt});
-  if (wishes.fractions)
+  if (query.materials) grids.push_back({GridKind::material, "material", std::nullopt});
+  if (query.distance) grids.push_back({GridKind::distance, "distance", std::nullopt});
+  if (query.fractions)
     for (const SliceMaterial& material : request.materials)
       grids.push_back({GridKind::fraction, material.name, material});
   return grids;
@@ -185,31 +185,31 @@ std::vector<TileBox> slabs_of(const GridJob& job, int64_t layers) {
 
 }  // namespace
 
-std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, const GridWishes& wishes,
+std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, const GridQuery& query,
                                   const TileBox& region, Diagnostics& diagnostics) {
   GridJob job;
   job.request = plan.request;
   job.stages = plan.stages;
   job.region = region;
-  job.grids = wished_grids(plan.request, wishes);
-  const auto attributes = attribute_grids(loaded->design, wishes, diagnostics);
+  job.grids = requested_grids(plan.request, query);
+  const auto attributes = attribute_grids(loaded->design, query, diagnostics);
   if (!attributes) return std::nullopt;
   // Values of attributes do not say what is inside.
-  job.has_mark = job.grids.empty();
+  job.has_inside_flag = job.grids.empty();
   job.grids.insert(job.grids.end(), attributes->begin(), attributes->end());
   job.metric = whole_solid(loaded->design)->metric();
-  if (wishes.materials && job.grids.size() == 1) {
-    job.has_mark = false;
+  if (query.materials && job.grids.size() == 1) {
+    job.has_inside_flag = false;
     job.tiles = material_tiles(plan.regions);
     return job;
   }
-  if (wishes.narrow_band && wishes.distance && !wishes.materials) {
+  if (query.narrow_band && query.distance && !query.materials) {
     job.band_mm = band_voxels * largest_pitch_mm(plan.request.lattice);
     job.region = with_band(region, plan.request.lattice, loaded->design);
   }
   auto tiles = field_tiles(loaded, job, diagnostics);
   if (!tiles) return std::nullopt;
-  job.tiles = wishes.materials ? with_materials(material_tiles(plan.regions), *tiles) : std::move(*tiles);
+  job.tiles = query.materials ? with_materials(material_tiles(plan.regions), *tiles) : std::move(*tiles);
   return job;
 }
 
@@ -266,7 +266,7 @@ bool has_inside(const GridJob& job, const FieldTile& tile) {
     const float* values = tile.output(output);
     return std::any_of(values, values + count, is_inside);
   };
-  if (job.has_mark) return any(job.grids.size(), [](float v) { return v > 0; });
+  if (job.has_inside_flag) return any(job.grids.size(), [](float v) { return v > 0; });
   for (size_t n = 0; n < job.grids.size(); ++n) {
     const GridKind kind = job.grids[n].kind;
     if (kind == GridKind::distance && any(n, [](float v) { return v <= 0; })) return true;

@@ -28,7 +28,7 @@ struct Grid {
 };
 
 // Which grids are wanted.
-struct GridWishes {
+struct GridQuery {
   bool materials = false, fractions = false, distance = false;
   bool narrow_band = false;                  // distances beyond a few voxels are cut off
   std::vector<std::string> attributes = {};  // by name
@@ -45,9 +45,9 @@ struct GridJob {
   Sampling request;       // the lattice, the materials and what else decides the values
   voxel::TileBox region;  // the voxels that are wanted
   std::vector<Grid> grids;
-  double band_mm = 0;     // of distances; 0: they are not cut off
-  design::Metric metric;  // what distances are
-  bool has_mark = false;  // behind the grids, tiles have 1 inside and 0 outside
+  double band_mm = 0;            // of distances; 0: they are not cut off
+  design::Metric metric;         // what distances are
+  bool has_inside_flag = false;  // behind the grids, tiles have 1 inside and 0 outside
   TileProducer tiles;
   JobStagesPtr stages;
   size_t memory_bytes = size_t{2} << 30;  // for slabs in flight and stages; one layer at a time is always allowed
@@ -67,7 +67,7 @@ std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const Pla
                               Diagnostics& diagnostics);
 
 // Nothing, and diagnostics, when the design cannot be sampled, or has no such attribute.
-std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, const GridWishes& wishes,
+std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, const GridQuery& query,
                                   const voxel::TileBox& region, Diagnostics& diagnostics);
 
 // The voxels that share volume with the box; nothing when none does. Its corners are finite.

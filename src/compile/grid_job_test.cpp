@@ -38,7 +38,7 @@ void copy(const voxel::FieldTile& tile, Sampled& sampled) {
 }
 
 struct GridCase {
-  GridWishes wishes;
+  GridQuery query;
   PlanOptions options;
   std::optional<Box> box;
   int threads = 2;
@@ -52,7 +52,7 @@ std::optional<GridJob> plan_text(const std::string& text, const GridCase& grid_c
   if (!plan) return std::nullopt;
   voxel::TileBox region{{0, 0, 0}, plan->request.lattice.count};
   if (grid_case.box) region = region_over(plan->request.lattice, *grid_case.box).value();
-  return plan_grids(loaded, *plan, grid_case.wishes, region, diagnostics);
+  return plan_grids(loaded, *plan, grid_case.query, region, diagnostics);
 }
 
 Sampled sample(const std::string& text, const GridCase& grid_case) {
@@ -68,9 +68,9 @@ Sampled sample(const std::string& text, const GridCase& grid_case) {
   return sampled;
 }
 
-GridWishes materials() { return {true, false, false, false}; }
-GridWishes fractions() { return {false, true, false, false}; }
-GridWishes distance() { return {false, false, true, false}; }
+GridQuery materials() { return {true, false, false, false}; }
+GridQuery fractions() { return {false, true, false, false}; }
+GridQuery distance() { return {false, false, true, false}; }
 PlanOptions pitch(double mm) {
   PlanOptions options;
   options.pitch = {Pitch::from_mm(mm), Pitch::from_mm(mm), Pitch::from_mm(mm)};
@@ -89,10 +89,10 @@ const std::string dosed =
     "attribute(\"dose\", \"2 + z\", unit=\"J/cm2\", default=7) { sphere(3, \"red\"); }"
     "attribute(\"heat\", 5) { translate(10, 0, 0) { sphere(1); } }";
 
-GridWishes named(std::vector<std::string> names) {
-  GridWishes wishes;
-  wishes.attributes = std::move(names);
-  return wishes;
+GridQuery named(std::vector<std::string> names) {
+  GridQuery query;
+  query.attributes = std::move(names);
+  return query;
 }
 
 }  // namespace
@@ -181,9 +181,9 @@ TEST(Grids, FractionsFollowTheGrade) {
 
 TEST(Grids, ABoxIsCutFromTheWhole) {
   const Box box{{-1.03, 0.5, -2}, {2.2, 3.1, 1.77}};
-  for (const GridWishes& wishes : {materials(), fractions(), distance()}) {
-    const Sampled whole = sample(graded, {wishes, pitch(0.17), {}, 2});
-    const Sampled part = sample(graded, {wishes, pitch(0.17), box, 1});
+  for (const GridQuery& query : {materials(), fractions(), distance()}) {
+    const Sampled whole = sample(graded, {query, pitch(0.17), {}, 2});
+    const Sampled part = sample(graded, {query, pitch(0.17), box, 1});
     const voxel::TileBox& region = part.job.region;
     EXPECT_GT(region.lo[0], 0);
     for (size_t g = 0; g < part.values.size(); ++g)
@@ -201,7 +201,7 @@ TEST(Grids, BatchesAgreeWithTheReference) {
     struts +=
         "strut((" + std::to_string(n % 8) + ", 0, 0), (0, " + std::to_string(n / 8) + ", 3), 0.2, caps=\"round\");";
   for (const std::string& body : {graded, mesh, struts + "}"}) {
-    GridWishes both{false, true, true, false};
+    GridQuery both{false, true, true, false};
     PlanOptions exact = pitch(0.31);
     exact.evaluator = voxel::Evaluator::reference;
     const Sampled fast = sample(body, {both, pitch(0.31), {}, 2}), slow = sample(body, {both, exact, {}, 2});
@@ -279,19 +279,19 @@ TEST(Grids, AttributesHaveTheirDefaultOutside) {
 }
 
 TEST(Grids, AllAttributesComeBesideOtherGrids) {
-  GridWishes wishes = fractions();
-  wishes.all_attributes = true;
-  const Sampled grid = sample(dosed, {wishes, pitch(0.5), {}, 2});
+  GridQuery query = fractions();
+  query.all_attributes = true;
+  const Sampled grid = sample(dosed, {query, pitch(0.5), {}, 2});
   std::vector<std::string> names;
   for (const Grid& g : grid.job.grids) names.push_back(g.name);
   EXPECT_EQ(std::ranges::count(names, "dose"), 1);
   EXPECT_EQ(std::ranges::count(names, "heat"), 1);
-  EXPECT_FALSE(grid.job.has_mark);
+  EXPECT_FALSE(grid.job.has_inside_flag);
 }
 
 TEST(Grids, AttributesAloneKnowWhatIsInside) {
   const Sampled grid = sample(dosed, {named({"heat"}), pitch(0.5), {}, 1});
-  EXPECT_TRUE(grid.job.has_mark);
+  EXPECT_TRUE(grid.job.has_inside_flag);
   const auto has_some = [&](const voxel::TileBox& region) {
     const auto tiles = grid.job.tiles(region, nullptr);
     return std::ranges::any_of(tiles, [&](const voxel::FieldTile& tile) { return has_inside(grid.job, tile); });

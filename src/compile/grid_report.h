@@ -1,4 +1,4 @@
-// What is told of voxel grids that were written.
+// Reports about the voxel grids that a job wrote.
 #pragma once
 
 #include <cstdint>

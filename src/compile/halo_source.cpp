@@ -14,7 +14,7 @@ using design::StageValues;
 constexpr std::array<int64_t, 3> least_block{64, 64, 8}, greatest_block{512, 512, 64};
 // A range over more blocks than these is taken from their own ranges, or from what the stage declares, so that blocks
 // need not be computed for it.
-constexpr int64_t most_blocks_read = 4, most_blocks_asked = 64;
+constexpr int64_t most_blocks_read = 4, most_blocks_queried = 64;
 
 // Blocks are so large that the cells around one are not many more than its own.
 std::array<int64_t, 3> block_size(const design::HaloStage::Reach& reach) {
@@ -137,7 +137,7 @@ Interval HaloSource::range_of_cells(size_t channel, const IndexBox& cells) const
   int64_t count = 0;
   each_number(cells, block_, [&](const CellIndex&) { ++count; });
   const Interval declared = declared_range(channel);
-  if (count > most_blocks_asked || declared.is_everything()) return declared;
+  if (count > most_blocks_queried || declared.is_everything()) return declared;
   std::optional<Interval> range;
   each_number(cells, block_, [&](const CellIndex& number) {
     const ValueBlockPtr block = block_with(block_at(number, block_).lo);

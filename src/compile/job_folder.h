@@ -31,7 +31,7 @@ class JobFolder {
  public:
   // Makes the folder ready for the job's layers, as `use` says. Throws Error when it cannot be written,
   // holds what is not the job's, or is in use by another run. `threads` read what is there already, which
-  // takes its time for large jobs, as `progress` is told (or is null); Cancelled when asked to stop meanwhile.
+  // takes its time for large jobs, which `progress` shows (it may be null); Cancelled when asked to stop meanwhile.
   JobFolder(std::string path, const SliceRequest& request, FolderUse use, int threads, Progress* progress,
             const StopFlag* stop);
   ~JobFolder();

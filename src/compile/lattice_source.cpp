@@ -89,7 +89,7 @@ IndexBox centres_in(const Box& box, const LatticeFrame& frame) {
 LatticeSource::LatticeSource(LatticeFrame frame)
     : frame_(std::move(frame)), cell_mm_(frame_.lattice.voxel_mm()), cells_in_box_(centres_in(frame_.box, frame_)) {
   for (size_t n = 0; n < frame_.channels.size(); ++n)
-    if (frame_.channels[n].name == "inside" && frame_.channels[n].is_mark) inside_ = static_cast<int>(n);
+    if (frame_.channels[n].name == "inside" && frame_.channels[n].is_flag) inside_ = static_cast<int>(n);
 }
 
 int LatticeSource::channel(std::string_view channel_name) const {
@@ -101,7 +101,7 @@ int LatticeSource::channel(std::string_view channel_name) const {
 double LatticeSource::sample(int channel, Vec3 p) const {
   if (is_distance(channel)) return distance(p);
   const auto n = static_cast<size_t>(channel);
-  if (!frame_.channels[n].is_mark) {
+  if (!frame_.channels[n].is_flag) {
     double value = 0;
     sample_all(channel, {&p, 1}, {&value, 1});
     return value;
@@ -110,7 +110,7 @@ double LatticeSource::sample(int channel, Vec3 p) const {
 }
 
 void LatticeSource::sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const {
-  if (is_distance(channel) || frame_.channels[static_cast<size_t>(channel)].is_mark)
+  if (is_distance(channel) || frame_.channels[static_cast<size_t>(channel)].is_flag)
     return FieldSource::sample_all(channel, points, values);
   const auto cells = reader();
   for (size_t n = 0; n < points.size(); ++n)
@@ -120,15 +120,15 @@ void LatticeSource::sample_all(int channel, std::span<const Vec3> points, std::s
 Interval LatticeSource::range(int channel, const Box& box) const {
   if (!is_distance(channel)) {
     const auto n = static_cast<size_t>(channel);
-    if (frame_.channels[n].is_mark) return range_of_mark(n, box);
+    if (frame_.channels[n].is_flag) return range_of_flag(n, box);
     return range_between_centres(n, box);
   }
   if (!box.is_bounded() || !has_values()) return Interval::everything();
-  const Interval marks = range_of_mark(static_cast<size_t>(inside_), box);
+  const Interval flags = range_of_flag(static_cast<size_t>(inside_), box);
   const Vec3 center = box.center();
   const double value = distance(center), room = 0.5 * length(box.size());
-  return outward(marks.hi == 0 ? std::max(0.0, value - room) : value - room,
-                 marks.lo == 1 ? std::min(0.0, value + room) : value + room);
+  return outward(flags.hi == 0 ? std::max(0.0, value - room) : value - room,
+                 flags.lo == 1 ? std::min(0.0, value + room) : value + room);
 }
 
 std::unique_ptr<program::RowSampler> LatticeSource::rows(int channel, const Affine& source_from_index) const {
@@ -146,7 +146,7 @@ std::unique_ptr<program::RowSampler> LatticeSource::rows(int channel, const Affi
     shift[static_cast<size_t>(axis)] = static_cast<int64_t>(std::llround(cells));
   }
   const auto n = static_cast<size_t>(channel);
-  return std::make_unique<CellRows>(*this, n, shift, frame_.channels[n].is_mark ? cells_in_box_ : frame_.cells);
+  return std::make_unique<CellRows>(*this, n, shift, frame_.channels[n].is_flag ? cells_in_box_ : frame_.cells);
 }
 
 std::unique_ptr<CellReader> LatticeSource::reader() const { return std::make_unique<PlainReader>(*this); }
@@ -256,15 +256,15 @@ double LatticeSource::distance_to_cells(Vec3 p) const {
   return is_inside ? -least : least;
 }
 
-Interval LatticeSource::range_of_mark(size_t channel, const Box& box) const {
+Interval LatticeSource::range_of_flag(size_t channel, const Box& box) const {
   const Box within = intersect(box, frame_.box);
   if (within.is_empty()) return Interval(0);
   if (!has_values()) return {0, 1};
   const CellIndex lo = cell_of(within.lo), hi = cell_of(within.hi);
   const IndexBox touched{lo, {hi[0] + 1, hi[1] + 1, hi[2] + 1}}, cells = intersect(touched, frame_.cells);
   if (cells.is_empty()) return Interval(0);
-  const Interval marks = range_of_cells(channel, cells);
-  return within == box && cells == touched ? marks : hull(marks, 0);
+  const Interval flags = range_of_cells(channel, cells);
+  return within == box && cells == touched ? flags : hull(flags, 0);
 }
 
 }  // namespace ombre::compile

@@ -33,8 +33,8 @@ class CellReader {
   virtual std::optional<float> same_around(size_t /*channel*/, const CellIndex& /*first*/) { return std::nullopt; }
 };
 
-// Between centres the nearest counts for marks; other channels are linear along each axis. With a mark "inside" there
-// is a further channel "distance": to the border of the cells that it marks and that the box holds, exact up to one
+// Between centres the nearest counts for flags; other channels are linear along each axis. With a flag "inside" there
+// is a further channel "distance": to the border of the flagged cells that the box holds, exact up to one
 // cell away.
 class LatticeSource : public program::FieldSource {
  public:
@@ -74,7 +74,7 @@ class LatticeSource : public program::FieldSource {
   Interval range_between_centres(size_t channel, const Box& box) const;
   double distance(Vec3 p) const;
   double distance_to_cells(Vec3 p) const;
-  Interval range_of_mark(size_t channel, const Box& box) const;
+  Interval range_of_flag(size_t channel, const Box& box) const;
 
   LatticeFrame frame_;
   Vec3 cell_mm_;

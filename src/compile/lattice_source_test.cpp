@@ -14,7 +14,7 @@ struct Stack {
   int64_t i = 0, j = 0, bottom = 0, top = 0;
 };
 
-// Marks cells that are given, whatever it reads.
+// Flags the given cells, whatever it reads.
 class GivenStacks final : public design::SweepStage {
  public:
   GivenStacks(const Box& box, const Pitch& along_x, const Pitch& along_y, const Pitch& along_z,
@@ -54,7 +54,7 @@ class GivenStacks final : public design::SweepStage {
 
 constexpr int cells = 6;
 
-class MarkedCells : public testing::Test {
+class FlaggedCells : public testing::Test {
  protected:
   void SetUp() override {
     lattice_.origin = {-3, 1, 2};
@@ -108,7 +108,7 @@ class MarkedCells : public testing::Test {
 
 }  // namespace
 
-TEST_F(MarkedCells, AreTheirCells) {
+TEST_F(FlaggedCells, AreTheirCells) {
   for (int i = 0; i < cells; ++i)
     for (int j = 0; j < cells; ++j)
       for (int k = 0; k < cells; ++k) {
@@ -117,7 +117,7 @@ TEST_F(MarkedCells, AreTheirCells) {
       }
 }
 
-TEST_F(MarkedCells, DistancesAreExactUpToACell) {
+TEST_F(FlaggedCells, DistancesAreExactUpToACell) {
   constexpr double shortest = 0.5;
   for (int n = 0; n < 500; ++n) {
     const Vec3 p = point(0);
@@ -127,7 +127,7 @@ TEST_F(MarkedCells, DistancesAreExactUpToACell) {
   }
 }
 
-TEST_F(MarkedCells, DistancesAreBounds) {
+TEST_F(FlaggedCells, DistancesAreBounds) {
   for (int n = 0; n < 500; ++n) {
     const Vec3 p = point(3), q = p + Vec3{number(-1, 1), number(-1, 1), number(-1, 1)};
     const double here = source_->sample(1, p);
@@ -139,7 +139,7 @@ TEST_F(MarkedCells, DistancesAreBounds) {
   }
 }
 
-TEST_F(MarkedCells, RangesHoldPoints) {
+TEST_F(FlaggedCells, RangesHoldPoints) {
   for (int n = 0; n < 300; ++n) {
     const Vec3 lo = point(2);
     const Vec3 size{number(0, 2), number(0, 2), number(0, 2)};

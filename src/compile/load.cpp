@@ -12,7 +12,7 @@
 #include "compile/scad_words_design.h"
 #include "lang/interpret.h"
 #include "lang/openscad/definitions.h"
-#include "lang/openscad/told.h"
+#include "lang/openscad/script_diagnostics.h"
 #include "lang/vocabulary/vcad.h"
 #include "nodes/all_nodes.h"
 
@@ -119,7 +119,7 @@ std::optional<design::Design> run_script_with_words(const SourcePtr& source, con
   LoadOptions with_cache = options;
   with_cache.cache = &cache;
   WordsRun made = run_with_words(source, run, with_cache, messages, diagnostics);
-  openscad::tell(messages, source, {source, 0, 0}, diagnostics);
+  openscad::add_diagnostics(messages, source, {source, 0, 0}, diagnostics);
   return std::move(made.design);
 }
 
@@ -141,14 +141,14 @@ std::optional<design::Design> run_scad_script(const SourcePtr& source, const Loa
   const auto solids = loader.source(request, reader);
   if (!solids) return std::nullopt;
   design::Design design{*materials, {}, {}};
-  Diagnostics told;  // what the script says was reported with the first request
-  const Reader again{*materials, told, &loader, whole, "scad", ""};
+  Diagnostics repeated;  // what the script says was reported with the first request
+  const Reader again{*materials, repeated, &loader, whole, "scad", ""};
   for (const std::string& name : solids->part_names) {
     const bool is_all = solids->part_names.size() == 1;
     const NodePtr node = scad_node(source, is_all ? "" : design::part_word(name), values, again);
     if (node) design.parts.push_back({name.empty() ? std::string(design::nameless_part) : name, node});
   }
-  if (told.has_errors()) diagnostics.add_all(told);
+  if (repeated.has_errors()) diagnostics.add_all(repeated);
   return design;
 }
 

@@ -1,4 +1,4 @@
-// From a design file and the wishes of a command line to a slice request and its layers.
+// From a design file and the options of a command line to a slice request and its layers.
 #pragma once
 
 #include <array>

@@ -146,7 +146,7 @@ TEST(ManyParts, MayHaveValues) {
   expect_one_result(flat(parts, "blend=0.2"));
 }
 
-// Parts that are felt where they are not.
+// Parts that have influence beyond their surfaces.
 TEST(ManyParts, AreJoinedSmoothly) {
   const auto parts = some_parts(120);
   for (const std::string rule : {"mix", "first", "last", "blend"})

@@ -32,7 +32,7 @@ std::optional<Program> whole_program(const design::Design& design, Diagnostics& 
 using Reading = std::tuple<std::string, program::ValueId, program::ValueId, program::ValueId>;
 
 // Puts in place of the outputs, but for the first, one for each reading: 1 in the mesh, else 0.
-std::vector<Reading> ask_for_meshes(Program& program) {
+std::vector<Reading> outputs_of_meshes(Program& program) {
   std::vector<Reading> readings;
   program.outputs.resize(1);
   program.output_names.resize(1);
@@ -72,7 +72,7 @@ std::optional<std::vector<MeshCoverage>> survey_coverage(const Loaded& loaded, D
   auto program = whole_program(design, diagnostics);
   if (!program) return std::nullopt;
   std::vector<MeshCoverage> coverage;
-  const std::vector<Reading> readings = ask_for_meshes(*program);
+  const std::vector<Reading> readings = outputs_of_meshes(*program);
   if (readings.empty()) return coverage;
   const auto box = design_box(design, diagnostics);
   if (!box) return std::nullopt;

@@ -27,11 +27,11 @@ void add_bodies(const design::Design& design, const RegionProgram& program, cons
 
 // The number of cells at a surface grows with the square of their fineness.
 MeshPlan plan_mesh(const RegionProgram& program, const Box& box, const Fineness& fineness, int threads) {
-  constexpr double cells_of_look = 48;
+  constexpr double coarse_cells = 48;
   const Vec3 size = box.size();
   const double fine = fineness.cell.mm(), longest = std::max({size.x, size.y, size.z});
   Pitch cell = fineness.cell;
-  if (const auto coarse = Pitch::from_mm(longest / cells_of_look); coarse && coarse->mm() > fine) cell = *coarse;
+  if (const auto coarse = Pitch::from_mm(longest / coarse_cells); coarse && coarse->mm() > fine) cell = *coarse;
   const auto mixed = surface::find_mixed_cells(program.partition.label, corners_over(box, cell), threads);
   const double finer = cell.mm() / fine;
   MeshPlan plan{fineness.tolerance_mm, fine, static_cast<double>(mixed.cells().size()) * finer * finer, 0};

@@ -11,7 +11,7 @@
 #include "compile/build.h"
 #include "compile/part_labels.h"
 #include "compile/picture_labels.h"
-#include "compile/picture_marks.h"
+#include "compile/picture_overlays.h"
 #include "compile/question.h"
 #include "compile/region_survey.h"
 #include "render/ray_ends.h"
@@ -95,7 +95,7 @@ class Studio {
       stages_of(loaded_.design)->prepare(loan_);
       is_empty_ = true;
       Picture picture{expose(*shot), shot->film.pixel_mm * static_cast<double>(request_.samples), shown_range_};
-      if (!mark(picture, frame)) return false;
+      if (!draw_overlays(picture, frame)) return false;
       if (labels_) labels_->add_to(picture, shot->camera);
       take(frame, picture);
       if (is_empty_ && frame == 0)
@@ -146,8 +146,8 @@ class Studio {
     return true;
   }
 
-  bool mark(Picture& picture, int frame) {
-    const MarkRequest& wanted = request_.marks;
+  bool draw_overlays(Picture& picture, int frame) {
+    const OverlayRequest& wanted = request_.overlays;
     for (const Divided by : {Divided::parts, Divided::materials}) {
       const bool outlines = wanted.outlines == by, names = wanted.names == by;
       if (!outlines && !names) continue;
@@ -369,7 +369,8 @@ bool take_pictures(const Loaded& loaded, const PictureRequest& request, const St
   const std::vector<std::string> attributes = attribute_names(loaded.design);
   const bool by_parts = request.by == "parts" && std::ranges::find(attributes, request.by) == attributes.end();
   if (by_parts) effective.by = part_label;
-  const bool has_parts = by_parts || request.marks.outlines == Divided::parts || request.marks.names == Divided::parts;
+  const bool has_parts =
+      by_parts || request.overlays.outlines == Divided::parts || request.overlays.names == Divided::parts;
   const Loaded own{loaded.path, loaded.source,
                    with_stages(has_parts ? with_part_nodes(loaded.design) : loaded.design, loan)};
   if (by_parts && part_names(own.design).empty()) {

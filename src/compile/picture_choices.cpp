@@ -106,7 +106,7 @@ PictureRequest PictureChoices::request() const {
   request.palette = palette;
   request.range = range;
   request.annotations = {axes || annotate, scale_bar || annotate, legend || annotate, font};
-  request.marks = {outlines, names};
+  request.overlays = {outlines, names};
   request.samples = samples;
   request.frames = frames;
   request.threads = work.threads;

@@ -37,16 +37,16 @@ std::vector<uint8_t> on_background(const std::vector<uint8_t>& part, const rende
 }
 
 // Round numbers within the range, some five of them.
-std::vector<render::ColourBar::Mark> marks_of(Interval range) {
+std::vector<render::ColourBar::Tick> ticks_of(Interval range) {
   if (range.is_point()) return {{0.5, format_rounded(range.lo, 3)}};
   constexpr double most_steps = 6;
   const double width = range.hi - range.lo;
   double step = render::round_length(width / most_steps);
   if (width / step > most_steps) step = render::round_length(2.5 * step);  // the next
-  std::vector<render::ColourBar::Mark> marks;
+  std::vector<render::ColourBar::Tick> ticks;
   for (double n = std::ceil(range.lo / step - 1e-9); n * step <= range.hi + 1e-9 * width; ++n)
-    marks.push_back({(n * step - range.lo) / width, format_rounded(n * step, 6)});
-  return marks;
+    ticks.push_back({(n * step - range.lo) / width, format_rounded(n * step, 6)});
+  return ticks;
 }
 
 // Nothing where the value is a colour itself.
@@ -55,7 +55,7 @@ std::optional<render::ColourBar> colour_bar(const design::Design& design, const 
   if (attribute_parts(design, value.of).size() > 1) return std::nullopt;
   const Palette* palette = palette_called(value.palette);
   const std::string unit = value_unit(design, value.of);
-  render::ColourBar bar{unit.empty() ? value.of : value.of + ", " + unit, {}, marks_of(value.range)};
+  render::ColourBar bar{unit.empty() ? value.of : value.of + ", " + unit, {}, ticks_of(value.range)};
   for (int n = 0; n < colours; ++n)
     bar.colours.push_back(map_colour((n + 0.5) / colours, palette ? *palette : palettes().front()));
   return bar;

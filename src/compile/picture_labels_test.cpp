@@ -146,12 +146,12 @@ TEST_F(Labels, PartsHaveColoursOutlinesAndNames) {
   PictureRequest request;
   request.view = *render::named_view("front");
   request.by = "parts";
-  request.marks.outlines = Divided::parts;
+  request.overlays.outlines = Divided::parts;
   const std::string row =
       "part(\"one\") sphere(5); union() { translate(12, 0, 0) part(\"two\") sphere(5); translate(24, 0, 0) sphere(5); "
       "}";
   const auto plain = take(row, request);
-  request.marks.names = Divided::parts;
+  request.overlays.names = Divided::parts;
   const auto named = take(row, request);
   ASSERT_TRUE(plain && named) << to_text(diagnostics);
   const auto column_of = [&](double x) { return width / 2 + std::lround((x - 12) / plain->pixel_mm); };
@@ -175,7 +175,7 @@ TEST_F(Labels, PartsHaveColoursOutlinesAndNames) {
 
 TEST_F(Labels, PartsWithoutNamesAreAnError) {
   PictureRequest request;
-  request.marks.names = Divided::parts;
+  request.overlays.names = Divided::parts;
   EXPECT_FALSE(take("sphere(5);", request));
   EXPECT_NE(to_text(diagnostics).find("no part of the design has a name"), std::string::npos) << to_text(diagnostics);
 }

@@ -40,7 +40,7 @@ struct AnnotationRequest {
 };
 
 // What is drawn on the part: the borders of its parts or materials as seen, and their names.
-struct MarkRequest {
+struct OverlayRequest {
   std::optional<Divided> outlines, names;
 };
 
@@ -59,7 +59,7 @@ struct PictureRequest {
       range;  // that they span; nothing: from the least to the greatest value inside, of a fraction 0 to 1
   render::Background background;
   AnnotationRequest annotations;
-  MarkRequest marks;
+  OverlayRequest overlays;
   int frames = 1;  // around the part
   int threads = 0;
   size_t memory_bytes = size_t{4} << 30;  // for rays, pixels and stages

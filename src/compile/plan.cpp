@@ -142,7 +142,7 @@ void warn_of_features(const voxel::Printer& printer, const Vec3 size, const Sour
                                    " mm");
 }
 
-// What looks alike in images of one channel.
+// Materials that images of one channel cannot distinguish.
 void warn_of_grays(const SliceRequest& request, const SourceRange& where, Diagnostics& diagnostics) {
   if (request.format != ImageFormat::gray) return;
   const auto gray = [&](formats::Rgba colour) { return static_cast<int>(exporting::shown(colour, request.format)[0]); };

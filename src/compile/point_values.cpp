@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "surface/point_asker.h"
+#include "surface/point_evaluator.h"
 
 namespace ombre::compile {
 namespace {

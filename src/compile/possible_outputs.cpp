@@ -20,7 +20,7 @@ constexpr size_t boxes_at_once = 64, boxes_in_task = 8;
 
 enum class Answer : uint8_t { no, yes, undecided };
 
-// Looks at ever smaller boxes, and at their middles, some at once.
+// Evaluates ever smaller boxes and their middles, some at once.
 class Search {
  public:
   // `first_counts`: where the first output is 0 the others do not count.
@@ -38,7 +38,7 @@ class Search {
     while (left > 0 && !waiting.empty() && !open_.empty()) {
       const std::vector<Box> boxes = take(waiting, std::min(left, boxes_at_once));
       left -= boxes.size();
-      const std::vector<Found> found = look_at(boxes);
+      const std::vector<Found> found = evaluate(boxes);
       for (size_t n = 0; n < boxes.size(); ++n) {
         for (const size_t output : found[n].in_middle) std::erase(open_, output);
         if (!found[n].may_be_elsewhere) continue;
@@ -66,22 +66,22 @@ class Search {
     return boxes;
   }
 
-  std::vector<Found> look_at(const std::vector<Box>& boxes) const {
+  std::vector<Found> evaluate(const std::vector<Box>& boxes) const {
     std::vector<Found> found(boxes.size());
     const size_t tasks = (boxes.size() + boxes_in_task - 1) / boxes_in_task;
-    const auto look = [&](size_t task) {
+    const auto visit = [&](size_t task) {
       std::vector<Interval> values;
       const size_t end = std::min(boxes.size(), (task + 1) * boxes_in_task);
-      for (size_t n = task * boxes_in_task; n < end; ++n) found[n] = look_at(boxes[n], values);
+      for (size_t n = task * boxes_in_task; n < end; ++n) found[n] = evaluate(boxes[n], values);
     };
     if (tasks == 1)
-      look(0);
+      visit(0);
     else
-      run_parallel(tasks, threads_, look);
+      run_parallel(tasks, threads_, visit);
     return found;
   }
 
-  Found look_at(const Box& box, std::vector<Interval>& values) const {
+  Found evaluate(const Box& box, std::vector<Interval>& values) const {
     Found found;
     if (!may_be_anywhere(box, open_, values)) return found;
     const Vec3 middle = box.center();

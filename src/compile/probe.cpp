@@ -33,7 +33,7 @@ void take(ProbeResult& result, const Sampler::Column& column, double value) {
 
 std::optional<std::vector<ProbeResult>> probe(const Loaded& loaded, const std::vector<Vec3>& points,
                                               Diagnostics& diagnostics) {
-  const SampleWishes all{true, true, true, true, all_attribute_parts(loaded.design)};
+  const SampleQuery all{true, true, true, true, all_attribute_parts(loaded.design)};
   const auto sampler = Sampler::build(loaded.design, all, diagnostics);
   if (!sampler) return std::nullopt;
   std::vector<std::vector<double>> values(sampler->columns().size(), std::vector<double>(points.size()));

@@ -59,7 +59,7 @@ class Question {
   // What a composition's check of this number tells of.
   const design::Check& check(uint32_t number) const { return context_.checks()[number]; }
 
-  // After this, nothing more can be asked. What nodes that are used more than once compute is called.
+  // No question may follow. What nodes that are used more than once compute is called.
   program::Program program_with_calls(const program::Outputs& outputs);
   // The same without calls; what nodes have to tell becomes diagnostics. Nothing, and a diagnostic, when it would not
   // fit into memory.

@@ -56,10 +56,10 @@ namespace {
 std::optional<std::vector<std::vector<float>>> sample_fractions(const design::Design& design, const Box& box,
                                                                 std::vector<MaterialId>& ids,
                                                                 Diagnostics& diagnostics) {
-  FieldWishes wishes;
+  FieldQuery query;
   for (const design::Material& material : design.materials.all())
-    if (material.id != 0) wishes.fractions.push_back(material.id);
-  const auto program = build_field_program(design, wishes, diagnostics);
+    if (material.id != 0) query.fractions.push_back(material.id);
+  const auto program = build_field_program(design, query, diagnostics);
   if (!program) return std::nullopt;
   for (const std::string& name : program->output_names) ids.push_back(design.materials.find(name)->id);
   return sample_coarsely(*program, box);
@@ -75,11 +75,11 @@ std::vector<bool> inside_of(const std::vector<std::vector<float>>& fractions) {
 }
 
 // Of the values that are numbers, where the mark is greater than 0.
-std::optional<Interval> range_inside(const std::vector<float>& values, const std::vector<float>& marks) {
+std::optional<Interval> range_inside(const std::vector<float>& values, const std::vector<float>& flags) {
   std::optional<Interval> range;
   for (size_t n = 0; n < values.size(); ++n) {
     const double value = values[n];
-    if (marks[n] > 0 && std::isfinite(value)) range = range ? hull(*range, value) : Interval(value);
+    if (flags[n] > 0 && std::isfinite(value)) range = range ? hull(*range, value) : Interval(value);
   }
   return range;
 }

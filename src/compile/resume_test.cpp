@@ -67,13 +67,13 @@ TEST_F(Slice, StoppedRunsResumeToTheSameBytes) {
 TEST_F(Slice, StopsWhileASlabIsMade) {
   const SliceRequest request = ball_request();
   StopFlag stop;
-  const LayerProducer cancelling = [&](int64_t begin, int64_t end, const StopFlag* asked) {
-    EXPECT_EQ(asked, &stop);
+  const LayerProducer cancelling = [&](int64_t begin, int64_t end, const StopFlag* given) {
+    EXPECT_EQ(given, &stop);
     if (begin == 16) {
       stop.request();
       throw Cancelled();
     }
-    return ball(request)(begin, end, asked);
+    return ball(request)(begin, end, given);
   };
   EXPECT_THROW(slice(request, cancelling, options(FolderUse::fresh, 1), nullptr, &stop), Cancelled);
   EXPECT_EQ(contents(folder()).size(), 16U + 2);

@@ -24,7 +24,7 @@ uint32_t spread(uint32_t v) {
   return (v | (v << 2)) & 0x09249249U;
 }
 
-// Points that are asked together: some of an order.
+// Points that are evaluated together: some of an order.
 struct Block {
   size_t begin = 0, end = 0;
 };
@@ -85,32 +85,32 @@ program::Program parts_within(const program::Program& program, const Box& box) {
 
 }  // namespace
 
-std::optional<Sampler> Sampler::build(const design::Design& design, const SampleWishes& wishes,
+std::optional<Sampler> Sampler::build(const design::Design& design, const SampleQuery& query,
                                       Diagnostics& diagnostics) {
   using Kind = Column::Kind;
-  Question question(design, {.parts = wishes.parts});
+  Question question(design, {.parts = query.parts});
   Sampler sampler;
   program::Outputs outputs;
   const auto add = [&](Kind kind, const std::string& name, program::Field field, MaterialId material = 0) {
     sampler.columns_.push_back({kind, name, material, {}});
     outputs.emplace_back(name, field);
   };
-  if (wishes.inside) add(Kind::inside, "inside", question.inside());
-  if (wishes.distance) add(Kind::distance, "distance", question.distance());
-  if (wishes.fractions)
+  if (query.inside) add(Kind::inside, "inside", question.inside());
+  if (query.distance) add(Kind::distance, "distance", question.distance());
+  if (query.fractions)
     for (const auto& [id, fraction] : question.composition().fractions)
       add(Kind::fraction, design.materials.all()[id].name, fraction, id);
-  for (const std::string& name : wishes.attributes) {
+  for (const std::string& name : query.attributes) {
     const auto value = question.attribute(name, diagnostics);
     if (!value) return std::nullopt;
     add(Kind::attribute, name, *value);
   }
-  if (wishes.parts)
+  if (query.parts)
     for (size_t n = 0; n < design.parts.size(); ++n) add(Kind::part, design.parts[n].name, question.part(n));
-  if (wishes.checks)
-    for (const auto& [number, mark] : question.composition().checks) {
+  if (query.checks)
+    for (const auto& [number, flag] : question.composition().checks) {
       const design::Check& check = question.check(number);
-      add(Kind::check, check.message, mark);
+      add(Kind::check, check.message, flag);
       sampler.columns_.back().where = check.where;
     }
   auto program = question.program(outputs, diagnostics);

@@ -13,7 +13,7 @@
 
 namespace ombre::compile {
 
-struct SampleWishes {
+struct SampleQuery {
   bool inside = false;    // 1 inside, 0 outside
   bool distance = false;  // g, mm; negative inside
   bool fractions = false;
@@ -33,10 +33,9 @@ class Sampler {
     SourceRange where = {};  // of the node that checks
   };
 
-  // Columns in the order of the wishes; fractions by id. Nothing, and diagnostics, when the design is too large or
+  // Columns in the order of the query; fractions by id. Nothing, and diagnostics, when the design is too large or
   // has no such attribute.
-  static std::optional<Sampler> build(const design::Design& design, const SampleWishes& wishes,
-                                      Diagnostics& diagnostics);
+  static std::optional<Sampler> build(const design::Design& design, const SampleQuery& query, Diagnostics& diagnostics);
 
   const std::vector<Column>& columns() const { return columns_; }
 

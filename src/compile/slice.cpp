@@ -15,10 +15,10 @@
 namespace ombre::compile {
 namespace {
 
-LayerRange layers_asked_for(const SliceRequest& request, const SliceOptions& options) {
+LayerRange requested_layers(const SliceRequest& request, const SliceOptions& options) {
   const LayerRange whole{0, request.lattice.count[2]};
-  const LayerRange asked = options.layers.value_or(whole);
-  return {std::clamp(asked.begin, whole.begin, whole.end), std::clamp(asked.end, whole.begin, whole.end)};
+  const LayerRange requested = options.layers.value_or(whole);
+  return {std::clamp(requested.begin, whole.begin, whole.end), std::clamp(requested.end, whole.begin, whole.end)};
 }
 
 // Tells how many voxels of the layers asked for are done, and what is left.
@@ -60,7 +60,7 @@ class SliceRun {
         stop_(stop),
         size_(size_work(request, options)),
         folder_(options.folder, request, options.use, size_.threads, progress, stop),
-        layers_(layers_asked_for(request, options)),
+        layers_(requested_layers(request, options)),
         slabs_(missing_slabs(layers_, folder_.finished(), size_.slab_layers)),
         forecast_(slabs_, size_.threads),
         progress_(progress, request, layers_) {}
@@ -102,7 +102,7 @@ class SliceRun {
 
   void write() {
     const auto produce = [&](size_t i) {
-      look_ahead();
+      sample_ahead();
       return make(slabs_[i]);
     };
     const auto consume = [&](size_t i, Slab& slab) { write_slab(slabs_[i], slab); };
@@ -129,9 +129,9 @@ class SliceRun {
     return slab.layers.size() == static_cast<size_t>(range.end - range.begin);
   }
 
-  void look_ahead() {
+  void sample_ahead() {
     if (!progress_.is_watched() || is_stopping()) return;
-    const std::optional<LayerRange> range = forecast_.look_ahead();
+    const std::optional<LayerRange> range = forecast_.sample_ahead();
     if (!range) return;
     const Slab slab = make(*range);
     if (is_whole(*range, slab)) forecast_.add_sample(*range, slab.cost);

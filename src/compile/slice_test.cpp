@@ -165,7 +165,7 @@ TEST_F(Slice, EstimatesEndInTime) {
 TEST_F(Slice, EstimatesFollowTheShape) {
   SliceRequest request = ball_request();
   const auto bytes = [&] { return estimate_slice(request, ball(request), options()).bytes; };
-  EXPECT_EQ(bytes(), run(request, options()).bytes_written);  // it looks at all of a small job
+  EXPECT_EQ(bytes(), run(request, options()).bytes_written);  // a small job is sampled whole
   request.lattice.pitch[2] = Pitch{1, 500};
   request.lattice.count[2] = 2000;
   const auto whole = static_cast<double>(run(request, options(FolderUse::replace)).bytes_written);

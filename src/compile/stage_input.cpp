@@ -39,14 +39,14 @@ void take_tile(const voxel::FieldTile& tile, size_t output, StageValues& values,
     }
 }
 
-FieldWishes wishes_of(const design::Design& solid, const design::StageRead& read) {
-  FieldWishes wishes;
-  wishes.distance = read.distance;
-  wishes.inside = read.inside;
-  wishes.attributes = read.attributes;
+FieldQuery query_of(const design::Design& solid, const design::StageRead& read) {
+  FieldQuery query;
+  query.distance = read.distance;
+  query.inside = read.inside;
+  query.attributes = read.attributes;
   for (const design::Material& material : solid.materials.all())
-    if (read.fractions) wishes.fractions.push_back(material.id);
-  return wishes;
+    if (read.fractions) query.fractions.push_back(material.id);
+  return query;
 }
 
 StageChannel channel_of(const design::Design& solid, const std::string& name, const design::StageRead& read,
@@ -54,7 +54,7 @@ StageChannel channel_of(const design::Design& solid, const std::string& name, co
   StageChannel channel{name, {}, number};
   const bool is_attribute = std::ranges::find(read.attributes, name) != read.attributes.end();
   if (name == "inside") {
-    channel.is_mark = true;
+    channel.is_flag = true;
     channel.range = {0, 1};
   } else if (const design::Material* material = solid.materials.find(name); material && !is_attribute) {
     channel.material = material->id;
@@ -99,7 +99,7 @@ void StageInput::add_shape(const design::Design& solid, const voxel::Lattice& la
 void StageInput::add_fields(const design::Design& solid, const design::StageRead& read, const voxel::Lattice& lattice,
                             Evaluator& evaluator, size_t number) {
   Diagnostics diagnostics;
-  auto program = build_field_program(solid, wishes_of(solid, read), diagnostics);
+  auto program = build_field_program(solid, query_of(solid, read), diagnostics);
   if (!program) fail_with(diagnostics);
   for (const std::string& name : program->output_names) channels_.push_back(channel_of(solid, name, read, number));
   if (read.distance || !read.attributes.empty()) is_zero_outside_ = false;

@@ -306,7 +306,7 @@ TEST_F(Stages, ThatNeedMoreMemoryThanThereIsDoNotBegin) {
   }
 }
 
-TEST_F(Stages, StopWhenTheyAreAskedTo) {
+TEST_F(Stages, StopOnRequest) {
   JobStages stages;
   const auto kept = stages.source(std::make_shared<SumFromTop>(solid()), place());
   StopFlag stop;
@@ -338,9 +338,9 @@ std::vector<float> fractions_in(const std::string& text, const std::string& mate
   Diagnostics diagnostics;
   const LoadedPtr loaded = load_text(text, diagnostics);
   const auto plan = loaded ? plan_slice(loaded, {}, diagnostics) : std::nullopt;
-  GridWishes wishes;
-  wishes.fractions = true;
-  const auto job = plan ? plan_grids(loaded, *plan, wishes, box, diagnostics) : std::nullopt;
+  GridQuery query;
+  query.fractions = true;
+  const auto job = plan ? plan_grids(loaded, *plan, query, box, diagnostics) : std::nullopt;
   EXPECT_TRUE(job) << to_text(diagnostics);
   if (!job) return {};
   StageValues values(box, 1);
@@ -373,7 +373,7 @@ TEST(Blend, OfAStepIsTheLinearRamp) {
   }
 }
 
-TEST(Blend, CountsVoidWhereItIsAskedTo) {
+TEST(Blend, CountsVoidOnRequest) {
   const std::vector<float> red = reds("blend((5, 1, 1), count_void=true) union() " + step_text);
   for (int i = 0; i < 64; ++i) {
     const int begin = i - 2, end = i + 3;

@@ -28,9 +28,9 @@ class Overhangs {
         cell_(cell),
         step_(gradient_step * std::min({cell.x, cell.y, cell.z})) {
     Diagnostics diagnostics;
-    SampleWishes wishes;
-    wishes.distance = true;
-    sampler_ = Sampler::build(design, wishes, diagnostics);
+    SampleQuery query;
+    query.distance = true;
+    sampler_ = Sampler::build(design, query, diagnostics);
     if (!sampler_) throw Error("supports: " + to_text(diagnostics));
   }
 

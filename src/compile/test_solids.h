@@ -1,4 +1,4 @@
-// Designs for tests, asked at points in double precision.
+// Designs for tests, evaluated at points in double precision.
 #pragma once
 
 #include <map>

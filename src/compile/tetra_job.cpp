@@ -235,11 +235,11 @@ class TetraMaker {
   }
 
   void count_question() {
-    constexpr uint64_t look_each = 1024;
-    if (++questions_ % look_each != 0) return;
+    constexpr uint64_t check_interval = 1024;
+    if (++questions_ % check_interval != 0) return;
     if (stop_ && stop_->requested()) throw Cancelled();
     if (!progress_) return;
-    const auto total = static_cast<uint64_t>(plan_.elements * questions_of_element) + look_each;
+    const auto total = static_cast<uint64_t>(plan_.elements * questions_of_element) + check_interval;
     progress_->preparing("tetrahedra", {std::min(questions_, total - 1), total});
   }
 
@@ -267,10 +267,10 @@ class TetraMaker {
 
   // Fractions without void, whose sum is one, and attributes, in the middles of elements.
   bool add_fields(fea::MeshModel& model) {
-    SampleWishes wishes;
-    wishes.fractions = true;
-    wishes.attributes = all_attribute_parts(design_);
-    const auto sampler = Sampler::build(design_, wishes, diagnostics_);
+    SampleQuery query;
+    query.fractions = true;
+    query.attributes = all_attribute_parts(design_);
+    const auto sampler = Sampler::build(design_, query, diagnostics_);
     if (!sampler) return false;
     const std::vector<Vec3> middles = middles_of(model);
     std::vector<std::vector<double>> values(sampler->columns().size(), std::vector<double>(middles.size()));

@@ -164,7 +164,7 @@ TEST_F(Tetra, SubdomainsMeetInFaces) {
   EXPECT_NEAR(red, 180, 0.2);
 }
 
-TEST_F(Tetra, WhatIsWrongIsTold) {
+TEST_F(Tetra, WhatIsWrongIsReported) {
   const LoadedPtr loaded = design_of("rectprism((10, 10, 10), red);");
   TetraRequest request = of_size(0.01);
   request.memory_bytes = size_t{1} << 30;

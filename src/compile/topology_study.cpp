@@ -53,7 +53,8 @@ void check_conditions(const fea::Study& fea, const Data& at, Diagnostics& diagno
     diagnostics.error(at.where, "a topology needs loads, and the study has none",
                       R"(write into "fea" for example "loads": [{"on": "zmax", "force_n": [0, 0, -10]}])");
   if (length(fea.gravity_mm_s2) > 0)
-    diagnostics.error(at.where, "a topology takes no gravity, since weight goes with the densities that it looks for",
+    diagnostics.error(at.where,
+                      "a topology takes no gravity, since weight goes with the densities that it searches for",
                       "leave gravity_mm_s2 out");
   for (const fea::Support& support : fea.supports)
     for (const auto& u : support.displacement_mm)

@@ -41,7 +41,7 @@ class MixtureSurvey {
         columns.push_back(column.data());
       }
       sampler_.sample(elements_.middles.subspan(begin, count), columns, threads, stop);
-      for (size_t n = 0; n < count; ++n) look(values, n, begin + n);
+      for (size_t n = 0; n < count; ++n) check(values, n, begin + n);
     }
   }
 
@@ -59,7 +59,7 @@ class MixtureSurvey {
   }
 
  private:
-  void look(const std::vector<std::vector<double>>& values, size_t n, size_t element) {
+  void check(const std::vector<std::vector<double>>& values, size_t n, size_t element) {
     bool has_check = false;
     double sum = 0;  // of fractions
     for (size_t c = 0; c < values.size(); ++c) {
@@ -97,9 +97,9 @@ class MixtureSurvey {
 
 bool check_mixtures(const design::Design& design, const ElementDraws& elements, int threads, const StopFlag* stop,
                     Diagnostics& diagnostics) {
-  SampleWishes wishes;
-  wishes.inside = wishes.fractions = wishes.checks = true;
-  const auto sampler = Sampler::build(design, wishes, diagnostics);
+  SampleQuery query;
+  query.inside = query.fractions = query.checks = true;
+  const auto sampler = Sampler::build(design, query, diagnostics);
   if (!sampler) return false;
   constexpr size_t of_one_material = 2;  // inside, and a fraction that is 1
   if (sampler->columns().size() == of_one_material) return true;

@@ -59,10 +59,10 @@ formats::Rgba palette_colour(const VertexColouring& colouring, Interval range, d
 bool colour_vertices(const Loaded& loaded, const VertexColouring& colouring, formats::MeshDocument& document,
                      Diagnostics& diagnostics, int threads, const StopFlag* stop) {
   const bool by_materials = colouring.by == "materials";
-  SampleWishes wishes;
-  wishes.fractions = by_materials;
-  if (!by_materials) wishes.attributes = attribute_parts(loaded.design, colouring.by);
-  const auto sampler = Sampler::build(loaded.design, wishes, diagnostics);
+  SampleQuery query;
+  query.fractions = by_materials;
+  if (!by_materials) query.attributes = attribute_parts(loaded.design, colouring.by);
+  const auto sampler = Sampler::build(loaded.design, query, diagnostics);
   if (!sampler) return false;
   std::vector<Columns> bodies;
   for (const formats::MeshBody& body : document.bodies) {

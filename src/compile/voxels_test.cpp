@@ -155,7 +155,7 @@ TEST(Layers, DoNotDependOnHowTheyAreGrouped) {
   EXPECT_TRUE(by_8.ids == by_13.ids);
 }
 
-TEST(Layers, MayBeAskedBySeveralThreadsAtOnce) {
+TEST(Layers, MayBeQueriedBySeveralThreadsAtOnce) {
   Diagnostics diagnostics;
   const LoadedPtr loaded =
       load_text("fgrade([\"0.5 + d/10\", \"0.5 - d/10\"], [\"red\", \"blue\"], \"prob\") { mesh(\"" OMBRE_SOURCE_DIR

@@ -39,7 +39,7 @@ void expect_bounds_of_the_distance(const std::string& text) {
 
 bool is_inside(const TestSolid& solid, double x, double y, double z) { return solid.at({x, y, z}).inside; }
 
-std::string told_of(const std::string& text) {
+std::string messages_of(const std::string& text) {
   Diagnostics diagnostics;
   load_text(text, diagnostics);
   return to_text(diagnostics);
@@ -68,7 +68,7 @@ TEST(Distances, AreNeverMoreThanTheWayToTheSurface) {
     expect_bounds_of_the_distance(text);
 }
 
-// Each is asked at the point that its formula gives, worked out here once more.
+// Each is evaluated at the point that its formula gives, worked out here once more.
 TEST(Warps, AskAtTheirPoints) {
   const std::string child = "translate(2, 1, 0.5) rectprism(6, 3, 4, \"red\");";
   const TestSolid plain(child), twist("twist(15) " + child), taper("taper(0.5, -2, 3) " + child),
@@ -88,16 +88,17 @@ TEST(Warps, AskAtTheirPoints) {
 }
 
 TEST(Warps, SayWhatTheyCutOff) {
-  EXPECT_EQ(told_of("bend(10) rectprism(60, 2, 2, \"red\");"), "");
-  EXPECT_NE(told_of("bend(10) rectprism(64, 2, 2, \"red\");")
+  EXPECT_EQ(messages_of("bend(10) rectprism(60, 2, 2, \"red\");"), "");
+  EXPECT_NE(messages_of("bend(10) rectprism(64, 2, 2, \"red\");")
                 .find("bend cuts off what reaches further than half a turn, "
                       "31.42 mm along x"),
             std::string::npos);
-  EXPECT_NE(told_of("bend(10) cube(24, \"red\");").find("what lies beyond the centre, 10 mm along z"),
+  EXPECT_NE(messages_of("bend(10) cube(24, \"red\");").find("what lies beyond the centre, 10 mm along z"),
             std::string::npos);
-  EXPECT_NE(told_of("bend(-10) cube(24, \"red\");").find("10 mm along -z"), std::string::npos);
-  EXPECT_NE(told_of("remap(radius=2) cube(5, \"red\");").find("2 mm along -z"), std::string::npos);
-  EXPECT_NE(told_of("remap(\"sphere\", 10) rectprism(5, 33, 1, \"red\");").find("beyond the poles"), std::string::npos);
+  EXPECT_NE(messages_of("bend(-10) cube(24, \"red\");").find("10 mm along -z"), std::string::npos);
+  EXPECT_NE(messages_of("remap(radius=2) cube(5, \"red\");").find("2 mm along -z"), std::string::npos);
+  EXPECT_NE(messages_of("remap(\"sphere\", 10) rectprism(5, 33, 1, \"red\");").find("beyond the poles"),
+            std::string::npos);
 }
 
 TEST(Warps, FindTheirBounds) {

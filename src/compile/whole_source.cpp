@@ -13,7 +13,7 @@ using design::StageValues;
 
 constexpr int64_t slab_layers = 8;
 // Larger boxes are not looked at value by value.
-constexpr int64_t most_cells_asked = 1 << 15;
+constexpr int64_t most_cells_queried = 1 << 15;
 
 }  // namespace
 
@@ -72,7 +72,7 @@ void WholeSource::read_made(size_t channel, const CellIndex& first, std::span<fl
 }
 
 Interval WholeSource::range_of_made(size_t channel, const IndexBox& cells) const {
-  if (cells.voxels() > most_cells_asked) return declared_range(channel);
+  if (cells.voxels() > most_cells_queried) return declared_range(channel);
   std::optional<Interval> range;
   for (int64_t k = cells.lo[2]; k < cells.hi[2]; ++k)
     for (int64_t j = cells.lo[1]; j < cells.hi[1]; ++j) {

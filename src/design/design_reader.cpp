@@ -142,7 +142,7 @@ class DesignReader {
       }
       Entry& entry = found->second;
       if (entry.state == Entry::State::done) {
-        if (!entry.node) return nullptr;  // told already
+        if (!entry.node) return nullptr;  // reported already
         stack.pop_back();
         continue;
       }

@@ -250,7 +250,7 @@ TEST_F(Designs, NodesWithVeryManyInputsAreRead) {
 }
 
 // Each level uses the one below twice: 2^40 paths.
-TEST_F(Designs, SharedNodesAreAskedOnce) {
+TEST_F(Designs, SharedNodesAreQueriedOnce) {
   NodePtr node = make("ball", {});
   for (int level = 0; level < 40; ++level) node = make("any", {}, {node, node});
   EXPECT_EQ(distance(node, {3, 0, 0}), 2);

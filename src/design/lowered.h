@@ -46,7 +46,7 @@ inline Field at_most(Field a, Field b, Border border) {
 }
 inline Field at_most(Field a, double b, Border border) { return border == Border::included ? a <= b : a < b; }
 
-// What is asked of the parts besides "inside".
+// Outputs of the parts besides "inside".
 enum class PartQuery : uint8_t {
   interior,  // only whether a point is inside and not on the surface; nothing else
   mix,       // of the composition: sums over the parts that hold the point, and their number

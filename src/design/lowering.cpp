@@ -11,7 +11,7 @@ namespace ombre::design {
 
 namespace {
 
-// A stage where there is no job: all its channels are 0, and the distance to what it marks is as large as can be.
+// A stage where there is no job: all its channels are 0, and the distance to what it flags is as large as can be.
 class EmptyStage final : public program::FieldSource {
  public:
   explicit EmptyStage(const Stage& stage) : name_(stage.name()), content_(stage.content()) {}
@@ -82,7 +82,7 @@ struct LoweringContext::Body {
 
   Composition call(const LoweringContext& context, Composition own, const Point& p) {
     for (auto& [id, fraction] : own.fractions) fraction = call(context.materials().all()[id].name, fraction, p);
-    for (auto& [check, mark] : own.checks) mark = call("check " + std::to_string(check), mark, p);
+    for (auto& [check, flag] : own.checks) flag = call("check " + std::to_string(check), flag, p);
     return own;
   }
 };
@@ -136,12 +136,12 @@ program::SourceField LoweringContext::staged(const Node& node, const StagePtr& s
 }
 
 void LoweringContext::report(const Diagnostic& diagnostic) {
-  const std::scoped_lock lock(asked_);
+  const std::scoped_lock lock(queries_mutex_);
   diagnostics_.add_new(diagnostic);
 }
 
 LoweringContext::View LoweringContext::view(const Node& node) {
-  const std::scoped_lock lock(asked_);
+  const std::scoped_lock lock(queries_mutex_);
   if (views_.empty()) find_views();
   return views_.at(&node);
 }
@@ -342,16 +342,16 @@ bool LoweringContext::carries(const Node& node, std::string_view attribute) {
     return std::ranges::any_of(node.inputs(), [&](const NodePtr& input) { return carries(*input, attribute); });
   };
   if (!is_shared(node)) return some_input();
-  // Asked once, since there may be very many ways to it.
+  // Computed once, since there may be very many ways to it.
   const std::pair key(&node, std::string(attribute));
   const auto known = [&]() -> std::optional<bool> {
-    const std::scoped_lock lock(asked_);
+    const std::scoped_lock lock(queries_mutex_);
     const auto found = carries_.find(key);
     return found != carries_.end() ? std::optional(found->second) : std::nullopt;
   };
   if (const auto answer = known()) return *answer;
   const bool answer = some_input();
-  const std::scoped_lock lock(asked_);
+  const std::scoped_lock lock(queries_mutex_);
   carries_.emplace(key, answer);
   return answer;
 }
@@ -379,7 +379,7 @@ uint32_t Lowering::add_check(const Node& node, const std::string& message) {
 std::optional<PartFields> Lowering::many_parts(const Node& node, const PartList& list, PartQuery query, const Point& p,
                                                const Falloff* falloff) {
   if (stands_alone_) return std::nullopt;  // tables do not hold tables
-  // The parts take the frame in, so that they are asked at the program's own inputs; those that are kept for other
+  // The parts take the frame in, so that they are evaluated at the program's own inputs; those that are kept for other
   // programs do not.
   const auto map = context_.has_memory() ? std::nullopt : p.from_inputs();
   const ManyParts* parts = context_.many_parts(node, list, query, map.value_or(Affine{}), falloff);

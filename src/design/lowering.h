@@ -44,7 +44,7 @@ class LoweringContext {
   const MaterialTable& materials() const { return materials_; }
   const std::vector<Check>& checks() const { return checks_; }
   const std::vector<AttributeDeclaration>& attributes() const { return attributes_; }
-  // What nodes told while they were lowered, each once.
+  // Remarks of nodes while they were lowered, each once.
   const Diagnostics& diagnostics() const { return diagnostics_; }
   void report(const Diagnostic& diagnostic);
   uint32_t register_check(const Node& node, const std::string& message);
@@ -84,7 +84,7 @@ class LoweringContext {
   std::shared_ptr<StageHost> stages_;
   int threads_;
   // Lowerings that stand alone may ask at once.
-  std::mutex asked_;
+  std::mutex queries_mutex_;
   std::unordered_map<const Node*, View> views_;  // found when they are needed
   std::vector<Check> checks_;
   Diagnostics diagnostics_;

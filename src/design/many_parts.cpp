@@ -108,7 +108,7 @@ const ManyParts* LoweringContext::many_parts(const Node& node, const PartList& l
 }
 
 size_t LoweringContext::reports() {
-  const std::scoped_lock lock(asked_);
+  const std::scoped_lock lock(queries_mutex_);
   return diagnostics_.list().size();
 }
 

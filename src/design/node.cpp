@@ -47,7 +47,7 @@ size_t Node::first_output() const {
 }
 
 Box BoundsMemory::of(const Node& node, const Box& where, double margin) {
-  // What is only a few nodes in a row is asked again: remembering it would cost more.
+  // What is only a few nodes in a row is evaluated again: remembering it would cost more.
   constexpr int few = 4;
   if (node.depth() <= few && node.inputs().size() <= 1) return node.reach(Inputs(node, nullptr, this), where, margin);
   const auto known = last_.find(&node);

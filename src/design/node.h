@@ -155,7 +155,7 @@ class Node {
   virtual bool keeps_shape() const = 0;
   // Where a node that only moves the question asks its input.
   virtual std::optional<Point> inner(const Point& p) const = 0;
-  // Along struts: 0 at their start, 1 at their end. Nothing where the inputs are to be asked.
+  // Along struts: 0 at their start, 1 at their end. Nothing where the inputs are to be evaluated.
   virtual std::optional<Field> along(const Inputs& in, const Point& p) const = 0;
   virtual Traits traits() const = 0;
   // Of the shape that it has: its own, or those of the node that it carries something to.

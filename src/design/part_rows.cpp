@@ -22,7 +22,7 @@ constexpr size_t most_pieces = 8, most_pieces_together = 2'000'000;
 constexpr double most_repetitions = 64;
 constexpr size_t most_solids = 256;
 
-// How often the innermost nodes are asked; infinite for parts of too many solids.
+// How often the innermost nodes are evaluated; infinite for parts of too many solids.
 double repetitions(const Node& node, size_t& solids) {
   solids += node.traits().instances;
   if (solids > most_solids) return std::numeric_limits<double>::infinity();
@@ -90,26 +90,26 @@ bool PartRows::try_add(size_t part) {
   const Inputs in(node, &lowering);
   const Point p = Point::origin_frame(builder_).mapped(node_from_program);
   const Border border = query == PartQuery::interior ? Border::excluded : Border::included;
-  const Field mark = list.membership(in, part, p, border);
+  const Field flag = list.membership(in, part, p, border);
   const Field weight = falloff ? falloff->weight(list.distance(in, part, p), p) : Field();
-  const Field is_reached = weight ? less(p.constant(0), weight) : mark;
+  const Field is_reached = weight ? less(p.constant(0), weight) : flag;
   outputs_.clear();
   slots_.clear();
   has_checks_ = false;
-  add_output(0, "reached", weight ? logical_or(mark, is_reached) : mark);
-  if (weight) add_output(set_->held_slot, "held", mark);
+  add_output(0, "reached", weight ? logical_or(flag, is_reached) : flag);
+  if (weight) add_output(set_->held_slot, "held", flag);
   if (weight) add_output(made_.weight_slot, "weight", weight);
   if (query == PartQuery::along) add_output(made_.along_slot, "t", list.along(in, part, p));
   if (query == PartQuery::mix) set_slot(made_.count_slot, weight ? 1 : 0);
-  if (asks_composition()) {
+  if (needs_composition()) {
     composition_ = list.composition(in, part, p, weight ? Demand::everywhere : Demand::inside);
-    add_fractions(mark, weight, p);
-    add_checks(lowering, false, mark, box);
+    add_fractions(flag, weight, p);
+    add_checks(lowering, false, flag, box);
     if (weight) add_checks(lowering, true, is_reached, box);
   }
   builder_.finish(outputs_, program_);
   if (!program_.reads.empty() || program_.has_parts()) return false;
-  const bool is_pure = asks_composition() && composition_.fractions.size() == 1 && !has_checks_;
+  const bool is_pure = needs_composition() && composition_.fractions.size() == 1 && !has_checks_;
   note_materials(is_pure ? std::optional(composition_.fractions[0].first) : std::nullopt);
   add_to(set_->reference, program_, box, program::Precision::reference);
   sign_only(program_, workspace_, signs_);
@@ -122,7 +122,7 @@ bool PartRows::try_add(size_t part) {
   return true;
 }
 
-bool PartRows::asks_composition() const {
+bool PartRows::needs_composition() const {
   return question_.query != PartQuery::interior && question_.query != PartQuery::along;
 }
 
@@ -180,8 +180,8 @@ double PartRows::volume(const Box& whole) const {
 void PartRows::find_slices(size_t part, const Box& whole) {
   pieces_.clear();
   const int axis = longest_axis(whole);
-  const double wished = std::ceil(whole.size()[axis] / question_.finest_mm);
-  const int count = static_cast<int>(std::clamp(wished, 1.0, static_cast<double>(most_pieces_)));
+  const double wanted = std::ceil(whole.size()[axis] / question_.finest_mm);
+  const int count = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(most_pieces_)));
   for (int n = 0; n < count; ++n) {
     Cells slice;
     slice.first[static_cast<size_t>(axis)] = static_cast<uint8_t>(Cells::per_axis * n / count);
@@ -244,11 +244,11 @@ SlotKind PartRows::fraction_kind() const {
   return question_.query == PartQuery::first ? SlotKind::first : SlotKind::last;
 }
 
-void PartRows::add_fractions(Field mark, Field weight, const Point& p) {
+void PartRows::add_fractions(Field flag, Field weight, const Point& p) {
   const Field zero = p.constant(0);
   for (const auto& [id, fraction] : composition_.fractions) {
     // select, not a product: what a part says of a point outside of it may not be a number.
-    const Field term = question_.query == PartQuery::mix ? select(mark, fraction, zero) : fraction;
+    const Field term = question_.query == PartQuery::mix ? select(flag, fraction, zero) : fraction;
     add_output(named_slot({false, id}, fraction_kind()).slot, "fraction", term);
     if (!weight) continue;
     const Field weighed = select(truth(weight), fraction * weight, zero);
@@ -257,21 +257,21 @@ void PartRows::add_fractions(Field mark, Field weight, const Point& p) {
 }
 
 // Checks that cannot fail where the part is are left out; the others share one for each kind of node.
-void PartRows::add_checks(Lowering& lowering, bool is_weighed, Field mark, const Box& box) {
+void PartRows::add_checks(Lowering& lowering, bool is_weighed, Field flag, const Box& box) {
   if (composition_.checks.empty()) return;
-  program::Outputs marks;
-  for (const auto& [number, bad] : composition_.checks) marks.emplace_back("check", logical_and(mark, bad));
-  const Program program = lowering.builder().finish(marks);
+  program::Outputs flags;
+  for (const auto& [number, bad] : composition_.checks) flags.emplace_back("check", logical_and(flag, bad));
+  const Program program = lowering.builder().finish(flags);
   if (!program.reads.empty()) return;
   evaluate_intervals(program, box, values_);
-  for (size_t n = 0; n < marks.size(); ++n) {
+  for (size_t n = 0; n < flags.size(); ++n) {
     if (values_[program.outputs[n]] == Interval(0)) continue;
     has_checks_ = true;
     const Lowering::LocalCheck& check = lowering.local_checks()[composition_.checks[n].first];
     NamedSlot& named = named_slot({is_weighed, std::nullopt, &check.node->type()}, SlotKind::any);
     if (!named.check.node) named.check = check;
     set_slot(named.slot, outputs_.size());
-    outputs_.push_back(marks[n]);
+    outputs_.push_back(flags[n]);
   }
 }
 

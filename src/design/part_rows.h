@@ -48,7 +48,7 @@ class PartRows {
     Lowering::LocalCheck check{};  // the first one of its type
   };
 
-  bool asks_composition() const;
+  bool needs_composition() const;
   Box reach(size_t part, const Box& where) const;
   bool try_add(size_t part);
   void add_to(program::PartTable& table, const program::Program& program, const Box& box, program::Precision precision);
@@ -65,8 +65,8 @@ class PartRows {
   NamedSlot& named_slot(const SlotUse& use, program::SlotKind kind);
   void set_slot(size_t slot, size_t output);
   void add_output(size_t slot, const char* name, Field field);
-  void add_fractions(Field mark, Field weight, const Point& p);
-  void add_checks(Lowering& lowering, bool is_weighed, Field mark, const Box& box);
+  void add_fractions(Field flag, Field weight, const Point& p);
+  void add_checks(Lowering& lowering, bool is_weighed, Field flag, const Box& box);
   program::SlotKind fraction_kind() const;
   ManyParts::CompositionSlots composition_slots(bool is_weighed) const;
 

@@ -107,7 +107,7 @@ bool is_nothing(const NodePtr& input) { return input->is_nothing(); }
 NodePtr nothing_of(const NodeType& type, std::vector<NodePtr>& inputs) {
   const OfNothing rule = type.inputs.of_nothing;
   const auto first = std::ranges::find_if(inputs, is_nothing);
-  if (first == inputs.end() || rule == OfNothing::asked) return nullptr;
+  if (first == inputs.end() || rule == OfNothing::counts) return nullptr;
   NodePtr nothing = *first;
   if (rule == OfNothing::gives_nothing) return nothing;
   if (rule == OfNothing::cuts_nothing && first == inputs.begin()) return nothing;

@@ -23,7 +23,7 @@ enum class OfNothing : uint8_t {
   gives_nothing,  // where one of them is nothing, so is the whole
   left_out,       // they do not count; where none is left, the whole is nothing
   cuts_nothing,   // the same, but of a first input that is nothing, nothing is left
-  asked,          // they are inputs like any others
+  counts,         // they are inputs like any others
 };
 
 struct OutputInfo {

@@ -5,7 +5,7 @@
 //   Box bounds(where) const                   of leaves: encloses what is inside, within `where`; or
 //   Box reach(Inputs, where, margin) const    the same for the points with g <= margin
 //   Field distance([Inputs,] Point) const     negative inside; or, for nodes that only move the question,
-//   Point inner(Point) const                  where the input is asked, with `scale()` for its distance
+//   Point inner(Point) const                  where the input is evaluated, with `scale()` for its distance
 // and where the defaults do not fit
 //   Metric metric([Inputs]) const             default: exact for leaves with constant numbers
 //   membership, composition, attribute, declares, complete, along, traits, makes_nothing

@@ -47,7 +47,7 @@ struct StageChannel {
   std::string name;                    // "inside", "distance", or the name of a material or attribute
   std::optional<MaterialId> material;  // of a fraction
   size_t solid = 0;                    // number of the read that it belongs to
-  bool is_mark = false;                // 0 or 1: between centres the nearest counts; other channels are linear there
+  bool is_flag = false;                // 0 or 1: between centres the nearest counts; other channels are linear there
   Interval range = Interval::everything();  // encloses all its values
 };
 

@@ -29,7 +29,7 @@ bool is_dicom(std::string_view bytes);
 // of one series, where the files belong to several; empty: the only one. Throws Error, naming `name`: when there are no
 // images or several series, when slices are missing, are of different sizes or lie unevenly, when their pixels are in
 // colour, packed in a way that is not known, or damaged, and when this was built without the library. Neither names nor
-// other marks of patients are read. Cancelled once `stop`, which may be null, is set.
+// other identifiers of patients are read. Cancelled once `stop`, which may be null, is set.
 Series read_series(const std::string& name, const std::vector<std::string>& files, const std::string& choice,
                    const StopFlag* stop);
 

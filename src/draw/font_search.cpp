@@ -33,13 +33,13 @@ Pattern wanted_font(const std::string& family, bool bold, bool italic) {
   return wanted;
 }
 
-std::string family_of(FcPattern* pattern, const std::string& asked, bool& has_name) {
+std::string family_of(FcPattern* pattern, const std::string& requested, bool& has_name) {
   std::string first;
   FcChar8* name = nullptr;
   for (int n = 0; FcPatternGetString(pattern, FC_FAMILY, n, &name) == FcResultMatch; ++n) {
     const std::string family = reinterpret_cast<const char*>(name);
     if (n == 0) first = family;
-    has_name = has_name || to_lower(family) == to_lower(asked);
+    has_name = has_name || to_lower(family) == to_lower(requested);
   }
   return first;
 }

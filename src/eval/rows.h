@@ -9,7 +9,7 @@
 
 namespace ombre::eval {
 
-// Fills values with a source's answers along the row; false if it has none, and the source is asked point by point.
+// Fills values with a source's answers along the row; false if it has none, and the source is evaluated point by point.
 using SourceRow = std::function<bool(const program::Read&, std::span<double> values)>;
 
 // Holds the values of a program's instructions at up to `width` points. Every value has the bits that

@@ -89,7 +89,7 @@ TEST_F(MeshFile, FailuresNameThePathAndLeaveWhatWasThere) {
 }
 
 // /dev/full takes no byte, as a full disk does.
-TEST_F(MeshFile, FullDisksAreTold) {
+TEST_F(MeshFile, FullDisksAreReported) {
   for (const char* name : {"a.stl", "a.amf", "a.obj"}) {
     fs::create_symlink("/dev/full", path(name) + ".part");
     EXPECT_NE(failure(path(name), triangle(), *mesh_format_of(name)).find("No space left on device; free some space"),
@@ -107,10 +107,10 @@ TEST_F(MeshFile, FullDisksLeaveNoArchive) {
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit few{100, usual.rlim_max};
   setrlimit(RLIMIT_FSIZE, &few);
-  const std::string told = failure(path("a.3mf"), triangle(), MeshFormat::three_mf);
+  const std::string message = failure(path("a.3mf"), triangle(), MeshFormat::three_mf);
   setrlimit(RLIMIT_FSIZE, &usual);
   std::signal(SIGXFSZ, handler);
-  EXPECT_EQ(told, "cannot write " + path("a.3mf") + ": File too large");
+  EXPECT_EQ(message, "cannot write " + path("a.3mf") + ": File too large");
   EXPECT_TRUE(names().empty());
 }
 

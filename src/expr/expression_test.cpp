@@ -58,7 +58,7 @@ TEST(Expression, Precedence) {
   EXPECT_EQ(value("not 1 + 1"), 1);
 }
 
-TEST(Expression, AFormulaIsParsedOnceButItsErrorsAreToldWhereverItStands) {
+TEST(Expression, AFormulaIsParsedOnceButItsErrorsAreReportedWhereverItStands) {
   Diagnostics diagnostics;
   const auto first = parse("x + 1", diagnostics), again = parse("x + 1", diagnostics),
              other = parse("x+ 1", diagnostics);

@@ -129,7 +129,7 @@ class Parser {
 
   bool is_symbol(std::string_view symbol) const { return now_.type == Token::Type::symbol && now_.text == symbol; }
 
-  // Messages: only the first mistake of an expression is told, the others mostly follow from it.
+  // Messages: only the first mistake of an expression is reported; the others mostly follow from it.
 
   void fail(const Token& token, std::string message, Phrase hint = {}) {
     if (failed_) return;

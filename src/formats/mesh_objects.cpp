@@ -51,10 +51,10 @@ std::vector<MeshGroup> all_groups(const Mesh& mesh) {
   return groups;
 }
 
-Mesh groups_of(const Mesh& mesh, const std::vector<bool>& marks) {
+Mesh groups_of(const Mesh& mesh, const std::vector<bool>& flags) {
   Mesh kept;
   for (size_t n = 0; n < mesh.groups.size(); ++n) {
-    if (!marks[n]) continue;
+    if (!flags[n]) continue;
     MeshGroup group = mesh.groups[n];
     append_range(kept.triangles, mesh.triangles, group);
     append_range(kept.texture_triangles, mesh.texture_triangles, group);
@@ -62,17 +62,17 @@ Mesh groups_of(const Mesh& mesh, const std::vector<bool>& marks) {
     kept.groups.push_back(std::move(group));
   }
   for (size_t n = 0; n < mesh.lattices.size(); ++n)
-    if (marks[mesh.groups.size() + n]) kept.lattices.push_back(mesh.lattices[n]);
+    if (flags[mesh.groups.size() + n]) kept.lattices.push_back(mesh.lattices[n]);
   kept.texture_coordinates = mesh.texture_coordinates;
   take_used_vertices(mesh.vertices, kept);
   return kept;
 }
 
 bool keep_object(Mesh& mesh, const std::string& name) {
-  std::vector<bool> marks;
-  for (const MeshGroup& group : all_groups(mesh)) marks.push_back(is_called(group, name));
-  if (std::find(marks.begin(), marks.end(), true) == marks.end()) return false;
-  mesh = groups_of(mesh, marks);
+  std::vector<bool> flags;
+  for (const MeshGroup& group : all_groups(mesh)) flags.push_back(is_called(group, name));
+  if (std::find(flags.begin(), flags.end(), true) == flags.end()) return false;
+  mesh = groups_of(mesh, flags);
   return true;
 }
 

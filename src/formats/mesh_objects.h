@@ -14,8 +14,8 @@ std::vector<std::string> object_names(const Mesh& mesh);
 // Those of the triangles, then those of the lattices.
 std::vector<MeshGroup> all_groups(const Mesh& mesh);
 
-// The groups that are marked, in order, with the vertices that they use; `marks` is for all_groups().
-Mesh groups_of(const Mesh& mesh, const std::vector<bool>& marks);
+// The groups whose flag is set, in order, with the vertices that they use; `flags` is for all_groups().
+Mesh groups_of(const Mesh& mesh, const std::vector<bool>& flags);
 
 // Keeps the groups whose name is `name`, or whose object's is. False, and an unchanged mesh, if there are none.
 bool keep_object(Mesh& mesh, const std::string& name);

@@ -177,7 +177,7 @@ TEST(Mesh, EveryTruncationIsAMeshOrAMessage) {
     }
 }
 
-TEST(File, SaysWhereItLooked) {
+TEST(File, SaysWhichFoldersWereSearched) {
   Diagnostics diagnostics;
   try {
     read_mesh("no/such.stl", diagnostics);
@@ -325,7 +325,7 @@ TEST(Stl, WrongCountsGiveWayToTheSize) {
 }
 
 TEST(Mesh, FilesThatAreNoMeshAreNamed) {
-  for (const auto& [bytes, told] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& [bytes, message] : std::vector<std::pair<std::string, std::string>>{
            {"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12\n",
             "this is no mesh file but a pointer of Git LFS, not the file itself; fetch the file: git lfs pull"},
            {"<!DOCTYPE html>\n<html><body>404</body></html>\n", "an HTML page"},
@@ -336,7 +336,7 @@ TEST(Mesh, FilesThatAreNoMeshAreNamed) {
            {std::string("\xFF\xFEs\0o\0l\0i\0d\0", 12), "text in UTF-16; save it as UTF-8"},
            {"{\"a\": 1}", "this is no mesh file but JSON"}})
     for (const std::string ending : {"stl", "obj", "ply", "off", "3mf", "amf"})
-      expect_message("a." + ending, bytes, told);
+      expect_message("a." + ending, bytes, message);
   expect_message("a.stl", "Dear all,\nhere is the part.\n" + std::string(100, '.'),
                  "a.stl: error: this is not an STL file: it is text that begins with \"Dear\" in place of \"solid\"");
   expect_message("a.stl", " \n\n", "it holds nothing but blanks");

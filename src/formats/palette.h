@@ -39,7 +39,7 @@ class Palette {
   std::array<bool, 256> known_{};
 };
 
-// How bright a colour looks (Rec. 601), alpha aside.
+// Luma of a colour (Rec. 601), alpha aside.
 uint8_t luminance(Rgba colour);
 
 }  // namespace ombre::formats

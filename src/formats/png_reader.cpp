@@ -119,7 +119,7 @@ std::vector<Rgba> read_palette(PngReader& reader) {
   return palette;
 }
 
-// Told by the header, before memory is taken.
+// Checked by the header, before memory is taken.
 void check_size(const PngReader& reader, uint32_t width, uint32_t height, uint64_t most_pixels,
                 const std::string& name) {
   const std::string size = format_count(width) + " x " + format_count(height) + " pixels";

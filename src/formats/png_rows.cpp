@@ -44,8 +44,8 @@ RowPacker::RowPacker(uint32_t width, const Samples& samples, bool flip_x)
   if (bit_depth_ == 8) return;
   for (const MaterialId id : samples.ids) {
     if (samples_[id] == 0) continue;
-    if (marked_ < few_.from.size()) few_.from[marked_] = id, few_.to[marked_] = samples_[id];
-    ++marked_;
+    if (registered_ < few_.from.size()) few_.from[registered_] = id, few_.to[registered_] = samples_[id];
+    ++registered_;
   }
   pairs_.resize(size_t{1} << 16);
   for (const MaterialId a : samples.ids)
@@ -86,7 +86,7 @@ void RowPacker::put_run(uint64_t begin, const Run& run, uint8_t* out) const {
 }
 
 void RowPacker::pack_voxels(uint8_t* out) const {
-  if (bit_depth_ == 2 && marked_ <= few_.from.size()) return pack_double_bits(voxels_.data(), few_, {out, size()});
+  if (bit_depth_ == 2 && registered_ <= few_.from.size()) return pack_double_bits(voxels_.data(), few_, {out, size()});
   switch (bit_depth_) {
     case 1:
       return pack_pairs<1>(out);

@@ -42,7 +42,7 @@ class RowPacker {
   bool flip_x_;
   std::array<uint8_t, 256> samples_;
   DoubleBits few_;                  // the materials whose sample is not 0, if they are few
-  size_t marked_ = 0;               // how many they are
+  size_t registered_ = 0;           // how many they are
   std::vector<uint8_t> pairs_;      // the samples of two neighbours, by their ids
   std::vector<MaterialId> voxels_;  // of one row, and some more
 };

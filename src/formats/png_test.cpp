@@ -268,7 +268,7 @@ TEST(Png, IdsNeedNotBeDense) {
   expect_same_voxels(layer, palette, {});
 }
 
-TEST(Png, VoidIsTransparentUnlessABackgroundIsAskedFor) {
+TEST(Png, VoidIsTransparentUnlessABackgroundIsRequested) {
   const RunLayer layer = random_layer(8, 8, 0, 8, 1);
   for (const ImageFormat format : {ImageFormat::indexed, ImageFormat::rgba}) {
     PngLayout layout;

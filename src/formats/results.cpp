@@ -11,7 +11,7 @@ namespace ombre::formats {
 namespace {
 
 // The second field of a name gets a number.
-void tell_names_apart(std::vector<ResultField>& fields) {
+void make_names_unique(std::vector<ResultField>& fields) {
   std::set<std::string> taken;
   for (ResultField& field : fields) {
     const std::string name = field.name;
@@ -115,7 +115,7 @@ std::optional<Results> read_results(const std::string& name, std::string_view by
     Results results = read_any(name, bytes, values, diagnostics);
     if (results.points.empty()) fail(diagnostics, name, "the file holds no points");
     fill_up_fields(results);
-    tell_names_apart(results.fields);
+    make_names_unique(results.fields);
     add_von_mises(results);
     return results;
   } catch (const DesignError&) {

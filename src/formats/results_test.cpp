@@ -227,7 +227,7 @@ TEST(Results, TablesOfElementsAndWithoutNames) {
   EXPECT_EQ(results->fields[0].name, "displacement");
 }
 
-TEST(Results, WrongDecksAndTablesAreTold) {
+TEST(Results, WrongDecksAndTablesAreReported) {
   const auto says = [](const std::string& text, const std::string& table, const std::string& what) {
     std::string said;
     EXPECT_FALSE(read_with(text, table, said));

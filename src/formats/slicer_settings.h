@@ -1,4 +1,4 @@
-// What slicers are told about a body.
+// A slicer's settings for a body.
 #pragma once
 
 #include "formats/mesh_document.h"

@@ -33,7 +33,7 @@ bool has_binary_size(std::string_view bytes) {
 }
 
 // Binary files may begin with "solid" as well, but text has no zero bytes. Some writers leave out the first line.
-bool looks_like_text(std::string_view bytes) {
+bool is_like_text(std::string_view bytes) {
   const size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   if (first == std::string_view::npos) return false;
   const std::string word = to_lower(bytes.substr(first, 5));
@@ -119,12 +119,12 @@ Mesh read_binary(const std::string& name, std::string_view bytes, Diagnostics& d
 
 }  // namespace
 
-bool is_stl(std::string_view bytes) { return has_binary_size(bytes) || looks_like_text(bytes); }
+bool is_stl(std::string_view bytes) { return has_binary_size(bytes) || is_like_text(bytes); }
 
 std::optional<Mesh> read_stl(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
   try {
     if (bytes.empty()) fail(diagnostics, name, "the file is empty");
-    if (has_binary_size(bytes) || !looks_like_text(bytes)) return read_binary(name, bytes, diagnostics);
+    if (has_binary_size(bytes) || !is_like_text(bytes)) return read_binary(name, bytes, diagnostics);
     return read_stl_text(name, bytes, diagnostics);
   } catch (const DesignError&) {
     return std::nullopt;

@@ -176,7 +176,7 @@ TEST(ThreeMfBeams, WrongLatticesAreExplained) {
          "the ball has no radius, and its lattice has no ballradius");
 }
 
-TEST(ThreeMfBeams, UnknownElementsAreTold) {
+TEST(ThreeMfBeams, UnknownElementsAreReported) {
   Diagnostics diagnostics;
   EXPECT_TRUE(read_3mf("a.3mf", beam_file("radius=\"1\"", beams(two_beams) + "<b:plates/>"), diagnostics));
   EXPECT_NE(to_text(diagnostics).find("(1 <plates>)"), std::string::npos) << to_text(diagnostics);

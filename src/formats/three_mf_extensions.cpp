@@ -65,7 +65,7 @@ class ExtensionFinder {
     }
   }
 
-  void look_into(xml_node node) {
+  void search(xml_node node) {
     for (const xml_node child : node.children()) {
       const std::string_view name = local_name(child);
       const std::string_view space = space_of(child, prefix_of(child));
@@ -74,7 +74,7 @@ class ExtensionFinder {
       if (!is_read)
         ++extension(prefix_of(child), space).elements[std::string(name)];
       else if (is_listed(name, holders))
-        look_into(child);
+        search(child);
     }
   }
 
@@ -119,7 +119,7 @@ class ExtensionFinder {
 void warn_of_extensions(const XmlFile& file, xml_node model) {
   ExtensionFinder finder(file);
   finder.require(model, file.attribute(model, "requiredextensions").value_or(""));
-  finder.look_into(model);
+  finder.search(model);
   finder.warn();
 }
 

@@ -217,9 +217,9 @@ TEST(ThreeMf, ItemsThatAreNotPrintedAreLeftOut) {
 }
 
 TEST(ThreeMf, MeshesOfCuraThatChangeSettingsAreNoPart) {
-  const auto with = [](const std::string& mark) {
+  const auto with = [](const std::string& entry) {
     std::string second = object(2);
-    second.insert(second.find("<mesh>"), mark);
+    second.insert(second.find("<mesh>"), entry);
     return archive(model(object(1) + second, two_items));
   };
   for (const std::string key : {"support_mesh", "anti_overhang_mesh", "infill_mesh"}) {
@@ -236,15 +236,16 @@ TEST(ThreeMf, MeshesOfCuraThatChangeSettingsAreNoPart) {
             "warning: a.3mf: an object that Cura cuts others by is no part of the solid and is left out\n");
 }
 
-TEST(ThreeMf, ExtensionsThatAreUsedAreTold) {
+TEST(ThreeMf, ExtensionsThatAreUsedAreReported) {
   std::string slices = object(1);
   slices.insert(slices.find("</mesh>"), "<s:slicestack><s:slice/></s:slicestack>");
   const std::string space = "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07";
-  const std::string told =
+  const std::string message =
       "warning: a.3mf/3D/a.model: what the 3MF extension \"s\" adds is not read: \"" + space + "\" (1 <slicestack>)\n";
   const std::string declared = "xmlns:s=\"" + space + '"';
-  EXPECT_EQ(warnings(archive(model(slices, "<item objectid=\"1\"/>", declared))), told);
-  EXPECT_EQ(warnings(archive(model(slices, "<item objectid=\"1\"/>", declared + " requiredextensions=\"s\""))), told);
+  EXPECT_EQ(warnings(archive(model(slices, "<item objectid=\"1\"/>", declared))), message);
+  EXPECT_EQ(warnings(archive(model(slices, "<item objectid=\"1\"/>", declared + " requiredextensions=\"s\""))),
+            message);
   std::string own = object(1);
   own.insert(own.find("</mesh>"), "<slicestack xmlns=\"" + space + "\"/>");
   EXPECT_NE(warnings(archive(model(own))).find("what a 3MF extension adds is not read: \"" + space), std::string::npos);
@@ -261,7 +262,7 @@ TEST(ThreeMf, MixturesAndPaintAreCounted) {
               "warning: a.3mf: a triangle is painted with another extruder, which is not read\n");
 }
 
-TEST(ThreeMf, UnknownExtensionsAreTold) {
+TEST(ThreeMf, UnknownExtensionsAreReported) {
   Diagnostics diagnostics;
   EXPECT_TRUE(read_3mf(
       "a.3mf", archive(model(object(1), "<item objectid=\"1\"/>", "requiredextensions=\"b\" xmlns:b=\"x/beams\"")),

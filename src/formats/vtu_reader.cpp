@@ -47,7 +47,7 @@ class VtuReader {
                     "save the results as .vtu");
     arrays_.read_settings(root);
     for (const xml_node piece : root.child("UnstructuredGrid").children("Piece")) add_piece(piece);
-    tell_of_flat_cells();
+    warn_of_flat_cells();
     return std::move(results_);
   }
 
@@ -171,7 +171,7 @@ class VtuReader {
       if (field.is_of_elements == is_of_elements) field.values.resize(count * field.components, std::nan(""));
   }
 
-  void tell_of_flat_cells() const {
+  void warn_of_flat_cells() const {
     if (flat_cells_ == 0) return;
     file_.diagnostics().warning({make_source(file_.name(), ""), 0, 0},
                                 format_count(flat_cells_) + " points, lines or faces of the grid are left out");

@@ -53,7 +53,7 @@ class EntrySource {
       case ZIP_SOURCE_READ:
         return read(static_cast<char*>(data), length);
       case ZIP_SOURCE_STAT:
-        return tell_size(static_cast<zip_stat_t*>(data));
+        return fill_stat(static_cast<zip_stat_t*>(data));
       case ZIP_SOURCE_ERROR:
         return libzip().error_to_data(zip_error_in_memory(), data, length);
       case ZIP_SOURCE_CLOSE:
@@ -86,7 +86,7 @@ class EntrySource {
     return static_cast<zip_int64_t>(filled);
   }
 
-  zip_int64_t tell_size(zip_stat_t* stat) const {
+  zip_int64_t fill_stat(zip_stat_t* stat) const {
     libzip().stat_init(stat);
     stat->valid = ZIP_STAT_SIZE;
     stat->size = size_;

@@ -41,7 +41,7 @@ BeamShape::BeamShape(Vec3 start, Vec3 end, std::array<double, 2> radii, std::arr
   axis_ = (1 / length_) * (end - start);
   slope_ = (radii[1] - radii[0]) / length_;
   slant_cosine_ = 1 / std::hypot(1.0, slope_);
-  // Of a cylinder, half a ball at an end looks like a whole one.
+  // Of a cylinder, half a ball at an end gives the same as a whole one.
   for (Cap& cap : caps_)
     if (cap == Cap::hemisphere && slope_ == 0) cap = Cap::sphere;
 }

@@ -285,13 +285,13 @@ CadSource make_triangle_source(const std::string& name, const std::vector<cad::S
 
 double measure_doubtful_seconds(const CadSource& exact) {
   if (exact.doubtful_points.empty()) return 0;
-  const auto ask_all = [&] {
+  const auto query_all = [&] {
     const Stopwatch watch;
     for (const Vec3& p : exact.doubtful_points) exact.source->sample(inside_channel, p);
     return watch.seconds();
   };
-  ask_all();  // builds the solids' queries, which later ones find
-  return ask_all() / static_cast<double>(exact.doubtful_points.size());
+  query_all();  // builds the solids' queries, which later ones find
+  return query_all() / static_cast<double>(exact.doubtful_points.size());
 }
 
 CadSource make_exact_source(const std::string& name, const std::vector<cad::SolidPtr>& solids, Hash content,

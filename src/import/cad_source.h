@@ -29,8 +29,8 @@ struct CadSource {
 CadSource make_triangle_source(const std::string& name, const std::vector<cad::SolidPtr>& solids, Hash content,
                                double deflection_mm);
 
-// The surfaces themselves. Triangles at this deflection tell where the library need not be asked what is inside.
-// Gaps between these matter if they are wider than what the library is asked about.
+// The surfaces themselves. Triangles at this deflection show where the library's test for inside is not needed.
+// Gaps between these matter if they are wider than the band in which the library decides.
 CadSource make_exact_source(const std::string& name, const std::vector<cad::SolidPtr>& solids, Hash content,
                             double deflection_mm);
 

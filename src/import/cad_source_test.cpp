@@ -150,7 +150,7 @@ class Cube : public cad::Solid {
 
 cad::SolidPtr cube(Vec3 center, size_t left_out = 0) { return std::make_shared<Cube>(center, left_out); }
 
-TEST(CadGaps, AreToldOfWithTheirSolid) {
+TEST(CadGaps, AreReportedWithTheirSolid) {
   EXPECT_TRUE(make_triangle_source("cubes", {cube({}), cube({2, 0, 0})}, {}, 0.1).open.empty());
   const auto open = make_triangle_source("cubes", {cube({}), cube({0, 0, 3}, 2)}, {}, 0.1).open;
   ASSERT_EQ(open.size(), 1u);
@@ -161,9 +161,9 @@ TEST(CadGaps, AreToldOfWithTheirSolid) {
   EXPECT_NEAR(open[0].edges.gap_mm, 2, 1e-12);
 }
 
-TEST(CadGaps, OfExactSolidsMatterWhereTheSurfaceIsNotAsked) {
+TEST(CadGaps, OfExactSolidsMatterWhereTheSurfaceIsNotQueried) {
   EXPECT_EQ(make_exact_source("cube", {cube({}, 2)}, {}, 0.1).open.size(), 1u);
-  // Within four deflections, the surface is asked.
+  // Within four deflections, the surface is queried.
   EXPECT_TRUE(make_exact_source("cube", {cube({}, 2)}, {}, 1).open.empty());
 }
 

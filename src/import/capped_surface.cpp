@@ -40,9 +40,9 @@ std::vector<Edge> missing_edges(std::vector<Edge> edges) {
 }
 
 // Takes edges, of which as many begin as end in each vertex, apart into loops that pass no vertex twice.
-class LoopWalk {
+class LoopTracer {
  public:
-  LoopWalk(const std::vector<Edge>& edges, size_t vertices) : edges_(edges), next_(vertices), place_(vertices, none) {
+  LoopTracer(const std::vector<Edge>& edges, size_t vertices) : edges_(edges), next_(vertices), place_(vertices, none) {
     for (size_t v = 0, e = 0; v < vertices; ++v) {
       next_[v] = e;
       while (e < edges.size() && edges[e][0] == v) ++e;
@@ -52,7 +52,7 @@ class LoopWalk {
   std::vector<std::vector<uint32_t>> loops() {
     for (size_t e = 0; e < edges_.size(); ++e) {
       const uint32_t start = edges_[e][0];
-      if (next_[start] <= e) walk_from(start);
+      if (next_[start] <= e) trace_from(start);
     }
     return std::move(loops_);
   }
@@ -62,7 +62,7 @@ class LoopWalk {
 
   bool has_edge(uint32_t vertex) const { return next_[vertex] < edges_.size() && edges_[next_[vertex]][0] == vertex; }
 
-  void walk_from(uint32_t vertex) {
+  void trace_from(uint32_t vertex) {
     while (true) {
       if (place_[vertex] != none) cut_loop(vertex);
       if (!has_edge(vertex)) break;
@@ -161,7 +161,7 @@ class Capper {
   CappedSurface close() && {
     std::vector<Edge> open = missing_edges(edges_of(closed_));
     bridge_cracks(open);
-    for (const auto& loop : LoopWalk(open, closed_.vertices.size()).loops()) caps_.push_back(add_fan(loop));
+    for (const auto& loop : LoopTracer(open, closed_.vertices.size()).loops()) caps_.push_back(add_fan(loop));
     return {std::make_shared<Surface>(std::move(closed_)), std::move(caps_)};
   }
 

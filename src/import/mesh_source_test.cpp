@@ -83,14 +83,14 @@ TEST(MeshSource, DistanceIsThatOfTheNearestTriangle) {
 }
 
 // Near and far, jumps and repetitions, and points that are none.
-std::vector<Vec3> walks(std::mt19937& random) {
+std::vector<Vec3> random_paths(std::mt19937& random) {
   std::vector<Vec3> points;
   for (int i = 0; i < 2000; ++i) {
     const bool jumps = i % 50 == 0;
     const Vec3 from = jumps ? random_point(random, i % 100 == 0 ? 1e6 : 12) : points.back();
     points.push_back(from + random_point(random, i % 7 == 0 ? 0 : 0.1));
   }
-  points[300] = {std::nan(""), 0, 0};  // after the walk, which would not survive it
+  points[300] = {std::nan(""), 0, 0};  // after the path, which would not survive it
   points[700] = {0, Box::inf, 0};
   return points;
 }
@@ -102,7 +102,7 @@ TEST(MeshSource, ManyPointsAtOnceGetTheSameBits) {
   open.triangles.resize(open.triangles.size() - 400);
   for (const auto& source :
        {make_mesh_source("m", torus(7, 2, 60, 30), {}), make_mesh_source("m", open, {}, {InsideRule::generalized})}) {
-    const std::vector<Vec3> points = walks(random);
+    const std::vector<Vec3> points = random_paths(random);
     std::vector<double> values(points.size());
     for (int channel = 0; channel < (has_mesh_distance() ? 2 : 1); ++channel) {
       source->sample_all(channel, points, values);
@@ -115,7 +115,7 @@ TEST(MeshSource, ChannelsTogetherGetTheSameBits) {
   if (!has_mesh_distance()) GTEST_SKIP() << "built without OMBRE_MESH_DISTANCE";
   std::mt19937 random(9);
   const auto source = make_mesh_source("m", torus(7, 2, 60, 30), {});
-  const std::vector<Vec3> points = walks(random);
+  const std::vector<Vec3> points = random_paths(random);
   const std::array channels{0, 1, 0};
   std::array<std::vector<double>, 3> values;
   std::array<double*, 3> rows{};

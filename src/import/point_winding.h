@@ -32,7 +32,7 @@ class PointWinding {
   const Surface& surface() const { return *surface_; }
 
  private:
-  // What a ray must meet to cross a triangle: most of those in its bins are told by this little memory.
+  // What a ray must meet to cross a triangle: this little memory rules out most of those in its bins.
   struct Reach {
     float least_x, least_y, most_y, least_z, most_z;
     bool meets(Vec3 p) const {

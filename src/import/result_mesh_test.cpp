@@ -233,7 +233,7 @@ TEST(ResultMesh, RangesHoldAllValues) {
   }
 }
 
-// Values of elements are constant within, and on common sides those of the first; what was asked before is no matter.
+// Values of elements are constant within, and on common sides those of the first; what was queried before is no matter.
 TEST(ResultMesh, ElementsKeepTheirValues) {
   const auto mesh = mesh_with(ElementKind::brick8, 0, linear);
   const auto source = source_of(mesh, nowhere);

@@ -97,13 +97,13 @@ class ResultSource final : public program::FieldSource {
 
   void sample_channels(std::span<const int> channels, std::span<const Vec3> points,
                        std::span<double* const> values) const override {
-    bool asks_for_values = false;
-    for (const int channel : channels) asks_for_values = asks_for_values || channel != inside_channel_number;
+    bool needs_values = false;
+    for (const int channel : channels) needs_values = needs_values || channel != inside_channel_number;
     std::optional<ElementPlace> last;
     for (size_t n = 0; n < points.size(); ++n) {
       const auto held = mesh_->place(points[n], last ? &*last : nullptr);
       if (held) last = held;
-      const auto place = held || !asks_for_values ? held : outside(points[n]);
+      const auto place = held || !needs_values ? held : outside(points[n]);
       for (size_t c = 0; c < channels.size(); ++c)
         values[c][n] = channels[c] == inside_channel_number ? (held ? 1 : 0) : value(channels[c], place, points[n]);
     }
@@ -112,15 +112,15 @@ class ResultSource final : public program::FieldSource {
   Interval range(int channel, const Box& box) const override {
     if (channel == inside_channel_number) return meet(box, mesh_->bounds()) ? Interval(0, 1) : Interval(0);
     if (!box.is_bounded()) return Interval::everything();
-    Box asked = box;
+    Box queried = box;
     if (outside_.kind == OutsideRule::Kind::none) return Interval::everything();
     if (outside_.kind == OutsideRule::Kind::nearest) {
       // All of the box is that near to the mesh.
       const double reach = farthest(box);
       if (!(reach <= outside_.within_mm) || std::isinf(reach)) return Interval::everything();
-      asked = box.expanded(reach * (1 + rounding));
+      queried = box.expanded(reach * (1 + rounding));
     }
-    Interval found = bounds_of(channel).over(asked);
+    Interval found = bounds_of(channel).over(queried);
     if (outside_.kind == OutsideRule::Kind::value) found = hull(found, Interval(outside_.value));
     if (!(std::isfinite(found.lo) && std::isfinite(found.hi))) return Interval::everything();
     const double room = rounding * std::max(std::abs(found.lo), std::abs(found.hi));

@@ -120,7 +120,7 @@ TEST(RowWinding, InwardShellsAreCavities) {
   EXPECT_EQ(count(voxels(mesh, {}, {12, 12, 12})), 9 * 9 * 9 - 3 * 3 * 3);
 }
 
-TEST(RowWinding, ShellsThatOverlapUniteUnlessParityIsAskedFor) {
+TEST(RowWinding, ShellsThatOverlapUniteUnlessParityIsRequested) {
   const Mesh mesh = together(cuboid({0.5, 0.5, 0.5}, {6.5, 6.5, 6.5}), cuboid({3.5, 3.5, 3.5}, {9.5, 9.5, 9.5}));
   const int64_t one = 216, shared = 27;
   EXPECT_EQ(count(voxels(mesh, {}, {12, 12, 12})), 2 * one - shared);

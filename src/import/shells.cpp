@@ -150,13 +150,13 @@ class ShellTurner {
   }
 
   // In one or more of the marked shells, and in no other.
-  bool lies_only_in(const std::vector<bool>& marks, uint32_t n) {
-    bool lies_in_marked = false;
+  bool lies_only_in(const std::vector<bool>& flags, uint32_t n) {
+    bool lies_in_flagged = false;
     for (uint32_t other = 0; other < shells_.size(); ++other)
-      if (marks[other] && lies_in(n, other)) lies_in_marked = true;
-    if (!lies_in_marked) return false;
+      if (flags[other] && lies_in(n, other)) lies_in_flagged = true;
+    if (!lies_in_flagged) return false;
     for (uint32_t other = 0; other < shells_.size(); ++other)
-      if (!marks[other] && shells_[other].volume > 0 && lies_in(n, other)) return false;
+      if (!flags[other] && shells_[other].volume > 0 && lies_in(n, other)) return false;
     return true;
   }
 

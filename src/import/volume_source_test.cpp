@@ -156,7 +156,7 @@ TEST(VolumeSource, RowsOnCentresAreCopies) {
     }
 }
 
-TEST(VolumeSource, RowsBesideCentresOrBeyondFloatsAreAskedPointByPoint) {
+TEST(VolumeSource, RowsBesideCentresOrBeyondFloatsAreQueriedPointByPoint) {
   EXPECT_FALSE(grid_of<uint16_t>(scattered).source->rows(0, Affine::translation({0.25, 0, 0})));
   EXPECT_FALSE(grid_of<uint16_t>(scattered).source->rows(0, Affine::scaling({0.5, 1, 1})));
   EXPECT_FALSE(grid_of<uint16_t>(scattered).source->rows(3, Affine{}));

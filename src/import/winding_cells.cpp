@@ -9,7 +9,7 @@ namespace ombre::importing {
 namespace {
 
 constexpr double least_boxes = 1 << 20, most_boxes = 1 << 22, boxes_of_triangle = 2, most_along = 1024;
-constexpr double most_marks = 1 << 26;  // of boxes, by triangles that reach far; boxes are larger then
+constexpr double most_flags = 1 << 26;  // of boxes, by triangles that reach far; boxes are larger then
 // Beyond these numbers a ray is slower than PointWinding.
 constexpr int64_t most_boxes_of_ray = 100, most_triangles_of_ray = 500;
 constexpr int8_t unknown = std::numeric_limits<int8_t>::min();
@@ -28,7 +28,7 @@ WindingCells::WindingCells(const PointWinding& winding) : winding_(winding), bou
   const auto triangles = static_cast<double>(winding.surface().triangles.size());
   double boxes = std::clamp(boxes_of_triangle * triangles, least_boxes, most_boxes);
   cut_into(boxes);
-  while (boxes > 1 && marks() > most_marks) cut_into(boxes /= 8);
+  while (boxes > 1 && flags() > most_flags) cut_into(boxes /= 8);
   list_triangles();
   fill();
 }
@@ -47,7 +47,7 @@ void WindingCells::cut_into(double boxes) {
       slack_of_size * largest(size_mm_) + slack_of_coordinates * std::max(largest(bounds_.lo), largest(bounds_.hi));
 }
 
-double WindingCells::marks() const {
+double WindingCells::flags() const {
   const Surface& surface = winding_.surface();
   double sum = 0;
   for (uint32_t n = 0; n < surface.triangles.size(); ++n) {
@@ -162,8 +162,8 @@ int8_t WindingCells::filled(const Place& place) const {
     const int8_t there = windings_[number(before)];
     if (there != unknown) return there;
   }
-  const int64_t asked = winding_.at(middle(place));
-  return std::abs(asked) < std::numeric_limits<int8_t>::max() ? static_cast<int8_t>(asked) : unknown;
+  const int64_t winding = winding_.at(middle(place));
+  return std::abs(winding) < std::numeric_limits<int8_t>::max() ? static_cast<int8_t>(winding) : unknown;
 }
 
 }  // namespace ombre::importing

@@ -16,7 +16,7 @@ namespace ombre::importing {
 // know their triangles. A ray along -x counts its crossings box by box, as far as the next box without triangles.
 class WindingCells {
  public:
-  // `winding` is asked in the middles of a few boxes, and about triangles. It must live as long.
+  // `winding` is queried in the middles of a few boxes, and about triangles. It must live as long.
   explicit WindingCells(const PointWinding& winding);
 
   // The same number as `winding` gives. None beyond the mesh, and where many triangles or boxes with triangles lie in a
@@ -27,7 +27,7 @@ class WindingCells {
   using Place = std::array<int64_t, 3>;
 
   void cut_into(double boxes);
-  double marks() const;
+  double flags() const;
   std::pair<Place, Place> around(const std::array<Vec3, 3>& corners) const;
   size_t number(const Place& place) const;
   Vec3 middle(const Place& place) const;

@@ -25,11 +25,11 @@ Mesh twice(const Mesh& mesh, Vec3 by) {
 }
 
 struct Share {
-  size_t known = 0, asked = 0;
-  double value() const { return static_cast<double>(known) / static_cast<double>(asked); }
+  size_t known = 0, queried = 0;
+  double value() const { return static_cast<double>(known) / static_cast<double>(queried); }
 };
 
-// Points of a lattice, of a walk and of the surface.
+// Points of a lattice, of a random path and of the surface.
 Share compare(const Mesh& mesh) {
   const SurfacePtr surface = surface_of(mesh);
   const PointWinding exact(surface);
@@ -50,7 +50,7 @@ Share compare(const Mesh& mesh) {
   Share share;
   for (const Vec3& point : points) {
     const auto winding = cells.at(point);
-    ++share.asked;
+    ++share.queried;
     if (!winding) continue;
     ++share.known;
     EXPECT_EQ(*winding, exact.at(point)) << point.x << ' ' << point.y << ' ' << point.z;
@@ -58,7 +58,7 @@ Share compare(const Mesh& mesh) {
   return share;
 }
 
-TEST(WindingCells, SayWhatAPointIsToldAlone) {
+TEST(WindingCells, AgreeWithQueriesOfSinglePoints) {
   EXPECT_GT(compare(torus(7, 2, 60, 30)).value(), 0.7);
   EXPECT_GT(compare(cuboid({-1, -2, -3}, {1, 2, 3})).value(), 0.8);
   EXPECT_GT(compare(sphere(10, 5)).value(), 0.7);

@@ -39,7 +39,7 @@ void Interpreter::for_each_scope(const ast::Argument& loop, const ScopePtr& scop
   ScopePtr inner = make_scope(scope);
   for_each(values, loop.value->span, "\"for\" needs a range, a list or a string", [&](const Value& value) {
     // The scope serves the next pass too, unless something holds on to it.
-    if (inner->owners() > 1) inner = make_scope(scope);
+    if (inner->use_count() > 1) inner = make_scope(scope);
     inner->clear();
     set_variable(loop.name, value, *inner, mark.size());
     body(inner);

@@ -30,7 +30,8 @@ Interpreter::Interpreter(const Program& program, Vocabulary& vocabulary, const O
 }
 
 // A name that is to be set, and that the script does not have, is a slip of the pen.
-void Interpreter::tell_missing(Severity severity, const std::string& name, const std::string& what, const Unit& main) {
+void Interpreter::report_missing(Severity severity, const std::string& name, const std::string& what,
+                                 const Unit& main) {
   std::vector<std::string> names;
   for (const ast::Assign* assignment : main.plan.assignments) names.emplace_back(*assignment->name.symbol);
   report({severity,
@@ -47,11 +48,11 @@ Interpreter::Nodes Interpreter::run() {
     const Unit& main = program_.units.front();
     for (const Definition& definition : options_.definitions) {
       if (!program_.names->contains(definition.name))
-        tell_missing(Severity::warning, definition.name, "that -D could set", main);
+        report_missing(Severity::warning, definition.name, "that -D could set", main);
       overrides_[program_.names->intern(definition.name)] = from_data(definition.value, meter_);
     }
     for (const std::string& name : options_.needed)
-      if (!program_.names->contains(name)) tell_missing(Severity::error, name, "that could get what is found", main);
+      if (!program_.names->contains(name)) report_missing(Severity::error, name, "that could get what is found", main);
     const ScopePtr& scope = unit_scope(main);
     try {
       run_actions(main.plan, scope, nodes);

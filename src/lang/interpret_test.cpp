@@ -124,7 +124,7 @@ TEST(Interpret, IncludeAndUse) {
             "part.vcad:1:10: error: there is no file \"no.vcad\"; looked for no.vcad");
 }
 
-TEST(Interpret, CyclesOfIncludesAreTold) {
+TEST(Interpret, CyclesOfIncludesAreReported) {
   Options options;
   options.read_file = [](const std::string& path) -> std::optional<std::string> {
     if (path == "a") return "include <b>";
@@ -370,15 +370,15 @@ TEST(Interpret, MistakesInLongListsAreTheSameReadAhead) {
   }
 }
 
-TEST(Interpret, MistakesInLongListsAreToldOnceWithTheirPlaces) {
+TEST(Interpret, MistakesInLongListsAreReportedOnceWithTheirPlaces) {
   const std::string many = numbered_cubes(2000);
   expect_messages({{many + "cube(1;", "2001:7: error: expected \",\" or \")\" after this argument, found \";\""},
                    {many + "cube(nowhere);",
                     "2001:6: error: there is no variable \"nowhere\"; give it a value first: nowhere = ...;"}});
   const std::string messages = run_script(many + "show(\"\\q\"); union() { a = 1; a = 2; }").messages;
-  for (const std::string_view told : {"starts no escape", "has a value already"}) {
-    EXPECT_NE(messages.find(told), std::string::npos) << messages;
-    EXPECT_EQ(messages.find(told), messages.rfind(told)) << messages;
+  for (const std::string_view message : {"starts no escape", "has a value already"}) {
+    EXPECT_NE(messages.find(message), std::string::npos) << messages;
+    EXPECT_EQ(messages.find(message), messages.rfind(message)) << messages;
   }
 }
 
@@ -400,7 +400,7 @@ TEST(Interpret, ClosuresInRingsAndRowsAreFreed) {
       std::string::npos);
 }
 
-TEST(Interpret, StopsWhenAsked) {
+TEST(Interpret, StopsOnRequest) {
   StopFlag stop;
   stop.request();
   Options options;

@@ -1,4 +1,4 @@
-// Walks a script's tree: statements make nodes, expressions make values.
+// Evaluates a script's tree: statements make nodes, expressions make values.
 #pragma once
 
 #include <string>
@@ -105,7 +105,7 @@ class Interpreter {
   // --- statements.cpp
   const ScopePtr& unit_scope(const Unit& unit);
   void assign(const ast::Plan& plan, const ScopePtr& scope, bool is_main);
-  void tell_missing(Severity severity, const std::string& name, const std::string& what, const Unit& main);
+  void report_missing(Severity severity, const std::string& name, const std::string& what, const Unit& main);
   // `ends`, where it is given, gets the size of `out` after each statement that makes solids, however many.
   void run_block(const ast::Block& block, const ScopePtr& outer, Nodes& out, std::vector<size_t>* ends = nullptr);
   void run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out, std::vector<size_t>* ends = nullptr);
@@ -215,9 +215,9 @@ class Interpreter {
   uint64_t argument_bytes_ = 0;  // of the call being put together
   Nodes roots_;                  // of statements marked "!"
   bool has_roots_ = false;
-  ReadAhead* reader_ = nullptr;           // of the action begun last, if it has one
-  std::unordered_set<std::string> told_;  // diagnostics that were given
-  size_t failures_ = 0;                   // of statements, told or not
+  ReadAhead* reader_ = nullptr;               // of the action begun last, if it has one
+  std::unordered_set<std::string> reported_;  // diagnostics that were given
+  size_t failures_ = 0;                       // of statements, reported or not
 };
 
 }  // namespace ombre::lang

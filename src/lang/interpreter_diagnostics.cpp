@@ -6,7 +6,7 @@
 namespace ombre::lang {
 namespace {
 
-constexpr size_t most_told = 1000;  // different ones; a design with more has one cause, repeated
+constexpr size_t most_reported = 1000;  // different ones; a design with more has one cause, repeated
 
 std::string text_at(const ast::Span& span) {
   return std::string((*span.source)->text().substr(span.begin, span.end - span.begin));
@@ -32,7 +32,8 @@ void add_names(std::vector<std::string>& names, const Scope& scope) {
 void Interpreter::report(Diagnostic diagnostic) {
   std::string key = diagnostic.where.source ? diagnostic.where.source->name() : "";
   key += ':' + std::to_string(diagnostic.where.begin) + ':' + diagnostic.message;
-  if (told_.size() < most_told && told_.insert(std::move(key)).second) diagnostics_.add(std::move(diagnostic));
+  if (reported_.size() < most_reported && reported_.insert(std::move(key)).second)
+    diagnostics_.add(std::move(diagnostic));
 }
 
 void Interpreter::fail(const ast::Span& where, std::string_view message, const Phrase& hint) {

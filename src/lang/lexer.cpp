@@ -91,9 +91,9 @@ class Unescaper {
   void character() {
     const size_t size = text_[at_] == '\0' ? 0 : code_point_size(text_, at_);
     if (size == 0) {
-      if (!was_told_)
+      if (!was_reported_)
         diagnostics_.error(part(at_, at_ + 1), "this is not text in UTF-8", "save the file as plain UTF-8 text");
-      was_told_ = true;
+      was_reported_ = true;
       ++at_;
       return;
     }
@@ -173,7 +173,7 @@ class Unescaper {
   Dialect dialect_;
   Diagnostics& diagnostics_;
   size_t at_ = 1;
-  bool was_told_ = false;
+  bool was_reported_ = false;
   StringValue result_;
 };
 

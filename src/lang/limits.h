@@ -1,4 +1,4 @@
-// How much a script may ask for before it is told to stop.
+// Limits beyond which a script is stopped.
 #pragma once
 
 #include <cstdint>

@@ -93,8 +93,8 @@ class Loader {
     } else if (open_.size() > static_cast<size_t>(limits_.include_depth)) {
       message = "files include each other deeper than " + std::to_string(limits_.include_depth) + " levels";
     } else if (program_.files.size() >= static_cast<size_t>(limits_.files)) {
-      if (was_told_) return false;
-      was_told_ = true;
+      if (was_reported_) return false;
+      was_reported_ = true;
       message = "this design includes more than " + std::to_string(limits_.files) + " files";
     } else {
       return true;
@@ -142,7 +142,7 @@ class Loader {
   Program program_;
   std::vector<std::string> open_;  // the files being read, outermost first
   std::map<std::string, const Unit*> used_;
-  bool was_told_ = false;
+  bool was_reported_ = false;
 };
 
 }  // namespace

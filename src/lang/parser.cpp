@@ -369,8 +369,8 @@ File parse_deferred(const SourcePtr& source, std::shared_ptr<Names> names, Diale
 }
 
 StatementPtr read(const Deferred& call, Names& names, Dialect dialect) {
-  Diagnostics told;
-  Parser parser(call.span.source, call.span.begin, dialect, names, told, told);
+  Diagnostics repeated;
+  Parser parser(call.span.source, call.span.begin, dialect, names, repeated, repeated);
   parser.defer_calls();
   return parser.statement();
 }

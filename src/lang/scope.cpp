@@ -33,7 +33,7 @@ void CapturedScopes::add(const ScopePtr& scope) {
 
 // Since what a dropped scope held is owned here as well, nothing falls in long rows.
 void CapturedScopes::drop_unused() {
-  const auto is_unused = [](const ScopePtr& scope) { return scope->owners() == 1; };
+  const auto is_unused = [](const ScopePtr& scope) { return scope->use_count() == 1; };
   scopes_.erase(std::remove_if(scopes_.begin(), scopes_.end(), is_unused), scopes_.end());
 }
 

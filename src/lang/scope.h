@@ -12,7 +12,7 @@ namespace ombre::lang {
 
 class Scope;
 
-// Counts owners without atomics: a script runs on one thread.
+// Counts references without atomics: a script runs on one thread.
 class ScopePtr {
  public:
   ScopePtr() = default;
@@ -85,7 +85,7 @@ class Scope {
   }
   const std::vector<std::pair<Symbol, Value>>& variables() const { return variables_; }
 
-  int owners() const { return owners_; }
+  int use_count() const { return use_count_; }
   void keep_alive() { is_captured_ = true; }
   bool is_captured() const { return is_captured_; }
 
@@ -104,17 +104,17 @@ class Scope {
   const Unit* unit_ = nullptr;  // of a file's outermost scope
   std::vector<std::pair<Symbol, Value>> variables_;
   std::unordered_map<Symbol, size_t> index_;
-  int owners_ = 0;
+  int use_count_ = 0;
   bool is_captured_ = false;
 };
 
-inline ScopePtr::ScopePtr(Scope* scope) : scope_(scope) { ++scope_->owners_; }
+inline ScopePtr::ScopePtr(Scope* scope) : scope_(scope) { ++scope_->use_count_; }
 inline ScopePtr::ScopePtr(const ScopePtr& other) : scope_(other.scope_) {
-  if (scope_) ++scope_->owners_;
+  if (scope_) ++scope_->use_count_;
 }
 inline ScopePtr::~ScopePtr() {
   // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Branch): every constructor sets it
-  if (scope_ && --scope_->owners_ == 0) delete scope_;
+  if (scope_ && --scope_->use_count_ == 0) delete scope_;
 }
 
 inline ScopePtr make_scope(ScopePtr parent, const ast::Plan* plan = nullptr) {

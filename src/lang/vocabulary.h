@@ -37,7 +37,7 @@ struct Invocation {
   double facets = 0;                                                          // $fn there; 0: nobody set it
   bool has_own_facets = false;                                                // $fn is one of the arguments
   std::string wrong_facets;              // what $fn is where it is no number: "a string"
-  bool has_wrong_children = false;       // there were mistakes in the braces, and they were told
+  bool has_wrong_children = false;       // there were mistakes in the braces, and they were reported
   bool is_top_level = false;             // a statement of the main file, outside of any call
   std::vector<SourceRange> called_from;  // user module calls around it, innermost first, at most 8
   // The script's variable of that name there, if it is a number or an object. Only while the call is made.

@@ -12,18 +12,18 @@ namespace {
 using namespace design;
 
 // What a point may have to ask; programs would get too large.
-constexpr double most_asked = 10'000;
+constexpr double most_queries = 10'000;
 
 Domain copy_overlap_choices() { return one_of({"first", "mix", "last"}); }
 constexpr std::string_view copy_overlap_doc =
     "Where copies overlap: first and last let one take precedence, mix adds their compositions and normalises";
 
 // What the family shares: the union of copies, of which each point asks those that matter to it. T has
-//   holding(p)          where the copies that may hold the point are asked
+//   holding(p)          where the copies that may hold the point are evaluated
 //   in_order(p)         the same, with the first copies first
-//   nearest_ones(p)     where the copies that may be the nearest are asked, the first ones first
+//   nearest_ones(p)     where the copies that may be the nearest are evaluated, the first ones first
 //   distances(in, p)    their distances
-//   most_asked_at_once  how many these can be
+//   most_queries_at_once  how many these can be
 template <class T>
 struct Array {
   Metric metric(const Inputs& in) const {
@@ -31,50 +31,50 @@ struct Array {
     return metric.is_implicit() ? metric : Metric::bounded(std::max(1.0, metric.lipschitz));
   }
 
-  Traits traits() const { return {.most_evaluations_of_input = self().most_asked_at_once()}; }
+  Traits traits() const { return {.most_evaluations_of_input = self().most_queries_at_once()}; }
 
   Field membership(const Inputs& in, const Point& p, Border border) const {
-    std::vector<Field> marks;
-    for (const Point& q : self().holding(p)) marks.push_back(in.membership(0, q, border));
-    return program::fold(marks, program::logical_or);
+    std::vector<Field> flags;
+    for (const Point& q : self().holding(p)) flags.push_back(in.membership(0, q, border));
+    return program::fold(flags, program::logical_or);
   }
   Field distance(const Inputs& in, const Point& p) const {
     return program::fold(self().distances(in, p), program::min);
   }
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    const std::vector<Point> asked = points(p, demand);
+    const std::vector<Point> queried = points(p, demand);
     std::vector<Composition> compositions;
-    for (const Point& q : asked) compositions.push_back(in.composition(0, q, demand));
-    const std::vector<Field> marks = holders(in, p, asked, demand);
+    for (const Point& q : queried) compositions.push_back(in.composition(0, q, demand));
+    const std::vector<Field> flags = holders(in, p, queried, demand);
     const Choice rule = self().materials;
-    return weighted(compositions, rule == "first" ? first_true(marks) : rule == "last" ? last_true(marks) : marks);
+    return weighted(compositions, rule == "first" ? first_true(flags) : rule == "last" ? last_true(flags) : flags);
   }
 
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
-    const std::vector<Point> asked = points(p, demand);
+    const std::vector<Point> queried = points(p, demand);
     std::vector<Field> values;
-    for (const Point& q : asked) values.push_back(in.attribute(0, name, q, demand));
+    for (const Point& q : queried) values.push_back(in.attribute(0, name, q, demand));
     const AttributeDeclaration declaration = in.declaration(name);
-    return overlapping_values(values, holders(in, p, asked, demand), declaration.overlap,
+    return overlapping_values(values, holders(in, p, queried, demand), declaration.overlap,
                               p.constant(default_of(declaration, name)));
   }
 
   Field along(const Inputs& in, const Point& p) const {
-    const std::vector<Point> asked = self().in_order(p);
-    const std::vector<Field> marks = first_true(insides(in, asked));
-    Field value = in.along(0, asked[0]);
-    for (size_t i = 1; i < asked.size(); ++i) value = select(marks[i], in.along(0, asked[i]), value);
+    const std::vector<Point> queried = self().in_order(p);
+    const std::vector<Field> flags = first_true(insides(in, queried));
+    Field value = in.along(0, queried[0]);
+    for (size_t i = 1; i < queried.size(); ++i) value = select(flags[i], in.along(0, queried[i]), value);
     return value;
   }
 
  private:
   const T& self() const { return *static_cast<const T*>(this); }
 
-  static std::vector<Field> insides(const Inputs& in, const std::vector<Point>& asked) {
-    std::vector<Field> marks;
-    for (const Point& q : asked) marks.push_back(in.inside(0, q));
-    return marks;
+  static std::vector<Field> insides(const Inputs& in, const std::vector<Point>& queried) {
+    std::vector<Field> flags;
+    for (const Point& q : queried) flags.push_back(in.inside(0, q));
+    return flags;
   }
 
   std::vector<Point> points(const Point& p, Demand demand) const {
@@ -82,15 +82,15 @@ struct Array {
   }
 
   // The copies that hold the point; where none does and it matters, the nearest.
-  std::vector<Field> holders(const Inputs& in, const Point& p, const std::vector<Point>& asked, Demand demand) const {
-    std::vector<Field> marks = insides(in, asked);
-    if (demand == Demand::inside) return marks;
-    const Field none = logical_not(program::fold(marks, program::logical_or));
+  std::vector<Field> holders(const Inputs& in, const Point& p, const std::vector<Point>& queried, Demand demand) const {
+    std::vector<Field> flags = insides(in, queried);
+    if (demand == Demand::inside) return flags;
+    const Field none = logical_not(program::fold(flags, program::logical_or));
     std::vector<Field> distances = self().distances(in, p);
-    distances.resize(asked.size());
+    distances.resize(queried.size());
     const std::vector<Field> close = nearest(distances);
-    for (size_t i = 0; i < marks.size(); ++i) marks[i] = logical_or(marks[i], logical_and(none, close[i]));
-    return marks;
+    for (size_t i = 0; i < flags.size(); ++i) flags[i] = logical_or(flags[i], logical_and(none, close[i]));
+    return flags;
   }
 };
 
@@ -98,26 +98,26 @@ template <class T>
 struct LatticeArray : Array<T> {
   LatticeCopies copies;
 
-  double most_asked_at_once() const { return copies.around_count(); }
+  double most_queries_at_once() const { return copies.around_count(); }
   std::vector<Point> holding(const Point& p) const { return copies.holding(p); }
   std::vector<Point> in_order(const Point& p) const { return copies.holding(p); }
   std::vector<Point> nearest_ones(const Point& p) const { return copies.around(p); }
 
-  // The last one is a bound for the copies that are not asked, if there are such.
+  // The last one is a bound for the copies that are not evaluated, if there are such.
   std::vector<Field> distances(const Inputs& in, const Point& p) const {
-    const bool may_fall_short = in.metric(0).kind == Metric::Kind::bounded && !copies.asks_all();
+    const bool may_fall_short = in.metric(0).kind == Metric::Kind::bounded && !copies.queries_all();
     std::vector<Field> fields;
     for (const Point& q : copies.around(p)) {
       const Field distance = in.distance(0, q);
-      // Bounds may be less than what is known of the copies that are not asked; then they would jump.
+      // Bounds may be less than what is known of the copies that are not evaluated; then they would jump.
       fields.push_back(may_fall_short ? max(distance, copies.distance_of_box(q)) : distance);
     }
-    if (!copies.asks_all()) fields.push_back(copies.distance_of_others(p));
+    if (!copies.queries_all()) fields.push_back(copies.distance_of_others(p));
     return fields;
   }
 
   Box reach(const Inputs& in, const Box& where, double margin) const {
-    // Of an exact distance it is known how far it reaches; of others only where they are asked.
+    // Of an exact distance it is known how far it reaches; of others only where they are evaluated.
     const bool is_known = margin == 0 || in.metric(0).kind == Metric::Kind::exact;
     const Box reachable = is_known ? copies.original().expanded(margin) : design_space();
     const LatticeCopies::Part part = copies.part(where, reachable);
@@ -132,7 +132,7 @@ struct LatticeArray : Array<T> {
   bool make_copies(const Reader& reader, const Affine& frame, const std::array<LatticeCopies::Row, 3>& rows,
                    const Node& child) {
     copies = LatticeCopies(frame, rows, child.bounds(design_space()));
-    if (copies.around_count() <= most_asked) return true;
+    if (copies.around_count() <= most_queries) return true;
     reader.diagnostics.error(reader.where,
                              "the copies of " + std::string(reader.node) +
                                  " overlap so much that each point would ask more than 10000 of them",
@@ -276,7 +276,7 @@ struct ArrayPolar : Array<ArrayPolar> {
     return true;
   }
 
-  double most_asked_at_once() const { return count; }
+  double most_queries_at_once() const { return count; }
   std::vector<Point> holding(const Point& p) const { return copies.holding(p); }
   std::vector<Point> in_order(const Point& p) const { return copies.is_in_order() ? copies.holding(p) : copies.all(p); }
   std::vector<Point> nearest_ones(const Point& p) const { return copies.all(p); }
@@ -314,7 +314,7 @@ struct ArrayMirror : Array<ArrayMirror> {
     return false;
   }
 
-  double most_asked_at_once() const { return 2; }
+  double most_queries_at_once() const { return 2; }
   std::vector<Point> holding(const Point& p) const { return {p, p.mapped(image_from_here())}; }
   std::vector<Point> in_order(const Point& p) const { return holding(p); }
   std::vector<Point> nearest_ones(const Point& p) const { return holding(p); }

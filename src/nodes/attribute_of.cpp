@@ -138,7 +138,7 @@ struct CompositionOf {
     const Field inside = ask.in.inside_of(solid, ask.p), zero = ask.p.constant(0);
     Composition made = ask.in.composition_of(solid, ask.p);
     for (auto& [id, fraction] : made.fractions) fraction = select(inside, fraction, zero);
-    for (auto& [number, mark] : made.checks) mark = logical_and(inside, mark);
+    for (auto& [number, flag] : made.checks) flag = logical_and(inside, flag);
     add_void(made, select(inside, zero, ask.p.constant(1)));
     return made;
   }

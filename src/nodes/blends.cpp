@@ -33,11 +33,11 @@ std::vector<Field> shares(const Inputs& in, const Point& p, Demand demand, std::
     for (size_t i = 0; i < result.size(); ++i) result[i] = select(reached, result[i], close[i]);
   }
   if (rule == "blend") return result;
-  std::vector<Field> marks = in.memberships(p, Border::included);
-  const Field any = program::fold(marks, program::logical_or);
-  if (rule == "first") marks = first_true(marks);
-  if (rule == "last") marks = last_true(marks);
-  for (size_t i = 0; i < result.size(); ++i) result[i] = select(any, marks[i], result[i]);
+  std::vector<Field> flags = in.memberships(p, Border::included);
+  const Field any = program::fold(flags, program::logical_or);
+  if (rule == "first") flags = first_true(flags);
+  if (rule == "last") flags = last_true(flags);
+  for (size_t i = 0; i < result.size(); ++i) result[i] = select(any, flags[i], result[i]);
   return result;
 }
 
@@ -53,9 +53,9 @@ Composition choose(Field condition, const Composition& yes, const Composition& n
   Composition result;
   for (const auto& [id, pair] : fractions)
     result.fractions.emplace_back(id, select(condition, pair.first, pair.second));
-  for (const auto& [number, mark] : yes.checks) result.checks.emplace_back(number, logical_and(condition, mark));
-  for (const auto& [number, mark] : no.checks)
-    result.checks.emplace_back(number, logical_and(logical_not(condition), mark));
+  for (const auto& [number, flag] : yes.checks) result.checks.emplace_back(number, logical_and(condition, flag));
+  for (const auto& [number, flag] : no.checks)
+    result.checks.emplace_back(number, logical_and(logical_not(condition), flag));
   return result;
 }
 
@@ -152,10 +152,10 @@ Field blended_attribute(const Inputs& in, std::string_view name, const Point& p,
                         const design::AttributeDeclaration& declaration) {
   if (in.count() == 1) return in.attribute(0, name, p, demand);
   const bool weighs = declaration.overlap == design::Overlap::mix;
-  std::vector<Field> marks;
+  std::vector<Field> flags;
   for (const Field share : shares(in, p, demand, weighs ? "blend" : "mix", falloff))
-    marks.push_back(weighs ? share : truth(share));
-  return overlapping_attribute(in, name, p, Demand::everywhere, marks, declaration);
+    flags.push_back(weighs ? share : truth(share));
+  return overlapping_attribute(in, name, p, Demand::everywhere, flags, declaration);
 }
 
 }  // namespace ombre::nodes

@@ -33,15 +33,15 @@ AttributeDeclaration declaration_here(const Inputs& in, std::string_view part, c
 
 // Weights of inputs that contain the point; where none does and it matters, the nearest counts.
 std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand demand, std::string_view rule) {
-  std::vector<Field> marks = in.memberships(p, Border::included);
+  std::vector<Field> flags = in.memberships(p, Border::included);
   if (demand == Demand::everywhere) {
-    const Field none = logical_not(program::fold(marks, program::logical_or));
+    const Field none = logical_not(program::fold(flags, program::logical_or));
     const std::vector<Field> close = nearest(in.distances(p));
-    for (size_t i = 0; i < marks.size(); ++i) marks[i] = logical_or(marks[i], logical_and(none, close[i]));
+    for (size_t i = 0; i < flags.size(); ++i) flags[i] = logical_or(flags[i], logical_and(none, close[i]));
   }
-  if (rule == "first") return first_true(marks);
-  if (rule == "last") return last_true(marks);
-  return marks;
+  if (rule == "first") return first_true(flags);
+  if (rule == "last") return last_true(flags);
+  return flags;
 }
 
 // Least and greatest distances are exact on one side of a surface, and bounds on the other.
@@ -96,10 +96,10 @@ struct Union {
       for (size_t i = 0; i < in.count(); ++i) box = hull(box, in.reach(i, where, margin));
       return box;
     }
-    const std::vector<size_t> company = overlap_counts(in, where);
+    const std::vector<size_t> counts = overlap_counts(in, where);
     for (size_t i = 0; i < in.count(); ++i) {
-      const double farther = blend().reach(company[i], where, margin);
-      box = hull(box, in.reach(i, where, company[i] == 1 ? margin : farther));
+      const double farther = blend().reach(counts[i], where, margin);
+      box = hull(box, in.reach(i, where, counts[i] == 1 ? margin : farther));
     }
     return box;
   }
@@ -112,12 +112,12 @@ struct Union {
   }
 
   Field membership(const Inputs& in, const Point& p, Border border) const {
-    const PartQuery asked = border == Border::included ? query() : PartQuery::interior;
+    const PartQuery part_query = border == Border::included ? query() : PartQuery::interior;
     if (!blend().is_plain() && in.count() > 1) {
-      const Influence all = influence_of(in, p, asked, blend().falloff());
+      const Influence all = influence_of(in, p, part_query, blend().falloff());
       return blend().membership(all.total, all.any, p, border);
     }
-    const auto parts = in.many_parts(asked, p);
+    const auto parts = in.many_parts(part_query, p);
     if (!parts) return program::fold(in.memberships(p, border), program::logical_or);
     Field any = parts->inside;
     for (const size_t i : parts->others) any = logical_or(any, in.membership(i, p, border));
@@ -149,14 +149,14 @@ struct Union {
     if (count > few) return std::vector<size_t>(count, count);
     std::vector<Box> boxes;
     for (size_t i = 0; i < count; ++i) boxes.push_back(in.reach(i, where, blend_radius.range(where).hi));
-    std::vector<size_t> company(count, 1);
+    std::vector<size_t> counts(count, 1);
     for (size_t i = 0; i < count; ++i)
       for (size_t j = 0; j < i; ++j) {
         if (intersect(boxes[i], boxes[j]).is_empty()) continue;
-        ++company[i];
-        ++company[j];
+        ++counts[i];
+        ++counts[j];
       }
-    return company;
+    return counts;
   }
 
   // How many inputs stand before those of the table.
@@ -175,15 +175,15 @@ struct Union {
   // The first or last that holds the point, where those of the table count as one.
   Composition in_order(const Inputs& in, const Point& p, const PartFields& parts) const {
     std::vector<Composition> compositions;
-    std::vector<Field> marks;
+    std::vector<Field> flags;
     for (const size_t i : parts.others) {
       compositions.push_back(in.composition(i, p, Demand::inside));
-      marks.push_back(in.inside(i, p));
+      flags.push_back(in.inside(i, p));
     }
     const auto at = static_cast<std::ptrdiff_t>(before(parts));
     compositions.insert(compositions.begin() + at, parts.composition);
-    marks.insert(marks.begin() + at, parts.inside);
-    return weighted(compositions, materials == "first" ? first_true(marks) : last_true(marks));
+    flags.insert(flags.begin() + at, parts.inside);
+    return weighted(compositions, materials == "first" ? first_true(flags) : last_true(flags));
   }
 
   PartQuery query() const {
@@ -231,7 +231,7 @@ struct Intersection {
   bool is_sharp(const Inputs& in) const { return blend().is_plain() || in.count() == 1; }
   Metric metric(const Inputs& in) const { return blended_metric(in, blend()); }
 
-  // Children without bounds of their own are asked within those of the others.
+  // Children without bounds of their own are evaluated within those of the others.
   Box reach(const Inputs& in, const Box& where, double margin) const {
     Box box = where;
     for (int round = 0; round < 2; ++round)
@@ -256,9 +256,9 @@ struct Intersection {
   }
 
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
-    const auto marks = demand == Demand::inside ? std::vector<Field>(in.count(), p.constant(1))
+    const auto flags = demand == Demand::inside ? std::vector<Field>(in.count(), p.constant(1))
                                                 : overlap_weights(in, p, demand, "mix");
-    return overlapping_attribute(in, name, p, demand, marks, declaration_here(in, name, attribute_words));
+    return overlapping_attribute(in, name, p, demand, flags, declaration_here(in, name, attribute_words));
   }
 
  private:
@@ -296,16 +296,16 @@ struct Difference {
 
   // The surface of what is cut away belongs to both.
   Field membership(const Inputs& in, const Point& p, Border border) const {
-    std::vector<Field> marks = in.memberships(p, other(border));
-    marks[0] = in.membership(0, p, border);
-    const Field left = without(marks);
+    std::vector<Field> flags = in.memberships(p, other(border));
+    flags[0] = in.membership(0, p, border);
+    const Field left = without(flags);
     return is_sharp(in) ? left : carved(in, p).membership(logical_not(left), p, border);
   }
 
  private:
-  static Field without(std::vector<Field>& marks) {
-    for (size_t i = 1; i < marks.size(); ++i) marks[i] = logical_not(marks[i]);
-    return program::fold(marks, program::logical_and);
+  static Field without(std::vector<Field>& flags) {
+    for (size_t i = 1; i < flags.size(); ++i) flags[i] = logical_not(flags[i]);
+    return program::fold(flags, program::logical_and);
   }
 
   Carved carved(const Inputs& in, const Point& p) const {
@@ -321,7 +321,7 @@ struct Negate {
             "booleans",
             "Everything that is not in its child. Without bounds: use it inside an intersection.",
             {},
-            {1, 1, false, OfNothing::asked},
+            {1, 1, false, OfNothing::counts},
             "intersection() { cube(8, \"red\"); negate() { sphere(5, \"red\"); } }"};
   }
 

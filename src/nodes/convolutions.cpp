@@ -328,7 +328,7 @@ struct Smooth {
 };
 
 template <Morphology what>
-struct Morphed : Marked {
+struct Morphed : StagedSolid {
   double radius = 0;
   std::optional<Vec3> pitch;
 

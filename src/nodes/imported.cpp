@@ -36,8 +36,8 @@ bool check_mixture(const MaterialName& material, const Choice& materials, const 
   return false;
 }
 
-// What a reader of files is told of the node's material: it makes no difference to what is read.
-MaterialName told_material(const MaterialName& material, const Reader& reader) {
+// The material that a request for a file names. A mixture makes no difference to what is read.
+MaterialName material_for_request(const MaterialName& material, const Reader& reader) {
   return material.mixture ? MaterialName{&reader.materials.first()} : material;
 }
 
@@ -65,15 +65,15 @@ Field inside_any(const Parts& parts, const Point& p) { return program::fold(insi
 
 // Which parts count at a point; one at least does where it matters.
 std::vector<Field> weights(const Parts& parts, const Point& p, Demand demand) {
-  std::vector<Field> marks = insides(parts, p);
+  std::vector<Field> flags = insides(parts, p);
   if (demand == Demand::inside) {
-    marks.back() = p.constant(1);  // what is inside, and in none of the others
-    return marks;
+    flags.back() = p.constant(1);  // what is inside, and in none of the others
+    return flags;
   }
-  const Field none = logical_not(program::fold(marks, program::logical_or));
+  const Field none = logical_not(program::fold(flags, program::logical_or));
   const std::vector<Field> close = nearest(distances(parts, p));
-  for (size_t n = 0; n < marks.size(); ++n) marks[n] = logical_or(marks[n], logical_and(none, close[n]));
-  return marks;
+  for (size_t n = 0; n < flags.size(); ++n) flags[n] = logical_or(flags[n], logical_and(none, close[n]));
+  return flags;
 }
 
 Composition composition_of(const Parts& parts, const Inputs& in, const Point& p, Demand demand) {
@@ -164,8 +164,8 @@ struct Mesh : SolidOfParts {
                   "write " + spelled::parameter("materials", "\"names\"") + " or " +
                       spelled::parameter("materials", "\"colours\"") + " too");
     if (!check_mixture(material, materials, reader)) return false;
-    const MaterialName told = told_material(material, reader);
-    MeshRequest request{path, {object, inside_rule, materials, told, material_map}, deform};
+    const MaterialName named = material_for_request(material, reader);
+    MeshRequest request{path, {object, inside_rule, materials, named, material_map}, deform};
     loaded = reader.loader->source(request, reader);
     if (!loaded) return false;
     path.path = request.file.path;
@@ -220,7 +220,7 @@ struct Scad : SolidOfParts {
     }
     if (material.mixture && materials == "auto") materials = "one";
     if (!check_mixture(material, materials, reader)) return false;
-    ScadRequest request{path, script, variables, part, materials, told_material(material, reader), material_map};
+    ScadRequest request{path, script, variables, part, materials, material_for_request(material, reader), material_map};
     loaded = reader.loader->source(request, reader);
     if (!loaded) return false;
     if (loaded->parts.empty()) {
@@ -283,8 +283,8 @@ struct Cad {
                   "write " + spelled::parameter("materials", "\"names\"") + " or " +
                       spelled::parameter("materials", "\"colours\"") + " too");
     if (!check_mixture(material, materials, reader)) return false;
-    const MaterialName told = told_material(material, reader);
-    CadRequest request{path, {object, "nonzero", materials, told, material_map}, mode == "exact", tolerance};
+    const MaterialName named = material_for_request(material, reader);
+    CadRequest request{path, {object, "nonzero", materials, named, material_map}, mode == "exact", tolerance};
     parts = reader.loader->source(request, reader);
     if (!parts) return false;
     for (const CadPart& part : *parts) part_materials.push_back(material_of(part.material, material, reader));

@@ -34,7 +34,7 @@ NodePtr cad_ball() {
   return node;
 }
 
-Diagnostics told(const NodePtr& node, Vec3 voxel_mm) {
+Diagnostics remarks_for(const NodePtr& node, Vec3 voxel_mm) {
   LoweringContext context(two_materials(), {node}, voxel_mm);
   program::Builder builder;
   Lowering lowering(context, builder);
@@ -50,13 +50,13 @@ Diagnostics told(const NodePtr& node, Vec3 voxel_mm) {
 TEST(CadNode, TellsOnceWhatIsToBeSaidOfItsSource) {
   const NodePtr node = cad_ball();
   ASSERT_TRUE(node);
-  EXPECT_TRUE(told(node, {1, 1, 1}).list().empty());
-  Diagnostics all = told(node, {0.1, 0.1, 0.1});
+  EXPECT_TRUE(remarks_for(node, {1, 1, 1}).list().empty());
+  Diagnostics all = remarks_for(node, {0.1, 0.1, 0.1});
   ASSERT_EQ(all.list().size(), 1u);
   EXPECT_EQ(all.list()[0].message, "the ball has gaps");
   EXPECT_EQ(all.list()[0].severity, Severity::warning);
   // A job that lowers the design again has nothing new to tell.
-  all.add_new(told(node, {0.1, 0.1, 0.1}));
+  all.add_new(remarks_for(node, {0.1, 0.1, 0.1}));
   EXPECT_EQ(all.list().size(), 1u);
   EXPECT_TRUE(all.after(1).list().empty());
 }

@@ -10,7 +10,7 @@ namespace {
 
 // With so few copies, asking all costs less than finding those that matter.
 constexpr int few_in_lattice = 16;
-// Of the greatest coordinate: which copies are asked may be computed with single precision.
+// Of the greatest coordinate: which copies are evaluated may be computed with single precision.
 constexpr double rounding = 1e-6;
 
 Interval multiplied(double factor, Interval v) {
@@ -55,7 +55,7 @@ bool LatticeCopies::has_all(const Window& window) const {
   return true;
 }
 
-bool LatticeCopies::asks_all() const { return has_all(around_); }
+bool LatticeCopies::queries_all() const { return has_all(around_); }
 
 double LatticeCopies::around_count() const {
   return double{1} * around_.counts[0] * around_.counts[1] * around_.counts[2];
@@ -63,10 +63,10 @@ double LatticeCopies::around_count() const {
 
 Interval LatticeCopies::in_steps(size_t axis, Interval mm) const { return multiplied(1 / steps_[axis], mm); }
 
-std::vector<Point> LatticeCopies::holding(const Point& p) const { return asked(p, holding_); }
-std::vector<Point> LatticeCopies::around(const Point& p) const { return asked(p, around_); }
+std::vector<Point> LatticeCopies::holding(const Point& p) const { return candidates(p, holding_); }
+std::vector<Point> LatticeCopies::around(const Point& p) const { return candidates(p, around_); }
 
-std::vector<Point> LatticeCopies::asked(const Point& p, const Window& window) const {
+std::vector<Point> LatticeCopies::candidates(const Point& p, const Window& window) const {
   // The first copy of the window along each axis. Its number depends on the point where the window is not the whole.
   Point first = p;
   if (!has_all(window)) {
@@ -142,7 +142,7 @@ LatticeCopies::Part LatticeCopies::part(const Box& where, const Box& reachable) 
 }
 
 Box LatticeCopies::others(double margin) const {
-  if (asks_all() || margin < around_.reach_mm) return Box::empty();
+  if (queries_all() || margin < around_.reach_mm) return Box::empty();
   return image(inverse(frame_from_here_), hull().expanded(margin));
 }
 

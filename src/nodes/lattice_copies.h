@@ -21,14 +21,14 @@ class LatticeCopies {
   // `frame_from_here` is a rotation; `bounds` encloses what is copied.
   LatticeCopies(const Affine& frame_from_here, const std::array<Row, 3>& rows, const Box& bounds);
 
-  // Where the copies that may hold the point are asked, the first ones first.
+  // Where the copies that may hold the point are evaluated, the first ones first.
   std::vector<program::Point> holding(const program::Point& p) const;
   // The same of those within a reach beyond which no copy can be the nearest, as long as the point lies between the
   // outermost ones.
   std::vector<program::Point> around(const program::Point& p) const;
   // How many points `around` gives.
   double around_count() const;
-  bool asks_all() const;
+  bool queries_all() const;
   // What the distance to all other copies is at least; only if there are others.
   program::Field distance_of_others(const program::Point& p) const;
   // The signed distance from the box around the original.
@@ -39,7 +39,7 @@ class LatticeCopies {
     Box originals;  // empty: no copy reaches
     Vec3 least, greatest;
   };
-  // Which points of the original the points of `where` ask, if these are asked within the box `reachable`.
+  // Which points of the original the points of `where` evaluate, if these lie within the box `reachable`.
   Part part(const Box& where, const Box& reachable) const;
   const Box& original() const { return original_; }  // the bounds that were given
   // Encloses the points at which distance_of_others is `margin` or less.
@@ -52,7 +52,7 @@ class LatticeCopies {
   };
   Window window(double reach_mm) const;
   Interval in_steps(size_t axis, Interval mm) const;
-  std::vector<program::Point> asked(const program::Point& p, const Window& window) const;
+  std::vector<program::Point> candidates(const program::Point& p, const Window& window) const;
   bool has_all(const Window& window) const;
   Box hull() const;
 

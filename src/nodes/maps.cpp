@@ -115,7 +115,7 @@ struct ConformalMap {
   // Takes points to the frame of the places.
   Affine frame() const { return turned_to_z(direction) * Affine::translation(-around); }
 
-  // Where the pattern is asked.
+  // Where the pattern is evaluated.
   Point place(const Inputs& in, const Point& p) const {
     const Field height = in.distance(0, p);
     const Point q = on_surface(in, 0, p, height).mapped(frame());
@@ -129,7 +129,7 @@ struct ConformalMap {
 };
 
 // What stands on one surface, put onto another. A point p, at the height h over the second, belongs to the nearest
-// point q of it; q belongs to the nearest point of the first, over which the child is asked at the height h.
+// point q of it; q belongs to the nearest point of the first, over which the child is evaluated at the height h.
 struct SurfaceMap {
   double height = 10;
 

@@ -40,11 +40,11 @@ struct Mixture {
         logical_and(program::fold(finite, program::logical_and), program::fold(nonzero, program::logical_or));
     std::map<MaterialId, std::vector<Field>> terms;
     const std::vector<Field> shares = threshold ? winners(values) : normalised(values);
-    std::map<uint32_t, std::vector<Field>> marks;
+    std::map<uint32_t, std::vector<Field>> flags;
     for (size_t i = 0; i < shares.size(); ++i) {
       for (const auto& [id, fraction] : parts[i].fractions) terms[id].push_back(shares[i] * fraction);
-      for (const auto& [number, mark] : parts[i].checks)
-        marks[number].push_back(logical_and(usable, logical_and(truth(shares[i]), mark)));
+      for (const auto& [number, flag] : parts[i].checks)
+        flags[number].push_back(logical_and(usable, logical_and(truth(shares[i]), flag)));
     }
 
     const bool is_usable = p.builder().constant_value(usable) == 1.0;
@@ -53,11 +53,11 @@ struct Mixture {
     Composition result = fractions(terms, own, usable, zero);
     if (!is_usable) {
       const Field bad = logical_not(usable);
-      for (const auto& [number, mark] : own.checks) marks[number].push_back(logical_and(bad, mark));
-      const auto [number, mark] = in.check(bad, message());
-      marks[number].push_back(mark);
+      for (const auto& [number, flag] : own.checks) flags[number].push_back(logical_and(bad, flag));
+      const auto [number, flag] = in.check(bad, message());
+      flags[number].push_back(flag);
     }
-    for (auto& [number, list] : marks)
+    for (auto& [number, list] : flags)
       result.checks.emplace_back(number, program::fold(std::move(list), program::logical_or));
     return result;
   }

@@ -35,37 +35,37 @@ Composition weighted(const std::vector<Composition>& parts, const std::vector<Fi
 
   const Field zero = weights[0].builder->constant(0);
   std::map<MaterialId, std::vector<Field>> terms;
-  std::map<uint32_t, std::vector<Field>> marks;
+  std::map<uint32_t, std::vector<Field>> flags;
   for (size_t i = 0; i < parts.size(); ++i) {
     // select, not a product: what a hidden input says may not be a number.
     for (const auto& [id, fraction] : parts[i].fractions)
       terms[id].push_back(select(truth(weights[i]), fraction * weights[i], zero));
-    for (const auto& [number, mark] : parts[i].checks) marks[number].push_back(logical_and(truth(weights[i]), mark));
+    for (const auto& [number, flag] : parts[i].checks) flags[number].push_back(logical_and(truth(weights[i]), flag));
   }
   const Field total = program::sum(weights);
   Composition result;
   for (auto& [id, list] : terms) result.fractions.emplace_back(id, share(program::sum(std::move(list)), total));
-  for (auto& [number, list] : marks)
+  for (auto& [number, list] : flags)
     result.checks.emplace_back(number, program::fold(std::move(list), program::logical_or));
   return result;
 }
 
 WeighedSums::WeighedSums(const Composition& sums, Field total) : total_(total) {
   for (const auto& [id, sum] : sums.fractions) fractions_[id] = sum;
-  for (const auto& [number, mark] : sums.checks) checks_[number] = mark;
+  for (const auto& [number, flag] : sums.checks) checks_[number] = flag;
 }
 
 void WeighedSums::add(const Composition& composition, Field weight) {
   const Field zero = weight.builder->constant(0), counts = truth(weight);
-  const bool is_mark = weight.builder->is_truth(weight);
+  const bool is_flag = weight.builder->is_truth(weight);
   total_ = total_ + weight;
   for (const auto& [id, fraction] : composition.fractions) {
-    const Field term = select(counts, is_mark ? fraction : fraction * weight, zero);
+    const Field term = select(counts, is_flag ? fraction : fraction * weight, zero);
     Field& sum = fractions_[id];
     sum = sum ? sum + term : term;
   }
-  for (const auto& [number, mark] : composition.checks) {
-    const Field bad = logical_and(counts, mark);
+  for (const auto& [number, flag] : composition.checks) {
+    const Field bad = logical_and(counts, flag);
     Field& known = checks_[number];
     known = known ? logical_or(known, bad) : bad;
   }
@@ -92,87 +92,87 @@ Composition mixed(const design::Inputs& in, const Point& p, const design::PartFi
   return sums.shares();
 }
 
-std::vector<Field> first_true(const std::vector<Field>& marks) {
+std::vector<Field> first_true(const std::vector<Field>& flags) {
   std::vector<Field> result;
-  Field before = marks[0].builder->constant(0);
-  for (const Field mark : marks) {
-    result.push_back(logical_and(mark, logical_not(before)));
-    before = logical_or(before, mark);
+  Field before = flags[0].builder->constant(0);
+  for (const Field flag : flags) {
+    result.push_back(logical_and(flag, logical_not(before)));
+    before = logical_or(before, flag);
   }
   return result;
 }
 
-std::vector<Field> last_true(const std::vector<Field>& marks) {
-  std::vector<Field> result = first_true({marks.rbegin(), marks.rend()});
+std::vector<Field> last_true(const std::vector<Field>& flags) {
+  std::vector<Field> result = first_true({flags.rbegin(), flags.rend()});
   return {result.rbegin(), result.rend()};
 }
 
 std::vector<Field> nearest(const std::vector<Field>& distances) {
   const Field least = program::fold(distances, program::min);
-  std::vector<Field> marks;
-  for (const Field distance : distances) marks.push_back(less_equal(distance, least));
-  return first_true(marks);
+  std::vector<Field> flags;
+  for (const Field distance : distances) flags.push_back(less_equal(distance, least));
+  return first_true(flags);
 }
 
 Field overlapping_attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand,
                             const std::vector<Field>& insides, const design::AttributeDeclaration& declaration) {
-  std::vector<Field> marks, values;
+  std::vector<Field> flags, values;
   for (size_t i = 0; i < in.count(); ++i) {
     if (!in.has_attribute(i, name)) continue;
-    marks.push_back(insides[i]);
+    flags.push_back(insides[i]);
     values.push_back(in.attribute(i, name, p, demand));
   }
   const Field otherwise = p.constant(default_of(declaration, name));
-  return values.empty() ? otherwise : overlapping_values(values, marks, declaration.overlap, otherwise);
+  return values.empty() ? otherwise : overlapping_values(values, flags, declaration.overlap, otherwise);
 }
 
 namespace {
 
-// Marks are weights here, 0 where the value does not count.
+// Weights, 0 where the value does not count.
 Field weighed_mean(const std::vector<Field>& values, const std::vector<Field>& weights, Field zero) {
   std::vector<Field> terms;
   for (size_t i = 0; i < values.size(); ++i) {
-    const bool is_mark = zero.builder->is_truth(weights[i]);
-    terms.push_back(select(truth(weights[i]), is_mark ? values[i] : values[i] * weights[i], zero));
+    const bool is_flag = zero.builder->is_truth(weights[i]);
+    terms.push_back(select(truth(weights[i]), is_flag ? values[i] : values[i] * weights[i], zero));
   }
   return program::sum(terms) / program::sum(weights);
 }
 
 // The least or greatest of those that count, in place of which `beyond` stands for the others.
-Field extreme(const std::vector<Field>& values, const std::vector<Field>& marks, double beyond,
+Field extreme(const std::vector<Field>& values, const std::vector<Field>& flags, double beyond,
               Field (*combine)(Field, Field)) {
   std::vector<Field> present;
   for (size_t i = 0; i < values.size(); ++i)
-    present.push_back(select(marks[i], values[i], values[i].builder->constant(beyond)));
+    present.push_back(select(flags[i], values[i], values[i].builder->constant(beyond)));
   return program::fold(present, combine);
 }
 
 Field combined(const std::vector<Field>& values, const std::vector<Field>& weights, design::Overlap overlap,
                Field zero) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<Field> marks;
-  for (const Field weight : weights) marks.push_back(truth(weight));
+  std::vector<Field> flags;
+  for (const Field weight : weights) flags.push_back(truth(weight));
   const auto total = [&](const std::vector<Field>& counted) {
     std::vector<Field> terms;
     std::ranges::transform(values, counted, std::back_inserter(terms),
-                           [&](const Field& value, const Field& mark) { return select(mark, value, zero); });
+                           [&](const Field& value, const Field& flag) { return select(flag, value, zero); });
     return program::sum(terms);
   };
   switch (overlap) {
     case design::Overlap::first:
-      return total(first_true(marks));
+      return total(first_true(flags));
     case design::Overlap::last:
-      return total(last_true(marks));
+      return total(last_true(flags));
     case design::Overlap::sum:
-      return total(marks);
+      return total(flags);
     case design::Overlap::mean:
-      return total(marks) / program::sum(marks);
+      return total(flags) / program::sum(flags);
     case design::Overlap::mix:
       return weighed_mean(values, weights, zero);
     case design::Overlap::min:
-      return extreme(values, marks, infinity, program::min);
+      return extreme(values, flags, infinity, program::min);
     case design::Overlap::max:
-      return extreme(values, marks, -infinity, program::max);
+      return extreme(values, flags, -infinity, program::max);
   }
   return zero;
 }
@@ -181,9 +181,9 @@ Field combined(const std::vector<Field>& values, const std::vector<Field>& weigh
 
 Field overlapping_values(const std::vector<Field>& values, const std::vector<Field>& weights, design::Overlap overlap,
                          Field otherwise) {
-  std::vector<Field> marks;
-  for (const Field weight : weights) marks.push_back(truth(weight));
-  const Field any = program::fold(marks, program::logical_or), zero = otherwise.builder->constant(0);
+  std::vector<Field> flags;
+  for (const Field weight : weights) flags.push_back(truth(weight));
+  const Field any = program::fold(flags, program::logical_or), zero = otherwise.builder->constant(0);
   return select(any, combined(values, weights, overlap, zero), otherwise);
 }
 

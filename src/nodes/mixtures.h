@@ -35,8 +35,8 @@ design::Composition mixed(const design::Inputs& in, const program::Point& p, con
 // Truth values: is this input's distance the least, the first on ties?
 std::vector<program::Field> nearest(const std::vector<program::Field>& distances);
 // Keeps of several truth values only the first that is true (or the last).
-std::vector<program::Field> first_true(const std::vector<program::Field>& marks);
-std::vector<program::Field> last_true(const std::vector<program::Field>& marks);
+std::vector<program::Field> first_true(const std::vector<program::Field>& flags);
+std::vector<program::Field> last_true(const std::vector<program::Field>& flags);
 
 // What the inputs that contain the point say of the attribute, by its overlap rule; its default where
 // none that has it contains the point.

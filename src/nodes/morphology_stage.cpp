@@ -8,7 +8,7 @@ namespace ombre::nodes {
 namespace {
 
 using design::StageValues;
-using Marks = std::vector<uint8_t>;
+using Flags = std::vector<uint8_t>;
 
 // A row of the ball: its place beside the middle, and how far it reaches along x, both ways.
 struct BallRow {
@@ -35,24 +35,24 @@ Ball make_ball(double radius_mm, Vec3 cell_mm) {
   return ball;
 }
 
-// Marks in a box of cells, x fastest.
-struct MarkGrid {
+// Flags in a box of cells, x fastest.
+struct FlagGrid {
   std::array<int64_t, 3> size{};
-  Marks marks;
+  Flags flags;
 };
 
-// Marks of cells near which a cell has the mark `wanted`; the result is smaller by the ball's radius on each side.
-MarkGrid near(const MarkGrid& grid, const Ball& ball, uint8_t wanted) {
-  MarkGrid made;
+// Flags of cells near which a cell has the mark `wanted`; the result is smaller by the ball's radius on each side.
+FlagGrid near(const FlagGrid& grid, const Ball& ball, uint8_t wanted) {
+  FlagGrid made;
   for (size_t axis = 0; axis < 3; ++axis) made.size[axis] = grid.size[axis] - 2 * ball.radius[axis];
-  made.marks.assign(static_cast<size_t>(made.size[0] * made.size[1] * made.size[2]), 0);
+  made.flags.assign(static_cast<size_t>(made.size[0] * made.size[1] * made.size[2]), 0);
   std::vector<int64_t> before(static_cast<size_t>(grid.size[0]) + 1);  // wanted cells of a row before each
   for (int64_t k = 0; k < made.size[2]; ++k)
     for (int64_t j = 0; j < made.size[1]; ++j) {
-      uint8_t* const to = made.marks.data() + (k * made.size[1] + j) * made.size[0];
+      uint8_t* const to = made.flags.data() + (k * made.size[1] + j) * made.size[0];
       for (const BallRow& row : ball.rows) {
         const int64_t y = j + row.j + ball.radius[1], z = k + row.k + ball.radius[2];
-        const uint8_t* const from = grid.marks.data() + (z * grid.size[1] + y) * grid.size[0];
+        const uint8_t* const from = grid.flags.data() + (z * grid.size[1] + y) * grid.size[0];
         for (size_t i = 0; i < static_cast<size_t>(grid.size[0]); ++i)
           before[i + 1] = before[i] + (from[i] == wanted ? 1 : 0);
         if (before.back() == 0) continue;
@@ -67,11 +67,11 @@ MarkGrid near(const MarkGrid& grid, const Ball& ball, uint8_t wanted) {
   return made;
 }
 
-MarkGrid dilated(const MarkGrid& grid, const Ball& ball) { return near(grid, ball, 1); }
+FlagGrid dilated(const FlagGrid& grid, const Ball& ball) { return near(grid, ball, 1); }
 
-MarkGrid eroded(const MarkGrid& grid, const Ball& ball) {
-  MarkGrid made = near(grid, ball, 0);
-  for (uint8_t& mark : made.marks) mark ^= 1;
+FlagGrid eroded(const FlagGrid& grid, const Ball& ball) {
+  FlagGrid made = near(grid, ball, 0);
+  for (uint8_t& flag : made.flags) flag ^= 1;
   return made;
 }
 
@@ -110,12 +110,12 @@ class MorphologyStage final : public design::HaloStage {
 
   void compute(const StageValues& read, StageValues& made, Vec3 cell_mm) const override {
     const Ball ball = make_ball(radius_mm_, cell_mm);
-    MarkGrid grid{{read.box().size(0), read.box().size(1), read.box().size(2)}, {}};
-    for (const float value : read.channel(0)) grid.marks.push_back(value != 0 ? 1 : 0);
+    FlagGrid grid{{read.box().size(0), read.box().size(1), read.box().size(2)}, {}};
+    for (const float value : read.channel(0)) grid.flags.push_back(value != 0 ? 1 : 0);
     if (what_ == Morphology::erode || what_ == Morphology::opening) grid = eroded(grid, ball);
     if (what_ != Morphology::erode) grid = dilated(grid, ball);
     if (what_ == Morphology::closing) grid = eroded(grid, ball);
-    for (size_t n = 0; n < grid.marks.size(); ++n) made.channel(0)[n] = static_cast<float>(grid.marks[n]);
+    for (size_t n = 0; n < grid.flags.size(); ++n) made.channel(0)[n] = static_cast<float>(grid.flags[n]);
   }
 
  private:

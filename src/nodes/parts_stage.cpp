@@ -11,20 +11,20 @@ namespace {
 using design::StageValues;
 
 // Voxels [begin, end) of a row.
-struct MarkedRun {
+struct AlikeRun {
   int64_t begin = 0, end = 0;
   size_t parent = 0;  // of the tree whose root stands for its part; a part's first run
 };
 
 // The runs of voxels with one mark, joined where they touch by their sides.
-class MarkedRuns {
+class AlikeRuns {
  public:
-  MarkedRuns(const std::vector<float>& marks, const IndexBox& box, bool wanted) : box_(box) {
+  AlikeRuns(const std::vector<float>& flags, const IndexBox& box, bool wanted) : box_(box) {
     const auto width = static_cast<size_t>(box.size(0));
     const auto rows = static_cast<size_t>(box.size(1) * box.size(2));
     for (size_t row = 0; row < rows; ++row) {
       first_.push_back(runs_.size());
-      add_row(marks.data() + row * width, wanted);
+      add_row(flags.data() + row * width, wanted);
       if (row % static_cast<size_t>(box.size(1)) > 0) join(row, row - 1);
       if (row >= static_cast<size_t>(box.size(1))) join(row, row - static_cast<size_t>(box.size(1)));
     }
@@ -32,7 +32,7 @@ class MarkedRuns {
   }
 
   size_t count() const { return runs_.size(); }
-  const MarkedRun& run(size_t n) const { return runs_[n]; }
+  const AlikeRun& run(size_t n) const { return runs_[n]; }
   size_t root(size_t n) const {
     while (runs_[n].parent != n) n = runs_[n].parent;
     return n;
@@ -92,7 +92,7 @@ class MarkedRuns {
   }
 
   IndexBox box_;
-  std::vector<MarkedRun> runs_;
+  std::vector<AlikeRun> runs_;
   std::vector<size_t> first_;  // run of each row, and behind them the count
 };
 
@@ -100,22 +100,22 @@ double cell_volume(const design::StageLattice& lattice) {
   return lattice.pitch[0].mm() * lattice.pitch[1].mm() * lattice.pitch[2].mm();
 }
 
-void mark(const MarkedRuns& runs, const std::vector<char>& chosen, const IndexBox& box, std::vector<float>& marks) {
+void flag(const AlikeRuns& runs, const std::vector<char>& chosen, const IndexBox& box, std::vector<float>& flags) {
   for (size_t row = 0; row < runs.rows(); ++row)
     for (size_t n = runs.first(row); n < runs.first(row + 1); ++n) {
       if (!chosen[runs.root(n)]) continue;
-      const auto begin = marks.begin() + static_cast<ptrdiff_t>(static_cast<int64_t>(row) * box.size(0));
+      const auto begin = flags.begin() + static_cast<ptrdiff_t>(static_cast<int64_t>(row) * box.size(0));
       std::fill(begin + runs.run(n).begin, begin + runs.run(n).end, 1.0f);
     }
 }
 
-class MarkStage : public design::WholeStage {
+class FlagStage : public design::WholeStage {
  public:
-  MarkStage(const design::NodePtr& solid, const std::optional<Vec3>& cell_mm) : solid_(solid), cell_mm_(cell_mm) {}
+  FlagStage(const design::NodePtr& solid, const std::optional<Vec3>& cell_mm) : solid_(solid), cell_mm_(cell_mm) {}
 
   Box bounds() const override { return solid_->bounds(design::design_space()); }
   design::LatticeChoice lattice() const override { return {cell_mm_, false}; }
-  double bytes_of_cell() const override { return sizeof(MarkedRun); }  // at most half as many runs as cells
+  double bytes_of_cell() const override { return sizeof(AlikeRun); }  // at most half as many runs as cells
   std::vector<design::StageRead> reads() const override {
     design::StageRead read;
     read.solid = solid_;
@@ -131,10 +131,10 @@ class MarkStage : public design::WholeStage {
   std::optional<Vec3> cell_mm_;
 };
 
-class PartsStage final : public MarkStage {
+class PartsStage final : public FlagStage {
  public:
   PartsStage(const design::NodePtr& solid, const PartChoice& choice, const std::optional<Vec3>& cell_mm)
-      : MarkStage(solid, cell_mm), choice_(choice) {}
+      : FlagStage(solid, cell_mm), choice_(choice) {}
 
   std::string name() const override { return "keep_parts"; }
   Hash content() const override {
@@ -147,27 +147,27 @@ class PartsStage final : public MarkStage {
 
   void compute(const StageValues& read, StageValues& made, const design::StageLattice& lattice,
                const design::StageWork&) const override {
-    const MarkedRuns runs(read.channel(0), read.box(), true);
-    mark(runs, chosen(runs, lattice), made.box(), made.channel(0));
+    const AlikeRuns runs(read.channel(0), read.box(), true);
+    flag(runs, chosen(runs, lattice), made.box(), made.channel(0));
   }
 
  private:
-  std::vector<char> chosen(const MarkedRuns& runs, const design::StageLattice& lattice) const {
-    std::vector<char> marks(runs.count(), 0);
-    if (marks.empty()) return marks;
+  std::vector<char> chosen(const AlikeRuns& runs, const design::StageLattice& lattice) const {
+    std::vector<char> flags(runs.count(), 0);
+    if (flags.empty()) return flags;
     if (choice_.keep == KeepParts::at) {
       for (const Vec3& p : choice_.at)
-        if (const auto part = runs.part_at(cell_of(p, lattice))) marks[*part] = 1;
-      return marks;
+        if (const auto part = runs.part_at(cell_of(p, lattice))) flags[*part] = 1;
+      return flags;
     }
     const std::vector<int64_t> sizes = runs.sizes();
     if (choice_.keep == KeepParts::largest) {
-      marks[static_cast<size_t>(std::ranges::max_element(sizes) - sizes.begin())] = 1;
-      return marks;
+      flags[static_cast<size_t>(std::ranges::max_element(sizes) - sizes.begin())] = 1;
+      return flags;
     }
     for (size_t n = 0; n < sizes.size(); ++n)
-      marks[n] = sizes[n] > 0 && static_cast<double>(sizes[n]) * cell_volume(lattice) >= choice_.least_mm3 ? 1 : 0;
-    return marks;
+      flags[n] = sizes[n] > 0 && static_cast<double>(sizes[n]) * cell_volume(lattice) >= choice_.least_mm3 ? 1 : 0;
+    return flags;
   }
 
   static std::array<int64_t, 3> cell_of(Vec3 p, const design::StageLattice& lattice) {
@@ -182,10 +182,10 @@ class PartsStage final : public MarkStage {
   PartChoice choice_;
 };
 
-class FillStage final : public MarkStage {
+class FillStage final : public FlagStage {
  public:
   FillStage(const design::NodePtr& solid, double most_mm3, const std::optional<Vec3>& cell_mm)
-      : MarkStage(solid, cell_mm), most_mm3_(most_mm3) {}
+      : FlagStage(solid, cell_mm), most_mm3_(most_mm3) {}
 
   std::string name() const override { return "fill_holes"; }
   Hash content() const override { return hash_bytes("fill " + format_number(most_mm3_)); }
@@ -193,19 +193,19 @@ class FillStage final : public MarkStage {
   void compute(const StageValues& read, StageValues& made, const design::StageLattice& lattice,
                const design::StageWork&) const override {
     const IndexBox& box = read.box();
-    const MarkedRuns runs(read.channel(0), box, false);
+    const AlikeRuns runs(read.channel(0), box, false);
     const std::vector<int64_t> sizes = runs.sizes();
     std::vector<char> filled(runs.count(), 0);
     for (size_t n = 0; n < sizes.size(); ++n)
       filled[n] = static_cast<double>(sizes[n]) * cell_volume(lattice) <= most_mm3_ ? 1 : 0;
     leave_open(runs, box, filled);
     made.channel(0) = read.channel(0);
-    mark(runs, filled, box, made.channel(0));
+    flag(runs, filled, box, made.channel(0));
   }
 
  private:
   // What reaches a side of the box is no hollow.
-  static void leave_open(const MarkedRuns& runs, const IndexBox& box, std::vector<char>& filled) {
+  static void leave_open(const AlikeRuns& runs, const IndexBox& box, std::vector<char>& filled) {
     const int64_t ny = box.size(1), nz = box.size(2);
     for (size_t row = 0; row < runs.rows(); ++row) {
       const int64_t j = static_cast<int64_t>(row) % ny, k = static_cast<int64_t>(row) / ny;

@@ -1,4 +1,4 @@
-// Walks the registry: what must hold for every node, with random parameters.
+// What must hold for every node of the registry, with random parameters.
 #include <gtest/gtest.h>
 
 #include "base/json.h"
@@ -36,7 +36,7 @@ Lowered lower(const NodePtr& node, const MaterialTable& materials, Demand demand
                                                      {"distance", lowering.distance(*node, p)}};
   const Composition composition = lowering.composition(*node, p, demand);
   for (const auto& [id, fraction] : composition.fractions) outputs.emplace_back("fraction", fraction);
-  for (const auto& [number, mark] : composition.checks) outputs.emplace_back("check", mark);
+  for (const auto& [number, flag] : composition.checks) outputs.emplace_back("check", flag);
   context.finish_bodies();
   const program::Program whole = program::inline_bodies(builder.finish(outputs));
   // With all rows of tables.

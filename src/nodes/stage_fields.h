@@ -15,8 +15,8 @@ inline program::Field read_channel(const design::Inputs& in, const design::Stage
   return p.builder().source(source, source->channel(channel), p.x, p.y, p.z);
 }
 
-// What a stage marks as "inside"; materials are those of the child, or of what is nearest in it.
-struct Marked {
+// What a stage flags as "inside"; materials are those of the child, or of what is nearest in it.
+struct StagedSolid {
   design::StagePtr stage;
 
   design::Metric metric() const { return design::Metric::bounded(); }

@@ -84,11 +84,11 @@ struct Sum {
   }
 
   static std::vector<Field> holders_or_nearest(const Inputs& in, const Point& p) {
-    std::vector<Field> marks = in.memberships(p, Border::included);
-    const Field any = program::fold(marks, program::logical_or);
+    std::vector<Field> flags = in.memberships(p, Border::included);
+    const Field any = program::fold(flags, program::logical_or);
     const std::vector<Field> close = nearest(in.distances(p));
-    for (size_t i = 0; i < marks.size(); ++i) marks[i] = select(any, marks[i], close[i]);
-    return marks;
+    for (size_t i = 0; i < flags.size(); ++i) flags[i] = select(any, flags[i], close[i]);
+    return flags;
   }
 };
 

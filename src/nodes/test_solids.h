@@ -1,4 +1,4 @@
-// Solids made from text in JSON, and asked at points, for tests.
+// Solids made from text in JSON, and evaluated at points, for tests.
 #pragma once
 
 #include <gtest/gtest.h>

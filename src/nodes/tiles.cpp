@@ -13,7 +13,7 @@ namespace {
 using namespace design;
 
 // Copies moved by whole multiples of the steps. A point is brought back into the cell around the child; the copies
-// that may matter there are asked: the own one, and neighbours that reach into it.
+// that may matter there are evaluated: the own one, and neighbours that reach into it.
 struct Tile {
   std::optional<Vec3> size, first, last;
 
@@ -225,14 +225,14 @@ struct Tile {
     return points;
   }
 
-  static std::vector<Field> marks(const Inputs& in, const std::vector<Point>& points) {
+  static std::vector<Field> flags(const Inputs& in, const std::vector<Point>& points) {
     std::vector<Field> fields;
     for (const Point& q : points) fields.push_back(in.inside(0, q));
     return fields;
   }
 
   static std::vector<Field> chosen(const Inputs& in, const std::vector<Point>& points, Demand demand) {
-    std::vector<Field> result = marks(in, points);
+    std::vector<Field> result = flags(in, points);
     if (demand == Demand::everywhere) {
       std::vector<Field> distances;
       for (const Point& q : points) distances.push_back(in.distance(0, q));

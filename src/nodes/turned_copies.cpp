@@ -14,7 +14,8 @@ using program::Point;
 
 // With so few copies, asking all costs less than finding those that matter.
 constexpr int few_turned = 8;
-// Of the greatest coordinate, and of an angle in degrees: which copies are asked may be computed with single precision.
+// Of the greatest coordinate, and of an angle in degrees: which copies are evaluated may be computed with single
+// precision.
 constexpr double rounding = 1e-6, rounding_degrees = 1e-3;
 constexpr Vec3 z_axis{0, 0, 1};
 
@@ -27,12 +28,12 @@ TurnedCopies::TurnedCopies(const Affine& turn_from_here, const Affine& turn_from
       count_(count),
       degrees_(degrees),
       is_full_(is_full),
-      asked_(count) {
+      candidates_(count) {
   if (count <= few_turned) return;
   find_sector(bounds);
   const double room = is_full ? 180 : half_degrees_ + (count - 1) * std::abs(degrees) / 2;
   if (half_degrees_ >= 180 || (!is_full && room >= 180)) return;
-  asked_ = static_cast<int>(std::min<double>(count, std::floor(2 * half_degrees_ / std::abs(degrees)) + 1));
+  candidates_ = static_cast<int>(std::min<double>(count, std::floor(2 * half_degrees_ / std::abs(degrees)) + 1));
 }
 
 // A box beside the axis lies in a half plane: its corners have the extreme angles.
@@ -52,7 +53,7 @@ void TurnedCopies::find_sector(const Box& bounds) {
 }
 
 std::vector<Point> TurnedCopies::holding(const Point& p) const {
-  if (asked_ == count_) return all(p);
+  if (candidates_ == count_) return all(p);
   // Angles from the middle of the first copy, or of all of them, so that their jump lies where there is none.
   const double before = is_full_ ? 0 : (count_ - 1) / 2.0;
   const Affine level = Affine::rotation(z_axis, -(middle_degrees_ + before * degrees_));
@@ -60,13 +61,13 @@ std::vector<Point> TurnedCopies::holding(const Point& p) const {
   const Field angle = p.builder().apply(program::Op::atan2, seen.y, seen.x);
   const Field reached = angle / (degrees_ * math::degree) + (before - half_degrees_ / std::abs(degrees_));
   Field first = ceil(reached);
-  if (!is_full_) first = min(max(first, 0.0), p.constant(count_ - asked_));
+  if (!is_full_) first = min(max(first, 0.0), p.constant(count_ - candidates_));
 
   const Field turn = first * (degrees_ * math::degree);
   const Field c = cos(turn), s = sin(turn);
   const Point turned = q.moved_to(q.x * c + q.y * s, q.y * c - q.x * s, q.z);
   std::vector<Point> points;
-  for (int n = 0; n < asked_; ++n)
+  for (int n = 0; n < candidates_; ++n)
     points.push_back(turned.mapped(inverse(turn_from_original_) * Affine::rotation(z_axis, -n * degrees_)));
   return points;
 }

@@ -16,10 +16,10 @@ class TurnedCopies {
   TurnedCopies(const Affine& turn_from_here, const Affine& turn_from_original, int count, double degrees, bool is_full,
                const Box& bounds);
 
-  // Where the copies that may hold the point are asked. In order, the first one first, only if `is_in_order`.
+  // Where the copies that may hold the point are evaluated. In order, the first one first, only if `is_in_order`.
   std::vector<program::Point> holding(const program::Point& p) const;
-  bool is_in_order() const { return asked_ == count_ || !is_full_; }
-  // Where all are asked, in order.
+  bool is_in_order() const { return candidates_ == count_ || !is_full_; }
+  // Where all are evaluated, in order.
   std::vector<program::Point> all(const program::Point& p) const;
 
   // Encloses the points of the original that the points of `where` may ask.
@@ -37,7 +37,7 @@ class TurnedCopies {
   bool is_full_ = false;
   // The original lies within this angle, to both sides of the middle.
   double middle_degrees_ = 0, half_degrees_ = 180;
-  int asked_ = 1;
+  int candidates_ = 1;
 };
 
 }  // namespace ombre::nodes

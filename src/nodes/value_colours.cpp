@@ -311,7 +311,7 @@ struct ColourMixture {
             "\"black\"]));",
             {{"mixture", &ColourMixture::mixture, "Where no mixture shows the colour, that which comes nearest"},
              {"difference", &ColourMixture::difference,
-              "How different what it shows looks: the distance in CIE L*a*b* (Delta E of 1976)", Interval(0, 1e6)}}};
+              "Visible difference: the distance in CIE L*a*b* (Delta E of 1976)", Interval(0, 1e6)}}};
   }
 
   bool complete(const Reader& reader) {

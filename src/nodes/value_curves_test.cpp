@@ -60,7 +60,7 @@ TEST_F(ValueCurves, TablesOfThreeInputsAreSciPysGrid) {
   EXPECT_NEAR(number_at(table, "value", {1.0, 2.0, 0.5}), 3.5, 1e-12);
 }
 
-TEST_F(ValueCurves, TablesEndAsTheyAreTold) {
+TEST_F(ValueCurves, TablesEndAsRequested) {
   const Named table{{"rows", rows({{0, 1, 10}, {2, 5, 20}})}, {"a", Data("x")}};
   const auto value = [&](const char* mode, const char* outside, double x) {
     Named all = table;

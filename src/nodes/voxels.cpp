@@ -137,10 +137,10 @@ struct Voxels {
       }
       materials_of_colours.push_back(material ? material->id : void_id);
     }
-    return unknown.empty() || tell_of(unknown, reader);
+    return unknown.empty() || report_unknown(unknown, reader);
   }
 
-  bool tell_of(std::vector<std::string> unknown, const Reader& reader) const {
+  bool report_unknown(std::vector<std::string> unknown, const Reader& reader) const {
     constexpr size_t most_named = 8;
     const size_t count = unknown.size();
     unknown.resize(std::min(count, most_named));

@@ -11,7 +11,7 @@ namespace ombre::nodes {
 
 // Encloses the points that `inner` asks for those of `where`.
 template <class T>
-Box asked_box(const T& warp, const Box& where) {
+Box query_box(const T& warp, const Box& where) {
   if (where.is_empty()) return where;
   program::Builder builder;
   const Point q = warp.inner(Point::origin_frame(builder));
@@ -27,10 +27,10 @@ Box asked_box(const T& warp, const Box& where) {
 }
 
 // What the family shares. T has
-//   inner(p)        where the child is asked
+//   inner(p)        where the child is evaluated
 //   image_of(box)   encloses where the points of the child's box come to lie
-//   stretch_in(box) how many times further than points of the box the points lie at which the child is asked, at
-//                   most; infinite where neighbours may be asked far apart
+//   stretch_in(box) how many times further than points of the box the points lie at which the child is evaluated, at
+//                   most; infinite where neighbours may be evaluated far apart
 //   warn(...)       tells what is cut off
 template <class T>
 struct Warp {
@@ -54,7 +54,7 @@ struct Warp {
     return design::Metric::bounded(std::max(1.0, metric.lipschitz));
   }
 
-  // Far from the shape maps may stretch without end, so the child is asked at the nearest point of the shape's box;
+  // Far from the shape maps may stretch without end, so the child is evaluated at the nearest point of the shape's box;
   // the way there is a bound as well.
   Field distance(const design::Inputs& in, const Point& p) const {
     if (metric(in).is_implicit()) return in.distance(0, self().inner(p));
@@ -70,7 +70,7 @@ struct Warp {
     const bool is_implicit = metric(in).is_implicit();
     if (!is_implicit && margin > 0) return intersect(shape.expanded(margin), where);
     const Box there = is_implicit ? where : intersect(where, shape);
-    const Box reached = in.reach(0, asked_box(self(), there), margin);
+    const Box reached = in.reach(0, query_box(self(), there), margin);
     return reached.is_empty() ? reached : intersect(self().image_of(reached), where);
   }
 

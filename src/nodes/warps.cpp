@@ -129,7 +129,7 @@ struct Band {
   bool is_empty() const { return is_none(angle) || is_none(radius); }
 };
 
-// Rings of radius 1 asked at this radius are stretched; so much, at most, in a region that lies at least `nearest`
+// Rings of radius 1 evaluated at this radius are stretched; so much, at most, in a region that lies at least `nearest`
 // away from their centres.
 double band_stretch(double radius, double nearest) { return nearest > 0 ? std::max(1.0, radius / nearest) : infinite; }
 
@@ -304,8 +304,8 @@ struct FormulaWarp {
   static Spec<FormulaWarp> spec() {
     return {"warp",
             "warps",
-            "Asks its child at another point, given by three formulas: asked at (x*2, y, z), it is half as wide.",
-            {{"x", &FormulaWarp::x, "Where to ask along x, for each point", required(unit::mm)},
+            "Evaluates its child at another point, given by three formulas: at (x*2, y, z), it is half as wide.",
+            {{"x", &FormulaWarp::x, "The coordinate x there, for each point", required(unit::mm)},
              {"y", &FormulaWarp::y, "The same along y", required(unit::mm)},
              {"z", &FormulaWarp::z, "The same along z", required(unit::mm)},
              {"min", &FormulaWarp::min, "Least corner of a box that it is cut to; none: it is not cut", unit::mm},
@@ -329,8 +329,8 @@ struct FormulaWarp {
 
   Box reach(const Inputs& in, const Box& where, double margin) const {
     const Box box = min ? intersect(Box{*min, *max}.expanded(margin), where) : where;
-    const Box child = in.reach(0, thickened(asked_box(*this, box)), margin);
-    return searched(box, [&](const Box& part) { return !intersect(asked_box(*this, part), child).is_empty(); });
+    const Box child = in.reach(0, thickened(query_box(*this, box)), margin);
+    return searched(box, [&](const Box& part) { return !intersect(query_box(*this, part), child).is_empty(); });
   }
 
   Field distance(const Inputs& in, const Point& p) const {
@@ -340,8 +340,8 @@ struct FormulaWarp {
     return select(box <= 0, value, program::max(value, box));
   }
   Field membership(const Inputs& in, const Point& p, Border border) const {
-    const Field mark = in.membership(0, inner(p), border);
-    return min ? logical_and(from_box(p) <= 0, mark) : mark;
+    const Field flag = in.membership(0, inner(p), border);
+    return min ? logical_and(from_box(p) <= 0, flag) : flag;
   }
 
  private:

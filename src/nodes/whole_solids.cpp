@@ -19,7 +19,7 @@ bool check_bounds(const Reader& reader, const StagePtr& stage) {
   return false;
 }
 
-struct KeepPartsOf : Marked {
+struct KeepPartsOf : StagedSolid {
   Choice keep = "largest";
   double volume = 0;
   Vec3 at;
@@ -48,7 +48,7 @@ struct KeepPartsOf : Marked {
   }
 };
 
-struct FillHoles : Marked {
+struct FillHoles : StagedSolid {
   double volume = 1e18;
   std::optional<Vec3> pitch;
 

@@ -34,7 +34,7 @@ void evaluate_intervals(const Program& program, const Box& box, std::vector<Inte
     const PartSet* set = nullptr;
     Box where;
     bool reaches = false;
-  } asked;
+  } last_query;
   values.resize(program.code.size());
   for (size_t i = 0; i < program.code.size(); ++i) {
     const Instruction& in = program.code[i];
@@ -63,8 +63,8 @@ void evaluate_intervals(const Program& program, const Box& box, std::vector<Inte
         const Box where{{a.lo, b.lo, c.lo}, {a.hi, b.hi, c.hi}};
         const PartSet& set = *program.part_sets[in.aux];
         // Slots of one set at one place follow each other.
-        if (asked.set != &set || asked.where != where) asked = {&set, where, set.index.reaches(where)};
-        values[i] = asked.reaches ? set.ranges[static_cast<size_t>(in.value)] : Interval(0);
+        if (last_query.set != &set || last_query.where != where) last_query = {&set, where, set.index.reaches(where)};
+        values[i] = last_query.reaches ? set.ranges[static_cast<size_t>(in.value)] : Interval(0);
         break;
       }
       default:

@@ -127,7 +127,7 @@ Field is_finite(Field a);
 Field fold(std::vector<Field> fields, Field (*combine)(Field, Field));
 Field sum(std::vector<Field> fields);
 
-// A point at which nodes are asked: an affine image of a base point whose coordinates are fields.
+// A point at which nodes are evaluated: an affine image of a base point whose coordinates are fields.
 class Point {
  public:
   Field x, y, z;

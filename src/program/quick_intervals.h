@@ -1,4 +1,4 @@
-// The commonest ops on intervals, without calls: what tiles are asked millions of times.
+// The commonest ops on intervals, without calls: tiles evaluate them millions of times.
 #pragma once
 
 #include "program/ops.h"

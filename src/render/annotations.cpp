@@ -105,10 +105,10 @@ class Annotator {
       pen_.rectangle(picture_, {left, top + line}, {right, top + line + 1}, {colour[0], colour[1], colour[2]});
     }
     const double thick = std::max(1.0, std::round(unit_ / 12)), text_left = right + unit_ * gap;
-    for (const ColourBar::Mark& mark : bar.marks) {
-      const double at = std::round(top + (1 - mark.share) * height);
+    for (const ColourBar::Tick& tick : bar.ticks) {
+      const double at = std::round(top + (1 - tick.share) * height);
       pen_.rectangle(picture_, {right, at - thick / 2}, {right + unit_ * gap / 2, at + thick / 2}, ink_);
-      write({text_left, at + unit_ * 0.36}, shortened(mark.text, room - (text_left - left), layout_.text_size, pen_));
+      write({text_left, at + unit_ * 0.36}, shortened(tick.text, room - (text_left - left), layout_.text_size, pen_));
     }
   }
 
@@ -171,7 +171,7 @@ Layout lay_out(int64_t picture_width, int64_t picture_height, const Annotations&
   double text = 0;
   if (const auto& bar = annotations.colour_bar) {
     text = pen.text_width(bar->title, layout.text_size) - unit * (swatch + gap);
-    for (const ColourBar::Mark& mark : bar->marks) text = std::max(text, pen.text_width(mark.text, layout.text_size));
+    for (const ColourBar::Tick& tick : bar->ticks) text = std::max(text, pen.text_width(tick.text, layout.text_size));
   }
   for (const Swatch& one : annotations.legend) text = std::max(text, pen.text_width(one.name, layout.text_size));
   const double wanted = unit * (margin + swatch + gap + margin) + text;

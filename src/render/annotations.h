@@ -19,13 +19,13 @@ struct Swatch {
 
 // A bar of the colours of numbers, the greatest on top.
 struct ColourBar {
-  struct Mark {
+  struct Tick {
     double share = 0;  // of the bar, from 0 below to 1 on top
     std::string text;
   };
   std::string title;
   std::vector<Rgba8> colours;  // from below
-  std::vector<Mark> marks;
+  std::vector<Tick> ticks;
 };
 
 struct Annotations {

@@ -48,14 +48,14 @@ std::vector<size_t> EndColours::sort_by_group() {
   keys_.clear();
   for (const Ray& end : ends_) keys_.emplace_back(group_of(end), static_cast<uint32_t>(keys_.size()));
   std::ranges::sort(keys_);
-  asked_.clear();
+  queried_.clear();
   std::vector<size_t> sizes;
   for (size_t n = 0; n < keys_.size(); ++n) {
     if (n == 0 || keys_[n].first != keys_[n - 1].first) sizes.push_back(0);
     ++sizes.back();
-    asked_.push_back(ends_[keys_[n].second]);
+    queried_.push_back(ends_[keys_[n].second]);
   }
-  ends_.swap(asked_);
+  ends_.swap(queried_);
   return sizes;
 }
 
@@ -77,10 +77,10 @@ void EndColours::take(const std::vector<Group>& groups, const voxel::StripSource
 // decides which is met first.
 void EndColours::take(Group group, const voxel::StripSources& sources) {
   thin_.clear();
-  asked_.assign(group.begin(), group.end());
-  for (Ray& ray : asked_) ray.first += behind;
+  queried_.assign(group.begin(), group.end());
+  for (Ray& ray : queried_) ray.first += behind;
   batch_.compile(each_.left, each_.kept, group.size(), sources);
-  batch_.evaluate(asked_, 1, 1, true);
+  batch_.evaluate(queried_, 1, 1, true);
   for (size_t n = 0; n < group.size(); ++n) {
     if (batch_.value(Scene::opaque, n, 0) != 0)
       hits_.at(group[n].column, group[n].row).at_end = batch_.colour(n, 0);

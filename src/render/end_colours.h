@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/asked_tiles.h"
+#include "render/queried_tiles.h"
 #include "render/ray_batch.h"
 
 namespace ombre::render {
@@ -34,8 +34,8 @@ class EndColours {
   const program::Program& whole_;
   RayBand& hits_;
   RayBatch batch_;
-  AskedTiles all_, each_;
-  std::vector<Ray> ends_, asked_, thin_;
+  QueriedTiles all_, each_;
+  std::vector<Ray> ends_, queried_, thin_;
   std::vector<std::pair<uint64_t, uint32_t>> keys_;  // of groups, and numbers of ends
 };
 

@@ -21,7 +21,7 @@ class RayBatch : private eval::SourceRows {
  public:
   explicit RayBatch(const RaySteps& steps) : steps_(steps), batch_(eval::kernel_sets().front()) {}
 
-  // `ranges` are the program's, which outlives this, wherever it is asked. At most so many samples at a time.
+  // `ranges` are the program's, which outlives this, wherever it is evaluated. At most so many samples at a time.
   void compile(const program::Program& program, const std::vector<Interval>& ranges, size_t most_samples,
                const voxel::StripSources& sources);
   // `width` samples of each ray, `stride` fine places apart. Only the program's output 0, or all of them.

@@ -23,7 +23,7 @@ namespace {
 
 using voxel::StripSources;
 
-// Rays are asked in blocks of samples; those of a leaf together.
+// Rays are evaluated in blocks of samples; those of a leaf together.
 constexpr TileSize leaf{64, 32, 16}, block{steps_together, 8, 8};
 constexpr TileSize fine_block{steps_together, 4, 4};  // of programs that ask sources, sample by sample
 constexpr size_t most_samples = 512;                  // at a time
@@ -36,12 +36,12 @@ constexpr float dark = 0.01F;      // less light than that is none
 
 // For batches. While surfaces are looked for, colours matter in translucent material only.
 struct Programs {
-  program::Program whole, walk;
+  program::Program whole, traversal;
   Programs(const Scene& scene, const program::Program& reference)
       : whole(program::prepare(reference, program::Purpose::rays)) {
     whole.output_names.clear();
-    walk = whole;
-    if (!scene.is_translucent) walk.outputs.resize(Scene::red);
+    traversal = whole;
+    if (!scene.is_translucent) traversal.outputs.resize(Scene::red);
   }
 };
 
@@ -84,7 +84,7 @@ class RayCaster {
     if (band_ends_.known)
       recall(tile);
     else
-      descend(programs_.walk, tile, 0);
+      descend(programs_.traversal, tile, 0);
     colours_.take(sources, is_stopped_);
   }
 
@@ -149,7 +149,7 @@ class RayCaster {
       f(std::span(rays_).subspan(begin, std::min(most, rays_.size() - begin)));
   }
 
-  AskedTiles& level(size_t depth) {
+  QueriedTiles& level(size_t depth) {
     while (levels_.size() <= depth) levels_.emplace_back(steps_);
     return levels_[depth];
   }
@@ -158,7 +158,7 @@ class RayCaster {
   void descend(const program::Program& program, const TileBox& tile, size_t depth) {
     if (is_stopped_()) return;
     const std::vector<TileBox> pieces = cut(around_open(tile), leaf);
-    AskedTiles& here = level(depth);
+    QueriedTiles& here = level(depth);
     here.ask(program, fine_boxes(pieces), *sources_);
     for (size_t n = 0; n < pieces.size(); ++n) {
       const auto range = [&](Scene::Output output) { return here.intervals.output(output, n); };
@@ -178,16 +178,16 @@ class RayCaster {
     return fine;
   }
 
-  // Of the tiles that were asked together, number `n`.
-  void enter(const program::Program& program, AskedTiles& asked, size_t n, const TileBox& tile, bool is_murky,
+  // Of the tiles that were evaluated together, number `n`.
+  void enter(const program::Program& program, QueriedTiles& queried, size_t n, const TileBox& tile, bool is_murky,
              size_t depth) {
     if (!is_murky && is_small(tile, false)) return sample(program, tile);
-    asked.shorten(n);
+    queried.shorten(n);
     const bool is_sampled = is_murky && is_small(tile, true);
-    if (asked.left.has_parts() && (is_sampled || parts_in_reach(asked.left, asked.kept, many_parts) < many_parts))
-      asked.write_out_parts();
-    if (is_sampled) return sample_murk(asked.left, tile);
-    descend(asked.left, tile, depth + 1);
+    if (queried.left.has_parts() && (is_sampled || parts_in_reach(queried.left, queried.kept, many_parts) < many_parts))
+      queried.write_out_parts();
+    if (is_sampled) return sample_murk(queried.left, tile);
+    descend(queried.left, tile, depth + 1);
   }
 
   static bool is_small(const TileBox& tile, bool is_murky) {
@@ -244,12 +244,12 @@ class RayCaster {
     if (pieces.empty()) return;
     if (program.has_parts()) {
       blocks_.write_out_parts();
-      ask_again(pieces);
+      evaluate_again(pieces);
       if (pieces.empty()) return;
     }
     if (reads_sources(blocks_.left)) {
       cut_finer(pieces);
-      ask_again(pieces);
+      evaluate_again(pieces);
       if (pieces.empty()) return;
     }
     batch_.compile(blocks_.left, blocks_.kept, most_samples, *sources_);
@@ -262,8 +262,8 @@ class RayCaster {
       for (; n < pieces.size() && pieces[n].lo[0] == depth; ++n) list_open(pieces[n]);
       each_batch(steps_together, [&](std::span<const Ray> rays) { find_hits(rays); });
     }
-    if (!surfaces_.empty()) look_closer(surfaces_, Scene::inside);
-    if (!ends_.empty()) look_closer(ends_, Scene::opaque);
+    if (!surfaces_.empty()) refine(surfaces_, Scene::inside);
+    if (!ends_.empty()) refine(ends_, Scene::opaque);
   }
 
   void cut_finer(std::vector<TileBox>& pieces) {
@@ -275,12 +275,12 @@ class RayCaster {
   }
 
   // What is left of the program.
-  void ask_again(std::vector<TileBox>& pieces) {
-    std::swap(asked_, blocks_.left);
-    keep_met(asked_, pieces);
+  void evaluate_again(std::vector<TileBox>& pieces) {
+    std::swap(queried_, blocks_.left);
+    keep_met(queried_, pieces);
   }
 
-  // Those in which something may be; blocks_ is asked, and its program shortened for them.
+  // Those in which something may be; blocks_ is evaluated, and its program shortened for them.
   void keep_met(const program::Program& program, std::vector<TileBox>& pieces) {
     blocks_.ask(program, fine_boxes(pieces), *sources_);
     met_.clear();
@@ -330,7 +330,7 @@ class RayCaster {
   }
 
   // From places up to a step before a surface to the fine step behind it. An opaque surface also ends its ray.
-  void look_closer(std::vector<Ray>& rays, Scene::Output what) {
+  void refine(std::vector<Ray>& rays, Scene::Output what) {
     for (int64_t half = fine_per_step / 2; half > 0; half /= 2) {
       rays_ = rays;
       for (Ray& ray : rays_) ray.first += half;
@@ -361,11 +361,11 @@ class RayCaster {
   const StripSources* sources_ = nullptr;
   RayBatch batch_;
   EndColours colours_;
-  std::deque<AskedTiles> levels_;
-  AskedTiles blocks_;
+  std::deque<QueriedTiles> levels_;
+  QueriedTiles blocks_;
   RayBand& hits_;
-  std::vector<size_t> met_;                   // of the blocks that were asked
-  program::Program asked_;                    // what blocks_ was asked about again
+  std::vector<size_t> met_;                   // of the blocks that were evaluated
+  program::Program queried_;                  // the program of blocks_ when it is evaluated again
   int64_t first_column_ = 0, first_row_ = 0;  // of the tile
   std::array<uint8_t, largest_tile * largest_tile> is_open_{};
   std::vector<Ray> rays_, surfaces_, ends_;
@@ -449,7 +449,7 @@ RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t e
   BandEnds ends{begin, film.width};
   std::optional<Hash> key;
   if (known && !scene.is_translucent) {
-    program::Program shape = shape_alone(programs.walk);
+    program::Program shape = shape_alone(programs.traversal);
     key = key_of_band(shape, scene, steps, begin, end);
     if (key) ends.known = known->find(*key);
     if (key && !ends.known)

@@ -35,8 +35,8 @@ void add(Bytes& bytes, const program::Program& program) {
 
 }  // namespace
 
-program::Program shape_alone(const program::Program& walk) {
-  return program::shorten(walk, std::vector<Interval>(walk.code.size(), Interval::everything()));
+program::Program shape_alone(const program::Program& traversal) {
+  return program::shorten(traversal, std::vector<Interval>(traversal.code.size(), Interval::everything()));
 }
 
 std::optional<Hash> key_of_ends(const program::Program& shape, std::span<const double> where) {

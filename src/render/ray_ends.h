@@ -34,7 +34,7 @@ class KnownEnds {
 };
 
 // What of the program says where the rays end: what its outputs need.
-program::Program shape_alone(const program::Program& walk);
+program::Program shape_alone(const program::Program& traversal);
 
 // Of all that decides where rays end: the shape as its program, and the numbers that say where it is sampled. Nothing
 // for programs that cannot be told apart so.

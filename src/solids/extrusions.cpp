@@ -310,13 +310,13 @@ Region section(const TriangleMesh& mesh) {
 
 // A point has as many faces above it that look up as rings of their border go round it.
 Region shadow(const TriangleMesh& mesh) {
-  const auto looks_up = [&](const Triangle& t) {
+  const auto faces_up = [&](const Triangle& t) {
     const Vec3 a = mesh.points[t[0]], b = mesh.points[t[1]], c = mesh.points[t[2]];
     return cross(Vec2{b.x - a.x, b.y - a.y}, Vec2{c.x - a.x, c.y - a.y}) > 0;
   };
   std::map<Edge, int> borders;
   for (const Triangle& t : mesh.triangles) {
-    if (!looks_up(t)) continue;
+    if (!faces_up(t)) continue;
     for (int n = 0; n < 3; ++n) {
       const Edge edge{t[n], t[(n + 1) % 3]};
       const auto other = borders.find({edge.second, edge.first});

@@ -80,10 +80,10 @@ Pieces mesh_pieces(const Import& import, const std::string& bytes, const SourceR
   for (size_t n = 0; n < is_done.size(); ++n) {
     const Attributes attributes = attributes_of(mesh->groups[n], *mesh);
     if (is_done[n]) continue;
-    std::vector<bool> marks(formats::all_groups(*mesh).size());
+    std::vector<bool> flags(formats::all_groups(*mesh).size());
     for (size_t other = n; other < is_done.size(); ++other)
-      if (attributes_of(mesh->groups[other], *mesh) == attributes) marks[other] = is_done[other] = true;
-    add(formats::groups_of(*mesh, marks), attributes);
+      if (attributes_of(mesh->groups[other], *mesh) == attributes) flags[other] = is_done[other] = true;
+    add(formats::groups_of(*mesh, flags), attributes);
   }
   return pieces;
 }

@@ -357,7 +357,7 @@ TEST_F(Operations, DeepTreesNeedNoStack) {
   }
 }
 
-TEST_F(Operations, StopsWhenAsked) {
+TEST_F(Operations, StopsOnRequest) {
   StopFlag stop;
   stop.request();
   EvaluateOptions options;

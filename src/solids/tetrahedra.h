@@ -27,7 +27,7 @@ struct TetrahedraRequest {
   // Points of the surface that become nodes, for closed surfaces without sharp edges, which are not found otherwise.
   std::vector<Vec3> fixed_points;
   double distance_share = 0.05;  // how far faces may lie from the surface, in sizes
-  // How often `region` may be asked until sharp edges are left out, with which refinement does not end.
+  // How often `region` may be queried until sharp edges are left out, with which refinement does not end.
   uint64_t most_questions = 10'000'000;
   size_t memory_bytes = size_t{8} << 30;  // most that the mesher may take
   const StopFlag* stop = nullptr;         // may be null

@@ -56,7 +56,7 @@ TEST_F(Thesis, Listing3_12And3_13Empty) {
   EXPECT_EQ(described(hull({empty})), "");
 }
 
-TEST_F(Thesis, Listing3_14EmptySolidsHaveNoAttributesUnlessAskedFor) {
+TEST_F(Thesis, Listing3_14EmptySolidsHaveNoAttributesUnlessRequested) {
   const auto support = [](Children children) { return part("support", {material("PLA", std::move(children))}); };
   const TreePtr tree = intersection({support({}), support({cube(1)})});
   EXPECT_EQ(described(tree), "1 part support of PLA");

@@ -17,7 +17,7 @@ namespace ombre::design {
 namespace {
 
 // Jobs that take longer are announced. The remedy named is triangles so near to the solid, in voxels.
-constexpr double least_told_seconds = 20, fast_voxels = 0.02;
+constexpr double least_reported_seconds = 20, fast_voxels = 0.02;
 // Without a job: a thousandth of the solid's diagonal. Exact surfaces take triangles for a first look only, the closer
 // the less is left to ask. A millionth is the least.
 constexpr double diagonals_of_tolerance = 1e-3, diagonals_of_first_look = 1e-4, least_diagonals = 1e-6;
@@ -58,7 +58,7 @@ class SolidsOfMaterial final : public PendingSource {
     if (!doubtful_seconds_) doubtful_seconds_ = importing::measure_doubtful_seconds(exact);
     const double voxels = exact.doubtful_mm3 / (voxel_mm.x * voxel_mm.y * voxel_mm.z);
     const double seconds = *doubtful_seconds_ * voxels / core_count();
-    if (seconds < least_told_seconds) return std::nullopt;
+    if (seconds < least_reported_seconds) return std::nullopt;
     return sources::remark_on_time(name_, voxels, seconds,
                                    fast_voxels * std::min({voxel_mm.x, voxel_mm.y, voxel_mm.z}));
   }
@@ -204,7 +204,7 @@ std::vector<CadPart> parts_of(const CadFile& file, const CadRequest& request, co
 
 std::shared_ptr<const std::vector<CadPart>> CadRequest::load(sources::Loading& loading) {
   if (!loading.find(file)) return nullptr;
-  if (!loading.look_at(file)) return nullptr;
+  if (!loading.read_content(file)) return nullptr;
   sources::Key key("cad");
   key.add(file.content).add(sources::ending_of(file.path)).add(is_exact ? "exact" : "fast").add(tolerance_mm);
   sources::add_use(key, use, loading.reader());

@@ -1,4 +1,4 @@
-// What is told of CAD parts once they are made.
+// Remarks on CAD parts once they are made.
 #include "sources/cad_remarks.h"
 
 #include <cmath>
@@ -37,7 +37,7 @@ design::Remark remark_on_gaps(const std::string& path, const std::vector<importi
 design::Remark remark_on_time(const std::string& path, double voxels, double seconds, double tolerance) {
   return {Severity::note,
           "mode=\"exact\" of the CAD file \"" + path + "\" will take about " + time_text(seconds) +
-              " on all cores, longer where distances are needed: its surfaces themselves are asked about " +
+              " on all cores, longer where distances are needed: its surfaces are evaluated at " +
               format_count(static_cast<unsigned long long>(voxels)) + " voxels",
           "where triangles will do, write " + spelled::parameter("mode", "\"fast\"") + " with " +
               spelled::parameter("tolerance", format_rounded(tolerance, 2))};

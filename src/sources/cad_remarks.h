@@ -1,4 +1,4 @@
-// What is told of CAD parts once they are made.
+// Remarks on CAD parts once they are made.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace ombre::sources {
 design::Remark remark_on_gaps(const std::string& path, const std::vector<importing::OpenSolid>& open,
                               double tolerance_mm, bool is_exact);
 
-// On an exact part that will be asked about so many voxels; `tolerance_mm` is that of triangles in its place.
+// On an exact part that will be evaluated at so many voxels; `tolerance_mm` is that of triangles in its place.
 design::Remark remark_on_time(const std::string& path, double voxels, double seconds, double tolerance_mm);
 
 }  // namespace ombre::sources

@@ -30,7 +30,7 @@ TEST(CadRemarks, SayHowLongExactPartsTake) {
   EXPECT_EQ(
       remark.message,
       "mode=\"exact\" of the CAD file \"engine.step\" will take about 3.5 min on all cores, longer where distances "
-      "are needed: its surfaces themselves are asked about 1,204,381 voxels");
+      "are needed: its surfaces are evaluated at 1,204,381 voxels");
   EXPECT_EQ(remark.hint.text(), "where triangles will do, write mode=\"fast\" with tolerance=0.01");
 }
 

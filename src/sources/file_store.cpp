@@ -34,12 +34,12 @@ FileStore::Content FileStore::content(const std::string& path) {
   const Stamp stamp = stamp_of(path);
   {
     const std::scoped_lock lock(mutex_);
-    asked_.insert(path);
+    requested_.insert(path);
     const auto known = known_.find(path);
     if (known != known_.end() && known->second.stamp == stamp) return {known->second.hash, nullptr};
   }
   const bool may_be_kept = stamp != Stamp{} && is_settled(stamp);
-  Content content = look_at(path);
+  Content content = read_content(path);
   const std::scoped_lock lock(mutex_);
   if (may_be_kept && stamp_of(path) == stamp)
     known_[path] = {stamp, content.hash};
@@ -50,7 +50,7 @@ FileStore::Content FileStore::content(const std::string& path) {
 
 std::vector<std::string> FileStore::paths() const {
   const std::scoped_lock lock(mutex_);
-  return {asked_.begin(), asked_.end()};
+  return {requested_.begin(), requested_.end()};
 }
 
 std::shared_ptr<const std::string> FileStore::bytes(const std::string& path, const Content& content) {
@@ -73,7 +73,7 @@ FileView FileStore::view(const std::string& path, const Content& content) {
 }
 
 // Of large files only their hash.
-FileStore::Content FileStore::look_at(const std::string& path) {
+FileStore::Content FileStore::read_content(const std::string& path) {
   if (!is_large(stamp_of(path))) return read(path);
   ++reads_;
   return {hash_bytes(formats::MappedFile(path).bytes()), nullptr};

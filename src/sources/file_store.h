@@ -55,11 +55,11 @@ class FileStore {
   static bool is_settled(const Stamp& stamp);
   static bool is_large(const Stamp& stamp);
   Content read(const std::string& path);
-  Content look_at(const std::string& path);
+  Content read_content(const std::string& path);
 
   mutable std::mutex mutex_;
   std::map<std::string, Known> known_;
-  std::set<std::string> asked_;
+  std::set<std::string> requested_;
   std::atomic<size_t> reads_ = 0;
 };
 

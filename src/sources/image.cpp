@@ -25,7 +25,7 @@ importing::GrayImage gray_of(const formats::PngImage& png) {
 }  // namespace
 
 std::shared_ptr<const HeightImage> ImageRequest::load(sources::Loading& loading) {
-  if (!loading.find(file) || !loading.look_at(file)) return nullptr;
+  if (!loading.find(file) || !loading.read_content(file)) return nullptr;
   using Made = sources::Loading::Made<HeightImage>;
   constexpr size_t bytes_per_pixel = 4 * sizeof(float);  // its value, and the extremes of its neighbourhood
   return loading.cached<HeightImage>(sources::Key("image").add(file.content).hash(), file.path, [&](const Reader&) {

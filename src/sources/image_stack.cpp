@@ -103,7 +103,7 @@ std::vector<std::string> images_at(const std::string& path) {
   return images;
 }
 
-void tell_gaps(const std::vector<std::string>& images, const Reader& reader) {
+void report_gaps(const std::vector<std::string>& images, const Reader& reader) {
   const auto missing = sources::missing_number(images);
   if (missing)
     reader.diagnostics.warning(reader.where,
@@ -125,12 +125,12 @@ std::shared_ptr<const ColourGrid> ImageStackRequest::load(sources::Loading& load
   }
   sources::Key key("image stack");
   for (FilePath& image : images) {
-    if (!loading.look_at(image)) return nullptr;
+    if (!loading.read_content(image)) return nullptr;
     key.add(image.content);
   }
   file.content = key.hash();
   using Made = sources::Loading::Made<ColourGrid>;
-  return loading.cached<ColourGrid>(key.hash(), file.path, [&](const Reader& told) {
+  return loading.cached<ColourGrid>(key.hash(), file.path, [&](const Reader& reporter) {
     StackBuilder stack(images.size());
     std::vector<std::string> names;
     for (const FilePath& image : images) {
@@ -140,7 +140,7 @@ std::shared_ptr<const ColourGrid> ImageStackRequest::load(sources::Loading& load
         stack.add(layer, image.path);
       names.push_back(image.path);
     }
-    tell_gaps(names, told);
+    report_gaps(names, reporter);
     auto made = importing::make_volume_source(file.path, stack.take(), key.hash());
     auto grid = std::make_shared<ColourGrid>();
     grid->grid.source = made.source;

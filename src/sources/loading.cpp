@@ -16,7 +16,7 @@ Code code_of(const Error& error, Code otherwise) { return error.code() == Code::
 
 bool Loader::is_new(const Hash& key) {
   const std::scoped_lock lock(mutex_);
-  return told_.insert(key).second;
+  return reported_.insert(key).second;
 }
 
 std::shared_ptr<const void> Loader::find(design::SourceRequest request, const design::Reader& reader) {
@@ -39,10 +39,10 @@ bool Loading::find(design::FilePath& file) {
 
 std::optional<std::string> Loading::included(const std::string& path) { return read_included(path, loader_.cache()); }
 
-bool Loading::look_at(design::FilePath& file) {
+bool Loading::read_content(design::FilePath& file) {
   try {
     const auto content = loader_.cache().files().content(file.path);
-    looked_at_[file.path] = content;
+    contents_[file.path] = content;
     file.content = content.hash;
     return true;
   } catch (const Error& error) {
@@ -53,14 +53,14 @@ bool Loading::look_at(design::FilePath& file) {
 }
 
 std::shared_ptr<const std::string> Loading::bytes(const design::FilePath& file) {
-  const auto content = looked_at_.find(file.path);
-  ASSERT(content != looked_at_.end());
+  const auto content = contents_.find(file.path);
+  ASSERT(content != contents_.end());
   return loader_.cache().files().bytes(file.path, content->second);
 }
 
 FileView Loading::view(const design::FilePath& file) {
-  const auto content = looked_at_.find(file.path);
-  ASSERT(content != looked_at_.end());
+  const auto content = contents_.find(file.path);
+  ASSERT(content != contents_.end());
   return loader_.cache().files().view(file.path, content->second);
 }
 
@@ -70,7 +70,7 @@ CacheEntryPtr Loading::entry_for(const Hash& key, const std::string& name, const
   const bool is_usable = known && (known->name == name || known->remarks.list().empty());
   const bool is_new = loader_.is_new(key);
   if (is_usable) {
-    if (is_new) tell_again(*known);
+    if (is_new) report_again(*known);
     return known;
   }
   CacheEntry entry{nullptr, 0, name, reader_.where, {}};
@@ -88,7 +88,7 @@ CacheEntryPtr Loading::entry_for(const Hash& key, const std::string& name, const
   return loader_.cache().add(key, std::move(entry));
 }
 
-void Loading::tell_again(const CacheEntry& entry) const {
+void Loading::report_again(const CacheEntry& entry) const {
   for (Diagnostic remark : entry.remarks.list()) {
     if (remark.where == entry.where) remark.where = reader_.where;
     reader_.diagnostics.add(std::move(remark));

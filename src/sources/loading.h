@@ -34,7 +34,7 @@ class Loader : public design::SourceLoader {
   const StopFlag* stop_;
   int threads_;
   std::mutex mutex_;
-  std::set<Hash> told_;
+  std::set<Hash> reported_;
 };
 
 // Text in which what decides a source stands, each word ended so that no two lists of words are alike.
@@ -65,7 +65,7 @@ class Loading {
   // directory. False, and a diagnostic, when there is none.
   bool find(design::FilePath& file);
   // False, and a diagnostic, when it cannot be read. Notes its content.
-  bool look_at(design::FilePath& file);
+  bool read_content(design::FilePath& file);
   // The bytes of a file that was looked at. Throws Error.
   std::shared_ptr<const std::string> bytes(const design::FilePath& file);
   // The same; large files stay on disk. Throws Error.
@@ -92,11 +92,11 @@ class Loading {
  private:
   using MakeAny = std::function<std::pair<std::shared_ptr<const void>, size_t>(const design::Reader&)>;
   CacheEntryPtr entry_for(const Hash& key, const std::string& name, const MakeAny& make);
-  void tell_again(const CacheEntry& entry) const;
+  void report_again(const CacheEntry& entry) const;
 
   Loader& loader_;
   const design::Reader& reader_;
-  std::map<std::string, FileStore::Content> looked_at_;
+  std::map<std::string, FileStore::Content> contents_;
 };
 
 }  // namespace ombre::sources

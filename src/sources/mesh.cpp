@@ -177,7 +177,7 @@ std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading&
   }
   FilePath numbers{sources::numbers_beside(file.path), {}};
   const bool has_numbers = !numbers.path.empty();
-  if (!loading.look_at(file) || (has_numbers && !loading.look_at(numbers))) return nullptr;
+  if (!loading.read_content(file) || (has_numbers && !loading.read_content(numbers))) return nullptr;
   const Hash content =
       has_numbers ? sources::Key("mesh and numbers").add(file.content).add(numbers.content).hash() : file.content;
   sources::Key key("mesh");

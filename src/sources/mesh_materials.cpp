@@ -155,9 +155,9 @@ std::optional<std::vector<MaterialMesh>> by_material(const std::string& path, co
   std::set<const Material*> done;
   for (const Material* material : *materials) {
     if (!done.insert(material).second) continue;
-    std::vector<bool> marks;
-    for (const Material* other : *materials) marks.push_back(other == material);
-    parts.push_back({{material}, formats::groups_of(mesh, marks)});
+    std::vector<bool> flags;
+    for (const Material* other : *materials) flags.push_back(other == material);
+    parts.push_back({{material}, formats::groups_of(mesh, flags)});
   }
   return parts;
 }

@@ -21,7 +21,7 @@ ImagePixels pixels_of(const formats::PngImage& png) {
 }  // namespace
 
 std::shared_ptr<const ImagePixels> PixelsRequest::load(sources::Loading& loading) {
-  if (!loading.find(file) || !loading.look_at(file)) return nullptr;
+  if (!loading.find(file) || !loading.read_content(file)) return nullptr;
   using Made = sources::Loading::Made<ImagePixels>;
   return loading.cached<ImagePixels>(sources::Key("pixels").add(file.content).hash(), file.path, [&](const Reader&) {
     auto pixels = std::make_shared<ImagePixels>(

@@ -104,7 +104,7 @@ bool fits_rule(const ResultsRequest& request, const LoadedResults& loaded, const
   return false;
 }
 
-// Fields of the same file and rule share a source, which looks for a point's element once for all of them.
+// Fields of the same file and rule share a source, which finds a point's element once for all of them.
 program::SourceField source_of(const ResultsRequest& request, const LoadedResults& loaded, Loading& loading) {
   const importing::OutsideRule rule = rule_of(request);
   const Hash key = sources::Key("results")
@@ -129,9 +129,9 @@ program::SourceField source_of(const ResultsRequest& request, const LoadedResult
 }  // namespace
 
 std::shared_ptr<const ResultNumbers> ResultsRequest::load(Loading& loading) {
-  if (!loading.find(file) || !loading.look_at(file)) return nullptr;
+  if (!loading.find(file) || !loading.read_content(file)) return nullptr;
   if (values.path.empty()) values.path = sources::numbers_beside(file.path);
-  if (!values.path.empty() && (!loading.find(values) || !loading.look_at(values))) return nullptr;
+  if (!values.path.empty() && (!loading.find(values) || !loading.read_content(values))) return nullptr;
   const auto loaded = results_of(*this, loading);
   const formats::ResultField* wanted = loaded ? field_of(loaded->results(), *this, loading.reader()) : nullptr;
   if (!wanted || !fits_rule(*this, *loaded, loading.reader())) return nullptr;

@@ -4,7 +4,7 @@
 #include "base/text.h"
 #include "lang/openscad/definitions.h"
 #include "lang/openscad/run.h"
-#include "lang/openscad/told.h"
+#include "lang/openscad/script_diagnostics.h"
 #include "solids/content.h"
 #include "solids/evaluate.h"
 #include "solids/kernel.h"
@@ -67,9 +67,9 @@ solids::TreePtr tree_of(const ScadRequest& request, Loading& loading) {
   options.is_preview = false;
   openscad::Messages messages;
   solids::TreePtr tree = openscad::run(script, options, messages);
-  Diagnostics told;
-  openscad::tell(messages, script, reader.where, told);
-  add_with_places(told, request, reader);
+  Diagnostics found;
+  openscad::add_diagnostics(messages, script, reader.where, found);
+  add_with_places(found, request, reader);
   return messages.error_count() > 0 ? nullptr : tree;
 }
 
@@ -78,7 +78,7 @@ bool add_tree(sources::Key& key, const solids::Tree& tree, Loading& loading) {
   key.add(solids::text_of(tree)).add(static_cast<double>(tree.children.size()));
   const auto add_file = [&](const std::string& path) {
     FilePath file{path, {}};
-    if (!loading.look_at(file)) return false;
+    if (!loading.read_content(file)) return false;
     key.add(file.content);
     return true;
   };
@@ -168,7 +168,7 @@ std::shared_ptr<const ScadSolids> ScadRequest::load(sources::Loading& loading) {
                              "OpenSCAD scripts cannot be used: this ombre was built without CGAL");
     return nullptr;
   }
-  if (script.empty() && (!loading.find(file) || !loading.look_at(file))) return nullptr;
+  if (script.empty() && (!loading.find(file) || !loading.read_content(file))) return nullptr;
   const solids::TreePtr tree = tree_of(*this, loading);
   const auto pieces = tree ? pieces_of(tree, *this, loading) : nullptr;
   if (!pieces || !check_pieces(*this, *pieces, reader)) return nullptr;

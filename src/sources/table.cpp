@@ -79,7 +79,7 @@ class TableReader {
 }  // namespace
 
 std::shared_ptr<const std::vector<std::vector<double>>> TableRequest::load(sources::Loading& loading) {
-  if (!loading.find(file) || !loading.look_at(file)) return nullptr;
+  if (!loading.find(file) || !loading.read_content(file)) return nullptr;
   using Made = sources::Loading::Made<Result>;
   return loading.cached<Result>(sources::Key("table").add(file.content).hash(), file.path, [&](const Reader&) {
     auto rows = std::make_shared<Result>(TableReader(file.path, *loading.bytes(file)).run());

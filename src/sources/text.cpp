@@ -109,7 +109,7 @@ std::shared_ptr<const program::FieldSource> TextRequest::load(sources::Loading& 
     return fail(loading.reader(), "a text has at most " + format_count(most_letters) + " letters");
   const auto found = find_font(*this, loading);
   FilePath file{found ? found->file : "", {}};
-  if (!found || !loading.look_at(file)) return nullptr;
+  if (!found || !loading.read_content(file)) return nullptr;
   font.content = hash_bytes(file.content.hex() + std::to_string(found->index));
 
   using Made = sources::Loading::Made<Result>;

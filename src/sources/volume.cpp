@@ -34,7 +34,7 @@ sources::ReadFile reader_of(sources::Loading& loading) {
 
 // What a file alone is made of; found once for the same content. Null, and diagnostics, where it is wrong.
 std::shared_ptr<const VolumeParts> parts_of_file(FilePath& file, sources::Loading& loading) {
-  if (!loading.look_at(file)) return nullptr;
+  if (!loading.read_content(file)) return nullptr;
   using Made = sources::Loading::Made<VolumeParts>;
   const Hash key = sources::Key("parts of a volume").add(file.content).add(file.path).hash();
   return loading.cached<VolumeParts>(key, file.path, [&](const Reader&) {
@@ -60,7 +60,7 @@ std::optional<Hash> content_of(const VolumeParts& parts, const VolumeRequest& re
   key.add(request.series).add(request.channel);
   for (const std::string& path : parts.files) {
     FilePath part{path, {}};
-    if (!loading.look_at(part)) return std::nullopt;
+    if (!loading.read_content(part)) return std::nullopt;
     key.add(part.content);
   }
   return key.hash();

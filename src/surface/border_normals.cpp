@@ -21,18 +21,18 @@ Vec3 unit(int axis) {
 
 Vec3 normalized(Vec3 v) { return (1 / length(v)) * v; }
 
-std::vector<Vec3> gradients(std::span<const EdgeSearch> searches, const Vec3& cell_mm, PointAsker& asker) {
+std::vector<Vec3> gradients(std::span<const EdgeSearch> searches, const Vec3& cell_mm, PointEvaluator& evaluator) {
   std::vector<Vec3> points;
   for (const EdgeSearch& s : searches)
     for (int axis = 0; axis < 3; ++axis)
       for (const double side : {1.0, -1.0})
         points.push_back(s.point(s.t) + side * gradient_step * cell_mm[axis] * unit(axis));
-  asker.ask(points);
+  evaluator.ask(points);
   std::vector<Vec3> found(searches.size());
   for (size_t n = 0; n < searches.size(); ++n)
     for (int axis = 0; axis < 3; ++axis) {
       const size_t at = 6 * n + 2 * static_cast<size_t>(axis);
-      const auto f = [&](size_t answer) { return asker.between(searches[n].from, searches[n].to, answer); };
+      const auto f = [&](size_t answer) { return evaluator.between(searches[n].from, searches[n].to, answer); };
       found[n][axis] = (f(at) - f(at + 1)) / (2 * gradient_step * cell_mm[axis]);
     }
   return found;
@@ -52,20 +52,21 @@ struct ShiftedEdge {
   Vec3 point() const { return edge->point(middle()) + shift; }
 };
 
-void find_borders(std::vector<ShiftedEdge>& shifted, PointAsker& asker) {
+void find_borders(std::vector<ShiftedEdge>& shifted, PointEvaluator& evaluator) {
   std::vector<Vec3> points(shifted.size());
   for (int round = 0; round < slope_rounds; ++round) {
     for (size_t n = 0; n < shifted.size(); ++n) points[n] = shifted[n].point();
-    asker.ask(points);
+    evaluator.ask(points);
     for (size_t n = 0; n < shifted.size(); ++n)
-      (asker.label(n) == shifted[n].edge->from ? shifted[n].lo : shifted[n].hi) = shifted[n].middle();
+      (evaluator.label(n) == shifted[n].edge->from ? shifted[n].lo : shifted[n].hi) = shifted[n].middle();
   }
 }
 
 int axis_of(const EdgeSearch& s) { return s.along.x != 0 ? 0 : s.along.y != 0 ? 1 : 2; }
 
 // By where the border is on four edges beside each of these.
-std::vector<Vec3> slopes(const std::vector<const EdgeSearch*>& searches, const Vec3& cell_mm, PointAsker& asker) {
+std::vector<Vec3> slopes(const std::vector<const EdgeSearch*>& searches, const Vec3& cell_mm,
+                         PointEvaluator& evaluator) {
   std::vector<ShiftedEdge> shifted;
   for (const EdgeSearch* s : searches)
     for (int other = 1; other < 3; ++other)
@@ -74,7 +75,7 @@ std::vector<Vec3> slopes(const std::vector<const EdgeSearch*>& searches, const V
         shifted.push_back(
             {s, side * slope_step * cell_mm[across] * unit(across), s->t - normals_reach, s->t + normals_reach});
       }
-  find_borders(shifted, asker);
+  find_borders(shifted, evaluator);
   std::vector<Vec3> found;
   for (size_t n = 0; n < searches.size(); ++n) {
     const int axis = axis_of(*searches[n]);
@@ -91,8 +92,8 @@ std::vector<Vec3> slopes(const std::vector<const EdgeSearch*>& searches, const V
 
 }  // namespace
 
-std::vector<Vec3> border_normals(std::span<const EdgeSearch> searches, const Vec3& cell_mm, PointAsker& asker) {
-  std::vector<Vec3> normals = gradients(searches, cell_mm, asker);
+std::vector<Vec3> border_normals(std::span<const EdgeSearch> searches, const Vec3& cell_mm, PointEvaluator& evaluator) {
+  std::vector<Vec3> normals = gradients(searches, cell_mm, evaluator);
   std::vector<size_t> without;
   std::vector<const EdgeSearch*> sloping;
   for (size_t n = 0; n < searches.size(); ++n) {
@@ -104,7 +105,7 @@ std::vector<Vec3> border_normals(std::span<const EdgeSearch> searches, const Vec
     sloping.push_back(&searches[n]);
   }
   if (sloping.empty()) return normals;
-  const std::vector<Vec3> found = slopes(sloping, cell_mm, asker);
+  const std::vector<Vec3> found = slopes(sloping, cell_mm, evaluator);
   for (size_t m = 0; m < without.size(); ++m) normals[without[m]] = found[m];
   return normals;
 }

@@ -26,11 +26,11 @@ std::vector<std::optional<double>> border_offsets(const Partition& partition, co
   const auto details = [&](const Box& box) -> const program::Program& { return partition.details.around(box); };
   work_at(details, points, reach_mm, threads, stop,
           [&](const program::Program& program, std::span<const uint32_t> numbers) {
-            PointAsker asker;
-            asker.begin(partition, program);
+            PointEvaluator evaluator;
+            evaluator.begin(partition, program);
             std::vector<EdgeSearch> searches;
             for (const uint32_t n : numbers) searches.push_back(search_of(samples[n], reach_mm));
-            search_edges(searches, asker);
+            search_edges(searches, evaluator);
             for (size_t m = 0; m < numbers.size(); ++m)
               if (searches[m].is_between) offsets[numbers[m]] = (2 * searches[m].t - 1) * reach_mm;
           });

@@ -105,12 +105,12 @@ uint32_t CellTree::find(const CellPlace& unit) const {
   }
 }
 
-void CellTree::grow(const Growth& growth, const AskLabels& ask) {
+void CellTree::grow(const Growth& growth, const LabelQuery& ask) {
   grow_at_end(growth, ask);
   list_leaves();
 }
 
-void CellTree::grow_on(Growth growth, const AskLabels& ask, const MoreGrowth& more) {
+void CellTree::grow_on(Growth growth, const LabelQuery& ask, const MoreGrowth& more) {
   while (!growth.is_empty()) {
     const size_t grown_before = grown_.size();
     grow_at_end(growth, ask);
@@ -119,7 +119,7 @@ void CellTree::grow_on(Growth growth, const AskLabels& ask, const MoreGrowth& mo
   list_leaves();
 }
 
-void CellTree::grow_at_end(const Growth& growth, const AskLabels& ask) {
+void CellTree::grow_at_end(const Growth& growth, const LabelQuery& ask) {
   std::vector<CellPlace> corners;
   for (const uint32_t number : growth.cut) {
     const Leaf& leaf = leaves_[number];
@@ -132,7 +132,7 @@ void CellTree::grow_at_end(const Growth& growth, const AskLabels& ask) {
   for (const CellPlace& place : growth.taken_in)
     for (size_t corner = 0; corner < 8; ++corner)
       corners.push_back(moved(first_unit_of(place), corner, units_per_cell));
-  ask_unknown(std::move(corners), ask);
+  query_unknown(std::move(corners), ask);
   grown_.insert(grown_.end(), growth.taken_in.begin(), growth.taken_in.end());
   for (const uint32_t number : growth.cut) grown_.push_back(grid_cell_of(leaves_[number].at));
   for (const uint32_t number : growth.cut) cut(Leaf(leaves_[number]));
@@ -177,7 +177,7 @@ void CellTree::learn_corners(const Leaf& leaf) {
     labels_.try_emplace(moved(leaf.at, corner, 1 << leaf.level), leaf.corners[corner]);
 }
 
-// What was asked before, or what mixed cells of the grid know.
+// What was queried before, or what mixed cells of the grid know.
 std::optional<Label> CellTree::known_label(const CellPlace& corner) const {
   if (const auto found = labels_.find(corner); found != labels_.end()) return found->second;
   const CellPlace above = grid_cell_of(corner);
@@ -189,7 +189,7 @@ std::optional<Label> CellTree::known_label(const CellPlace& corner) const {
   return std::nullopt;
 }
 
-void CellTree::ask_unknown(std::vector<CellPlace> corners, const AskLabels& ask) {
+void CellTree::query_unknown(std::vector<CellPlace> corners, const LabelQuery& ask) {
   std::ranges::sort(corners);
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   std::vector<CellPlace> unknown;
@@ -251,27 +251,27 @@ void CellTree::take_in(const std::vector<CellPlace>& places) {
   grid_ = MixedCells(lattice(), std::move(cells));
 }
 
-void CellTree::mark_around(const CellPlace& grid_cell, std::vector<bool>& marks) const {
+void CellTree::flag_around(const CellPlace& grid_cell, std::vector<bool>& flags) const {
   each_around(grid_cell, [&](const CellPlace& place) {
     const uint32_t cell = grid_.find(place);
-    if (cell != MixedCells::none) marks[cell] = true;
+    if (cell != MixedCells::none) flags[cell] = true;
   });
 }
 
 std::vector<bool> CellTree::cells_around_cuts() const {
-  std::vector<bool> marks(roots_.size());
+  std::vector<bool> flags(roots_.size());
   for (size_t n = 0; n < roots_.size(); ++n)
-    if (roots_[n].children != none) mark_around(grid_.cells()[n].at, marks);
-  return marks;
+    if (roots_[n].children != none) flag_around(grid_.cells()[n].at, flags);
+  return flags;
 }
 
 std::vector<bool> CellTree::cells_around_growth() const {
-  std::vector<bool> marks(roots_.size());
+  std::vector<bool> flags(roots_.size());
   std::vector<CellPlace> cells = grown_;
   std::ranges::sort(cells);
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  for (const CellPlace& cell : cells) mark_around(cell, marks);
-  return marks;
+  for (const CellPlace& cell : cells) flag_around(cell, flags);
+  return flags;
 }
 
 void CellTree::list_leaves() {

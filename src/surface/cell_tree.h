@@ -42,7 +42,7 @@ class CellTree {
  public:
   static constexpr uint32_t none = ~uint32_t{0};
   // The labels at corners, given by their places in units.
-  using AskLabels = std::function<std::vector<Label>(const std::vector<CellPlace>&)>;
+  using LabelQuery = std::function<std::vector<Label>(const std::vector<CellPlace>&)>;
 
   explicit CellTree(MixedCells grid);
 
@@ -62,11 +62,11 @@ class CellTree {
 
   void forget_growth() { grown_.clear(); }
   // Leaves get new numbers.
-  void grow(const Growth& growth, const AskLabels& ask);
+  void grow(const Growth& growth, const LabelQuery& ask);
   // Grows again and again by what `more` asks for. It gets the leaves in and around the cells of the grid that grew
   // last; what was cut is still among all leaves() until the end, but is not found.
   using MoreGrowth = std::function<Growth(const std::vector<uint32_t>& leaves)>;
-  void grow_on(Growth growth, const AskLabels& ask, const MoreGrowth& more);
+  void grow_on(Growth growth, const LabelQuery& ask, const MoreGrowth& more);
 
  private:
   struct Child {
@@ -82,17 +82,17 @@ class CellTree {
 
   void learn_corners(const Leaf& leaf);
   std::optional<Label> known_label(const CellPlace& corner) const;
-  void ask_unknown(std::vector<CellPlace> corners, const AskLabels& ask);
+  void query_unknown(std::vector<CellPlace> corners, const LabelQuery& ask);
   void take_in(const std::vector<CellPlace>& places);
   // Leaves that come are numbered after the others.
-  void grow_at_end(const Growth& growth, const AskLabels& ask);
+  void grow_at_end(const Growth& growth, const LabelQuery& ask);
   void cut(const Leaf& leaf);
   std::vector<uint32_t> leaves_around(const std::vector<CellPlace>& grid_cells);
   template <class Visit>
   void each_leaf_below(const Root& root, const Visit& visit) const;
   std::vector<bool> cells_around_cuts() const;
   std::vector<bool> cells_around_growth() const;
-  void mark_around(const CellPlace& grid_cell, std::vector<bool>& marks) const;
+  void flag_around(const CellPlace& grid_cell, std::vector<bool>& flags) const;
   void list_leaves();
   void list_below(const CellPlace& at, int level, uint32_t children, bool is_near_growth);
 

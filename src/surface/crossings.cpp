@@ -14,7 +14,7 @@
 namespace ombre::surface {
 namespace {
 
-constexpr uint32_t leaves_between_looks = 4096;       // at the stop flag
+constexpr uint32_t leaves_between_checks = 4096;      // at the stop flag
 constexpr int32_t block_units = 16 * units_per_cell;  // along each axis of a block that shares a shortened program
 
 struct EdgeKey {
@@ -37,7 +37,7 @@ class CrossingList {
     const std::vector<ListedEdge> listed = crossed_edges(tree, !before.empty(), threads, stop);
     auto next = listed.begin();
     for (uint32_t n = 0; n < tree.leaves().size(); ++n) {
-      if (n % leaves_between_looks == 0 && stop && stop->requested()) throw Cancelled();
+      if (n % leaves_between_checks == 0 && stop && stop->requested()) throw Cancelled();
       take_over(n);
       for (; next != listed.end() && next->leaf == n; ++next) list(next->edge);
     }
@@ -60,7 +60,7 @@ class CrossingList {
 
   void note_before() {
     for (uint32_t n = 0; n < before_.size(); ++n) {
-      if (n % leaves_between_looks == 0 && stop_ && stop_->requested()) throw Cancelled();
+      if (n % leaves_between_checks == 0 && stop_ && stop_->requested()) throw Cancelled();
       if (same_leaf(before_[n]) == CellTree::none)
         known_.emplace(EdgeKey(before_[n].edge), n);
       else
@@ -151,10 +151,10 @@ class BlockFinder {
       return cut(program, block, units_a_side / 2);
     std::vector<EdgeSearch> searches;
     for (const uint32_t n : block) searches.push_back(search_of(crossings_[n].edge, tree_));
-    PointAsker asker;
-    asker.begin(partition_, program);
-    search_edges(searches, asker);
-    const std::vector<Vec3> normals = border_normals(searches, cell_of(block), asker);
+    PointEvaluator evaluator;
+    evaluator.begin(partition_, program);
+    search_edges(searches, evaluator);
+    const std::vector<Vec3> normals = border_normals(searches, cell_of(block), evaluator);
     for (size_t m = 0; m < block.size(); ++m) {
       crossings_[block[m]].at = searches[m].point(searches[m].t);
       crossings_[block[m]].normal = normals[m];

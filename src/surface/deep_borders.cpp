@@ -4,7 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "surface/label_asker.h"
+#include "surface/point_labels.h"
 
 namespace ombre::surface {
 namespace {

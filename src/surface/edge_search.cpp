@@ -10,7 +10,7 @@ constexpr int most_search_rounds = 40;
 constexpr double beside = 1e-4;  // an end
 
 // Where the value is 0 at an end, the border is there; or the value stays 0 for a while, and labels say where it is.
-void settle_ends(std::span<EdgeSearch> searches, PointAsker& asker) {
+void settle_ends(std::span<EdgeSearch> searches, PointEvaluator& evaluator) {
   std::vector<EdgeSearch*> settled;
   std::vector<Vec3> points;
   for (EdgeSearch& s : searches) {
@@ -20,27 +20,27 @@ void settle_ends(std::span<EdgeSearch> searches, PointAsker& asker) {
     points.push_back(s.point(s.t == 0 ? beside : 1 - beside));
   }
   if (settled.empty()) return;
-  asker.ask(points);
+  evaluator.ask(points);
   for (size_t n = 0; n < settled.size(); ++n) {
     EdgeSearch& s = *settled[n];
-    const double f = asker.between(s.from, s.to, n);
+    const double f = evaluator.between(s.from, s.to, n);
     s.is_done = std::isfinite(f) && f != 0;
     s.by_value = s.is_done;
   }
 }
 
-void bracket(std::span<EdgeSearch> searches, PointAsker& asker) {
+void bracket(std::span<EdgeSearch> searches, PointEvaluator& evaluator) {
   std::vector<Vec3> ends;
   for (const EdgeSearch& s : searches) {
     ends.push_back(s.point(0));
     ends.push_back(s.point(1));
   }
-  asker.ask(ends);
+  evaluator.ask(ends);
   for (size_t n = 0; n < searches.size(); ++n) {
     EdgeSearch& s = searches[n];
-    s.f_lo = asker.between(s.from, s.to, 2 * n);
-    s.f_hi = asker.between(s.from, s.to, 2 * n + 1);
-    s.is_between = asker.label(2 * n) == s.from && asker.label(2 * n + 1) == s.to;
+    s.f_lo = evaluator.between(s.from, s.to, 2 * n);
+    s.f_hi = evaluator.between(s.from, s.to, 2 * n + 1);
+    s.is_between = evaluator.label(2 * n) == s.from && evaluator.label(2 * n + 1) == s.to;
     s.rise = s.f_hi - s.f_lo;
     s.by_value = s.f_lo <= 0 && s.f_hi >= 0 && s.rise > 0 && std::isfinite(s.rise);
   }
@@ -71,9 +71,9 @@ void narrow_by_value(EdgeSearch& s, double f) {
 
 }  // namespace
 
-void search_edges(std::span<EdgeSearch> searches, PointAsker& asker) {
-  bracket(searches, asker);
-  settle_ends(searches, asker);
+void search_edges(std::span<EdgeSearch> searches, PointEvaluator& evaluator) {
+  bracket(searches, evaluator);
+  settle_ends(searches, evaluator);
   std::vector<EdgeSearch*> active;
   std::vector<Vec3> points;
   for (int round = 0; round < most_search_rounds; ++round) {
@@ -86,13 +86,13 @@ void search_edges(std::span<EdgeSearch> searches, PointAsker& asker) {
       points.push_back(s.point(s.t));
     }
     if (active.empty()) return;
-    asker.ask(points);
+    evaluator.ask(points);
     for (size_t n = 0; n < active.size(); ++n) {
       EdgeSearch& s = *active[n];
       if (s.by_value)
-        narrow_by_value(s, asker.between(s.from, s.to, n));
+        narrow_by_value(s, evaluator.between(s.from, s.to, n));
       else
-        (asker.label(n) == s.from ? s.lo : s.hi) = s.t;
+        (evaluator.label(n) == s.from ? s.lo : s.hi) = s.t;
     }
   }
 }

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "surface/point_asker.h"
+#include "surface/point_evaluator.h"
 
 namespace ombre::surface {
 
@@ -28,6 +28,6 @@ struct EdgeSearch {
 
 // By what goes through zero there (a distance, a fraction) with the secant method, Illinois variant; where there is
 // no such value, by halving between the regions.
-void search_edges(std::span<EdgeSearch> searches, PointAsker& asker);
+void search_edges(std::span<EdgeSearch> searches, PointEvaluator& evaluator);
 
 }  // namespace ombre::surface

@@ -184,10 +184,10 @@ std::vector<Ball> balls_at(const std::vector<Vec3>& places, double radius_mm) {
 }
 
 template <class T>
-void remove_where(const std::vector<bool>& marks, std::vector<T>& values) {
+void remove_where(const std::vector<bool>& flags, std::vector<T>& values) {
   size_t kept = 0;
   for (size_t n = 0; n < values.size(); ++n)
-    if (!marks[n]) values[kept++] = values[n];
+    if (!flags[n]) values[kept++] = values[n];
   values.resize(kept);
 }
 
@@ -210,7 +210,7 @@ FacetCheck::FacetCheck(const Partition& partition, const ContourOptions& options
       workers_(options.workers) {}
 
 void FacetCheck::check(const QuadSurface& surface) {
-  const std::vector<uint32_t> quads = seen_.see(surface.looks());
+  const std::vector<uint32_t> quads = seen_.see(surface.shape_hashes());
   check_facets(surface, quads);
   check_crossings(surface, quads);
 }

@@ -14,7 +14,7 @@ class FacetCheck {
  public:
   FacetCheck(const Partition& partition, const ContourOptions& options);
 
-  // Looks at samples of facets, at borders beside them and at crossings, but for those that were near already. Throws
+  // Checks samples of facets, at borders beside them and at crossings, but for those that were near already. Throws
   // Cancelled.
   void check(const QuadSurface& surface);
   // Crossings, and the quads around them, have other numbers.

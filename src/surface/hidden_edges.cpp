@@ -38,11 +38,11 @@ std::optional<Lattice> finer(const Lattice& corners) {
   return finer;
 }
 
-// Looks through a tile that is not uniform, at edges with both ends in it. What others miss by that is far larger than
+// Searches a tile that is not uniform for edges with both ends in it. What others miss by that is far larger than
 // cells, or has more edges.
-class TileLooker {
+class TileEdges {
  public:
-  TileLooker(const FieldTile& tile, const CellTree& tree) : tile_(tile), tree_(tree) {
+  TileEdges(const FieldTile& tile, const CellTree& tree) : tile_(tile), tree_(tree) {
     size_t count = 1;
     for (size_t axis = 0; axis < 3; ++axis) {
       first_cell_[axis] = static_cast<int32_t>(tile.box.lo[axis] / per_cell);
@@ -52,10 +52,10 @@ class TileLooker {
     known_.resize(count);
   }
 
-  void look(std::vector<CrossedEdge>& edges) {
+  void search(std::vector<CrossedEdge>& edges) {
     for (int64_t k = 0; k < tile_.box.size(2); ++k)
       for (int64_t j = 0; j < tile_.box.size(1); ++j)
-        for (size_t axis = 0; axis < 3; ++axis) look_at_row(j, k, axis, edges);
+        for (size_t axis = 0; axis < 3; ++axis) search_row(j, k, axis, edges);
   }
 
  private:
@@ -65,7 +65,7 @@ class TileLooker {
     return axis == 0 ? 1 : axis == 1 ? tile_.box.size(0) : tile_.box.size(0) * tile_.box.size(1);
   }
 
-  void look_at_row(int64_t j, int64_t k, size_t axis, std::vector<CrossedEdge>& edges) {
+  void search_row(int64_t j, int64_t k, size_t axis, std::vector<CrossedEdge>& edges) {
     if ((axis == 1 && j + 1 == tile_.box.size(1)) || (axis == 2 && k + 1 == tile_.box.size(2))) return;
     const float* const here = tile_.values.data() + j * step(1) + k * step(2);
     const float* const next = here + step(axis);
@@ -130,7 +130,7 @@ void find_hidden_edges(const program::Program& label, const CellTree& tree, int 
         for (; goes_on && strip.lo[1] < fine.count[1]; strip.lo[1] += strip_rows) {
           strip.hi[1] = std::min(strip.lo[1] + strip_rows, fine.count[1]);
           for (const FieldTile& tile : evaluator.tiles(strip, stop))
-            if (!tile.is_uniform) TileLooker(tile, tree).look(edges);
+            if (!tile.is_uniform) TileEdges(tile, tree).search(edges);
         }
         return edges;
       },

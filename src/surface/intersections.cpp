@@ -104,9 +104,9 @@ class PairFinder {
     std::vector<QuadPairs> found(first + second);
     workers.in_pieces(found.size(), 1, [&](size_t p, size_t /*end*/) {
       if (p < first)
-        look_among_fresh(p * piece, std::min((p + 1) * piece, tree_.groups()), found[p]);
+        search_fresh(p * piece, std::min((p + 1) * piece, tree_.groups()), found[p]);
       else
-        look_at_others((p - first) * piece, std::min((p - first + 1) * piece, others_.size()), found[p]);
+        search_others((p - first) * piece, std::min((p - first + 1) * piece, others_.size()), found[p]);
     });
     QuadPairs pairs;
     for (const QuadPairs& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
@@ -115,17 +115,17 @@ class PairFinder {
   }
 
  private:
-  void look_among_fresh(size_t begin, size_t end, QuadPairs& pairs) const {
+  void search_fresh(size_t begin, size_t end, QuadPairs& pairs) const {
     for (size_t group = begin; group < end; ++group)
-      tree_.each_pair_that_meets(group, [&](uint32_t a, uint32_t b) { look_at(fresh_[a], fresh_[b], pairs); });
+      tree_.each_pair_that_meets(group, [&](uint32_t a, uint32_t b) { check_pair(fresh_[a], fresh_[b], pairs); });
   }
 
-  void look_at_others(size_t begin, size_t end, QuadPairs& pairs) const {
+  void search_others(size_t begin, size_t end, QuadPairs& pairs) const {
     for (size_t n = begin; n < end; ++n)
-      tree_.each_that_meets(triangles_.box(others_[n]), [&](uint32_t f) { look_at(others_[n], fresh_[f], pairs); });
+      tree_.each_that_meets(triangles_.box(others_[n]), [&](uint32_t f) { check_pair(others_[n], fresh_[f], pairs); });
   }
 
-  void look_at(uint32_t a, uint32_t b, QuadPairs& pairs) const {
+  void check_pair(uint32_t a, uint32_t b, QuadPairs& pairs) const {
     if (triangles_.cross(a, b)) pairs.push_back(std::minmax({triangles_.quad(a), triangles_.quad(b)}));
   }
 
@@ -137,7 +137,7 @@ class PairFinder {
 }  // namespace
 
 QuadPairs IntersectionFinder::find(const QuadSurface& surface) {
-  const std::vector<uint32_t> fresh = clean_.see(surface.looks());
+  const std::vector<uint32_t> fresh = clean_.see(surface.shape_hashes());
   if (fresh.empty()) return {};
   const Triangles triangles(surface);
   QuadPairs pairs = PairFinder(triangles, fresh).find(workers_);

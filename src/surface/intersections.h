@@ -18,7 +18,7 @@ class IntersectionFinder {
   explicit IntersectionFinder(const Workers& workers) : workers_(workers) {}
 
   // Pairs of triangles of which a side of one pierces the other, or that have a common side and lie upon each other; in
-  // order. Triangles that only touch do not count. Looks only at pairs of which one changed since the last time.
+  // order. Triangles that only touch do not count. Checks only pairs of which one changed since the last time.
   QuadPairs find(const QuadSurface& surface);
   // After a cut the quads around crossings have other numbers.
   void renumber(const std::vector<Crossing>& crossings) { clean_.renumber(crossings); }

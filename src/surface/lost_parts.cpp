@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/tasks.h"
-#include "surface/point_asker.h"
+#include "surface/point_evaluator.h"
 #include "voxel/fields.h"
 #include "voxel/layers.h"
 
@@ -19,7 +19,7 @@ using voxel::Lattice;
 using voxel::TileBox;
 
 constexpr double most_cells = 1 << 29;
-constexpr int64_t look_layers = 8, look_rows = 256;
+constexpr int64_t check_layers = 8, check_rows = 256;
 // In cells: how far from a corner a border may lie, how far a facet is from what is missing, how far behind its border
 // a part is looked for, and the steps of differences.
 constexpr double border_reach = 0.75, facet_room = 1, step_behind = 0.002, difference_step = 0.001;
@@ -36,7 +36,7 @@ class NearFacets {
     }
     near_.resize(cells);
     for (const Facet& facet : surface.facets)
-      mark(
+      flag(
           {surface.vertices[facet.corners[0]], surface.vertices[facet.corners[1]], surface.vertices[facet.corners[2]]});
   }
 
@@ -60,7 +60,7 @@ class NearFacets {
   }
 
   // Of cells around the triangle those that its plane comes near.
-  void mark(const std::array<Vec3, 3>& t) {
+  void flag(const std::array<Vec3, 3>& t) {
     const Vec3 room = facet_room * size_mm_, normal = cross(t[1] - t[0], t[2] - t[0]);
     std::array<int64_t, 3> lo, hi;
     for (size_t a = 0; a < 3; ++a) {
@@ -84,15 +84,15 @@ class NearFacets {
   std::vector<bool> near_;
 };
 
-// Looks from the corners of a tile.
-class CornerLook {
+// Searches from the corners of a tile.
+class CornerCheck {
  public:
-  CornerLook(const Partition& partition, const Lattice& corners, const NearFacets& facets)
+  CornerCheck(const Partition& partition, const Lattice& corners, const NearFacets& facets)
       : partition_(partition), corners_(corners), facets_(facets) {
     cell_mm_ = std::min({corners.pitch[0].mm(), corners.pitch[1].mm(), corners.pitch[2].mm()});
   }
 
-  void look(const FieldTile& tile, LostParts& lost) {
+  void check(const FieldTile& tile, LostParts& lost) {
     std::vector<Vec3> points;
     for (int64_t k = tile.box.lo[2]; k < tile.box.hi[2]; ++k)
       for (int64_t j = tile.box.lo[1]; j < tile.box.hi[1]; ++j)
@@ -108,13 +108,13 @@ class CornerLook {
     std::vector<size_t> close;
     for (size_t n = 0; n < points.size(); ++n)
       if (std::abs(distance(n)) < border_reach * cell_mm_) close.push_back(n);
-    for (const size_t n : close) look_from(points[n], lost);
+    for (const size_t n : close) check_from(points[n], lost);
   }
 
  private:
   double distance(size_t n) const { return asker_.between(1, 0, n); }
 
-  void look_from(Vec3 p, LostParts& lost) {
+  void check_from(Vec3 p, LostParts& lost) {
     const double step = difference_step * cell_mm_;
     asker_.ask({p, p + Vec3{step, 0, 0}, p - Vec3{step, 0, 0}, p + Vec3{0, step, 0}, p - Vec3{0, step, 0},
                 p + Vec3{0, 0, step}, p - Vec3{0, 0, step}});
@@ -139,7 +139,7 @@ class CornerLook {
   const NearFacets& facets_;
   double cell_mm_;
   program::Program program_;
-  PointAsker asker_;
+  PointEvaluator asker_;
 };
 
 }  // namespace
@@ -153,18 +153,18 @@ LostParts find_lost_parts(const Partition& partition, const RegionSurface& surfa
     return lost;
   const NearFacets facets(surface, corners);
   const voxel::FieldEvaluator evaluator(partition.label, corners, voxel::best_evaluator(corners));
-  const auto slabs = static_cast<size_t>((corners.count[2] + look_layers - 1) / look_layers);
+  const auto slabs = static_cast<size_t>((corners.count[2] + check_layers - 1) / check_layers);
   run_ordered<LostParts>(
       slabs, threads, 2 * static_cast<size_t>(threads > 0 ? threads : core_count()),
       [&](size_t n) {
         LostParts found;
-        CornerLook look(partition, corners, facets);
-        TileBox strip{{0, 0, static_cast<int64_t>(n) * look_layers}, corners.count};
-        strip.hi[2] = std::min(strip.lo[2] + look_layers, corners.count[2]);
-        for (; strip.lo[1] < corners.count[1]; strip.lo[1] += look_rows) {
-          strip.hi[1] = std::min(strip.lo[1] + look_rows, corners.count[1]);
+        CornerCheck check(partition, corners, facets);
+        TileBox strip{{0, 0, static_cast<int64_t>(n) * check_layers}, corners.count};
+        strip.hi[2] = std::min(strip.lo[2] + check_layers, corners.count[2]);
+        for (; strip.lo[1] < corners.count[1]; strip.lo[1] += check_rows) {
+          strip.hi[1] = std::min(strip.lo[1] + check_rows, corners.count[1]);
           for (const FieldTile& tile : evaluator.tiles(strip, stop))
-            if (!tile.is_uniform && !(stop && stop->requested())) look.look(tile, found);
+            if (!tile.is_uniform && !(stop && stop->requested())) check.check(tile, found);
         }
         return found;
       },

@@ -6,7 +6,7 @@
 
 namespace ombre::surface {
 
-// Looks from the corners, of which no facet is near, along the gradient of g for a border closer than a cell. Where
+// Searches from the corners that have no facet near, along the gradient of g for a border closer than a cell. Where
 // space lies on its other side a part or a gap is missing from the surface. Needs g to be about a distance; grids of
 // more than 2^29 cells are not looked at. The same for any number of threads. Throws Cancelled.
 LostParts find_lost_parts(const Partition& partition, const RegionSurface& surface, const voxel::Lattice& corners,

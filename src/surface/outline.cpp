@@ -58,7 +58,7 @@ class Assembler {
     LayerOutline made{std::vector<std::vector<Polygon>>(regions)};
     for (size_t n = 0; n < sides_.size(); ++n) {
       if (is_used_[n] || sides_[n].region == 0) continue;
-      Polygon polygon = walk(n);
+      Polygon polygon = trace(n);
       if (polygon.size() >= 3) made.regions[sides_[n].region - 1U].push_back(std::move(polygon));
     }
     for (auto& polygons : made.regions)
@@ -67,7 +67,7 @@ class Assembler {
   }
 
  private:
-  Polygon walk(size_t n) {
+  Polygon trace(size_t n) {
     Polygon polygon;
     while (!is_used_[n]) {
       is_used_[n] = true;

@@ -13,16 +13,16 @@ class ChainFinder {
       const OutlineVertex& vertex = graph_.vertices[v];
       if (!vertex.is_junction()) continue;
       for (size_t n = 0; n < vertex.count; ++n)
-        if (!is_used_[vertex.crossings[n]]) walk(v, vertex.crossings[n]);
+        if (!is_used_[vertex.crossings[n]]) trace(v, vertex.crossings[n]);
     }
     // What is left meets no junction.
     for (uint32_t c = 0; c < graph_.crossings.size(); ++c)
-      if (!is_used_[c]) walk(graph_.crossings[c].ends[0], c);
+      if (!is_used_[c]) trace(graph_.crossings[c].ends[0], c);
     return std::move(chains_);
   }
 
  private:
-  void walk(uint32_t start, uint32_t c) {
+  void trace(uint32_t start, uint32_t c) {
     const OutlineCrossing& first = graph_.crossings[c];
     const bool is_forward = first.ends[0] == start;
     OutlineChain chain{is_forward ? first.from : first.to, is_forward ? first.to : first.from, {start}};

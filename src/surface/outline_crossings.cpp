@@ -37,7 +37,7 @@ Vec2 in_plane(Vec3 normal, int axis) {
 }
 
 void find_block(const voxel::Lattice& corners, int64_t k, std::span<const uint32_t> block, const Partition& partition,
-                PointAsker& asker, OutlineGraph& graph) {
+                PointEvaluator& evaluator, OutlineGraph& graph) {
   const double cell_mm = corners.pitch[0].mm();
   std::vector<EdgeSearch> searches;
   Box box;
@@ -47,9 +47,9 @@ void find_block(const voxel::Lattice& corners, int64_t k, std::span<const uint32
   }
   const Box near = box.expanded(normals_reach * cell_mm);
   const program::Program program = shortened_for(partition.details.around(near), near);
-  asker.begin(partition, program);
-  search_edges(searches, asker);
-  const std::vector<Vec3> normals = border_normals(searches, {cell_mm, cell_mm, cell_mm}, asker);
+  evaluator.begin(partition, program);
+  search_edges(searches, evaluator);
+  const std::vector<Vec3> normals = border_normals(searches, {cell_mm, cell_mm, cell_mm}, evaluator);
   for (size_t m = 0; m < block.size(); ++m) {
     OutlineCrossing& crossing = graph.crossings[block[m]];
     const Vec3 at = searches[m].point(searches[m].t);
@@ -95,12 +95,12 @@ void find_outline_crossings(const Partition& partition, const voxel::Lattice& co
   std::iota(order.begin(), order.end(), 0U);
   const auto block = [&](uint32_t n) { return block_of(graph.crossings[n]); };
   std::ranges::stable_sort(order, {}, block);
-  PointAsker asker;
+  PointEvaluator evaluator;
   for (size_t begin = 0; begin < order.size();) {
     if (stop && stop->requested()) throw Cancelled();
     size_t end = begin + 1;
     while (end < order.size() && block(order[end]) == block(order[begin])) ++end;
-    find_block(corners, k, std::span(order).subspan(begin, end - begin), partition, asker, graph);
+    find_block(corners, k, std::span(order).subspan(begin, end - begin), partition, evaluator, graph);
     begin = end;
   }
 }

@@ -12,7 +12,7 @@ namespace ombre::surface {
 // Which region a point is in: 0 is void, regions count from 1.
 using Label = uint16_t;
 
-// How regions are told apart where both sides are inside.
+// How regions are distinguished where both sides are inside.
 enum class Division : uint8_t {
   bands,     // by one score: region n + 1 lies where exactly n of the borders are at or below it
   greatest,  // by a score for each region: the greatest decides, the first of equals

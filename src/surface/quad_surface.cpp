@@ -58,10 +58,10 @@ QuadTriangles triangles_of(const QuadSurface& surface, const Polygon& p, Vec3 no
   return {take_first ? first : second, 2};
 }
 
-void mix(uint64_t& look, Vec3 at) {
+void mix(uint64_t& hash, Vec3 at) {
   for (int axis = 0; axis < 3; ++axis) {
-    look = (look ^ std::bit_cast<uint64_t>(at[axis])) * 0x9E3779B97F4A7C15U;
-    look ^= look >> 32;
+    hash = (hash ^ std::bit_cast<uint64_t>(at[axis])) * 0x9E3779B97F4A7C15U;
+    hash ^= hash >> 32;
   }
 }
 
@@ -76,7 +76,7 @@ QuadSurface::QuadSurface(const CellTree& tree, const std::vector<Crossing>& cros
           std::cos(std::min(1.0, calm_radians_of_cells * options.tolerance_mm / tree.size_mm(grid_level).x))),
       clusters_(tree, crossings, mesh, options.join_flat ? options.tolerance_mm : 0, options.workers),
       triangles_(mesh.quads.size()),
-      looks_(mesh.quads.size()) {
+      shape_hashes_(mesh.quads.size()) {
   list_quads_of_vertices();
 }
 
@@ -157,13 +157,13 @@ void QuadSurface::cut(uint32_t quad) {
   std::array<uint32_t, 4> corners{};
   for (size_t n = 0; n < 4; ++n) corners[n] = clusters_.of(mesh_.quads[quad].corners[n]);
   const QuadTriangles triangles = triangles_of(*this, without_repeats(corners), crossings_[quad].normal);
-  uint64_t look = 1;
+  uint64_t hash = 1;
   for (const Triangle& t : triangles.list())
-    for (const uint32_t corner : t) mix(look, clusters_.places()[corner]);
+    for (const uint32_t corner : t) mix(hash, clusters_.places()[corner]);
   if (triangles.count == 0)
-    for (const uint32_t corner : corners) mix(look, clusters_.places()[corner]);
+    for (const uint32_t corner : corners) mix(hash, clusters_.places()[corner]);
   triangles_[quad] = triangles;
-  looks_[quad] = std::max<uint64_t>(look, 1);
+  shape_hashes_[quad] = std::max<uint64_t>(hash, 1);
 }
 
 RegionSurface QuadSurface::build() const {

@@ -35,7 +35,7 @@ class QuadSurface {
     return std::span(quads_of_vertices_).subspan(quad_begins_[vertex], quad_begins_[vertex + 1] - quad_begins_[vertex]);
   }
   // Of quads: equal where they look the same, also after their clusters got other numbers.
-  const std::vector<uint64_t>& looks() const { return looks_; }
+  const std::vector<uint64_t>& shape_hashes() const { return shape_hashes_; }
   // Whether the quad is small, the border around it nearly flat, and the quad along it.
   bool is_calm(uint32_t quad) const;
 
@@ -67,7 +67,7 @@ class QuadSurface {
   Clusters clusters_;
   std::vector<uint32_t> quad_begins_, quads_of_vertices_;
   std::vector<QuadTriangles> triangles_;
-  std::vector<uint64_t> looks_;
+  std::vector<uint64_t> shape_hashes_;
   std::vector<uint32_t> changed_;  // vertices
   bool is_new_ = true;
 };

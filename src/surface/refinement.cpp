@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "surface/label_asker.h"
+#include "surface/point_labels.h"
 
 namespace ombre::surface {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/tasks.h"
-#include "surface/point_asker.h"
+#include "surface/point_evaluator.h"
 
 namespace ombre::surface {
 namespace {

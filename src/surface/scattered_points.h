@@ -18,7 +18,7 @@ using ProgramAround = std::function<const program::Program&(const Box&)>;
 // The program as it is around these points; their numbers.
 using PointWork = std::function<void(const program::Program& program, std::span<const uint32_t> numbers)>;
 
-// Does the work for all points, each once, in parallel; the program may be asked as far as the margin from them.
+// Does the work for all points, each once, in parallel; the program may be queried as far as the margin from them.
 // Throws Cancelled.
 void work_at(const ProgramAround& program, const std::vector<Vec3>& points, double margin_mm, int threads,
              const StopFlag* stop, const PointWork& work);

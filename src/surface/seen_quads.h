@@ -1,4 +1,4 @@
-// Which quads look as they did when they were last looked at.
+// Which quads are unchanged since they were last checked, by hashes of their shapes.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@ namespace ombre::surface {
 
 class SeenQuads {
  public:
-  // Those that look different, in order; from now on they are seen.
-  std::vector<uint32_t> see(const std::vector<uint64_t>& looks) {
+  // Those whose hash has changed, in order; from now on they count as seen.
+  std::vector<uint32_t> see(const std::vector<uint64_t>& shape_hashes) {
     std::vector<uint32_t> different;
-    seen_.resize(looks.size());
-    for (uint32_t n = 0; n < looks.size(); ++n)
-      if (seen_[n] != looks[n]) different.push_back(n);
-    seen_ = looks;
+    seen_.resize(shape_hashes.size());
+    for (uint32_t n = 0; n < shape_hashes.size(); ++n)
+      if (seen_[n] != shape_hashes[n]) different.push_back(n);
+    seen_ = shape_hashes;
     return different;
   }
   void forget(uint32_t quad) { seen_[quad] = 0; }

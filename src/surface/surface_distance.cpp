@@ -6,7 +6,7 @@
 #include <iterator>
 #include <numeric>
 
-#include "surface/label_asker.h"
+#include "surface/point_labels.h"
 
 namespace ombre::surface {
 namespace {
@@ -32,12 +32,12 @@ class FarFinder {
   }
 
   FarSamples find(double reach_mm, const Ways& ways) {
-    look_along_normals(reach_mm);
+    search_along_normals(reach_mm);
     const std::vector<uint32_t> across = open_;
     // Thin walls are found by short ways.
-    for (const double share : {0.3, 0.1, 0.02}) look_along_normals(share * reach_mm);
+    for (const double share : {0.3, 0.1, 0.02}) search_along_normals(share * reach_mm);
     for (const double share : ways.shares)
-      if (share > 0) look_around(share * reach_mm, ways.count);
+      if (share > 0) search_around(share * reach_mm, ways.count);
     std::vector<uint32_t> near;
     std::ranges::set_difference(across, open_, std::back_inserter(near));
     return {open_, near};
@@ -46,7 +46,7 @@ class FarFinder {
  private:
   // Asks `ways` points of each sample that is open, and keeps open those where all answers are alike.
   template <class PointOf>
-  void look(int ways, const PointOf& point_of) {
+  void search(int ways, const PointOf& point_of) {
     std::vector<Vec3> points;
     for (const uint32_t n : open_)
       for (int way = 0; way < ways; ++way) points.push_back(point_of(samples_[n], way));
@@ -59,13 +59,13 @@ class FarFinder {
     open_ = std::move(still);
   }
 
-  void look_along_normals(double reach) {
-    look(2, [&](const SurfaceSample& s, int way) { return s.at + (way == 0 ? -reach : reach) * s.normal; });
+  void search_along_normals(double reach) {
+    search(2, [&](const SurfaceSample& s, int way) { return s.at + (way == 0 ? -reach : reach) * s.normal; });
   }
 
-  void look_around(double reach, int ways) {
-    look(ways + 1,
-         [&](const SurfaceSample& s, int way) { return way == 0 ? s.at : s.at + reach * way_around(way - 1, ways); });
+  void search_around(double reach, int ways) {
+    search(ways + 1,
+           [&](const SurfaceSample& s, int way) { return way == 0 ? s.at : s.at + reach * way_around(way - 1, ways); });
   }
 
   const Partition& partition_;

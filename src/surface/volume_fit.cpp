@@ -13,7 +13,7 @@ constexpr double least_cosine = 0.5;  // between normals around a vertex of a sm
 // A smooth border passes half-way between the middle of the crossings around a vertex and the vertex, which is nearest
 // to the planes there; where borders meet in a line it passes through the vertex.
 constexpr double usual_share = 0.5, most_beside = 0.25;
-constexpr double flat_enough = 1.0 / 16;  // of the reach; such vertices are not told apart
+constexpr double flat_enough = 1.0 / 16;  // of the reach; such vertices are not distinguished
 constexpr double least_offset = 1e-6;     // of the reach; less is rounding
 
 // What a vertex or cluster stands for, and the facets around it.

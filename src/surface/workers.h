@@ -13,13 +13,13 @@ struct Workers {
   int threads = 0;                 // 0: all cores
   const StopFlag* stop = nullptr;  // may be null
 
-  // Throws Cancelled once the work is to stop. Asked at least every few hundredths of a second.
+  // Throws Cancelled once the work is to stop. Call it at least every few hundredths of a second.
   void check_stop() const {
     if (stop && stop->requested()) throw Cancelled();
   }
   // The same in a long loop, at each so many turns.
   void check_stop_at(size_t turn) const {
-    if (turn % turns_between_looks == 0) check_stop();
+    if (turn % turns_between_checks == 0) check_stop();
   }
 
   // body(begin, end) for pieces of 0 to count, in no particular order. Throws Cancelled.
@@ -32,7 +32,7 @@ struct Workers {
   }
 
  private:
-  static constexpr size_t turns_between_looks = 4096;
+  static constexpr size_t turns_between_checks = 4096;
 };
 
 }  // namespace ombre::surface

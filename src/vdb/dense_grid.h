@@ -14,7 +14,7 @@ namespace ombre::vdb {
 struct DenseGrid {
   std::string name;
   std::array<int64_t, 3> count{};
-  std::vector<float> values;  // x fastest; marks are 0 and 1
+  std::vector<float> values;  // x fastest; flags are 0 and 1
   int64_t channels = 1;       // of a voxel in the file; 3 of vectors
   Affine space_from_index;    // of voxels' centres, in the units of the file, which are taken as mm
 };

@@ -39,7 +39,7 @@ std::array<float, 2> pair_in(const std::string& path, const std::string& name, i
 
 }  // namespace
 
-TEST(DenseGrid, NumbersMarksAndVectorsAreRead) {
+TEST(DenseGrid, NumbersFlagsAndVectorsAreRead) {
   openvdb::initialize();
   const std::string path = testing::TempDir() + std::to_string(getpid()) + "_kinds.vdb";
   using namespace openvdb;

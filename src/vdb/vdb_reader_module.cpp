@@ -106,7 +106,7 @@ DenseGrid read(const std::string& path, const std::string& name, int channel) {
   using namespace openvdb;
   if (!is_taken.
        operator()<FloatGrid, DoubleGrid, Int32Grid, Int64Grid, BoolGrid, MaskGrid, Vec3SGrid, Vec3DGrid, Vec3IGrid>())
-    fail(path, "has a grid of the type " + grid->valueType() + "; numbers, marks and vectors are read");
+    fail(path, "has a grid of the type " + grid->valueType() + "; numbers, flags and vectors are read");
   return dense;
 }
 

@@ -262,10 +262,10 @@ class BatchLeaf : public LeafEvaluator {
   }
 
   void count_check(size_t check, const eval::Values& inside) {
-    const eval::Values marks = output(1 + job_.selector.threshold_count + check);
-    if (!kernels_.any(marks, stretch_.width)) return;
+    const eval::Values flags = output(1 + job_.selector.threshold_count + check);
+    if (!kernels_.any(flags, stretch_.width)) return;
     for (size_t n = 0; n < stretch_.width; ++n) {
-      const bool counts = inside[n] != 0 && marks[n] != 0 && !is_unknown(n, inside);
+      const bool counts = inside[n] != 0 && flags[n] != 0 && !is_unknown(n, inside);
       if (counts) voxels_->note_check(check, stretch_.at.i + static_cast<int64_t>(n), stretch_.at.j, stretch_.k);
     }
   }

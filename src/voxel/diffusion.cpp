@@ -65,7 +65,7 @@ std::vector<int64_t> LayerDiffuser::carried() const {
   return sums;
 }
 
-// Rounds the row's fractions, settles the voxels of one material and marks the others.
+// Rounds the row's fractions, settles the voxels of one material and flags the others.
 void LayerDiffuser::read(std::span<const uint8_t> inside, std::span<const float* const> fractions,
                          std::span<uint8_t> chosen) {
   for (int64_t i = 0; i < width_; ++i) {

@@ -49,10 +49,10 @@ class TileRows : public eval::SourceRows {
   const TileBox& tile_;
 };
 
-// One thread's walk over the tiles of a strip.
-class FieldWalk {
+// One thread's traversal of the tiles of a strip.
+class FieldTraversal {
  public:
-  FieldWalk(const FieldEvaluator::Parts& parts, std::vector<FieldTile>& tiles) : parts_(parts), tiles_(tiles) {
+  FieldTraversal(const FieldEvaluator::Parts& parts, std::vector<FieldTile>& tiles) : parts_(parts), tiles_(tiles) {
     if (is_batch()) batch_.emplace(eval::kernel_sets().front());
   }
 
@@ -203,11 +203,11 @@ FieldEvaluator::~FieldEvaluator() = default;
 
 std::vector<FieldTile> FieldEvaluator::tiles(const TileBox& region, const StopFlag* stop) const {
   std::vector<FieldTile> tiles;
-  FieldWalk walk(*parts_, tiles);
+  FieldTraversal traversal(*parts_, tiles);
   for (int64_t j = region.lo[1]; j < region.hi[1];) {
     if (stop && stop->requested()) throw Cancelled();
     const int64_t end = std::min(multiple_below(j, field_strip_rows) + field_strip_rows, region.hi[1]);
-    walk.run({{region.lo[0], j, region.lo[2]}, {region.hi[0], end, region.hi[2]}});
+    traversal.run({{region.lo[0], j, region.lo[2]}, {region.hi[0], end, region.hi[2]}});
     j = end;
   }
   return tiles;

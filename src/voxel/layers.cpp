@@ -8,7 +8,7 @@
 #include "program/passes/narrow.h"
 #include "voxel/place_sources.h"
 #include "voxel/strip_diffusion.h"
-#include "voxel/walk.h"
+#include "voxel/tile_traversal.h"
 
 namespace ombre::voxel {
 namespace {
@@ -56,12 +56,13 @@ struct LayerEvaluator::Parts {
     return is_batch() ? batch_leaf(job, kernels_named(options.instruction_set)) : reference_leaf(job);
   }
 
-  WalkOptions walk_options() const {
-    WalkOptions walk;
-    walk.prune = options.prune;
-    walk.write_parts_out = options.write_parts_out;
-    if (options.leaf_width > 0) walk.leaf_width = walk.small_leaf_width = walk.widest = options.leaf_width;
-    return walk;
+  TraversalOptions traversal_options() const {
+    TraversalOptions traversal;
+    traversal.prune = options.prune;
+    traversal.write_parts_out = options.write_parts_out;
+    if (options.leaf_width > 0)
+      traversal.leaf_width = traversal.small_leaf_width = traversal.widest = options.leaf_width;
+    return traversal;
   }
 
   // What is left of the program in a slab.
@@ -170,7 +171,7 @@ std::vector<LayerResult> LayerEvaluator::region(const TileBox& box, const StopFl
     layer.runs = RunLayer(static_cast<uint32_t>(box.size(0)), static_cast<uint32_t>(box.size(1)));
   const program::Remainder slab = parts_->remainder(box);
   const auto leaf = parts_->make_leaf();
-  TileWalk walk(parts_->job, parts_->precision(), parts_->walk_options(), *leaf);
+  TileTraversal traversal(parts_->job, parts_->precision(), parts_->traversal_options(), *leaf);
   RowSink sink(*parts_, results, box.lo[2]);
   StripVoxels voxels;
   for (int64_t j = box.lo[1]; j < box.hi[1]; j += strip_rows) {
@@ -180,7 +181,7 @@ std::vector<LayerResult> LayerEvaluator::region(const TileBox& box, const StopFl
     strip.hi[1] = std::min(j + strip_rows, box.hi[1]);
     const StripSources sources(parts_->samplers, strip);
     voxels.begin(strip, checks, sink.kept_thresholds());
-    walk.run(slab.program, slab.ranges, strip, sources, voxels);
+    traversal.run(slab.program, slab.ranges, strip, sources, voxels);
     sink.take(strip, voxels);
   }
   sink.finish();

@@ -20,7 +20,7 @@ namespace {
 // What is evaluated at once: enough to make starting an op cheap, few enough for the first-level cache.
 constexpr int64_t most_points = 512, most_layers = 16;
 // Smaller boxes are evaluated without asking intervals whether the part is there.
-constexpr int64_t least_asked = 2048;
+constexpr int64_t least_voxels_of_query = 2048;
 constexpr size_t most_bodies = 64;
 
 size_t padded_width(const TileBox& box) { return eval::padded(static_cast<size_t>(box.size(0))); }
@@ -160,7 +160,7 @@ void PartRows::add_part(Set& set, uint32_t part, const TileBox& box) {
 
 // Halves boxes until they are small, and drops those where the part is not.
 void PartRows::descend(const Set& set, PartBody& body, const TileBox& box, bool ask) {
-  if (ask && box.voxels() >= least_asked) {
+  if (ask && box.voxels() >= least_voxels_of_query) {
     evaluate_intervals(body.program(), centers(job_.lattice, box), ranges_, nullptr, program::Precision::batch);
     const Interval reached = ranges_[body.program().outputs[0]];
     if (reached == Interval(0)) return;

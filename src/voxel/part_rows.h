@@ -41,7 +41,7 @@ class PartRows {
  public:
   PartRows(const VoxelJob& job, const eval::KernelSet& kernels);
 
-  // Parts that are asked anywhere but at (x, y, z) itself are not for this.
+  // Parts that are evaluated anywhere but at (x, y, z) itself are not for this.
   static bool suits(const program::Program& program);
 
   void begin(const program::Program& program, const TileBox& tile, const TilePoints& points);

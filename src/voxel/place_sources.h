@@ -10,7 +10,7 @@
 
 namespace ombre::voxel {
 
-// By the tag of a read; null for sources that are asked point by point.
+// By the tag of a read; null for sources that are evaluated point by point.
 using RowSamplers = std::vector<std::unique_ptr<program::RowSampler>>;
 
 // Gives the program's reads their tags. Sources whose operands are affine in (x, y, z) are placed on the rows, each

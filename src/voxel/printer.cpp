@@ -20,7 +20,7 @@ class Members {
   }
 
   const Data* optional(const std::string& key) {
-    asked_.push_back(key);
+    known_keys_.push_back(key);
     return object_.find(key);
   }
 
@@ -33,9 +33,9 @@ class Members {
   void report_unknown() const {
     if (!object_.members()) return;
     for (const auto& [key, member] : *object_.members()) {
-      if (std::find(asked_.begin(), asked_.end(), key) != asked_.end()) continue;
-      std::string hint = did_you_mean(key, asked_);
-      if (hint.empty()) hint = "it may have " + join(asked_, ", ");
+      if (std::find(known_keys_.begin(), known_keys_.end(), key) != known_keys_.end()) continue;
+      std::string hint = did_you_mean(key, known_keys_);
+      if (hint.empty()) hint = "it may have " + join(known_keys_, ", ");
       diagnostics_.error(member.where, what_ + " has no member \"" + key + '"', std::move(hint));
     }
   }
@@ -44,7 +44,7 @@ class Members {
   const Data& object_;
   Diagnostics& diagnostics_;
   std::string what_;
-  std::vector<std::string> asked_;
+  std::vector<std::string> known_keys_;
 };
 
 // Reads values of a profile; what is wrong is reported and leaves the default.

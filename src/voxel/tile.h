@@ -23,7 +23,7 @@ Box centers(const Lattice& lattice, const TileBox& tile);
 // What the sources that know their rows say in a strip of rows of a few layers.
 class StripSources {
  public:
-  // `samplers` by tag, null for sources that are asked point by point; they outlive this.
+  // `samplers` by tag, null for sources that are evaluated point by point; they outlive this.
   StripSources(const std::vector<std::unique_ptr<program::RowSampler>>& samplers, const TileBox& strip);
 
   bool has(uint32_t tag) const { return tag < samplers_.size() && samplers_[tag]; }

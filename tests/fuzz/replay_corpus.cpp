@@ -33,7 +33,7 @@ int replay(const Target& target, const char* folder) {
   int count = 0;
   for (const std::filesystem::directory_entry& seed : std::filesystem::directory_iterator(folder)) {
     std::printf("%s\n", seed.path().filename().c_str());
-    std::fflush(stdout);  // the last name told is the one that failed
+    std::fflush(stdout);  // the last name printed is the one that failed
     const std::string bytes = contents(seed.path());
     target.run(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
     ++count;

@@ -1,5 +1,5 @@
 // Says how far a mesh of a design lies from the design's surface, and the surface from the mesh: both sides of the
-// Hausdorff distance, at samples. The design is asked by the reference evaluator, the mesh by CGAL.
+// Hausdorff distance, at samples. The design is evaluated by the reference evaluator, the mesh by CGAL.
 //
 //   compare_mesh DESIGN.vcad MESH.off TOLERANCE_MM
 #include <CGAL/AABB_traits.h>
@@ -20,7 +20,7 @@
 #include "compile/region_request.h"
 #include "off_soup.h"
 #include "program/evaluate.h"
-#include "surface/point_asker.h"
+#include "surface/point_evaluator.h"
 
 namespace {
 
@@ -32,7 +32,7 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 // Surfaces are looked for on a lattice of so many steps along the longest side, and so far around the mesh.
 constexpr double steps_of_lattice = 190, farthest_in_tolerances = 16;
-constexpr double growth = 1.05;    // of the reach; distances are told as much too large at most
+constexpr double growth = 1.05;    // of the reach; reported distances are too large by this factor at most
 constexpr double rounding = 1e-6;  // of coordinates in files, relative to distances
 constexpr int64_t steps_of_tile = 16;
 
@@ -91,7 +91,7 @@ class Insides {
 
  private:
   program::Program program_;
-  surface::PointAsker asker_;
+  surface::PointEvaluator asker_;
 };
 
 // Along the normal first and against it, then all around.
@@ -187,12 +187,12 @@ std::vector<Vec3> surface_points(Insides& insides, Vec3 corner, double step) {
     for (size_t j = 0; j < side; ++j)
       for (size_t i = 0; i < side; ++i)
         points.push_back(corner + step * Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
-  const std::vector<bool> marks = insides.at(points);
+  const std::vector<bool> flags = insides.at(points);
   const std::array<size_t, 3> strides{1, side, side * side};
   std::vector<Vec3> from, to;
   for (size_t n = 0; n < points.size(); ++n)
     for (const size_t stride : strides) {
-      if (n / stride % side == side - 1 || marks[n] == marks[n + stride]) continue;
+      if (n / stride % side == side - 1 || flags[n] == flags[n + stride]) continue;
       from.push_back(points[n]);
       to.push_back(points[n + stride]);
     }

@@ -15,9 +15,9 @@ MISTAKES = [
 
 @pytest.mark.parametrize("make, code, values, remedy", MISTAKES)
 def test_wrong_nodes(make, code, values, remedy):
-    with pytest.raises(ombre.DesignError) as told:
+    with pytest.raises(ombre.DesignError) as reported:
         make()
-    error = told.value
+    error = reported.value
     assert error.code == code
     assert {name: error.values.get(name) for name in values} == values
     assert remedy in error.diagnostics[0]["hint"]
@@ -25,19 +25,19 @@ def test_wrong_nodes(make, code, values, remedy):
 
 
 def test_wrong_jobs(tmp_path):
-    with pytest.raises(ombre.DesignError) as told:
+    with pytest.raises(ombre.DesignError) as reported:
         ombre.function("z").slice(tmp_path / "layers", voxel=1)
-    assert told.value.code == "unbounded"
-    assert "ombre.Design(solid, box=" in str(told.value)
-    with pytest.raises(ombre.DesignError) as told:
+    assert reported.value.code == "unbounded"
+    assert "ombre.Design(solid, box=" in str(reported.value)
+    with pytest.raises(ombre.DesignError) as reported:
         ombre.cube(3).slice(tmp_path / "layers", voxel=1, memory="2X")
-    assert told.value.code == "option"
-    assert 'memory="2G"' in str(told.value) and "--" not in str(told.value)
+    assert reported.value.code == "option"
+    assert 'memory="2G"' in str(reported.value) and "--" not in str(reported.value)
 
 
 def test_machine_errors(tmp_path):
     ombre.cube(3).slice(tmp_path / "layers", voxel=1)
-    with pytest.raises(ombre.MachineError) as told:
+    with pytest.raises(ombre.MachineError) as reported:
         ombre.cube(3).slice(tmp_path / "layers", voxel=1)
-    assert told.value.code == "exists"
-    assert "replace it with force" in str(told.value)
+    assert reported.value.code == "exists"
+    assert "replace it with force" in str(reported.value)

@@ -62,23 +62,23 @@ def test_parts_are_shown_without_a_display(tmp_path, monkeypatch):
     assert len(opened) == 1 and opened[0].endswith(".html")
 
 
-def test_progress_is_told(tmp_path, monkeypatch):
+def test_progress_is_reported(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    told = []
+    reported = []
     part = ombre.function("sin(9*x)*cos(9*y) + sin(9*y)*cos(9*z) + sin(9*z)*cos(9*x)", min=(-9, -9, -9), max=(9, 9, 9))
-    part.slice("slow", progress=told.append, voxel=0.011, layers=":200", threads=1)
-    assert all(0 <= share <= 1 for share in told)
+    part.slice("slow", progress=reported.append, voxel=0.011, layers=":200", threads=1)
+    assert all(0 <= share <= 1 for share in reported)
 
     def fail(share):
         raise RuntimeError("enough")
     part.slice("slow", progress=True, voxel=0.011, layers=":200", threads=1, force=True)
-    if told:  # there was time to tell
+    if reported:  # there was time to tell
         with pytest.raises(RuntimeError, match="enough"):
             part.slice("slow", progress=fail, voxel=0.011, threads=1, force=True)
 
 
 class Bar:
-    """What tqdm's bar is told, and what of it is used."""
+    """What tqdm's bar receives, and what of it is used."""
 
     def __init__(self, unit, unit_scale):
         bars.append(self)

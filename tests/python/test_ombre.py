@@ -149,9 +149,9 @@ def test_expressions_strings_and_functions_agree():
     inside = [[0.5, 0.25, 3], [1, 2, -1], [-2, 1, 0.5]]
     text = "0.5 + sin(x)*rho/40 - (y - 1)^2/50"
     written = 0.5 + sin(x) * rho / 40 - (y - 1) ** 2 / 50
-    def asked(x, y, rho):
+    def typed(x, y, rho):
         return 0.5 + numpy.sin(x) * rho / 40 - (y - 1) ** 2 / 50
-    parts = [ombre.sphere(9).grade({"red": f, "blue": 0.5}) for f in (text, written, asked)]
+    parts = [ombre.sphere(9).grade({"red": f, "blue": 0.5}) for f in (text, written, typed)]
     values = [part.material(inside)["red"] for part in parts]
     assert parts[0].hash == parts[1].hash
     assert numpy.array_equal(values[0], values[1])

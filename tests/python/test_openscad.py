@@ -19,7 +19,7 @@ def test_solids_of_scripts_combine():
     assert cut.distance([[10, 6, 10]])[0] == pytest.approx(1)
 
 
-def test_wrong_values_are_told():
+def test_wrong_values_are_reported():
     with pytest.raises(ombre.DesignError, match="cannot get a sphere"):
         ombre.scad(str(BOX), width=ombre.sphere(2))
     with pytest.raises(ombre.DesignError, match='has no part "lod"; did you mean "lid"'):

@@ -86,7 +86,7 @@ def test_materials_that_a_design_can_have():
 # Overlaps.
 
 @pytest.mark.parametrize("operation", [pv.Union, pv.Intersection])
-def test_first_child_wins_unless_told_to_mix(operation):
+def test_first_child_wins_unless_mixing_is_requested(operation):
     children = [ball(5, red), ball(5, blue)]
     for node in (operation(False, children), operation(0.0, False, children), operation(0.0, children=children)):
         assert node.distribution(0, 0, 0) == {red: 1}
@@ -107,7 +107,7 @@ def test_bbox_union_is_the_union():
 
 # Python functions.
 
-def test_functions_are_asked_about_one_point():
+def test_functions_get_one_point():
     def share(x, y, z, rho, phic, r, theta, phis):
         assert type(x) is float and type(phis) is float
         return 1.0 if x < 0 else 0.25

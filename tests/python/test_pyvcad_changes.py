@@ -1,4 +1,4 @@
-"""Trees of pyvcad that change after they were asked, and their copies."""
+"""Trees of pyvcad that change after they were queried, and their copies."""
 import copy
 import pickle
 

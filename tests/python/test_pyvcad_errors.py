@@ -81,7 +81,7 @@ def test_warnings_name_the_line():
         node.prepare()
 
 
-def test_cycles_are_found_in_every_walk():
+def test_cycles_are_found_in_every_traversal():
     outer = pv.Union()
     outer.add_child(pv.Translate(1, 0, 0, outer))
     for question in (outer.clone, outer.material_list, outer.bounding_box):

@@ -158,13 +158,13 @@ def test_render_writes_a_picture_where_there_is_no_display(tmp_path):
     assert (tmp_path / "ball.png").read_bytes() == (tmp_path / "ombre.png").read_bytes()
 
 
-def test_export_writes_what_it_is_told(tmp_path):
+def test_export_writes_what_it_is_reported(tmp_path):
     plain = "import pyvcadviz as viz\nviz.Export(root, pv.default_materials())\n"
     assert "nothing is written without a path" in run_script(tmp_path, plain)
     assert "written to ball.stl" in run_script(tmp_path, plain, OMBRE_EXPORT="ball.stl")
     assert (tmp_path / "ball.stl").stat().st_size > 1000
-    told = "import pyvcadviz as viz\nviz.Export(root, pv.default_materials, path='layers', voxel=1)\n"
-    run_script(tmp_path, told)
+    reported = "import pyvcadviz as viz\nviz.Export(root, pv.default_materials, path='layers', voxel=1)\n"
+    run_script(tmp_path, reported)
     assert len(list((tmp_path / "layers").glob("*.png"))) == 10
 
 

@@ -337,13 +337,13 @@ def test_models_of_tetrahedra():
 
 
 def test_decks_are_written(tmp_path):
-    told = []
+    reported = []
     compiler = compilers.SimulationCompiler(graded(), settings(tmp_path / "new"))
-    compiler.set_progress_callback(told.append)
+    compiler.set_progress_callback(reported.append)
     compiler.compile()
     path, = compiler.written_files()
     parts = deck(tmp_path / "new" / "bar.inp")
-    assert path == str(tmp_path / "new" / "bar.inp") and told[-1] == 1
+    assert path == str(tmp_path / "new" / "bar.inp") and reported[-1] == 1
     assert len(parts["*NODE, NSET=NALL"]) == 9 * 5 * 5
     assert sum(len(parts[f"*ELEMENT, TYPE=C3D8, ELSET={name}"]) for name in ("RED", "BLUE")) == 128
 

@@ -52,8 +52,8 @@ def test_scans_say_what_they_hold(tmp_path, capsys):
     assert volume.sample(-1, 9.25, -14) == pytest.approx(40 + 300 + 2000 - 1000)
     assert volume.sample(-1, 9.25, -12.5) == pytest.approx(40 + 300 + 2500 - 1000)
     med.imaging.print_loaded_dicom_info(scan)
-    told = capsys.readouterr().out
-    assert "12 x 10 x 6 voxels" in told and "Doe" not in told
+    reported = capsys.readouterr().out
+    assert "12 x 10 x 6 voxels" in reported and "Doe" not in reported
 
 
 def test_given_values_go_before_those_of_the_files(tmp_path):

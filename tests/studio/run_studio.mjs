@@ -79,7 +79,7 @@ const complaints = [];
 page.on("pageerror", (error) => complaints.push(error.message));
 await context.route("**", (route) => {
   const { hostname } = new URL(route.request().url());
-  if (hostname !== "127.0.0.1") complaints.push(`the page asked ${hostname} for something`);
+  if (hostname !== "127.0.0.1") complaints.push(`the page sent a request to ${hostname}`);
   route.continue();
 });
 

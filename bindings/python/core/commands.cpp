@@ -120,7 +120,7 @@ py::tuple run_command(const CachePtr& cache, const std::vector<std::string>& arg
 }
 
 // The whole command line, on this process's own streams. `load_script` gives the design of a .py file, or None once
-// it told what is wrong.
+// it has reported what is wrong.
 int run_main(const std::vector<std::string>& arguments, const py::function& load_script, const CachePtr& cache) {
   cli::Host host;
   host.cache = cache.get();

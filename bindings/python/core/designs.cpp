@@ -36,14 +36,14 @@ void raise_below(const design::Node& node, const std::string& path, std::unorder
 
 py::tuple tuple_of(Vec3 v) { return py::make_tuple(v.x, v.y, v.z); }
 
-compile::SampleWishes wishes_for(const std::string& question, const design::Design& design) {
-  compile::SampleWishes wishes;
-  if (question == "inside") wishes.inside = true;
-  if (question == "distance") wishes.distance = true;
-  if (question == "material") wishes.inside = wishes.fractions = true;
-  if (question == "all") wishes = {true, true, true, true, compile::all_attribute_parts(design)};
-  if (question.starts_with("attribute ")) wishes.attributes = compile::attribute_parts(design, question.substr(10));
-  return wishes;
+compile::SampleQuery query_for(const std::string& question, const design::Design& design) {
+  compile::SampleQuery query;
+  if (question == "inside") query.inside = true;
+  if (question == "distance") query.distance = true;
+  if (question == "material") query.inside = query.fractions = true;
+  if (question == "all") query = {true, true, true, true, compile::all_attribute_parts(design)};
+  if (question.starts_with("attribute ")) query.attributes = compile::attribute_parts(design, question.substr(10));
+  return query;
 }
 
 const char* name(compile::Sampler::Column::Kind kind) {
@@ -297,11 +297,11 @@ std::shared_ptr<const compile::Sampler> DesignHandle::sampler(const std::string&
   }
   // Built without the lock: it may call functions of Python. The first one counts.
   Diagnostics diagnostics;
-  const compile::SampleWishes wishes = wishes_for(question, design());
+  const compile::SampleQuery query = query_for(question, design());
   std::optional<compile::Sampler> built;
   try {
     const py::gil_scoped_release unlocked;  // threads may call them
-    built = compile::Sampler::build(design(), wishes, diagnostics);
+    built = compile::Sampler::build(design(), query, diagnostics);
   } catch (const HostFailure&) {
     raise_failures();
     throw;

@@ -17,7 +17,7 @@ def _definitions(texts):
 
 
 def _load(path, materials, definitions):
-    """For the compiled part: the design, or None once it was told what is wrong."""
+    """For the compiled part: the design, or None once the mistakes have been reported."""
     from ._errors import DesignError
     from ._script import load_script
     try:

@@ -80,7 +80,7 @@ def _arguments(command, options):
 
 
 class Report(dict):
-    """What a job told: the members of its last event, and all `events`."""
+    """What a job reported: the members of its last event, and all `events`."""
 
     def __init__(self, events):
         last = [e for e in events if e["event"] not in ("progress", "checking", "preparing", "message", "check")]
@@ -92,7 +92,7 @@ class _Progress:
     """Tells how far a job is: by tqdm where it is installed, by a function of the share that is done, or not at all."""
 
     def __init__(self, progress):
-        self._tell = progress if callable(progress) else None
+        self._report = progress if callable(progress) else None
         self._tqdm = self._find_tqdm() if progress is True else None
         self._bar = None
         self._is_plain = progress is True and self._tqdm is None
@@ -109,8 +109,8 @@ class _Progress:
         """Shows a progress event, which counts voxels or steps."""
         unit = "steps" if "steps_done" in event else "voxels"
         done, total = event[unit + "_done"], event[unit + "_total"]
-        if self._tell:
-            self._tell(done / max(total, 1))
+        if self._report:
+            self._report(done / max(total, 1))
         elif self._tqdm is not None:
             if self._bar is None:
                 self._bar = self._tqdm(unit=" " + unit, unit_scale=True)

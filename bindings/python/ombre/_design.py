@@ -1,4 +1,4 @@
-"""Designs: parts and materials, what can be asked of them, and jobs."""
+"""Designs: parts and materials, queries, and jobs."""
 import dataclasses
 import html
 import json

@@ -1,4 +1,4 @@
-"""What goes wrong, and how it is told."""
+"""Exceptions, and how errors are reported."""
 import warnings
 
 
@@ -53,7 +53,7 @@ class CheckError(DesignError):
 class FunctionError(DesignError):
     """A Python function of a design failed.
 
-    `__cause__` is what it raised, `point` the first point it was asked about (mm), `path` leads to its node
+    `__cause__` is what it raised, `point` the first point of the call (mm), `path` leads to its node
     ("part > union > fgrade"), `place` is the (file, line) that made that.
     """
 
@@ -85,7 +85,7 @@ def function_failure(cause, name, point):
         return cause
     at = ", ".join(f"{c:.6g}" for c in point)
     error = FunctionError(f"the function {name} of the design raised {type(cause).__name__}: {cause} "
-                          f"(the first point it was asked about: ({at}) mm)", point)
+                          f"(the first point of the call: ({at}) mm)", point)
     error.__cause__ = cause
     return error
 

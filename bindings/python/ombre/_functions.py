@@ -62,7 +62,7 @@ class Function:
         except (TypeError, ValueError) as error:
             text = str(error)
             if "only length-1 arrays" in text or "only size-1 arrays" in text or "truth value of an array" in text:
-                raise TypeError(f"{self.__name__} is asked about arrays of points, and can take single numbers only "
+                raise TypeError(f"{self.__name__} is called with arrays of points, but takes single numbers only "
                                 f"({text}); use NumPy's functions, or wrap it: ombre.pointwise({self.__name__})"
                                 ) from error
             raise
@@ -87,7 +87,7 @@ def pointwise(function):
 
 
 def adapt(value, child=None):
-    """The value, with every Python function in it ready to be asked about arrays of x, y and z; dictionaries as pairs."""
+    """The value, with every Python function in it ready to be called with arrays of x, y and z; dictionaries as pairs."""
     if isinstance(value, dict):
         value = list(value.items())
     if isinstance(value, (list, tuple)):

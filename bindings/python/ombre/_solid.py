@@ -1,4 +1,4 @@
-"""Solids: nodes of a design, with what can be asked of them and done with them."""
+"""Solids: nodes of a design, with queries and operations."""
 import contextvars
 
 import numpy
@@ -237,7 +237,7 @@ class Solid:
         """
         return _classes["attribute"](self, *arguments, **named)
 
-    # What can be asked of it; see Design.
+    # Queries; see Design.
 
     def __getattr__(self, name):
         from ._design import Design

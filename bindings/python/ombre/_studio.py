@@ -10,7 +10,7 @@ import urllib.error
 import urllib.parse
 import urllib.request
 
-_idle_seconds = 600  # the server ends by itself when nobody looks at it
+_idle_seconds = 600  # the server ends by itself when nobody uses it
 _start_seconds = 30
 _largest_file = 8 << 20  # that the studio opens
 

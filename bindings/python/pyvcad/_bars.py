@@ -69,7 +69,7 @@ def _end_of(cap: CapMode, radius: float, side: int, height: float, material: int
 class Strut(_Leaf):
     """Cylinder from one point to another with flat ends: Strut(start, end, radius, material=1).
 
-    Or one whose radius changes, and whose ends are closed as told: Strut(start, end, r1, r2, cap1, cap2).
+    Or one whose radius changes, and whose ends are closed as requested: Strut(start, end, r1, r2, cap1, cap2).
     """
 
     def __init__(self, *arguments: Any, **named: Any) -> None:

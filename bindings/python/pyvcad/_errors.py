@@ -1,4 +1,4 @@
-"""What goes wrong, and how it is told."""
+"""Exceptions, and how errors are reported."""
 
 
 class MissingFeature(NotImplementedError):

@@ -1,4 +1,4 @@
-"""Python functions in place of expressions: asked about one point at a time, with numbers."""
+"""Python functions in place of expressions: called with the numbers of one point at a time."""
 from __future__ import annotations
 
 import inspect

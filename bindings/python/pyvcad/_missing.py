@@ -50,7 +50,7 @@ _methods = {
 
 
 class _Absent(type):
-    """The class of what is missing: whatever is asked of it says so."""
+    """The class of what is missing: each use of it raises an error that says so."""
 
     _instead: str
 

@@ -215,10 +215,10 @@ class CAD(_Leaf):
 
 class SignedDistanceField(_Leaf):
     """Solid of a grid in a .vdb file, or of a FloatVolume: distances in mm, negative inside, or with the name "occupancy"
-    marks of voxels that are inside.
+    flags of voxels that are inside.
 
     SignedDistanceField(vdb_path, grid_name="occupancy", half_width_voxels=3, closing_steps=0, dilation_voxels=0,
-    smoothing_steps=3); steps and voxels are for marks. `smoothing_steps` is the width of a Gaussian in voxels.
+    smoothing_steps=3); steps and voxels are for flags. `smoothing_steps` is the width of a Gaussian in voxels.
     """
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
@@ -230,20 +230,20 @@ class SignedDistanceField(_Leaf):
         values = read("SignedDistanceField", (form, {"volume": _volume, "material": _one}), arguments, named)
         self._material = values["material"]
         self._closing, self._dilation = values.get("closing_steps", 0), values.get("dilation_voxels", 0)
-        self._smoothing, self._is_marks = values.get("smoothing_steps", 0), False
+        self._smoothing, self._is_binary = values.get("smoothing_steps", 0), False
         if "volume" in values:
             self._grid: FloatVolume = values["volume"]
             return
         path = _find("SignedDistanceField", values["vdb_path"])
         self._grid = FloatVolume(path, None, False, values["grid_name"], margin=1.0)
-        self._is_marks = self._grid._range[0] >= 0
+        self._is_binary = self._grid._range[0] >= 0
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         grid = self._grid
         options = {**grid._options, **({"series": grid._series} if grid._series else {})}
-        solid: ombre.Solid = ombre.volume_solid(grid._path, self._material, level=0.5 if self._is_marks else 0.0,
-                                                above=self._is_marks, **options)
-        if not self._is_marks:
+        solid: ombre.Solid = ombre.volume_solid(grid._path, self._material, level=0.5 if self._is_binary else 0.0,
+                                                above=self._is_binary, **options)
+        if not self._is_binary:
             return solid
         pitch = tuple(float(numpy.linalg.norm(step)) for step in grid._steps)
         if self._closing:

@@ -1,4 +1,4 @@
-"""Nodes as scripts hold them: trees that can change, from which solids are built when something is asked."""
+"""Nodes as scripts hold them: trees that can change, from which solids are built when they are queried."""
 from __future__ import annotations
 
 import copy
@@ -33,7 +33,7 @@ class _Changes:
 class Node:
     """A solid whose material may vary, as a node of a tree.
 
-    Lengths are mm, z is up, distances are negative inside. What is asked of a node is asked of the tree below it as
+    Lengths are mm, z is up, distances are negative inside. A query of a node is answered by the tree below it as
     it is at that time.
     """
 

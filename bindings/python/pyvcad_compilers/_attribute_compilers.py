@@ -42,7 +42,7 @@ class _AttributeCompiler(_Compiler):
 
     def _share(self, share: float) -> None:
         self._stop_if_cancelled()
-        self._tell(share)
+        self._report(share)
         self._stop_if_cancelled()
 
     def _stop_if_cancelled(self) -> None:
@@ -141,7 +141,7 @@ class VatCompiler(_AttributeCompiler):
         for n, layer in enumerate(layers):
             _write_bmp(os.path.join(self._folder, f"{self._prefix}{n}.bmp"), layer)
         self._resolution = (len(axes[0]), len(axes[1]), len(layers))
-        self._tell(1.0)
+        self._report(1.0)
 
     def resolution(self) -> tuple[int, int, int]:
         return self._resolution
@@ -164,4 +164,4 @@ class VdbCompiler(_AttributeCompiler):
             raise RuntimeError(f"VdbCompiler: no node of the tree has the attribute {', '.join(absent)}")
         design.write_voxels(self._path, voxel=",".join(map(repr, self._voxel)), what=",".join(["distance", *names]),
                             force=True, progress=self._share)
-        self._tell(1.0)
+        self._report(1.0)

@@ -32,7 +32,7 @@ class _Compiler:
             raise TypeError(f"setProgressCallback: expected a function, found {type(callback).__name__}")
         self._callback = callback
 
-    def _tell(self, share: float) -> None:
+    def _report(self, share: float) -> None:
         if self._callback:
             self._callback(share)
 
@@ -66,7 +66,7 @@ class DirectMaterialCompiler(_Compiler):
             images = sorted(name for name in os.listdir(job) if name.endswith(".png"))
             for number, image in enumerate(images):
                 os.replace(os.path.join(job, image), _image_path(self._folder, self._prefix, number))
-        self._tell(1.0)
+        self._report(1.0)
 
 
 class GrayscaleCompiler(_Compiler):
@@ -103,7 +103,7 @@ class GrayscaleCompiler(_Compiler):
             for layer, number in enumerate(range(layers.start, layers.stop)):
                 pixels = numpy.rint(255 * shares[layer, ::-1]).astype(numpy.uint8)
                 write_gray(_image_path(self._folder, self._prefix, number), pixels)
-        self._tell(1.0)
+        self._report(1.0)
 
     def _axes(self, bounds: tuple[Point, Point]) -> list[numpy.ndarray]:
         low, high = numpy.array(bounds)
@@ -143,7 +143,7 @@ class MeshCompiler(_Compiler):
         bands: dict[str, Any] = {"bands": self._bands} if self._bands > 1 and len(self._root.material_list()) > 1 else {}
         design.mesh(os.path.join(self._folder, self._prefix + ".3mf"), tolerance=min(self._voxel) / 8, force=True,
                     progress=self._callback, **bands)
-        self._tell(1.0)
+        self._report(1.0)
 
 
 class CrossSectionSlicer:

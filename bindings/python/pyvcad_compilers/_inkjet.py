@@ -74,7 +74,7 @@ class _InkjetCompiler(_AttributeCompiler):
         self._stats = [("box", design.bounds), ("voxel size, mm", self._voxel), ("pixels and layers", self._resolution),
                        ("voxels", sum(self._counts.values())), ("preparing, s", round(prepared - begin, 3)),
                        ("slicing and writing, s", round(time.monotonic() - prepared, 3))]
-        self._tell(1.0)
+        self._report(1.0)
 
     def resolution(self) -> tuple[int, int, int]:
         return self._resolution

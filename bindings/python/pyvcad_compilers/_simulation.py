@@ -131,7 +131,7 @@ class SimulationCompiler(_AttributeCompiler):
         self._model = self._described(elements, names)
         if settings.backend is not SimulationBackend.GENERIC:
             self._write(elements)
-        self._tell(1.0)
+        self._report(1.0)
 
     def written_files(self) -> list[str]:
         """Paths of the files that compile() wrote."""

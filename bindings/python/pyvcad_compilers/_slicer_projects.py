@@ -52,4 +52,4 @@ class PrusaSlicerProjectCompiler(_AttributeCompiler):
         os.makedirs(os.path.dirname(os.path.abspath(self._path)), exist_ok=True)
         self._root._design().mesh(self._path, by=",".join(chosen), bands=self._bands, flavour="prusa", force=True,
                                   tolerance=min(self._voxel) / 8, progress=self._callback)
-        self._tell(1.0)
+        self._report(1.0)

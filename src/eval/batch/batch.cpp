@@ -397,15 +397,15 @@ void BatchEvaluator::sample(const Step& step, size_t j, size_t count) const {
     }
     for (size_t first = 0; first < step.channel_count; first += most_channels) {
       const size_t together = std::min<size_t>(most_channels, step.channel_count - first);
-      const auto* const asked = channels_.data() + step.channels + first;
+      const auto* const requested = channels_.data() + step.channels + first;
       for (size_t m = 0; m < together; ++m) {
-        channels[m] = asked[m].first;
+        channels[m] = requested[m].first;
         rows[m] = values.data() + m * most;
       }
       step.read->source->sample_channels(std::span(channels).first(together), std::span(points).first(here),
                                          std::span(rows).first(together));
       for (size_t m = 0; m < together; ++m) {
-        float* const out = asked[m].second.at(j) + begin;
+        float* const out = requested[m].second.at(j) + begin;
         for (size_t i = 0; i < here; ++i) out[i] = static_cast<float>(rows[m][i]);
       }
     }

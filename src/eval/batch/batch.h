@@ -35,9 +35,9 @@ struct RowsToFill {
 class SourceRows {
  public:
   virtual ~SourceRows() = default;
-  virtual bool has(const program::Read& read) const = 0;  // if not, it is asked point by point
+  virtual bool has(const program::Read& read) const = 0;  // if not, it is evaluated point by point
   virtual void fill(const program::Read& read, const RowsToFill& rows) const = 0;
-  // Slot of the program's part set `set`; asked only of those that have parts.
+  // Slot of the program's part set `set`; only for those that have parts.
   virtual void fill_parts(uint32_t /*set*/, size_t /*slot*/, const RowsToFill&) const {}
 };
 

@@ -102,7 +102,7 @@ void BoxIntervals::evaluate_alone(ValueId id, std::span<const Box> boxes, const 
       sources(program_->reads[in.aux], operands(in), row(id));
       return pad(row(id));
     case Op::parts:
-      return ask_parts(id);
+      return query_parts(id);
     case Op::affine:
     case Op::call:
       ASSERT(false && "calls are inlined and maps written out before evaluation in batches");
@@ -114,15 +114,15 @@ void BoxIntervals::evaluate_alone(ValueId id, std::span<const Box> boxes, const 
   }
 }
 
-// Slots of one set at one place follow each other, so the index is asked once.
-void BoxIntervals::ask_parts(ValueId id) {
+// Slots of one set at one place follow each other, so the index is queried once.
+void BoxIntervals::query_parts(ValueId id) {
   const Instruction& in = program_->code[id];
   const program::PartSet& set = *program_->part_sets[in.aux];
-  const auto asks_the_same = [&](const Instruction& other) {
+  const auto is_same_query = [&](const Instruction& other) {
     const bool is_there = other.a == in.a && other.b == in.b && other.c == in.c;
     return other.op == Op::parts && is_there && program_->part_sets[other.aux].get() == &set;
   };
-  if (id == 0 || !asks_the_same(program_->code[id - 1])) find_reached(set.index, in);
+  if (id == 0 || !is_same_query(program_->code[id - 1])) find_reached(set.index, in);
   const Interval range = set.ranges[static_cast<size_t>(in.value)];
   fill(id, [&](size_t box) { return reached_[box] ? range : Interval(0); });
 }

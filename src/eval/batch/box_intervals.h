@@ -14,7 +14,7 @@ namespace ombre::eval {
 
 class BoxIntervals {
  public:
-  // The operands' ranges that a source is asked at.
+  // The operands' ranges that a source is evaluated at.
   struct Place {
     std::array<IntervalRow, 3> rows;
     Box in(size_t box) const;
@@ -47,7 +47,7 @@ class BoxIntervals {
   void fill(program::ValueId id, F value_of);  // box by box
   void pad(IntervalRow row);                   // repeats the last box
   void evaluate_alone(program::ValueId id, std::span<const Box> boxes, const SourceRanges& sources);
-  void ask_parts(program::ValueId id);
+  void query_parts(program::ValueId id);
   void find_reached(const program::PartIndex& index, const program::Instruction& place);
 
   const KernelSet& kernels_;
@@ -55,7 +55,7 @@ class BoxIntervals {
   const program::Program* program_ = nullptr;
   size_t count_ = 0, stride_ = 0;  // boxes; floats from row to row
   std::vector<float> memory_;
-  float* floats_ = nullptr;               // for each instruction the lower ends, then the upper ones; then marks
+  float* floats_ = nullptr;               // for each instruction the lower ends, then the upper ones; then flags
   std::vector<int32_t> reached_, meets_;  // by box: do parts reach it? Of the last `parts` instruction
   std::vector<program::PartIndex::Entry> near_;
 };

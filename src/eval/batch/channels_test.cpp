@@ -20,11 +20,11 @@ class FourChannels : public program::FieldSource {
   double sample(int channel, Vec3 p) const override { return p.x + channel * p.y; }
   void sample_channels(std::span<const int> channels, std::span<const Vec3> points,
                        std::span<double* const> values) const override {
-    asked.push_back(channels.size());
+    group_sizes.push_back(channels.size());
     FieldSource::sample_channels(channels, points, values);
   }
 
-  mutable std::vector<size_t> asked;
+  mutable std::vector<size_t> group_sizes;
 };
 
 // All channels at (x, y, z), and one at (y, x, z).
@@ -38,7 +38,7 @@ program::Program program_of(const std::shared_ptr<FourChannels>& source) {
   return builder.finish(outputs);
 }
 
-class AskedByPoints : public SourceRows {
+class PointRows : public SourceRows {
  public:
   bool has(const program::Read&) const override { return false; }
   void fill(const program::Read&, const RowsToFill&) const override {}
@@ -53,7 +53,7 @@ TEST(Channels, ReferenceAsksForThemTogether) {
   const std::vector<double> xs{1, 2, 4};
   rows.set_row(xs, 0.5, 7);
   rows.run(program, 0, program.code.size(), nullptr);
-  EXPECT_EQ(source->asked, (std::vector<size_t>{4, 1}));
+  EXPECT_EQ(source->group_sizes, (std::vector<size_t>{4, 1}));
   for (int channel = 0; channel < 4; ++channel)
     for (size_t n = 0; n < xs.size(); ++n)
       EXPECT_EQ(rows.values(program.outputs[static_cast<size_t>(channel) + 1])[n], xs[n] + channel * 0.5);
@@ -72,14 +72,14 @@ TEST(Channels, BatchesAskForThemTogether) {
   }
   std::vector<Interval> ranges(program.code.size(), Interval::everything());
   BatchEvaluator batch(kernel_sets().front());
-  const AskedByPoints none;
+  const PointRows none;
   batch.compile_for_list(program, ranges, xs.size(), none);
   batch.place(PointList{xs, ys, zs});
   batch.begin_layer(0);
   batch.begin_row(0);
   batch.finish_row();
   // 128 points at a time.
-  EXPECT_EQ(source->asked, (std::vector<size_t>{4, 4, 1, 1}));
+  EXPECT_EQ(source->group_sizes, (std::vector<size_t>{4, 4, 1, 1}));
   for (size_t channel = 0; channel < 4; ++channel)
     for (size_t n = 0; n < xs.size(); ++n)
       ASSERT_EQ(batch.output(channel + 1)[n], xs[n] + static_cast<float>(channel) * ys[n]);

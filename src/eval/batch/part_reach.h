@@ -1,4 +1,4 @@
-// Which of many parts can reach a box, asked together: with SIMD, each lane is a part.
+// Which of many parts can reach a box, many tests at once: with SIMD, each lane is a part.
 #pragma once
 
 #include <map>

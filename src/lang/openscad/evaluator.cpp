@@ -56,10 +56,10 @@ solids::TreePtr Evaluator::run() {
     const ScopePtr& scope = unit_scope(program_.units.front());
     run_actions(program_.units.front().plan, scope, result->children);
     if (roots_.empty()) return result;
-    std::vector<solids::TreePtr> marked;
-    find_roots(result, marked);
-    if (marked.size() > 1) warn_of_roots(*marked[1]);
-    return marked.empty() ? result : marked.front();
+    std::vector<solids::TreePtr> roots;
+    find_roots(result, roots);
+    if (roots.size() > 1) warn_of_roots(*roots[1]);
+    return roots.empty() ? result : roots.front();
   } catch (const Stopped&) {
   } catch (const LimitReached& limit) {
     say(Message::Kind::error, limit.message + (limit.hint.empty() ? "" : "; " + limit.hint), at_);

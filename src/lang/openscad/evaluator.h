@@ -165,7 +165,7 @@ class Evaluator {
   Value value_of_word(const ast::Call& call, const ScopePtr& scope);
   Invocation word_call(const ast::Name& name, const ast::Span& whole, const std::vector<ast::Argument>& arguments,
                        const ScopePtr& scope, std::string& written);
-  void tell_words(const Diagnostics& found, const ast::Span& where);
+  void report_words(const Diagnostics& found, const ast::Span& where);
   Data data_of(const Value& value, const SourceRange& where, const ast::Span& argument);
   std::optional<Value> of_objects(std::string_view function, const std::vector<Value>& arguments);
   Value choice(const ast::Conditional& conditional, size_t branch, const Value& condition, const ScopePtr& scope);
@@ -233,7 +233,7 @@ class Evaluator {
   std::vector<const solids::Tree*> roots_;          // marked with "!"
   ast::Span at_;                                    // what is being evaluated
   int depth_ = 0, nested_statements_ = 0;
-  int traced_ = 0;  // calls around an error that were told
+  int traced_ = 0;  // calls around an error that were reported
 };
 
 template <class Body>
@@ -244,7 +244,7 @@ void Evaluator::for_each_scope(const ast::Argument& loop, const ScopePtr& scope,
   ScopePtr inner = make_scope(scope);
   for_each(values, where, [&](const Value& value) {
     // The scope serves the next pass too, unless something holds on to it.
-    if (inner->owners() > 1) inner = make_scope(scope);
+    if (inner->use_count() > 1) inner = make_scope(scope);
     inner->clear();
     if (loop.name.symbol) set_variable(loop.name, value, *inner, mark.size());
     body(inner);

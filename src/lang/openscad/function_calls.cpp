@@ -227,8 +227,8 @@ void Evaluator::assert_true(const std::vector<ast::Argument>& arguments, const a
   if (!condition) warn("Ignoring unknown variable 'condition'", where);
   if (condition && truth(eval(*condition, scope))) return;
   std::string text = condition ? "Assertion '" + expression_text(*condition) + "' failed" : "Assertion failed";
-  const Value told = message ? eval(*message, scope) : Value();
-  if (!told.is_undef()) text += ": " + value_text(told, true, meter_);
+  const Value note = message ? eval(*message, scope) : Value();
+  if (!note.is_undef()) text += ": " + value_text(note, true, meter_);
   stop(std::move(text), where);
 }
 

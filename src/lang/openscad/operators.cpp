@@ -62,10 +62,10 @@ class Computation {
   Value of_each(const List& list, const F& f) {
     ListBuilder result(meter_);
     result.reserve(list.items.size());
-    const size_t told = problems_.size();
+    const size_t reported = problems_.size();
     for (const Value& item : list.items) {
       result.push(f(item));
-      problems_.resize(told);
+      problems_.resize(reported);
     }
     return result.finish();
   }
@@ -117,10 +117,10 @@ class Computation {
     ListBuilder result(meter_);
     const size_t size = std::min(a.items.size(), b.items.size());
     result.reserve(size);
-    const size_t told = problems_.size();
+    const size_t reported = problems_.size();
     for (size_t i = 0; i < size; ++i) {
       result.push(binary(op, a.items[i], b.items[i]));
-      problems_.resize(told);
+      problems_.resize(reported);
     }
     return result.finish();
   }
@@ -249,8 +249,8 @@ class Computation {
           return {};
         }
         if (!truth(is_less)) continue;
-        const bool is_first = !is_swapped, asks_less = op == Operator::less || op == Operator::less_equal;
-        return is_first == asks_less;
+        const bool is_first = !is_swapped, is_less_wanted = op == Operator::less || op == Operator::less_equal;
+        return is_first == is_less_wanted;
       }
     }
     return ordered(op, a.items.size(), b.items.size());

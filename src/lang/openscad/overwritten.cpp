@@ -54,12 +54,12 @@ class Finder {
       const size_t first = place_of(*a.second), second = place_of(*b.second);
       return first != second ? first < second : a.second->span.begin < b.second->span.begin;
     });
-    for (const Pair& pair : found_) tell(*pair.first, *pair.second);
+    for (const Pair& pair : found_) report(*pair.first, *pair.second);
     found_.clear();
   }
 
   // A main file may replace what it included.
-  void tell(const ast::Assign& earlier, const ast::Assign& later) {
+  void report(const ast::Assign& earlier, const ast::Assign& later) {
     const SourceText &before = **earlier.span.source, &after = **later.span.source;
     const bool was_main = before.name() == main_, is_main = after.name() == main_;
     if (is_main && (!was_main || later.span.begin >= definitions_from_)) return;

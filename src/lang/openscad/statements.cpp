@@ -53,13 +53,13 @@ TreePtr Evaluator::run_statement(const Statement& statement, const ScopePtr& sco
   at_ = statement.span;
   meter_.spend();
   TreePtr tree = dispatch(statement, scope);
-  const bool is_marked = tree && !statement.modifiers.empty() && tree->where == statement.span.range();
-  if (!is_marked) return tree;
-  auto marked = std::make_shared<solids::Tree>(*tree);
-  marked->background |= statement.has('%');
-  marked->highlight |= statement.has('#');
-  if (statement.has('!')) roots_.push_back(marked.get());
-  return marked;
+  const bool needs_modifiers = tree && !statement.modifiers.empty() && tree->where == statement.span.range();
+  if (!needs_modifiers) return tree;
+  auto with_modifiers = std::make_shared<solids::Tree>(*tree);
+  with_modifiers->background |= statement.has('%');
+  with_modifiers->highlight |= statement.has('#');
+  if (statement.has('!')) roots_.push_back(with_modifiers.get());
+  return with_modifiers;
 }
 
 TreePtr Evaluator::dispatch(const Statement& statement, const ScopePtr& scope) {

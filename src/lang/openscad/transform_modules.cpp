@@ -81,7 +81,7 @@ Affine turned_about(Vec3 axis, double angle) {
   return map;
 }
 
-// Angles of a vector: what is no number counts as 0, and is told.
+// Angles of a vector: what is no number counts as 0, with a warning.
 Affine turned_by_vector(const ModuleCall& call) {
   const std::vector<Value>& items = call["a"].list()->items;
   Vec3 by;

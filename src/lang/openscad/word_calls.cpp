@@ -89,7 +89,7 @@ solids::TreePtr Evaluator::run_word(const ast::CallStatement& statement, const S
   at_ = statement.span;
   Diagnostics found;
   word.solid = options_.words->make(std::move(call), result->children, found);
-  tell_words(found, statement.span);
+  report_words(found, statement.span);
   if (!word.solid) return nullptr;
   result->operation = std::move(word);
   return result;
@@ -104,12 +104,12 @@ Value Evaluator::value_of_word(const ast::Call& call, const ScopePtr& scope) {
   meter_.count_instance();
   Diagnostics found;
   auto value = options_.words->value(std::move(invocation), found, meter_);
-  tell_words(found, call.span);
+  report_words(found, call.span);
   return value ? std::move(*value) : Value();
 }
 
 // An error ends the evaluation.
-void Evaluator::tell_words(const Diagnostics& found, const ast::Span& where) {
+void Evaluator::report_words(const Diagnostics& found, const ast::Span& where) {
   const auto place_of = [&](const Diagnostic& diagnostic) {
     const bool is_here = where.source && diagnostic.where.source == *where.source;
     return is_here ? ast::Span{where.source, diagnostic.where.begin, diagnostic.where.end} : where;

@@ -147,14 +147,14 @@ WordSolids ScadTreeReader::leaf(const std::vector<TreePtr>& trees) {
   request.material = {&materials_.first()};
   const auto made = loader_->source(request, at);
   if (!made) return {};
-  Diagnostics told;  // what is to be said of the text was said with the first request
-  const Reader again{materials_, told, loader_, at.where, "scad", ""};
+  Diagnostics repeated;  // what is to be said of the text was said with the first request
+  const Reader again{materials_, repeated, loader_, at.where, "scad", ""};
   WordSolids solids;
   for (const std::string& part : made->part_names) {
     const bool is_all = made->part_names.size() == 1;
     if (NodePtr node = leaf_node(text, is_all ? "" : design::part_word(part), again)) solids.push_back({part, node});
   }
-  if (told.has_errors()) diagnostics_.add_all(told);
+  if (repeated.has_errors()) diagnostics_.add_all(repeated);
   return solids;
 }
 

@@ -138,7 +138,7 @@ NodePtr VcadVocabulary::make_of_type(const NodeType& type, Invocation& call, Dia
   if (type.inputs.most > 0) put_first(take_solids(call.arguments), call);
   const auto values = bound_arguments(type, std::move(call.arguments), reader);
   if (!values) return nullptr;
-  if (call.children.empty() && call.has_wrong_children && type.inputs.least > 0) return nullptr;  // told already
+  if (call.children.empty() && call.has_wrong_children && type.inputs.least > 0) return nullptr;  // reported already
   const bool is_grouped = type.inputs.grouped && !has_single_children(call);
   std::vector<NodePtr> children = nodes_of(std::move(call.children));
   if (is_grouped) {
@@ -216,7 +216,7 @@ NodePtr VcadVocabulary::make_root(Invocation& call, Diagnostics& diagnostics) {
       return fail(corners[2]->where, "the voxel size " + format_number(voxel[axis]) + " mm has too many digits");
     sampling.pitch[static_cast<size_t>(axis)] = *pitch;
   }
-  if (call.children.empty()) return nullptr;  // told of as an empty design
+  if (call.children.empty()) return nullptr;  // reported as an empty design
   sampling_ = sampling;
   root_children_ = nodes_of(std::move(call.children));
   return root_ = joined(root_children_, registry_, {materials_, diagnostics, loader_, call.whole, "root", ""});

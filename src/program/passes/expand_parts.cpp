@@ -9,7 +9,7 @@
 namespace ombre::program {
 namespace {
 
-// Fewer parts of the index are not asked whether they reach a region.
+// Fewer parts of the index are not tested for reaching a region.
 constexpr size_t worth_asking = 3;
 
 // One part after the other, by intervals.

@@ -23,7 +23,7 @@ class PartFilter {
 };
 
 // Replaces ops that stand for many parts by the code of those that reach a region, in which the
-// instructions have the given values. Without a filter, parts are asked one by one.
+// instructions have the given values. Without a filter, parts are queried one by one.
 Program expand_parts(const Program& program, const std::vector<Interval>& values, Precision precision,
                      PartFilter* filter = nullptr);
 

@@ -13,16 +13,16 @@ export function download(name: string, content: Blob) {
 // The name of the file that is open, without its folder and its ending.
 export const stem = () => state.file.split("/").pop()!.replace(/\.[^.]*$/, "") || "design";
 
-const told = (problem: string) => set({ problem });
+const report = (problem: string) => set({ problem });
 
 export async function downloadBundle() {
   await save();
   try {
     const reply = await connection.ask("bundle", { file: state.file }, "bundle").answer;
     download(`${stem()}.ombre`, new Blob([reply.bytes as BlobPart], { type: "application/zip" }));
-    told(reply.left_outside.length > 0 ? `The bundle lacks ${reply.left_outside.join(", ")}, which belong to the system.` : "");
+    report(reply.left_outside.length > 0 ? `The bundle lacks ${reply.left_outside.join(", ")}, which belong to the system.` : "");
   } catch (error) {
-    told((error as Error).message);
+    report((error as Error).message);
   }
 }
 
@@ -35,15 +35,15 @@ function base64(bytes: Uint8Array): string {
 }
 
 export async function openBundle(file: File) {
-  if (!file.name.endsWith(".ombre")) return told(`${file.name} is no bundle: expected a file that ends in .ombre`);
-  if (file.size > mostBundleBytes) return told(`${file.name} is too large to come in by the page; copy it here, and write: ombre studio ${file.name}`);
+  if (!file.name.endsWith(".ombre")) return report(`${file.name} is no bundle: expected a file that ends in .ombre`);
+  if (file.size > mostBundleBytes) return report(`${file.name} is too large to come in by the page; copy it here, and write: ombre studio ${file.name}`);
   try {
     const bytes = base64(new Uint8Array(await file.arrayBuffer()));
     const reply = await connection.ask("unbundle", { name: file.name, bytes }).answer;
     await listFiles();
     await openFile(reply.file);
   } catch (error) {
-    told((error as Error).message);
+    report((error as Error).message);
   }
 }
 
@@ -59,7 +59,7 @@ export async function openExample(name: string) {
     await openFile(reply.file);
     set({ panel: "variables" });
   } catch (error) {
-    told((error as Error).message);
+    report((error as Error).message);
   }
 }
 

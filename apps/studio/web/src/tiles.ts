@@ -19,7 +19,7 @@ export class Tiles {
   private kept = new Map<string, Tile>();
   private wanted: { key: string; members: Record<string, number>; tile: Tile }[] = [];
   private atWork = new Map<string, () => void>();
-  private plans = new Map<string, Plan | "asked">();
+  private plans = new Map<string, Plan | "requested">();
 
   constructor(private changed: () => void) {}
 
@@ -30,11 +30,11 @@ export class Tiles {
     const key = this.key(level);
     const known = this.plans.get(key);
     if (known === undefined) this.askPlan(key, level);
-    return known === "asked" ? undefined : known;
+    return known === "requested" ? undefined : known;
   }
 
   private async askPlan(key: string, level: number) {
-    this.plans.set(key, "asked");
+    this.plans.set(key, "requested");
     while (this.plans.size > mostPlans) this.plans.delete(this.plans.keys().next().value!);
     try {
       const design = state.design!.design;

@@ -1,4 +1,4 @@
-#include "lang/openscad/told.h"
+#include "lang/openscad/script_diagnostics.h"
 
 #include <algorithm>
 
@@ -20,7 +20,8 @@ SourceRange place_of(const Message& message, const SourcePtr& script, const Sour
 
 }  // namespace
 
-void tell(const Messages& messages, const SourcePtr& script, const SourceRange& otherwise, Diagnostics& diagnostics) {
+void add_diagnostics(const Messages& messages, const SourcePtr& script, const SourceRange& otherwise,
+                     Diagnostics& diagnostics) {
   using Kind = Message::Kind;
   diagnostics.add_all(messages.details);
   for (const Message& message : messages.list()) {

@@ -1,4 +1,4 @@
-#include "voxel/walk.h"
+#include "voxel/tile_traversal.h"
 
 #include <algorithm>
 #include <bit>
@@ -23,27 +23,27 @@ size_t level_of(const TileBox& tile) {
 
 }  // namespace
 
-void TileWalk::run(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& strip,
-                   const StripSources& sources, StripVoxels& voxels) {
+void TileTraversal::run(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& strip,
+                        const StripSources& sources, StripVoxels& voxels) {
   sources_ = &sources;
   voxels_ = &voxels;
   descend(program, ranges, strip);
 }
 
-bool TileWalk::is_small(const program::Program& program, const TileBox& tile) const {
+bool TileTraversal::is_small(const program::Program& program, const TileBox& tile) const {
   const bool is_long = is_long_program(program);
   return tile.size(0) <= (is_long ? options_.small_leaf_width : options_.leaf_width) &&
          tile.size(1) <= (is_long ? options_.small_leaf_height : options_.leaf_height);
 }
 
 // What is computed for each voxel. The rest is computed for rows and columns, and costs little.
-size_t TileWalk::voxel_ops(const program::Program& program) {
+size_t TileTraversal::voxel_ops(const program::Program& program) {
   const std::vector<uint8_t> masks = program::axis_masks(program);
   return static_cast<size_t>(std::count(masks.begin(), masks.end(), uint8_t{7}));
 }
 
 // Will asking about the tile spare more than it costs?
-bool TileWalk::pays(const program::Program& program, const TileBox& tile) {
+bool TileTraversal::pays(const program::Program& program, const TileBox& tile) {
   if (!options_.prune) return false;
   if (must_cut(tile)) return true;
   Gain& gain = gains_[level_of(tile)];
@@ -58,13 +58,13 @@ bool TileWalk::pays(const program::Program& program, const TileBox& tile) {
   return false;
 }
 
-void TileWalk::descend(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile) {
+void TileTraversal::descend(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile) {
   if (program.has_parts() || pays(program, tile)) return ask(program, tile);
   if (must_cut(tile)) return cut(program, ranges, tile);
   leaf_.evaluate(program, ranges, tile, *sources_, *voxels_);
 }
 
-void TileWalk::ask(const program::Program& program, const TileBox& tile) {
+void TileTraversal::ask(const program::Program& program, const TileBox& tile) {
   std::vector<Interval> values;
   evaluate_intervals(program, centers(job_.lattice, tile), values, sources_->ranges(tile), precision_);
   const auto settled = job_.selector.settled(program, values);
@@ -91,7 +91,7 @@ void TileWalk::ask(const program::Program& program, const TileBox& tile) {
 }
 
 // In halves along the longer side, counted in leaves.
-void TileWalk::cut(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile) {
+void TileTraversal::cut(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile) {
   const bool is_long = is_long_program(program);
   const int64_t width = is_long ? options_.small_leaf_width : options_.leaf_width;
   const int64_t height = is_long ? options_.small_leaf_height : options_.leaf_height;

@@ -1,6 +1,6 @@
-#include "surface/label_asker.h"
+#include "surface/point_labels.h"
 
-#include "surface/point_asker.h"
+#include "surface/point_evaluator.h"
 #include "surface/scattered_points.h"
 
 namespace ombre::surface {
@@ -10,12 +10,12 @@ std::vector<Label> labels_at(const Partition& partition, const std::vector<Vec3>
   std::vector<Label> labels(points.size());
   const auto label = [&](const Box&) -> const program::Program& { return partition.label; };
   work_at(label, points, 0, threads, stop, [&](const program::Program& program, std::span<const uint32_t> numbers) {
-    PointAsker asker;
-    asker.begin(partition, program);
-    std::vector<Vec3> asked;
-    for (const uint32_t n : numbers) asked.push_back(points[n]);
-    asker.ask(asked);
-    for (size_t m = 0; m < numbers.size(); ++m) labels[numbers[m]] = asker.label(m);
+    PointEvaluator evaluator;
+    evaluator.begin(partition, program);
+    std::vector<Vec3> queried;
+    for (const uint32_t n : numbers) queried.push_back(points[n]);
+    evaluator.ask(queried);
+    for (size_t m = 0; m < numbers.size(); ++m) labels[numbers[m]] = evaluator.label(m);
   });
   return labels;
 }

@@ -1,4 +1,4 @@
-// Walks the tiles of a strip: settles what intervals can settle, hands the rest to a leaf evaluator.
+// Traverses the tiles of a strip: intervals settle what they can, a leaf evaluator does the rest.
 #pragma once
 
 #include <array>
@@ -7,8 +7,8 @@
 
 namespace ombre::voxel {
 
-// How tiles are cut and whether intervals are asked. Decides no voxel, only speed.
-struct WalkOptions {
+// How tiles are cut and whether intervals are evaluated. This changes no voxel, only the speed.
+struct TraversalOptions {
   bool prune = true;
   // Tiles that are evaluated without further questions; long programs pay for smaller ones, in which
   // more of them falls away.
@@ -21,10 +21,10 @@ struct WalkOptions {
   int64_t widest = 256, highest = 16;
 };
 
-// One thread's walk; counts where questions pay, and asks less where they do not.
-class TileWalk {
+// One thread's traversal. It counts where interval evaluation pays, and does less of it where it does not.
+class TileTraversal {
  public:
-  TileWalk(const VoxelJob& job, program::Precision precision, const WalkOptions& options, LeafEvaluator& leaf)
+  TileTraversal(const VoxelJob& job, program::Precision precision, const TraversalOptions& options, LeafEvaluator& leaf)
       : job_(job), precision_(precision), options_(options), leaf_(leaf) {}
 
   // `program` is the selector's, or what is left of it where the strip lies.
@@ -51,7 +51,7 @@ class TileWalk {
 
   const VoxelJob& job_;
   program::Precision precision_;
-  WalkOptions options_;
+  TraversalOptions options_;
   LeafEvaluator& leaf_;
   const StripSources* sources_ = nullptr;
   StripVoxels* voxels_ = nullptr;

@@ -1,4 +1,4 @@
-#include "surface/point_asker.h"
+#include "surface/point_evaluator.h"
 
 #include <algorithm>
 
@@ -13,12 +13,12 @@ program::Program shortened_for(const program::Program& details, const Box& box, 
   return program::expand_parts(left.program, left.ranges, program::Precision::reference);
 }
 
-void PointAsker::begin(const Partition& partition, const program::Program& program) {
+void PointEvaluator::begin(const Partition& partition, const program::Program& program) {
   partition_ = &partition;
   program_ = &program;
 }
 
-void PointAsker::ask(const std::vector<Vec3>& points) {
+void PointEvaluator::ask(const std::vector<Vec3>& points) {
   count_ = points.size();
   answers_.resize(program_->outputs.size() * count_);
   for (size_t begin = 0; begin < count_; begin += width) {
@@ -35,7 +35,7 @@ void PointAsker::ask(const std::vector<Vec3>& points) {
   }
 }
 
-double PointAsker::between(Label a, Label b, size_t n) const {
+double PointEvaluator::between(Label a, Label b, size_t n) const {
   const double distance = value(Partition::distance_output, n);
   if (b == 0) return distance;
   if (a == 0) return -distance;

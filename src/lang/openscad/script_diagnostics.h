@@ -1,4 +1,4 @@
-// What a script says, as diagnostics of a design.
+// A script's messages as diagnostics of a design.
 #pragma once
 
 #include "lang/openscad/messages.h"
@@ -7,6 +7,7 @@ namespace ombre::lang::openscad {
 
 // Messages about the script itself have the places of their lines; `otherwise` is that of all others, such as the call
 // that runs the script.
-void tell(const Messages& messages, const SourcePtr& script, const SourceRange& otherwise, Diagnostics& diagnostics);
+void add_diagnostics(const Messages& messages, const SourcePtr& script, const SourceRange& otherwise,
+                     Diagnostics& diagnostics);
 
 }  // namespace ombre::lang::openscad

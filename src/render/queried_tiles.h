@@ -1,4 +1,4 @@
-// A program that was asked about some tiles, and what is left of it in one of them or some.
+// A program with its intervals over some tiles, and what is left of it in one of them or some.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace ombre::render {
 
-struct AskedTiles {
-  explicit AskedTiles(const RaySteps& steps) : intervals(steps) {}
+struct QueriedTiles {
+  explicit QueriedTiles(const RaySteps& steps) : intervals(steps) {}
 
   // Tiles in fine steps. The program outlives the questions.
   void ask(const program::Program& program, std::vector<TileBox> fine, const voxel::StripSources& sources) {
@@ -25,14 +25,15 @@ struct AskedTiles {
     intervals.values(tiles, values);
     shortener.shorten(values, left, kept);
   }
-  // Of what is left nothing is known then, until it is asked again.
+  // No intervals of what is left are known then, until it is evaluated again.
   void write_out_parts() {
     const bool are_turned = has_turned_parts();
     left = program::expand_parts(left, kept, program::Precision::batch, &reach);
     if (are_turned) left = program::compose_affine(left);
     kept.assign(left.code.size(), Interval::everything());
   }
-  // Are there parts that are not asked at the inputs themselves? Those that are have composed what is affine already.
+  // Are there parts that are not evaluated at the inputs themselves? Those that are have composed what is affine
+  // already.
   bool has_turned_parts() const {
     return std::ranges::any_of(left.code, [&](const program::Instruction& in) {
       return in.op == program::Op::parts && left.code[in.a].op != program::Op::input;

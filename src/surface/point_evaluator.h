@@ -16,7 +16,7 @@ constexpr size_t all_parts = std::numeric_limits<size_t>::max();
 // `many` reach it.
 program::Program shortened_for(const program::Program& details, const Box& box, size_t many = all_parts);
 
-class PointAsker {
+class PointEvaluator {
  public:
   // `program` gives the partition's details in a region that holds all points.
   void begin(const Partition& partition, const program::Program& program);

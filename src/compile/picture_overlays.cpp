@@ -1,4 +1,4 @@
-#include "compile/picture_marks.h"
+#include "compile/picture_overlays.h"
 
 #include <algorithm>
 #include <cmath>
