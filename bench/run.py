@@ -6,6 +6,7 @@
     ./dev bench --only 'sphere|grade'   some rows
     ./dev bench --against main          this build and another commit's, in turns
     ./dev bench --scaling               what threads gain, beside copies of the program that share nothing
+    ./dev bench --simulation            solving, asking results, tetrahedra; --large: also 10^7 bricks
 
 docs/developer/performance.md explains rows and columns. Nothing is asserted: figures are for this machine, now.
 """
@@ -24,6 +25,7 @@ import measure
 import meshes
 import programs
 import scaling
+import simulations
 import surfaces
 from table import Table, rate, seconds
 
@@ -36,6 +38,8 @@ class Programs:
         self.baseline = self._optional(build / "bench/baseline/bench_baseline")
         self.probe = self._optional(build / "bench/bench_probe")
         self.volume_to_mesh = self._optional(build / "bench/bench_volume_to_mesh")
+        self.results = self._optional(build / "bench/bench_results")
+        self.tetrahedra = self._optional(build / "bench/bench_tetrahedra")
 
     @staticmethod
     def _optional(path):
@@ -114,6 +118,9 @@ def arguments():
     parser.add_argument("--against", metavar="COMMIT", help="compare with another commit instead")
     parser.add_argument("--scaling", action="store_true",
                         help="time one thread, the most of --threads, and as many copies of the program instead")
+    parser.add_argument("--simulation", action="store_true",
+                        help="solve, ask results and make tetrahedra instead, with the most of --threads")
+    parser.add_argument("--large", action="store_true", help="with --simulation: also 10^7 bricks, minutes and 5 GB")
     parser.add_argument("--scratch", metavar="DIR", default=programs.memory_disk(),
                         help="where jobs are written and removed (default: /dev/shm if there is room, so that no disk is timed)")
     parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="also write all figures there")
@@ -152,6 +159,13 @@ def measure_scaling(a, programs_of, chosen, scratch):
     return results
 
 
+def measure_simulations(a, programs_of, scratch):
+    results = {"size": a.size, "probe_before": probe(programs_of.probe)}
+    results["simulations"] = simulations.measure(programs_of, a.size, max(a.threads), a.large, scratch)
+    results["probe_after"] = probe(programs_of.probe)
+    return results
+
+
 def main():
     a = arguments()
     programs.stop_on_signals()
@@ -169,6 +183,8 @@ def main():
             results = {"against": rows}
         elif a.scaling:
             results = measure_scaling(a, programs_of, chosen, scratch)
+        elif a.simulation:
+            results = measure_simulations(a, programs_of, scratch)
         else:
             results = measure_all(a, programs_of, chosen, scratch)
     if a.json:

@@ -88,6 +88,24 @@ def scaling_takes_turns(build):
         expect(abs(turn["gain"] * turn["threads"] - turn["one"]) < 1e-9, f"{turn}")
 
 
+def simulations_are_whole(build):
+    with tempfile.TemporaryDirectory() as folder:
+        scratch, figures = pathlib.Path(folder, "scratch"), pathlib.Path(folder, "figures.json")
+        scratch.mkdir()
+        result = program.run(command(build, scratch, "--simulation", "--json", figures))
+        expect(result.returncode == 0, f"status {result.returncode}: {result.stderr}")
+        expect(not list(scratch.iterdir()), f"it left {list(scratch.iterdir())}")
+        found = json.loads(figures.read_text())["simulations"]
+    expect([row["physics"] for row in found["solving"]] == ["elasticity", "heat"], f"{found['solving']}")
+    for row in found["solving"]:
+        expect(row["bricks"] == 12 ** 3 and row["iterations"] > 0, f"{row}")
+    for row in found.get("asking", []):
+        expect(row["greatest_error"] < 1e-9 and row["at_random"] > 0, f"{row}")
+    ball = [row for row in found["tetrahedra"] if row["solid"] == "ball"]
+    for row in ball:
+        expect(abs(row["volume_mm3"] / 3053.6 - 1) < 0.05, f"{row}")
+
+
 def interrupts_leave_nothing(build):
     with tempfile.TemporaryDirectory() as scratch:
         process = subprocess.Popen([str(c) for c in command(build, scratch, "--runs", "1000")], text=True,
@@ -105,7 +123,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path, help="the build folder")
     build = parser.parse_args().build.resolve()
-    checks = [suite_is_whole, scaling_takes_turns, interrupts_leave_nothing]
+    checks = [suite_is_whole, scaling_takes_turns, simulations_are_whole, interrupts_leave_nothing]
     return program.check_all([(check.__name__, lambda check=check: check(build)) for check in checks], threads=1)
 
 

@@ -244,8 +244,10 @@ struct Texture {
   }
 };
 
-// A mixture by shares, of which negative ones and those that are no numbers count as 0; the first alone where all do.
-Composition by_shares(const Ask& ask, const SharedList<MaterialName>& materials, const std::vector<Field>& shares) {
+// A mixture by shares, of which negative ones and those that are no numbers count as 0; where all do, the first
+// material alone, of which the check `none` tells.
+Composition by_shares(const Ask& ask, const SharedList<MaterialName>& materials, const std::vector<Field>& shares,
+                      const std::string& none) {
   const Field zero = ask.p.constant(0);
   std::vector<Composition> parts;
   std::vector<Field> weights, known;
@@ -256,7 +258,9 @@ Composition by_shares(const Ask& ask, const SharedList<MaterialName>& materials,
   }
   const Field any = program::fold(known, program::logical_or);
   weights[0] = select(any, weights[0], ask.p.constant(1));
-  return weighted(parts, weights);
+  Composition made = weighted(parts, weights);
+  if (ask.p.builder().constant_value(any) != 1.0) made.checks.push_back(ask.in.check(logical_not(any), none));
+  return made;
 }
 
 struct MixMany {
@@ -271,7 +275,8 @@ struct MixMany {
              {"shares", &MixMany::shares, "A number for each; they need not add up to 1", required()}},
             no_inputs,
             "sphere(8, mix_many([\"red\", \"blue\", \"clear\"], [\"x^2\", \"y^2\", \"z^2\"]));",
-            {{"mixture", &MixMany::mixture, "Their mixture; where all shares are 0 or not numbers, the first alone"}}};
+            {{"mixture", &MixMany::mixture,
+              "Their mixture; where all shares are 0 or not numbers, the first alone, with a warning"}}};
   }
 
   bool complete(const Reader& reader) const {
@@ -287,7 +292,24 @@ struct MixMany {
   Composition mixture(const Ask& ask) const {
     std::vector<Field> raw;
     for (const Number& share : shares) raw.push_back(share(ask.p));
-    return by_shares(ask, materials, raw);
+    Composition made =
+        by_shares(ask, materials, raw, "mix_many has no share above 0, only its first material is taken there");
+    tell_of_lost(ask, raw, made);
+    return made;
+  }
+
+ private:
+  // Where there is a share above 0, but another one is no number.
+  static void tell_of_lost(const Ask& ask, const std::vector<Field>& raw, Composition& made) {
+    std::vector<Field> usable, counts;
+    for (const Field share : raw) {
+      usable.push_back(is_finite(share));
+      counts.push_back(logical_and(usable.back(), less(ask.p.constant(0), share)));
+    }
+    const Field all = program::fold(usable, program::logical_and), any = program::fold(counts, program::logical_or);
+    if (ask.p.builder().constant_value(all) == 1.0) return;
+    made.checks.push_back(ask.in.check(logical_and(any, logical_not(all)),
+                                       "a share of mix_many is not a finite number and counts as 0 there"));
   }
 };
 
@@ -329,7 +351,10 @@ struct ColourMixture {
     return true;
   }
 
-  Composition mixture(const Ask& ask) const { return by_shares(ask, materials, shares(ask)); }
+  Composition mixture(const Ask& ask) const {
+    return by_shares(ask, materials, shares(ask),
+                     "the colour of colour_mixture is no finite number, only its first material is taken there");
+  }
 
   Field difference(const Ask& ask) const {
     const std::vector<Field> each_share = shares(ask);
