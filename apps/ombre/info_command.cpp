@@ -146,13 +146,11 @@ int show_file(const std::string& path, const VolumeArguments& volume, Session& s
 }  // namespace
 
 Command add_info(CLI::App& program, OutputOptions& output) {
-  CLI::App* app = program.add_subcommand(
-      "info",
-      "Say what a volume (a scan, a grid) holds: size, voxels, orientation, values and how often they occur; or which "
-      "attributes a design gives, with type, unit and range, and how much of it the meshes of its results hold; or "
-      "which fields the results of a simulation have; or "
-      "which "
-      "parameters an OpenSCAD script has");
+  CLI::App* app = program.add_subcommand("info", "Say what a volume, a design, results or a script hold");
+  app->footer(
+      "Of a volume (a scan, a grid): size, voxels, orientation, values and how often they occur. Of a design: its\n"
+      "attributes with type, unit and range, and how much of it the meshes of its results hold. Of results of a\n"
+      "simulation: their fields. Of an OpenSCAD script: its parameters.");
   auto file = std::make_shared<std::string>();
   auto volume = std::make_shared<VolumeArguments>();
   app->add_option(
