@@ -147,10 +147,6 @@ int show_file(const std::string& path, const VolumeArguments& volume, Session& s
 
 Command add_info(CLI::App& program, OutputOptions& output) {
   CLI::App* app = program.add_subcommand("info", "Say what a volume, a design, results or a script hold");
-  app->footer(
-      "Of a volume (a scan, a grid): size, voxels, orientation, values and how often they occur. Of a design: its\n"
-      "attributes with type, unit and range, and how much of it the meshes of its results hold. Of results of a\n"
-      "simulation: their fields. Of an OpenSCAD script: its parameters.");
   auto file = std::make_shared<std::string>();
   auto volume = std::make_shared<VolumeArguments>();
   app->add_option(
@@ -171,6 +167,9 @@ Command add_info(CLI::App& program, OutputOptions& output) {
   app->add_flag("--force", volume->force, "Replace a picture that is there");
   add_output_options(*app, output);
   app->footer(
+      "Of a volume (a scan, a grid): size, voxels, orientation, values and how often they occur. Of a design: its\n"
+      "attributes with type, unit and range, and how much of it the meshes of its results hold. Of results of a\n"
+      "simulation: their fields. Of an OpenSCAD script: its parameters.\n\n"
       "Examples:\n  ombre info models/two_lobes.nrrd\n  ombre info scan/ --picture planes.png\n  ombre info "
       "part.vcad\n  ombre info seat.vtu\n");
   return {app, [file, volume](Session& session) { return show_file(*file, *volume, session); }};
