@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The same mistake in a script, a design file and an OpenSCAD script has one code, and a remedy in the right language.
+"""The same mistake in a script, a design file and an OpenSCAD script has one code, and a remedy in the right language. The
+wrong designs of tests/errors have codes that say more than that something is wrong.
 
     python3 tests/run_codes.py build/dev/apps/ombre/ombre
 
@@ -7,10 +8,12 @@ tests/python/test_codes.py does so for Python.
 """
 import json
 import pathlib
+import re
 import sys
 import tempfile
 
 import program
+import run_errors
 
 MATERIALS = '"materials": [{"name": "red", "r": 255, "g": 0, "b": 0, "a": 255}]'
 CUBE = '{"id": "n1", "type": "cube", "parameters": {"side": 5}}'
@@ -118,13 +121,56 @@ def check_all_used():
     assert not unused, f"codes that nothing has: {', '.join(unused)}"
 
 
+GENERAL = {"machine", "design"}
+# What the operating system refuses without a reason that a program could act on.
+MACHINES = {
+    "apps/studio/guard.cpp", "src/base/point_sets.cpp", "src/base/temporary_folder.cpp", "src/compile/stage_input.cpp",
+    "src/import/closest_point.cpp", "src/lang/openscad/run.cpp", "src/render/ray_cast.cpp",
+    # Still to be given codes.
+    "apps/ombre/optimise_command.cpp", "apps/ombre/optimise_topology.cpp", "src/fea/calculix.cpp",
+    "src/fea/conjugate_gradients.cpp", "src/fea/mesh.cpp", "src/fea/mumps_module.cpp", "src/optimise/search.cpp",
+}
+
+
+def codes_of(ombre, design):
+    """The codes of the errors of a wrong design."""
+    arguments, _ = run_errors.directives(design)
+    with tempfile.TemporaryDirectory() as scratch:
+        result = program.run([ombre, "slice", design.name, "--json", "-o", pathlib.Path(scratch) / "out", *arguments],
+                             cwd=run_errors.FOLDER, timeout=60)
+    events = [json.loads(line) for line in result.stdout.splitlines()]
+    return {e["code"] for e in events if e["event"] == "message" and e["severity"] == "error"}
+
+
+def check_wrong_designs(ombre):
+    """No wrong design ends in a general code."""
+    def check(design):
+        general = GENERAL & codes_of(ombre, design)
+        return f"has the general code {general.pop()}" if general else ""
+
+    designs = sorted(path for ending in ("vcad", "scad", "json") for path in run_errors.FOLDER.glob(f"*.{ending}"))
+    assert program.check_all([(d.name, lambda d=d: check(d)) for d in designs]) == 0, "wrong designs lack codes"
+
+
+def check_all_coded():
+    """Errors have a code where they are thrown."""
+    general = re.compile(r"throw (?:ombre::)?Error\((?!\s*(?:Code::|code\b))")
+    without = {path.relative_to(program.SOURCE).as_posix()
+               for top in ("src", "apps", "bindings/python/core") for path in (program.SOURCE / top).rglob("*")
+               if path.suffix in (".h", ".cpp") and "test_" not in path.name and "_test" not in path.name
+               and general.search(path.read_text(encoding="utf-8"))}
+    assert without <= MACHINES, f"errors are thrown without a code in {', '.join(sorted(without - MACHINES))}"
+
+
 def main():
     ombre = pathlib.Path(sys.argv[1]).resolve()
     with tempfile.TemporaryDirectory() as scratch:
         for code, values, designs in MISTAKES:
             check(ombre, pathlib.Path(scratch), code, values, designs)
         check_machine(ombre, pathlib.Path(scratch))
+    check_wrong_designs(ombre)
     check_all_used()
+    check_all_coded()
     print(f"{len(MISTAKES)} mistakes have their codes")
 
 

@@ -38,10 +38,13 @@ void refuse_to_overwrite_layers(const ContourChoices& a, OutlineFormat format) {
   std::error_code ignored;
   const auto status = std::filesystem::status(a.output, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
-    throw Error(a.output + " is no folder; choose another name, or let it end in .cli or .svg");
+    throw Error(Code::cannot_write, a.output + " is no folder; choose another name, or let it end in .cli or .svg",
+                {{"file", a.output}});
   if (!a.force && exporting::has_outline_layers(a.output))
-    throw Error(a.output + " has layers already; replace them with " + spelled::option("--force") +
-                ", or choose another folder");
+    throw Error(Code::exists,
+                a.output + " has layers already; replace them with " + spelled::option("--force") +
+                    ", or choose another folder",
+                {{"file", a.output}});
 }
 
 formats::OutlineDocument document_of(const compile::ContourPlan& plan, const std::string& title) {

@@ -96,7 +96,7 @@ int slice(const SliceChoices& a, Session& session) {
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
   if (!loaded) return diagnosed();
   if (const design::Node* node = a.resume || a.emit == "json" ? design::find_host_function(loaded->design) : nullptr) {
-    diagnostics.error(node->where(),
+    diagnostics.error(Code::option, node->where(),
                       node->type().name + " has a function of the host program, so the design can be neither " +
                           "written to a file nor resumed: nothing tells what the function is",
                       "write it as an expression");

@@ -75,8 +75,10 @@ class Signpost {
     constexpr int ending = 5;
     const int file = ::mkstemps(path_.data(), ending);
     if (file < 0)
-      throw Error(Code::cannot_write, "cannot write " + path_ + ", by which the browser finds the studio; write " +
-                                          spelled::option("--no-browser"));
+      throw Error(
+          Code::cannot_write,
+          "cannot write " + path_ + ", by which the browser finds the studio; write " + spelled::option("--no-browser"),
+          {{"file", path_}});
     const std::string text = "<!doctype html><meta http-equiv=\"refresh\" content=\"0; url=" + url + "\">\n";
     [[maybe_unused]] const ssize_t written = ::write(file, text.data(), text.size());
     ::close(file);

@@ -19,7 +19,7 @@ namespace {
 class Pipe {
  public:
   Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw Error("cannot make a pipe to another program");
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw Error(Code::other_program, "cannot make a pipe to another program");
   }
   ~Pipe() {
     close(0);
@@ -84,7 +84,7 @@ bool start_program(const std::vector<std::string>& command) { return spawn(comma
 ProgramOutput run_program(const std::vector<std::string>& command, const StopFlag& stop, size_t most_bytes) {
   Pipe out, err;
   const pid_t child = spawn(command, out.end(1), err.end(1));
-  if (child == 0) throw Error("cannot run " + command.front());
+  if (child == 0) throw Error(Code::other_program, "cannot run " + command.front());
   out.close(1);
   err.close(1);
   ProgramOutput output;
@@ -95,7 +95,7 @@ ProgramOutput run_program(const std::vector<std::string>& command, const StopFla
     if (stop.requested() || is_too_much) {
       ::kill(-child, SIGKILL);
       wait_for(child);
-      if (is_too_much) throw Error(command.front() + " said too much");
+      if (is_too_much) throw Error(Code::other_program, command.front() + " said too much");
       throw Cancelled();
     }
     if (::poll(ends.data(), ends.size(), patience_ms) <= 0) continue;

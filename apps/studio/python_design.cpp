@@ -18,7 +18,8 @@ compile::LoadedPtr load_python(const std::string& path, const std::vector<std::s
   const ProgramOutput output = run_program(command, *options.stop, most_bytes);
   const std::string said(trim(output.err));
   if (output.status != 0) {
-    diagnostics.error({make_source(path, ""), 0, 0}, said.empty() ? "the script ended without a design" : said);
+    diagnostics.error(Code::script, {make_source(path, ""), 0, 0},
+                      said.empty() ? "the script ended without a design" : said);
     return nullptr;
   }
   if (options.echo && !said.empty())

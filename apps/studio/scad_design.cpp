@@ -33,7 +33,7 @@ void report(const openscad::Message& message, const SourcePtr& script, const com
       if (options.echo) options.echo(openscad::to_line(message));
       return;
     case Kind::error:
-      diagnostics.error(range_of(script, message), message.text);
+      diagnostics.error(message.code, range_of(script, message), message.text);
       return;
     case Kind::warning:
     case Kind::deprecated:

@@ -292,8 +292,8 @@ class Listener {
     if (!error) acceptor_.bind(here, error);
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
     if (error)
-      throw Error("cannot listen on port " + std::to_string(port) + ": " + error.message() +
-                  "; choose another with --port, or leave it out");
+      throw Error(Code::other_program, "cannot listen on port " + std::to_string(port) + ": " + error.message() +
+                                           "; choose another with --port, or leave it out");
   }
 
   void close() {

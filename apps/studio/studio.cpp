@@ -410,7 +410,7 @@ Answer Studio::open_folder(const Request& request, const StopFlag&) {
   const std::filesystem::path folder = workspace_.path(request.text("folder"));
   if (!std::filesystem::is_directory(folder)) throw RequestError("gone", folder.string() + " is no folder any more");
   if (!options_.open_folder) throw RequestError("unsupported", "this studio has no display to open " + folder.string());
-  if (!options_.open_folder(folder.string())) throw Error("no program opens " + folder.string());
+  if (!options_.open_folder(folder.string())) throw Error(Code::other_program, "no program opens " + folder.string());
   return {};
 }
 

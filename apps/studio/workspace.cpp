@@ -52,7 +52,9 @@ bool is_design_name(const std::string& name) {
 Workspace::Workspace(const fs::path& folder) {
   std::error_code error;
   root_ = fs::canonical(folder, error);
-  if (error || !fs::is_directory(root_)) throw Error(folder.string() + " is no folder that the studio could show");
+  if (error || !fs::is_directory(root_))
+    throw Error(Code::cannot_read, folder.string() + " is no folder that the studio could show",
+                {{"file", folder.string()}});
 }
 
 void Workspace::each_entry(const std::function<bool(const std::string& name, bool is_folder)>& take) const {

@@ -57,7 +57,7 @@ class ByteUnpacker {
 
  private:
   std::string_view next(uint64_t size) {
-    if (size > bytes_.size()) throw Error("a helper process sent too little");
+    if (size > bytes_.size()) throw Error(Code::other_program, "a helper process sent too little");
     const std::string_view some = bytes_.substr(0, size);
     bytes_.remove_prefix(size);
     return some;

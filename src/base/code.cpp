@@ -35,7 +35,7 @@ constexpr CodeInfo table[] = {
     {Code::parameters, "parameters", "The parameters or the solids of a node do not go together", "node"},
     {Code::inputs, "inputs", "A node takes another number of solids, or solids in place of values", "node"},
     {Code::twice, "twice", "A name is given twice", "name"},
-    {Code::limit, "limit", "A limit of designs or scripts is passed", ""},
+    {Code::limit, "limit", "A limit of designs, scripts, file formats or printers is passed", ""},
     {Code::unbounded, "unbounded", "The design, or a solid that must end, has no end along an axis", ""},
     {Code::nothing_inside, "nothing-inside", "Nothing of the design lies in the job's box, or it is empty", ""},
     {Code::outside_box, "outside-box", "The design, or what is asked for, does not lie in the box or on the tray", ""},
@@ -44,6 +44,7 @@ constexpr CodeInfo table[] = {
     {Code::file_kind, "file-kind", "The file is of another kind than this reads or writes", "file"},
     {Code::file_content, "file-content", "What a file holds is damaged, or cannot be used", "file"},
     {Code::surface_open, "surface-open", "A mesh does not enclose space", "file"},
+    {Code::surface_crosses, "surface-crosses", "A surface crosses itself, and a solid is to be made of it", "file"},
     {Code::option, "option", "An option of a job has a value that it cannot have, or does not go with another", ""},
     {Code::exists, "exists", "A file or a job is there already and is not replaced", "file"},
     {Code::other_job, "other-job", "A folder holds another job, or another run writes into it", "file"},
@@ -54,7 +55,9 @@ constexpr CodeInfo table[] = {
     {Code::cannot_write, "cannot-write", "A file cannot be written", "file"},
     {Code::library_missing, "library-missing", "This ombre was built without a library that the job needs", ""},
     {Code::not_solved, "not-solved", "The equations of a simulation have no solution, or none was found", ""},
-    {Code::machine, "machine", "The machine failed in another way: a file, a disk, the memory, another program", ""},
+    {Code::not_meshed, "not-meshed", "A solid cannot be cut into tetrahedra, or not of that size", ""},
+    {Code::other_program, "other-program", "Another program is missing, cannot be started or failed", ""},
+    {Code::machine, "machine", "The machine failed in a way that has no code of its own", ""},
 };
 
 constexpr bool is_in_order() {

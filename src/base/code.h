@@ -49,6 +49,7 @@ enum class Code : uint8_t {
   file_kind,
   file_content,
   surface_open,
+  surface_crosses,
   option,
   exists,
   other_job,
@@ -59,6 +60,8 @@ enum class Code : uint8_t {
   cannot_write,
   library_missing,
   not_solved,
+  not_meshed,
+  other_program,
   machine,
 };
 

@@ -16,7 +16,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "base/error.h"
+#include "base/byte_pack.h"
 #include "base/stopwatch.h"
 
 namespace ombre {
@@ -28,6 +28,30 @@ constexpr int check_interval_ms = 50;
 struct Header {
   uint64_t is_error = 0, size = 0;
 };
+
+std::string packed_error(const Error& error) {
+  BytePacker packer;
+  packer.add(error.code());
+  packer.add_text(error.what());
+  packer.add(uint64_t{error.values().size()});
+  for (const auto& [name, value] : error.values()) {
+    packer.add_text(name);
+    packer.add_text(value);
+  }
+  return packer.take();
+}
+
+Error unpacked_error(const std::string& bytes) {
+  ByteUnpacker unpacker(bytes);
+  const Code code = unpacker.get<Code>();
+  const std::string message(unpacker.get_text());
+  CodeValues values(unpacker.get<uint64_t>());
+  for (auto& [name, value] : values) {
+    name = unpacker.get_text();
+    value = unpacker.get_text();
+  }
+  return {code, message, values};
+}
 
 void write_all(int pipe, const void* data, size_t size) {
   const char* at = static_cast<const char*>(data);
@@ -60,9 +84,15 @@ void limit_memory(size_t bytes) {
   std::string bytes;
   try {
     bytes = work();
+  } catch (const Error& error) {
+    header.is_error = 1;
+    bytes = packed_error(error);
+  } catch (const std::bad_alloc& error) {
+    header.is_error = 1;
+    bytes = packed_error(Error(Code::memory, error.what()));
   } catch (const std::exception& error) {
     header.is_error = 1;
-    bytes = error.what();
+    bytes = packed_error(Error(error.what()));
   }
   header.size = bytes.size();
   write_all(pipe, &header, sizeof header);
@@ -75,7 +105,7 @@ class Child {
   Child(const std::function<std::string()>& work, const HelperLimits& limits) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-      throw Error(std::string("no pipe to a helper process: ") + std::strerror(errno));
+      throw Error(Code::other_program, std::string("no pipe to a helper process: ") + std::strerror(errno));
     const pid_t parent = ::getpid();
     pid_ = ::fork();
     if (pid_ == 0) {
@@ -86,7 +116,7 @@ class Child {
     pipe_ = ends[0];
     if (pid_ < 0) {
       ::close(pipe_);
-      throw Error(std::string("no helper process could be started: ") + std::strerror(errno));
+      throw Error(Code::other_program, std::string("no helper process could be started: ") + std::strerror(errno));
     }
   }
   Child(const Child&) = delete;
@@ -132,7 +162,7 @@ bool is_whole(const std::string& bytes, Header& header) {
 }  // namespace
 
 std::string run_in_helper(const std::function<std::string()>& work, const HelperLimits& limits,
-                          const std::function<std::string(HelperFailure)>& explain, const StopFlag* stop) {
+                          const std::function<Error(HelperFailure)>& explain, const StopFlag* stop) {
   Child child(work, limits);
   const Stopwatch watch;
   std::string bytes;
@@ -140,15 +170,15 @@ std::string run_in_helper(const std::function<std::string()>& work, const Helper
   while (!is_whole(bytes, header)) {
     if (!child.read(bytes)) break;
     if (stop && stop->requested()) throw Cancelled();
-    if (watch.seconds() > limits.seconds) throw Error(explain(HelperFailure::too_slow));
+    if (watch.seconds() > limits.seconds) throw explain(HelperFailure::too_slow);
   }
   if (!is_whole(bytes, header)) {
     const int signal = child.end(false);
     if (signal == SIGINT || signal == SIGTERM) throw Cancelled();
-    throw Error(explain(HelperFailure::crashed));
+    throw explain(HelperFailure::crashed);
   }
   bytes.erase(0, sizeof header);
-  if (header.is_error != 0) throw Error(bytes);
+  if (header.is_error != 0) throw unpacked_error(bytes);
   return bytes;
 }
 

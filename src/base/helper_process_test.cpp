@@ -14,7 +14,9 @@
 namespace ombre {
 namespace {
 
-std::string explain(HelperFailure failure) { return failure == HelperFailure::crashed ? "it crashed" : "it is slow"; }
+Error explain(HelperFailure failure) {
+  return {Code::file_content, failure == HelperFailure::crashed ? "it crashed" : "it is slow"};
+}
 
 std::string run(const std::function<std::string()>& work, double seconds = 20, const StopFlag* stop = nullptr) {
   try {
@@ -44,6 +46,20 @@ TEST(HelperProcess, TellsErrorsCrashesAndHangs) {
             "error: it crashed");
   EXPECT_EQ(run([]() -> std::string { _exit(0); }), "error: it crashed");
   EXPECT_EQ(run(wait_forever, 0.2), "error: it is slow");
+}
+
+TEST(HelperProcess, ErrorsKeepTheirCodesAndValues) {
+  try {
+    run_in_helper(
+        []() -> std::string {
+          throw Error(Code::file_missing, "no such file", {{"file", "a.step"}});
+        },
+        {20, size_t{1} << 30}, explain, nullptr);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::file_missing);
+    EXPECT_EQ(error.values(), (CodeValues{{"file", "a.step"}}));
+  }
 }
 
 TEST(HelperProcess, KeepsItsMemory) {

@@ -31,9 +31,12 @@ std::string found(const fs::path& built) {
 void* load_symbol(const std::string& built, const char* function, const std::string& what) {
   const std::string path = found(built);
   void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!module) throw Error(what + " need " + path + ", which cannot be loaded: " + dlerror());  // NOLINT
+  if (!module)
+    throw Error(Code::library_missing, what + " need " + path + ", which cannot be loaded: " + dlerror());  // NOLINT
   void* const symbol = dlsym(module, function);
-  if (!symbol) throw Error(what + " need " + path + ", which does not belong to this ombre: build both again");
+  if (!symbol)
+    throw Error(Code::library_missing,
+                what + " need " + path + ", which does not belong to this ombre: build both again");
   return symbol;
 }
 

@@ -16,9 +16,9 @@ auto guarded(const std::string& what, F f) {
     return f();
   } catch (const Standard_Failure& failure) {
     const std::string reason = failure.GetMessageString();
-    throw Error(what + ": " + (reason.empty() ? failure.DynamicType()->Name() : reason));
+    throw Error(Code::file_content, what + ": " + (reason.empty() ? failure.DynamicType()->Name() : reason));
   } catch (const std::bad_alloc&) {
-    throw Error(what + ": not enough memory");
+    throw Error(Code::memory, what + ": not enough memory");
   }
 }
 

@@ -53,7 +53,7 @@ void ombre_read_cad(const std::string* path, const ombre::StopFlag* stop, std::v
     const std::string reason = failure == HelperFailure::crashed
                                    ? ": it is broken"
                                    : ": it takes longer than " + seconds + " s, so it is probably broken";
-    return what + reason + "; export it again, as STEP AP214 or AP242";
+    return Error(Code::file_content, what + reason + "; export it again, as STEP AP214 or AP242", {{"file", *path}});
   };
   const std::string bytes = run_in_helper([&] { return read_and_pack(*path, what); }, limits, explain, stop);
   guarded(what, [&] {

@@ -48,7 +48,7 @@ std::vector<MeasuredShape> unpack_shapes(const std::string& bytes) {
   BinTools::Read(all, stream);
   TopoDS_Iterator part(all);
   for (MeasuredShape& shape : shapes) {
-    if (!part.More()) throw Error("a helper process sent too few shapes");
+    if (!part.More()) throw Error(Code::other_program, "a helper process sent too few shapes");
     shape.named.shape = part.Value();
     part.Next();
   }

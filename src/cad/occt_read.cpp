@@ -179,9 +179,11 @@ void read_with(Reader& reader, const std::string& path, Document& document) {
   const IFSelect_ReturnStatus status = reader.ReadFile(path.c_str());
   if (status != IFSelect_RetDone)
     throw Error(Code::cannot_read,
-                "cannot read " + path + ": it is no valid file of its kind; export it again, as STEP AP214 or AP242");
+                "cannot read " + path + ": it is no valid file of its kind; export it again, as STEP AP214 or AP242",
+                {{"file", path}});
   if (!reader.Transfer(document.handle()))
-    throw Error(Code::cannot_read, "cannot read " + path + ": it holds no shapes; export the part as a solid");
+    throw Error(Code::cannot_read, "cannot read " + path + ": it holds no shapes; export the part as a solid",
+                {{"file", path}});
 }
 
 bool is_iges(const std::string& path) {
@@ -207,10 +209,13 @@ std::vector<NamedShape> read_shapes(const std::string& path) {
     found.solids.insert(found.solids.end(), closed.begin(), closed.end());
   }
   if (!found.solids.empty()) return found.solids;
-  if (found.faces.empty()) throw Error(path + " holds no solid; export the part as a solid");
-  throw Error(path + " holds " + std::to_string(found.faces.size()) +
-              (found.faces.size() == 1 ? " surface" : " surfaces") +
-              " and no solid, and they do not close; export the part as a solid");
+  if (found.faces.empty())
+    throw Error(Code::file_content, path + " holds no solid; export the part as a solid", {{"file", path}});
+  throw Error(Code::file_content,
+              path + " holds " + std::to_string(found.faces.size()) +
+                  (found.faces.size() == 1 ? " surface" : " surfaces") +
+                  " and no solid, and they do not close; export the part as a solid",
+              {{"file", path}});
 }
 
 }  // namespace ombre::cad

@@ -63,7 +63,8 @@ class OcctQuery final : public Query {
   double surface_distance(Vec3 p) override {
     return guarded(what_, [&] {
       distance_.LoadS1(BRepBuilderAPI_MakeVertex(gp_Pnt(p.x, p.y, p.z)));
-      if (!distance_.Perform()) throw Error(what_ + ": the distance to its surface cannot be found");
+      if (!distance_.Perform())
+        throw Error(Code::file_content, what_ + ": the distance to its surface cannot be found");
       return distance_.Value();
     });
   }
@@ -137,11 +138,13 @@ class OcctSolid final : public Solid {
     };
     const HelperLimits limits{seconds_to_cut + seconds_to_cut_a_face * static_cast<double>(face_count(shape_))};
     const auto explain = [&](HelperFailure failure) {
-      return what() +
-             (failure == HelperFailure::crashed
-                  ? " makes Open CASCADE crash; repair it where it was drawn"
-                  : " takes longer than " + std::to_string(static_cast<int>(limits.seconds)) +
-                        " s to cut into triangles; give cad a larger tolerance, or repair it where it was drawn");
+      return Error(
+          Code::file_content,
+          what() +
+              (failure == HelperFailure::crashed
+                   ? " makes Open CASCADE crash; repair it where it was drawn"
+                   : " takes longer than " + std::to_string(static_cast<int>(limits.seconds)) +
+                         " s to cut into triangles; give cad a larger tolerance, or repair it where it was drawn"));
     };
     const std::string bytes = run_in_helper(cut, limits, explain, nullptr);
     ByteUnpacker unpacker(bytes);

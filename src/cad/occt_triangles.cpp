@@ -112,7 +112,8 @@ Triangles triangles_of(const TopoDS_Shape& shape, const std::string& what) {
   Joiner joiner(shape);
   for (TopExp_Explorer e(shape, TopAbs_FACE); e.More(); e.Next())
     if (!joiner.add(TopoDS::Face(e.Current())))
-      throw Error(what + " has a face that Open CASCADE cannot cut into triangles; repair it where it was drawn");
+      throw Error(Code::file_content,
+                  what + " has a face that Open CASCADE cannot cut into triangles; repair it where it was drawn");
   return joiner.take();
 }
 

@@ -152,16 +152,16 @@ class Splitter {
     for (const Piece& piece : split.pieces)
       if (!add_piece(piece, *box, parts)) break;
     if (strut_count_ > most_struts) {
-      diagnostics_.error(root_->where(), "the design has more than " +
-                                             format_count(static_cast<unsigned long long>(most_struts)) +
-                                             " struts, too many to write as beams");
+      diagnostics_.error(Code::too_large, root_->where(),
+                         "the design has more than " + format_count(static_cast<unsigned long long>(most_struts)) +
+                             " struts, too many to write as beams");
       return std::nullopt;
     }
     for (BeamSet& set : parts.sets) leave_out_clipped(set);
     std::erase_if(parts.sets, [](const BeamSet& set) { return set.struts.empty(); });
     report_lost(*box);
     if (!parts.sets.empty()) return parts;
-    diagnostics_.error(root_->where(), "the design has no struts that can be written as beams",
+    diagnostics_.error(Code::nothing_inside, root_->where(), "the design has no struts that can be written as beams",
                        "leave " + spelled::option("--beams") + " out; struts are what lattice and strut make");
     return std::nullopt;
   }

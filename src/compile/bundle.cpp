@@ -92,7 +92,7 @@ class Packer {
     try {
       formats::write_zip(pending.part(), entries);
     } catch (const std::system_error& error) {
-      throw Error(exporting::write_failure(output, error.code().value()));
+      throw exporting::write_error(output, error.code().value());
     }
     if (!opens_by_itself(pending.part())) return std::nullopt;
     pending.commit();
@@ -124,7 +124,8 @@ class Packer {
   }
 
   std::nullopt_t refuse(const std::string& problem, const Phrase& hint = {}) {
-    diagnostics_.error({make_source(design_.string(), ""), 0, 0}, problem, hint);
+    diagnostics_.error(Code::file_content, {make_source(design_.string(), ""), 0, 0}, problem, hint,
+                       {{"file", design_.string()}});
     return std::nullopt;
   }
 
@@ -165,7 +166,8 @@ class Packer {
 std::optional<UnpackedBundle> read_note(const std::string& name, const std::string& text, const fs::path& folder,
                                         Diagnostics& diagnostics) {
   const auto wrong = [&](const std::string& problem) {
-    diagnostics.error({make_source(name, ""), 0, 0}, problem, "ombre bundle part.vcad -o part.ombre makes a bundle");
+    diagnostics.error(Code::file_content, {make_source(name, ""), 0, 0}, problem,
+                      "ombre bundle part.vcad -o part.ombre makes a bundle", {{"file", name}});
     return std::nullopt;
   };
   const auto note = parse_json(make_source(name + "/" + note_name, text), diagnostics);
@@ -208,7 +210,7 @@ std::optional<BundleContents> write_bundle(const std::string& path, const std::s
 std::optional<UnpackedBundle> unpack_bundle(const std::string& name, std::string_view bytes, const fs::path& folder,
                                             Diagnostics& diagnostics) {
   const auto wrong = [&](const std::string& problem) {
-    diagnostics.error({make_source(name, ""), 0, 0}, problem);
+    diagnostics.error(Code::file_content, {make_source(name, ""), 0, 0}, problem, {}, {{"file", name}});
     throw DesignError();
   };
   try {
@@ -221,7 +223,7 @@ std::optional<UnpackedBundle> unpack_bundle(const std::string& name, std::string
   } catch (const DesignError&) {
     return std::nullopt;
   } catch (const fs::filesystem_error& error) {
-    throw Error(exporting::write_failure(folder.string(), error.code().value()));
+    throw exporting::write_error(folder.string(), error.code().value());
   }
 }
 

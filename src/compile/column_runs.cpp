@@ -21,10 +21,10 @@ void ColumnTable::add(size_t channel, int64_t i, int64_t j, int64_t bottom, int6
   // Runs are copied when they are put in order.
   added_bytes_ += sizeof(Added) + sizeof(Run);
   if (limit_ && added_bytes_ > *limit_)
-    throw Error(what_ + ": computing them takes more memory than allowed; allow more with " +
-                spelled::option("--memory") +
-                ", or choose larger "
-                "voxels, or a larger pitch for its cells");
+    throw Error(Code::memory, what_ + ": computing them takes more memory than allowed; allow more with " +
+                                  spelled::option("--memory") +
+                                  ", or choose larger "
+                                  "voxels, or a larger pitch for its cells");
   const auto column = static_cast<uint32_t>((j - cells_.lo[1]) * cells_.size(0) + (i - cells_.lo[0]));
   channels_[channel].added.push_back({column, {static_cast<int32_t>(bottom), static_cast<int32_t>(top), value}});
 }

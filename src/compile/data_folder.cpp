@@ -22,13 +22,16 @@ bool holds_data(const fs::path& folder) {
 std::string data_folder() {
   if (const char* given = std::getenv("OMBRE_DATA"); given && *given) {  // NOLINT(concurrency-mt-unsafe)
     if (holds_data(given)) return given;
-    throw Error(std::string("OMBRE_DATA names ") + given +
-                ", which has no folders printers and materials; correct or unset it");
+    throw Error(
+        Code::file_missing,
+        std::string("OMBRE_DATA names ") + given + ", which has no folders printers and materials; correct or unset it",
+        {{"file", given}});
   }
   for (const fs::path& folder : own_folders())
     for (const fs::path& data : {folder / "share/ombre", folder})
       if (holds_data(data)) return data;
-  throw Error("cannot find Ombre's printers and materials; set OMBRE_DATA to the folder that holds them");
+  throw Error(Code::file_missing,
+              "cannot find Ombre's printers and materials; set OMBRE_DATA to the folder that holds them");
 }
 
 }  // namespace ombre::compile

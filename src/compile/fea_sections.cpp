@@ -36,8 +36,9 @@ class Properties {
       : table_(table), study_(study), diagnostics_(diagnostics) {
     const auto check = [&](const std::string& name) {
       if (!table.find(name))
-        diagnostics.error(study.where, "the study gives properties to \"" + name + "\", which is no material",
-                          did_you_mean(name, table.names()));
+        diagnostics.error(Code::unknown_material, study.where,
+                          "the study gives properties to \"" + name + "\", which is no material",
+                          did_you_mean(name, table.names()), {{"material", name}});
     };
     for (const auto& [name, elastic] : study.materials) check(name);
     for (const auto& [name, conductivity] : study.conductivities) check(name);
@@ -60,7 +61,8 @@ class Properties {
     else
       elastic = fea::read_elastic(material.properties, study_.where, diagnostics_);
     if (!elastic)
-      diagnostics_.error(study_.where, "there are no elastic properties of \"" + material.name + "\"",
+      diagnostics_.error(Code::study_value, study_.where,
+                         "there are no elastic properties of \"" + material.name + "\"",
                          "write them into the study, \"materials\": {\"" + material.name +
                              R"(": {"modulus_mpa": 2850, "poissons_ratio": 0.39}}, or into the materials file)");
     return {compressible(elastic.value_or(fea::Elastic{1, 0, 0}), material.name), 0};
@@ -75,7 +77,7 @@ class Properties {
       conductivity = fea::read_conductivity(material.properties, study_.physics, diagnostics_);
     const std::string name = study_.physics == Physics::heat ? "conductivity_w_mk" : "conductivity_s_m";
     if (!conductivity)
-      diagnostics_.error(study_.where, "there is no " + name + " of \"" + material.name + "\"",
+      diagnostics_.error(Code::study_value, study_.where, "there is no " + name + " of \"" + material.name + "\"",
                          "write it into the study, \"materials\": {\"" + material.name + "\": {\"" + name +
                              "\": 0.2}}, or into the materials file");
     return {{}, conductivity.value_or(1)};
@@ -163,7 +165,7 @@ class SectionMaker {
     }
     if (wrong > 0)
       diagnostics_.error(
-          {loaded_.source, 0, 0},
+          Code::study_value, {loaded_.source, 0, 0},
           "the attribute \"" + *attribute_ + "\" is no " + (is_mechanics_ ? "modulus" : "conductivity") +
               " above 0 in " + format_count(wrong) + " of the elements",
           is_mechanics_ ? "let it be in MPa, for example attribute(\"" + *attribute_ + "\", \"1 + z\", unit=\"MPa\")"

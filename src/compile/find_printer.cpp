@@ -32,7 +32,9 @@ std::vector<std::string> printer_names() {
   std::error_code error;
   for (fs::directory_iterator entry(printers_folder(), error), end; !error && entry != end; entry.increment(error))
     if (entry->path().extension() == ".json") names.push_back(entry->path().stem().string());
-  if (error) throw Error(Code::cannot_read, "cannot read " + printers_folder().string() + ": " + error.message());
+  if (error)
+    throw Error(Code::cannot_read, "cannot read " + printers_folder().string() + ": " + error.message(),
+                {{"file", printers_folder().string()}});
   std::sort(names.begin(), names.end());
   return names;
 }

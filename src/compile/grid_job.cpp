@@ -130,7 +130,7 @@ std::optional<std::vector<Grid>> attribute_grids(const design::Design& design, c
   const std::vector<design::AttributeDeclaration> known = declared_attributes(design);
   std::vector<Grid> grids;
   if (query.all_attributes && known.empty()) {
-    diagnostics.error(design.parts[0].solid->where(), "the design has no attributes",
+    diagnostics.error(Code::unknown_attribute, design.parts[0].solid->where(), "the design has no attributes",
                       "give it one, for example " + spelled::call("attribute", {{"", "\"density\""}, {"", "0.4"}}));
     return std::nullopt;
   }

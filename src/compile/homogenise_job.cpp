@@ -30,7 +30,7 @@ std::optional<PeriodicBox> periodic_box(const LoadedPtr& loaded, const std::opti
   for (int axis = 0; axis < 3; ++axis) {
     const double count = result.box.size()[axis] / cell_mm;
     if (!(count >= 0.5) || count > most_along_axis) {
-      diagnostics.error(whole,
+      diagnostics.error(Code::option, whole,
                         "the box has " + format_rounded(count) + " bricks along " + std::string(1, "xyz"[axis]) +
                             "; from 1 to " + std::to_string(most_along_axis) + " are possible",
                         "choose another " + spelled::option("--cell") + " or " + spelled::option("--box"));

@@ -76,10 +76,11 @@ std::optional<LayerFiles> layer_files(const std::optional<Data>& job) {
 void make_folder(const std::string& path) {
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_directory(path, error))
-    throw Error(Code::cannot_write, path + " is a file, and the layers need a folder; choose another name");
+    throw Error(Code::cannot_write, path + " is a file, and the layers need a folder; choose another name",
+                {{"file", path}});
   error.clear();
   fs::create_directories(path, error);
-  if (error) throw Error(Code::cannot_write, exporting::write_failure(path, error.value()));
+  if (error) throw exporting::write_error(path, error.value());
 }
 
 uint64_t bytes_of(const JournalEntry& entry) {
@@ -91,7 +92,7 @@ uint64_t bytes_of(const JournalEntry& entry) {
 void remove_file(const std::string& path) {
   std::error_code error;
   fs::remove(path, error);
-  if (error) throw Error(Code::cannot_write, "cannot remove " + path + ": " + error.message());
+  if (error) throw Error(Code::cannot_write, "cannot remove " + path + ": " + error.message(), {{"file", path}});
 }
 
 }  // namespace
@@ -124,8 +125,10 @@ JobFolder::~JobFolder() = default;
 
 void JobFolder::refuse_job() const {
   if (!holds(job_file)) return;
-  throw Error(Code::exists, path_ + " already holds a slice job; continue it with " + spelled::option("--resume") +
-                                ", replace it with " + spelled::option("--force") + ", or choose another folder");
+  throw Error(Code::exists,
+              path_ + " already holds a slice job; continue it with " + spelled::option("--resume") +
+                  ", replace it with " + spelled::option("--force") + ", or choose another folder",
+              {{"file", path_}});
 }
 
 void JobFolder::start_fresh() {
@@ -137,13 +140,17 @@ void JobFolder::start_fresh() {
 void JobFolder::resume() {
   const std::optional<Data> job = read_job(in_folder(job_file));
   if (!job || !job->members())
-    throw Error(Code::other_job, in_folder(job_file) + " is damaged, so the job cannot be resumed; replace it with " +
-                                     spelled::option("--force") + ", or choose another folder");
+    throw Error(Code::other_job,
+                in_folder(job_file) + " is damaged, so the job cannot be resumed; replace it with " +
+                    spelled::option("--force") + ", or choose another folder",
+                {{"file", path_}});
   DataMembers there = *job->members();
   std::erase_if(there, [](const auto& member) { return member.first == "status" || member.first == "totals"; });
   if (const std::string difference = first_difference(there, describe_job(request_)); !difference.empty())
-    throw Error(Code::other_job, path_ + " holds another job: " + difference + "; replace it with " +
-                                     spelled::option("--force") + ", or choose another folder");
+    throw Error(Code::other_job,
+                path_ + " holds another job: " + difference + "; replace it with " + spelled::option("--force") +
+                    ", or choose another folder",
+                {{"file", path_}});
 
   remove_parts();
   if (holds(journal_file)) {
@@ -163,8 +170,8 @@ void JobFolder::remove_old_job() {
   const NameSet in_journal = layers ? NameSet() : images_in_journal();
   // A damaged job.json is taken for ours where the journal beside it names layers.
   if (job ? !is_slice_job(*job) : in_journal.empty())
-    throw Error(Code::exists,
-                in_folder(job_file) + " was not written by Ombre; move it away, or choose another folder");
+    throw Error(Code::exists, in_folder(job_file) + " was not written by Ombre; move it away, or choose another folder",
+                {{"file", path_}});
 
   // Before anything goes: what stays may not be in the new job's way.
   std::vector<std::string> old;
@@ -195,9 +202,10 @@ NameSet JobFolder::images_in_journal() const {
 void JobFolder::refuse_foreign_files() const {
   for (const std::string& name : names())
     if (name != job_file + std::string(part_suffix))  // of a run that ended before it began
-      throw Error(Code::exists, path_ + " is not empty, it holds for example " + name +
-                                    "; choose another folder, or write beside what is there with " +
-                                    spelled::option("--force"));
+      throw Error(Code::exists,
+                  path_ + " is not empty, it holds for example " + name +
+                      "; choose another folder, or write beside what is there with " + spelled::option("--force"),
+                  {{"file", path_}});
 }
 
 // Whatever the user allowed, a file that Ombre did not write is not replaced by a layer.
@@ -210,7 +218,8 @@ void JobFolder::refuse_collision(const std::string& name) const {
   throw Error(
       Code::exists,
       in_folder(name) +
-          " is not part of a slice job, but a job would write that name; move it away, or choose another folder");
+          " is not part of a slice job, but a job would write that name; move it away, or choose another folder",
+      {{"file", path_}});
 }
 
 void JobFolder::remove_parts() const {
@@ -285,7 +294,8 @@ std::vector<std::string> JobFolder::names() const {
   std::error_code error;
   for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error))
     names.push_back(entry->path().filename().string());
-  if (error) throw Error(Code::cannot_read, "cannot read the folder " + path_ + ": " + error.message());
+  if (error)
+    throw Error(Code::cannot_read, "cannot read the folder " + path_ + ": " + error.message(), {{"file", path_}});
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -15,11 +15,13 @@ namespace ombre::compile {
 FolderLock::FolderLock(const std::string& folder) {
   descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor_ < 0)
-    throw Error(Code::cannot_read, "cannot open the folder " + folder + ": " + std::generic_category().message(errno));
+    throw Error(Code::cannot_read, "cannot open the folder " + folder + ": " + std::generic_category().message(errno),
+                {{"file", folder}});
   // Some network disks have no locks; there the user is trusted.
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(descriptor_);
-  throw Error(Code::other_job, "another run is writing into " + folder + "; wait for it, or choose another folder");
+  throw Error(Code::other_job, "another run is writing into " + folder + "; wait for it, or choose another folder",
+              {{"file", folder}});
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }

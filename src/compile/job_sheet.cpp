@@ -24,7 +24,8 @@ std::vector<double> numbers(const Data* data, const std::string& path) {
   if (data && data->list())
     for (const Data& element : *data->list())
       if (const double* number = element.number()) values.push_back(*number);
-  if (!data || !data->list() || values.size() != data->list()->size()) throw Error(path + " is not a slice job");
+  if (!data || !data->list() || values.size() != data->list()->size())
+    throw Error(Code::file_kind, path + " is not a slice job", {{"file", path}});
   return values;
 }
 
@@ -40,7 +41,7 @@ struct JobSummary {
 
 formats::Rgba read_colour(const Data& material, const std::string& path) {
   const std::vector<double> channels = numbers(member(&material, "rgba"), path);
-  if (channels.size() != 4) throw Error(path + " is not a slice job");
+  if (channels.size() != 4) throw Error(Code::file_kind, path + " is not a slice job", {{"file", path}});
   formats::Rgba rgba{};
   for (size_t i = 0; i < 4; ++i) rgba[i] = static_cast<uint8_t>(std::clamp(channels[i], 0.0, 255.0));
   return rgba;
@@ -49,7 +50,7 @@ formats::Rgba read_colour(const Data& material, const std::string& path) {
 ImageFormat format(const Data* images, const std::string& path) {
   const Data* name = member(images, "format");
   const auto format = name && name->string() ? voxel::image_format(*name->string()) : std::nullopt;
-  if (!format) throw Error(path + " is not a slice job");
+  if (!format) throw Error(Code::file_kind, path + " is not a slice job", {{"file", path}});
   return *format;
 }
 
@@ -63,7 +64,7 @@ JobSummary read_summary(const std::string& path) {
   const Data* checks = member(&*job, "checks");
   if (pitch.size() != 3 || origin.size() != 3 || !materials || !materials->list() || materials->list()->empty() ||
       !checks || !checks->list())
-    throw Error(path + " is not a slice job");
+    throw Error(Code::file_kind, path + " is not a slice job", {{"file", path}});
 
   JobSummary summary;
   summary.style.pixel_width_mm = pitch[0];
@@ -102,7 +103,8 @@ void write_contact_sheet(const std::string& folder, const std::string& image_pat
   std::vector<exporting::SheetLayer> layers;
   for (const JournalEntry& entry : parse_journal(journal, summary.colours.size(), summary.check_count))
     if (!entry.is_empty() && !entry.files.empty()) layers.push_back(sheet_layer(entry, summary, base));
-  if (layers.empty()) throw Error(folder + " has no layer with material to draw");
+  if (layers.empty())
+    throw Error(Code::file_content, folder + " has no layer with material to draw", {{"file", folder}});
   layers = evenly_spaced(layers, static_cast<size_t>(std::max(1, layer_count)));
   const exporting::Picture sheet = exporting::draw_contact_sheet(layers, summary.style);
   exporting::write_file(image_path, formats::encode_png(sheet.width, sheet.height, sheet.rgba));

@@ -40,7 +40,8 @@ Vec3 cell_for(const design::Stage& stage, const StagePlace& place) {
 }
 
 [[noreturn]] void fail(const design::Stage& stage, Vec3 cell) {
-  throw Error(stage.name() + ": " + too_many_cells(cell) + "; choose larger voxels, or give it a larger pitch");
+  throw Error(Code::too_large,
+              stage.name() + ": " + too_many_cells(cell) + "; choose larger voxels, or give it a larger pitch");
 }
 
 StageLattice lattice_for(const design::Stage& stage, const StagePlace& place) {

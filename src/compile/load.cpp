@@ -106,7 +106,9 @@ std::optional<openscad::Options> script_options(const LoadOptions& options, sour
   run.read_file = [&cache](const std::string& path) { return sources::read_included(path, cache); };
   for (const auto& [name, value] : script_values(options.definitions, diagnostics)) {
     auto definition = openscad::definition_of(name, value);
-    if (!definition) diagnostics.error(value.where, "a script cannot get " + describe(value) + " for \"" + name + '"');
+    if (!definition)
+      diagnostics.error(Code::parameter_type, value.where,
+                        "a script cannot get " + describe(value) + " for \"" + name + '"', {}, {{"parameter", name}});
     if (definition) run.definitions.push_back(std::move(*definition));
   }
   return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(run));
@@ -164,7 +166,9 @@ std::optional<design::Design> read_json_design(const SourcePtr& source, const Lo
   diagnostics.tell_code(known, Code::design_file);
   if (!data) return std::nullopt;
   DesignSources loader(cache, options.stop);
-  return design::read_design(*data, nodes::registry(), &loader, diagnostics);
+  auto design = design::read_design(*data, nodes::registry(), &loader, diagnostics);
+  diagnostics.tell_code(known, Code::design_file);
+  return design;
 }
 
 LoadedPtr read_design(const SourcePtr& source, const LoadOptions& options, sources::SourceCache& cache,

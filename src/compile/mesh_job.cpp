@@ -44,7 +44,7 @@ bool fits(const MeshPlan& plan, const MeshRequest& request, const Loaded& loaded
   constexpr double doubt = 1.5;
   const auto allowed = static_cast<double>(request.memory_bytes);
   if (request.memory_bytes == 0 || plan.memory_bytes <= doubt * allowed) return true;
-  diagnostics.error({loaded.source, 0, 0},
+  diagnostics.error(Code::memory, {loaded.source, 0, 0},
                     "cells of " + format_rounded(plan.cell_mm, 3) + " mm, about " +
                         format_count(static_cast<unsigned long long>(plan.cells)) + " at the surface, take about " +
                         format_bytes(plan.memory_bytes) + " of memory, more than the " + format_bytes(allowed) +
@@ -154,7 +154,7 @@ class Mesher {
     if (!meshed) return false;
     add_report(meshed->report, made.report);
     if (meshed->bodies.empty()) {
-      diagnostics_.error(set.clip->where(), "the solid that cuts struts is smaller than the cells",
+      diagnostics_.error(Code::option, set.clip->where(), "the solid that cuts struts is smaller than the cells",
                          "choose a smaller " + spelled::option("--cell"));
       return false;
     }

@@ -231,10 +231,12 @@ void check_variables(const OptimiseStudy& study, const SourcePtr& script, Diagno
   for (const DesignVariable& variable : study.variables) {
     if (std::ranges::find(names, variable.name) != names.end()) continue;
     const std::string slip = did_you_mean(variable.name, names);
-    diagnostics.error(variable.where, script->name() + " has no top-level variable \"" + variable.name + "\"",
+    diagnostics.error(Code::unknown_variable, variable.where,
+                      script->name() + " has no top-level variable \"" + variable.name + "\"",
                       !slip.empty()   ? slip
                       : names.empty() ? "write one at the top of the script: " + variable.name + " = 1;"
-                                      : "it has " + join(names, ", "));
+                                      : "it has " + join(names, ", "),
+                      {{"name", variable.name}});
   }
 }
 
@@ -301,8 +303,8 @@ bool History::read(const std::string& path, const std::string& text, Diagnostics
   const SourcePtr source = make_source(path, text);
   const std::string wanted = header();
   if (!text.starts_with(wanted)) {
-    diagnostics.error({source, 0, 0}, "this is the history of another study",
-                      "choose another folder, or " + spelled::option("--force"));
+    diagnostics.error(Code::other_job, {source, 0, 0}, "this is the history of another study",
+                      "choose another folder, or " + spelled::option("--force"), {{"file", source->name()}});
     return false;
   }
   const size_t variables = study_.variables.size(), measures = study_.measures().size();
@@ -318,9 +320,9 @@ bool History::read(const std::string& path, const std::string& text, Diagnostics
       if (value) (n <= variables ? row.values : row.measured.values).push_back(*value);
     }
     if (!is_whole) {
-      diagnostics.error({source, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)},
+      diagnostics.error(Code::file_content, {source, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)},
                         "this line is not one of a history",
-                        "take it out, or begin again with " + spelled::option("--force"));
+                        "take it out, or begin again with " + spelled::option("--force"), {{"file", path}});
       return false;
     }
     if (failed) {

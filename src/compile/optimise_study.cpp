@@ -185,7 +185,7 @@ class OptimiseReader {
     if (!fea.loads.empty() || length(fea.gravity_mm_s2) > 0 || std::ranges::any_of(fea.supports, moves)) return;
     for (const Measure& measure : study_.measures())
       if (measure.needs_solution())
-        return diagnostics_.error(measure.where, measure.label() + " needs loads, and the study has none",
+        return diagnostics_.error(Code::study, measure.where, measure.label() + " needs loads, and the study has none",
                                   R"(write into "fea" for example "loads": [{"on": "zmax", "force_n": [0, 0, -10]}])");
   }
 

@@ -22,7 +22,7 @@ std::vector<std::string> part_names(const design::Design& design) {
 }
 
 void report_nameless_parts(const design::Design& design, Diagnostics& diagnostics) {
-  diagnostics.error(design.parts[0].solid->where(), "no part of the design has a name",
+  diagnostics.error(Code::unknown_part, design.parts[0].solid->where(), "no part of the design has a name",
                     "name some: " + spelled::around("part", {{"", "\"handle\""}}));
 }
 

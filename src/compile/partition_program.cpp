@@ -134,8 +134,9 @@ class RegionBuilder {
       }
       names.push_back(design_.materials.all()[id].name);
     }
-    diagnostics_.error(question_.solid()->where(),
-                       "the design has no material \"" + rule_.of + "\"; " + list_names(names));
+    diagnostics_.error(Code::unknown_material, question_.solid()->where(),
+                       "the design has no material \"" + rule_.of + "\"; " + list_names(names), {},
+                       {{"material", rule_.of}});
     return false;
   }
 
@@ -194,7 +195,7 @@ class RegionBuilder {
 
   bool refuse_many() {
     diagnostics_.error(
-        question_.solid()->where(),
+        Code::too_large, question_.solid()->where(),
         "the bands of all values cross in more than " + std::to_string(most_crossed_regions) + " regions",
         "choose fewer bands");
     return false;

@@ -85,7 +85,7 @@ std::optional<PictureLabels> PictureLabels::make(const Loaded& loaded, const Pic
   }
   labels.layout_ = render::lay_out(request.width, request.height, labels.annotations_, labels.pen_);
   if (std::min(labels.layout_.width, labels.layout_.height) < smallest_part) {
-    diagnostics.error(where, "the picture is too small for what is to be written on it",
+    diagnostics.error(Code::option, where, "the picture is too small for what is to be written on it",
                       "make it larger by " + spelled::option("--size") + ", or leave out axes, scale bar or legend");
     return std::nullopt;
   }

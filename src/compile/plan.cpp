@@ -245,7 +245,7 @@ std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const Pla
     request.check_places.push_back(place_text(check.where));
   }
   if (static_cast<int>(request.materials.size()) > options.printer.max_materials) {
-    diagnostics.error({loaded->source, 0, 0},
+    diagnostics.error(Code::limit, {loaded->source, 0, 0},
                       "the design uses " + std::to_string(request.materials.size()) + " materials, " +
                           options.printer.title + " prints at most " + std::to_string(options.printer.max_materials),
                       "use fewer, or choose another printer");

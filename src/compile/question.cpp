@@ -46,10 +46,10 @@ std::optional<Field> Question::attribute(std::string_view name, Diagnostics& dia
   const std::vector<std::string> parts = design::parts_of(*declared);
   if (std::ranges::find(parts, name) != parts.end())
     return lowering_.attribute(*solid_, name, point_, design::Demand::inside);
-  diagnostics.error(design_.parts[0].solid->where(),
+  diagnostics.error(Code::unknown_attribute, design_.parts[0].solid->where(),
                     "the attribute \"" + declared->name + "\" is a " + std::string(design::name(declared->type)) +
                         ", where one number is wanted",
-                    "write " + join(parts, " or "));
+                    "write " + join(parts, " or "), {{"attribute", std::string(name)}});
   return std::nullopt;
 }
 
@@ -80,7 +80,7 @@ std::optional<Program> Question::program(const program::Outputs& outputs, Diagno
   diagnostics.add_new(context_.diagnostics());
   const double size = program::inlined_size(with_calls);
   if (size <= most_instructions) return program::inline_bodies(with_calls);
-  diagnostics.error(solid_->where(),
+  diagnostics.error(Code::too_large, solid_->where(),
                     "the design repeats its parts too often: about " + format_rounded(size, 2) + " operations a voxel");
   return std::nullopt;
 }

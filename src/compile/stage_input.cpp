@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/error.h"
 #include "compile/build.h"
 #include "compile/field_program.h"
 #include "voxel/layers.h"
@@ -63,9 +62,13 @@ StageChannel channel_of(const design::Design& solid, const std::string& name, co
   return channel;
 }
 
-[[noreturn]] void fail_with(const Diagnostics& diagnostics) { throw Error(to_text(diagnostics)); }
-
 }  // namespace
+
+Error error_of(const Diagnostics& diagnostics) {
+  for (const Diagnostic& diagnostic : diagnostics.list())
+    if (diagnostic.severity == Severity::error) return {diagnostic.code, to_text(diagnostics), diagnostic.values};
+  return Error(to_text(diagnostics));
+}
 
 StageInput::StageInput(const design::Design& job, const std::vector<design::StageRead>& reads,
                        const voxel::Lattice& lattice) {
@@ -89,7 +92,7 @@ void StageInput::add_shape(const design::Design& solid, const voxel::Lattice& la
                            size_t number) {
   Diagnostics diagnostics;
   const auto program = build_inside_program(solid, diagnostics);
-  if (!program) fail_with(diagnostics);
+  if (!program) throw error_of(diagnostics);
   voxel::EvaluatorOptions how;
   how.evaluator = voxel::best_evaluator(lattice);
   evaluator.shape = std::make_shared<const voxel::LayerEvaluator>(*program, lattice, voxel::Dither::threshold, 0, how);
@@ -100,7 +103,7 @@ void StageInput::add_fields(const design::Design& solid, const design::StageRead
                             Evaluator& evaluator, size_t number) {
   Diagnostics diagnostics;
   auto program = build_field_program(solid, query_of(solid, read), diagnostics);
-  if (!program) fail_with(diagnostics);
+  if (!program) throw error_of(diagnostics);
   for (const std::string& name : program->output_names) channels_.push_back(channel_of(solid, name, read, number));
   if (read.distance || !read.attributes.empty()) is_zero_outside_ = false;
   evaluator.fields =

@@ -5,11 +5,16 @@
 #include <optional>
 #include <vector>
 
+#include "base/diagnostic.h"
+#include "base/error.h"
 #include "design/design.h"
 #include "voxel/fields.h"
 #include "voxel/layers.h"
 
 namespace ombre::compile {
+
+// For stages that cannot be evaluated: all messages, with the code and the values of the first error.
+Error error_of(const Diagnostics& diagnostics);
 
 // Thread-safe once it is built.
 class StageInput {

@@ -10,6 +10,7 @@
 #include "compile/build.h"
 #include "compile/job_stages.h"
 #include "compile/sampler.h"
+#include "compile/stage_input.h"
 
 namespace ombre::compile {
 namespace {
@@ -31,7 +32,7 @@ class Overhangs {
     SampleQuery query;
     query.distance = true;
     sampler_ = Sampler::build(design, query, diagnostics);
-    if (!sampler_) throw Error("supports: " + to_text(diagnostics));
+    if (!sampler_) throw error_of(diagnostics);
   }
 
   // True for those of the cells, given by their centres, whose lower face hangs over too far. They are inside, and the

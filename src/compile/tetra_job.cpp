@@ -77,7 +77,7 @@ class TetraMaker {
 
  private:
   std::nullopt_t fail(const std::string& message, const Phrase& hint) {
-    diagnostics_.error({loaded_->source, 0, 0}, message, hint);
+    diagnostics_.error(Code::not_meshed, {loaded_->source, 0, 0}, message, hint);
     return std::nullopt;
   }
 

@@ -50,16 +50,16 @@ void read_topology(const Data& data, optimise::TopologyOptions& options, Diagnos
 
 void check_conditions(const fea::Study& fea, const Data& at, Diagnostics& diagnostics) {
   if (fea.loads.empty())
-    diagnostics.error(at.where, "a topology needs loads, and the study has none",
+    diagnostics.error(Code::study, at.where, "a topology needs loads, and the study has none",
                       R"(write into "fea" for example "loads": [{"on": "zmax", "force_n": [0, 0, -10]}])");
   if (length(fea.gravity_mm_s2) > 0)
-    diagnostics.error(at.where,
+    diagnostics.error(Code::study, at.where,
                       "a topology takes no gravity, since weight goes with the densities that it searches for",
                       "leave gravity_mm_s2 out");
   for (const fea::Support& support : fea.supports)
     for (const auto& u : support.displacement_mm)
       if (u && *u != 0)
-        return diagnostics.error(support.on.where, "a topology takes supports that do not move",
+        return diagnostics.error(Code::study, support.on.where, "a topology takes supports that do not move",
                                  "write \"fix\", and forces as loads");
 }
 

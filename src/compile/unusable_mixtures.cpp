@@ -53,7 +53,8 @@ class MixtureSurvey {
     const SourceRange part = design_.parts[0].solid->where();
     if (unknown_.count > 0) diagnostics.warning(part, "the mixture is no number in " + text(unknown_));
     if (all_.count < inside_) return true;
-    diagnostics.error(part, "the mixture is no number in any of the " + format_count(inside_) + " elements",
+    diagnostics.error(Code::parameters, part,
+                      "the mixture is no number in any of the " + format_count(inside_) + " elements",
                       "look at what its formulas, files and results give inside of the design");
     return false;
   }

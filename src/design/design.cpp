@@ -187,10 +187,10 @@ bool check_attributes(const Design& design, Diagnostics& diagnostics) {
     if (!declared) continue;
     const ValueType first = known.try_emplace(declared->name, declared->type).first->second;
     if (first == declared->type) continue;
-    diagnostics.error(node->where(),
+    diagnostics.error(Code::twice, node->where(),
                       "the attribute \"" + declared->name + "\" is a " + std::string(name(declared->type)) +
                           " here, and a " + std::string(name(first)) + " elsewhere in the design",
-                      "give one of them another name");
+                      "give one of them another name", {{"name", declared->name}});
     good = false;
   }
   return good;
@@ -208,9 +208,9 @@ bool check_cells(const Design& design, Diagnostics& diagnostics) {
       if (next == below.end()) break;
       user = next->get();
     }
-    diagnostics.error(user->where(),
+    diagnostics.error(Code::unknown_variable, user->where(),
                       user->type().name + " uses the index of a cell (ci, cj, ck), and nothing repeats it",
-                      "put it into " + spelled::around("tile"));
+                      "put it into " + spelled::around("tile"), {{"name", "ci"}});
     good = false;
   }
   return good;

@@ -101,9 +101,9 @@ class Inputs {
   std::optional<JobScale> scale() const;
   // The source that gives what a stage of this node computes.
   program::SourceField staged(const std::shared_ptr<const Stage>& stage) const;
-  // Told once for each job that lowers the node.
+  // Reported once for each job that lowers the node.
   void report(Severity severity, const std::string& message, const Phrase& hint) const;
-  // A mark that is 1 where something is wrong; `message` is told once, with the count of voxels.
+  // A flag that is 1 where something is wrong; `message` is reported once, with the count of voxels.
   std::pair<uint32_t, Field> check(Field bad, const std::string& message) const;
 
  private:

@@ -40,12 +40,14 @@ void ombre_read_dicom(const std::string* name, const std::vector<std::string>* f
   gdcm::Trace::DebugOff();
   const HelperLimits limits = limits_for(*files);
   const auto explain = [&](HelperFailure failure) {
-    return "cannot read the scan \"" + *name + "\": " +
-           (failure == HelperFailure::crashed
-                ? "a file is broken"
-                : "it takes longer than " + std::to_string(static_cast<int>(limits.seconds)) +
-                      " s, so a file is probably broken") +
-           "; export it again";
+    return Error(Code::file_content,
+                 "cannot read the scan \"" + *name + "\": " +
+                     (failure == HelperFailure::crashed
+                          ? "a file is broken"
+                          : "it takes longer than " + std::to_string(static_cast<int>(limits.seconds)) +
+                                " s, so a file is probably broken") +
+                     "; export it again",
+                 {{"file", *name}});
   };
   *series = unpack(run_in_helper([&] { return pack(read_slices(*name, *files, *choice)); }, limits, explain, stop));
 }

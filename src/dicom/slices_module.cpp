@@ -56,7 +56,9 @@ class Reading {
     std::vector<float> values;
   };
 
-  [[noreturn]] void fail(const std::string& message) const { throw Error("the scan \"" + name_ + "\" " + message); }
+  [[noreturn]] void fail(const std::string& message) const {
+    throw Error(Code::file_content, "the scan \"" + name_ + "\" " + message, {{"file", name_}});
+  }
 
   void scan(const std::vector<std::string>& paths) {
     gdcm::Scanner scanner;

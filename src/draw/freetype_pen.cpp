@@ -51,7 +51,8 @@ void render(FT_Library library, FT_Outline& outline, const Canvas& canvas, Rgb c
   params.gray_spans = lay_spans;
   params.user = &ink;
   params.clip_box = {0, 0, canvas.width, canvas.height};
-  if (FT_Outline_Render(library, &outline, &params) != 0) throw Error("FreeType cannot draw: memory runs out");
+  if (FT_Outline_Render(library, &outline, &params) != 0)
+    throw Error(Code::memory, "FreeType cannot draw: memory runs out");
 }
 
 FT_Pos to_units(double pixels) { return std::lround(std::clamp(pixels, -farthest, farthest) * units); }
@@ -92,12 +93,15 @@ struct Pen::Parts {
 Pen::Pen(const std::string& font_file) : parts_(std::make_unique<Parts>()) {
   const auto found = font_file.empty() ? find_font_file() : font_file;
   if (!found)
-    throw Error("there is no font to label pictures with; install fonts-dejavu-core, or name a font by " +
-                spelled::option("--font"));
+    throw Error(Code::unknown_font,
+                "there is no font to label pictures with; install fonts-dejavu-core, or name a font by " +
+                    spelled::option("--font"));
   parts_->file = *found;
-  if (FT_Init_FreeType(&parts_->library) != 0) throw Error("FreeType does not start: memory runs out");
+  if (FT_Init_FreeType(&parts_->library) != 0) throw Error(Code::memory, "FreeType does not start: memory runs out");
   if (FT_New_Face(parts_->library, parts_->file.c_str(), 0, &parts_->face) != 0 || !FT_IS_SCALABLE(parts_->face))
-    throw Error(parts_->file + " is not a font with outlines that can be read; name another, a .ttf or .otf file");
+    throw Error(Code::file_kind,
+                parts_->file + " is not a font with outlines that can be read; name another, a .ttf or .otf file",
+                {{"file", parts_->file}});
 }
 
 Pen::~Pen() = default;

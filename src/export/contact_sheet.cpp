@@ -42,7 +42,8 @@ struct Grid {
 };
 
 void require_size(const formats::PngImage& image, const std::string& file, uint32_t width, uint32_t height) {
-  if (image.width != width || image.height != height) throw Error(file + " has another size than the layers before it");
+  if (image.width != width || image.height != height)
+    throw Error(Code::file_content, file + " has another size than the layers before it", {{"file", file}});
 }
 
 formats::PngImage read(const std::string& path) { return formats::decode_png(formats::read_file(path), path); }

@@ -54,11 +54,11 @@ void write_archive(const std::string& path, const MeshDocument& document, format
   try {
     formats::write_3mf(file.part(), document, flavour);
   } catch (const std::system_error& error) {
-    throw Error(write_failure(path, error.code().value()));
+    throw write_error(path, error.code().value());
   } catch (const Error&) {
     throw;
   } catch (const std::runtime_error& error) {
-    throw Error(Code::cannot_write, "cannot write " + path + ": " + error.what());
+    throw Error(Code::cannot_write, "cannot write " + path + ": " + error.what(), {{"file", path}});
   }
   file.commit();
 }
@@ -83,7 +83,7 @@ std::string material_library_path(const std::string& path) { return fs::path(pat
 void write_mesh_file(const std::string& path, const MeshDocument& document, MeshFormat format,
                      formats::SlicerFlavour flavour) {
   if (document.triangle_count() + document.beam_count() == 0)
-    throw Error(Code::cannot_write, "cannot write " + path + ": there are no triangles");
+    throw Error(Code::cannot_write, "cannot write " + path + ": there are no triangles", {{"file", path}});
   switch (format) {
     case MeshFormat::stl:
       return write_bytes(path, formats::stl_bytes(document));

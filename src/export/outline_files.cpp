@@ -87,7 +87,7 @@ class NewFolder {
   explicit NewFolder(const std::string& path) : path_(path) {
     std::error_code error;
     is_new_ = fs::create_directories(path, error);
-    if (error) throw Error(write_failure(path, error.value()));
+    if (error) throw write_error(path, error.value());
   }
   ~NewFolder() {
     std::error_code ignored;

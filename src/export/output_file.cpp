@@ -8,8 +8,6 @@
 #include <cstdio>
 #include <system_error>
 
-#include "base/error.h"
-
 namespace ombre::exporting {
 namespace {
 
@@ -46,8 +44,10 @@ int write_all(int descriptor, std::string_view bytes) {
 
 }  // namespace
 
-std::string write_failure(const std::string& path, int error) {
-  return "cannot write " + path + ": " + std::generic_category().message(error) + advice(error);
+Error write_error(const std::string& path, int error) {
+  return {error == ENOSPC || error == EDQUOT ? Code::disk_space : Code::cannot_write,
+          "cannot write " + path + ": " + std::generic_category().message(error) + advice(error),
+          {{"file", path}}};
 }
 
 PendingFile::~PendingFile() {
@@ -55,13 +55,13 @@ PendingFile::~PendingFile() {
 }
 
 void PendingFile::commit() {
-  if (std::rename(part_.c_str(), path_.c_str()) != 0) throw Error(Code::cannot_write, write_failure(path_, errno));
+  if (std::rename(part_.c_str(), path_.c_str()) != 0) throw write_error(path_, errno);
   is_committed_ = true;
 }
 
 NewFile::NewFile(std::string path) : file_(std::move(path)) {
   descriptor_ = ::open(file_.part().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw Error(Code::cannot_write, write_failure(file_.path(), errno));
+  if (descriptor_ < 0) throw write_error(file_.path(), errno);
 }
 
 NewFile::~NewFile() {
@@ -69,15 +69,14 @@ NewFile::~NewFile() {
 }
 
 void NewFile::append(std::string_view bytes) {
-  if (const int error = write_all(descriptor_, bytes); error != 0)
-    throw Error(Code::cannot_write, write_failure(file_.path(), error));
+  if (const int error = write_all(descriptor_, bytes); error != 0) throw write_error(file_.path(), error);
 }
 
 void NewFile::write_at(uint64_t offset, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw Error(Code::cannot_write, write_failure(file_.path(), errno));
+    if (written < 0) throw write_error(file_.path(), errno);
     offset += static_cast<uint64_t>(written);
     bytes.remove_prefix(static_cast<size_t>(written));
   }
@@ -88,7 +87,7 @@ void NewFile::close(Durability durability) {
   if (durability == Durability::flushed && ::fsync(descriptor_) != 0) error = errno;
   // Network disks report a full disk only here.
   if (::close(std::exchange(descriptor_, -1)) != 0 && error == 0) error = errno;
-  if (error != 0) throw Error(Code::cannot_write, write_failure(file_.path(), error));
+  if (error != 0) throw write_error(file_.path(), error);
 }
 
 void write_file(const std::string& path, std::string_view bytes, Durability durability) {
@@ -100,14 +99,13 @@ void write_file(const std::string& path, std::string_view bytes, Durability dura
 
 AppendFile::AppendFile(std::string path) : path_(std::move(path)) {
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw Error(Code::cannot_write, write_failure(path_, errno));
+  if (descriptor_ < 0) throw write_error(path_, errno);
 }
 
 AppendFile::~AppendFile() { ::close(descriptor_); }
 
 void AppendFile::append(std::string_view bytes) {
-  if (const int error = write_all(descriptor_, bytes); error != 0)
-    throw Error(Code::cannot_write, write_failure(path_, error));
+  if (const int error = write_all(descriptor_, bytes); error != 0) throw write_error(path_, error);
 }
 
 }  // namespace ombre::exporting

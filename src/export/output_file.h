@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/error.h"
+
 namespace ombre::exporting {
 
 inline constexpr std::string_view part_suffix = ".part";  // of a file being written
@@ -75,6 +77,6 @@ class AppendFile {
 };
 
 // "cannot write PATH: REASON; WHAT TO DO", from an errno.
-std::string write_failure(const std::string& path, int error);
+Error write_error(const std::string& path, int error);
 
 }  // namespace ombre::exporting

@@ -30,7 +30,7 @@ class BmpReader {
 
  private:
   [[noreturn]] void fail(const std::string& reason) const {
-    throw Error("the image \"" + name_ + "\" cannot be read: " + reason);
+    throw Error(Code::file_content, "the image \"" + name_ + "\" cannot be read: " + reason, {{"file", name_}});
   }
 
   template <class T>

@@ -15,13 +15,13 @@ namespace {
 constexpr size_t least_chunk = size_t{64} << 10, largest_file = size_t{16} << 30;
 
 // Relative paths also say where they led.
-[[noreturn]] void throw_unreadable(const std::string& path, const std::string& reason) {
+[[noreturn]] void throw_unreadable(const std::string& path, const std::string& reason, Code code = Code::cannot_read) {
   std::string message = "cannot read " + path + ": " + reason;
   std::error_code ignored;
   const std::filesystem::path absolute = std::filesystem::absolute(path, ignored);
   if (!path.empty() && !std::filesystem::path(path).is_absolute() && !ignored)
     message += " (looked for " + absolute.lexically_normal().string() + ")";
-  throw Error(message);
+  throw Error(code, message, {{"file", path}});
 }
 
 struct Close {
@@ -37,7 +37,9 @@ std::string read_file(const std::string& path) {
     throw_unreadable(path, "it is a device");
   errno = 0;
   const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw_unreadable(path, std::generic_category().message(errno));
+  if (!file)
+    throw_unreadable(path, std::generic_category().message(errno),
+                     errno == ENOENT ? Code::file_missing : Code::cannot_read);
 
   // One byte more than the known size, so that the end is met without another chunk.
   const uintmax_t size = std::filesystem::file_size(path, ignored);

@@ -198,7 +198,8 @@ LazyBytes glb_bytes(const MeshDocument& document) {
   std::string json = scene.json(document);
   json.append((4 - json.size() % 4) % 4, ' ');
   const uint64_t size = file_header_bytes + 2 * chunk_header_bytes + json.size() + scene.binary_bytes();
-  if (size > UINT32_MAX) throw Error("a .glb file holds at most 4 GiB; write a .ply file, or a coarser mesh");
+  if (size > UINT32_MAX)
+    throw Error(Code::too_large, "a .glb file holds at most 4 GiB; write a .ply file, or a coarser mesh");
   LazyBytes bytes;
   bytes.add(words({glb_magic, 2, size, json.size(), json_chunk}) + json + words({scene.binary_bytes(), binary_chunk}));
   bytes.add(numbers);

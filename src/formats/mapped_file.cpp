@@ -14,7 +14,8 @@ namespace ombre::formats {
 
 MappedFile::MappedFile(const std::string& path) {
   const auto fail = [&] {
-    throw Error(Code::cannot_read, "cannot read " + path + ": " + std::generic_category().message(errno));
+    throw Error(Code::cannot_read, "cannot read " + path + ": " + std::generic_category().message(errno),
+                {{"file", path}});
   };
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) fail();

@@ -23,8 +23,9 @@ bool is_amf(std::string_view bytes) {
 }
 
 std::optional<Mesh> report_unknown(const std::string& name, Diagnostics& diagnostics) {
-  diagnostics.error({make_source(name, ""), 0, 0}, "neither the name nor the content tells which mesh format this is",
-                    "name the file .stl, .obj, .ply, .off, .3mf or .amf");
+  diagnostics.error(Code::file_kind, {make_source(name, ""), 0, 0},
+                    "neither the name nor the content tells which mesh format this is",
+                    "name the file .stl, .obj, .ply, .off, .3mf or .amf", {{"file", name}});
   return std::nullopt;
 }
 
@@ -42,7 +43,8 @@ std::optional<Mesh> read_mesh(const std::string& name, std::string_view bytes, D
   if (is_amf(bytes)) return read_amf(name, bytes, diagnostics);
   if (is_stl(bytes)) return read_stl(name, bytes, diagnostics);
   if (const auto foreign = foreign_file(bytes)) {
-    diagnostics.error({make_source(name, ""), 0, 0}, "this is no mesh file but " + foreign->what, foreign->hint);
+    diagnostics.error(Code::file_kind, {make_source(name, ""), 0, 0}, "this is no mesh file but " + foreign->what,
+                      foreign->hint, {{"file", name}});
     return std::nullopt;
   }
 

@@ -47,7 +47,8 @@ void add_faces(LazyBytes& bytes, const MeshDocument& document) {
 LazyBytes ply_bytes(const MeshDocument& document) {
   const size_t vertices = document.vertex_count();
   if (vertices > UINT32_MAX)
-    throw Error("a PLY file numbers at most 4,294,967,295 vertices, here are " + format_count(vertices));
+    throw Error(Code::too_large,
+                "a PLY file numbers at most 4,294,967,295 vertices, here are " + format_count(vertices));
   LazyBytes bytes;
   bytes.add(header(vertices, document.triangle_count()));
   add_vertices(bytes, document);

@@ -127,7 +127,7 @@ std::string encode_png(const RunLayer& layer, const Palette& job_palette, const 
   file.add("IEND", "");
   return file.take();
 } catch (const std::bad_alloc&) {
-  throw Error("not enough memory to encode an image; try fewer threads");
+  throw Error(Code::memory, "not enough memory to encode an image; try fewer threads");
 }
 
 }  // namespace ombre::formats

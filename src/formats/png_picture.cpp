@@ -94,7 +94,7 @@ std::string encode_png(uint32_t width, uint32_t height, const std::vector<uint8_
   file.add("IEND", "");
   return file.take();
 } catch (const std::bad_alloc&) {
-  throw Error("not enough memory to encode an image; try fewer threads");
+  throw Error(Code::memory, "not enough memory to encode an image; try fewer threads");
 }
 
 std::string encode_gray_png(uint32_t width, uint32_t height, const std::vector<uint16_t>& pixels,
@@ -107,7 +107,7 @@ std::string encode_gray_png(uint32_t width, uint32_t height, const std::vector<u
   file.add("IEND", "");
   return file.take();
 } catch (const std::bad_alloc&) {
-  throw Error("not enough memory to encode an image; try fewer threads");
+  throw Error(Code::memory, "not enough memory to encode an image; try fewer threads");
 }
 
 }  // namespace ombre::formats

@@ -125,13 +125,15 @@ void check_size(const PngReader& reader, uint32_t width, uint32_t height, uint64
   const std::string size = format_count(width) + " x " + format_count(height) + " pixels";
   if (uint64_t{width} * height > most_pixels)
     throw Error(Code::cannot_read,
-                "cannot read " + name + ": it has " + size + ", more than " + format_count(most_pixels));
+                "cannot read " + name + ": it has " + size + ", more than " + format_count(most_pixels),
+                {{"file", name}});
   // Deflate makes at most 1032 bytes of one.
   constexpr double most_inflated = 1040;
   const double stored_bits = double{1} * width * height * reader.stored_bits_per_pixel;
   if (stored_bits / 8 > most_inflated * static_cast<double>(reader.bytes.size()))
     throw Error(Code::cannot_read,
-                "cannot read " + name + ": not a whole PNG image (the file is too short for " + size + ")");
+                "cannot read " + name + ": not a whole PNG image (the file is too short for " + size + ")",
+                {{"file", name}});
 }
 
 void read_dots(PngReader& reader, PngImage& image) {
@@ -148,11 +150,11 @@ void read_dots(PngReader& reader, PngImage& image) {
 PngImage decode_png(std::string_view bytes, const std::string& name, uint64_t most_pixels) {
   const auto require_read = [&](bool read, const PngReader& reader) {
     if (!read)
-      throw Error(Code::cannot_read,
-                  "cannot read " + name + ": not a whole PNG image (" + reader.failure.message + ")");
+      throw Error(Code::cannot_read, "cannot read " + name + ": not a whole PNG image (" + reader.failure.message + ")",
+                  {{"file", name}});
   };
   PngReader reader(bytes);
-  if (!reader.png || !reader.info) throw Error(Code::cannot_read, "cannot read " + name + ": not enough memory");
+  if (!reader.png || !reader.info) throw Error(Code::memory, "cannot read " + name + ": not enough memory");
   require_read(read_header(reader), reader);
 
   PngImage image;
@@ -185,10 +187,10 @@ Rgba PngImage::colour(uint32_t column, uint32_t row) const {
 
 GrayImage decode_gray_png(std::string_view bytes, const std::string& name, uint64_t most_pixels) {
   const auto require_read = [&](bool read, const PngReader& reader) {
-    if (!read) throw Error(Code::cannot_read, "cannot read " + name + ": " + reader.failure.message);
+    if (!read) throw Error(Code::cannot_read, "cannot read " + name + ": " + reader.failure.message, {{"file", name}});
   };
   PngReader reader(bytes);
-  if (!reader.png || !reader.info) throw Error(Code::cannot_read, "cannot read " + name + ": not enough memory");
+  if (!reader.png || !reader.info) throw Error(Code::memory, "cannot read " + name + ": not enough memory");
   require_read(read_gray_header(reader), reader);
   GrayImage image{png_get_image_width(reader.png, reader.info), png_get_image_height(reader.png, reader.info), {}};
   check_size(reader, image.width, image.height, most_pixels, name);

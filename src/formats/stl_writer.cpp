@@ -36,8 +36,8 @@ void append_triangle(std::string& bytes, const MeshBody& body, size_t index) {
 LazyBytes stl_bytes(const MeshDocument& document) {
   const size_t count = document.triangle_count();
   if (count > UINT32_MAX)
-    throw Error("an STL file holds at most 4,294,967,295 triangles, here are " + format_count(count) +
-                "; write a .ply file");
+    throw Error(Code::too_large, "an STL file holds at most 4,294,967,295 triangles, here are " + format_count(count) +
+                                     "; write a .ply file");
   LazyBytes bytes;
   bytes.add(header(count));
   for (const MeshBody& body : document.bodies)

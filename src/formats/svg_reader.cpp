@@ -220,7 +220,8 @@ namespace ombre::formats {
 
 std::optional<PlaneShapes> read_svg(const std::string& name, std::string_view, const PlaneOptions&,
                                     Diagnostics& diagnostics) {
-  diagnostics.error({make_source(name, ""), 0, 0}, "SVG files cannot be read: this ombre was built without pugixml",
+  diagnostics.error(Code::library_missing, {make_source(name, ""), 0, 0},
+                    "SVG files cannot be read: this ombre was built without pugixml",
                     "install libpugixml-dev, configure with -DOMBRE_3MF=ON and build again");
   return std::nullopt;
 }

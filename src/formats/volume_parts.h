@@ -7,7 +7,7 @@
 namespace ombre::formats {
 
 [[noreturn]] inline void fail_volume(const std::string& path, const std::string& message) {
-  throw Error("the volume \"" + path + "\" " + message);
+  throw Error(Code::file_content, "the volume \"" + path + "\" " + message, {{"file", path}});
 }
 
 // An empty list of that type ("uint8", "int16", "float", ...); throws Error for others.

@@ -16,7 +16,8 @@ constexpr const char* missing = "this ombre was built without libzip and pugixml
 constexpr const char* remedy = "install libzip-dev and libpugixml-dev, configure with -DOMBRE_3MF=ON and build again";
 
 std::optional<Mesh> report(const std::string& name, const std::string& format, Diagnostics& diagnostics) {
-  diagnostics.error({make_source(name, ""), 0, 0}, format + " files cannot be read: " + missing, remedy);
+  diagnostics.error(Code::library_missing, {make_source(name, ""), 0, 0}, format + " files cannot be read: " + missing,
+                    remedy);
   return std::nullopt;
 }
 

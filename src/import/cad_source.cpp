@@ -225,7 +225,8 @@ class ExactSource final : public program::FieldSource {
 
 void check_distances(const program::FieldSource& source) {
   if (source.channel("distance") < 0)
-    throw Error("CAD solids are not available: this build has no library for distances to triangles");
+    throw Error(Code::library_missing,
+                "CAD solids are not available: this build has no library for distances to triangles");
 }
 
 double area_of(const std::array<Vec3, 3>& t) { return length(cross(t[1] - t[0], t[2] - t[0])) / 2; }

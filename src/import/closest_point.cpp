@@ -96,7 +96,8 @@ struct ClosestPoint::Tree {
     add_triangles();
     embree().commit_scene(scene.get());
     if (embree().get_device_error(device.get()) != RTC_ERROR_NONE)
-      throw Error("Embree cannot build the search tree for distances to a mesh (is there enough memory?)");
+      throw Error(Code::memory,
+                  "Embree cannot build the search tree for distances to a mesh (is there enough memory?)");
   }
 
   void add_triangles() {
@@ -105,7 +106,7 @@ struct ClosestPoint::Tree {
         geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), surface->vertices.size()));
     auto* const corners = static_cast<uint32_t*>(embree().set_new_geometry_buffer(
         geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), surface->triangles.size()));
-    if (points == nullptr || corners == nullptr) throw Error("out of memory for distances to a mesh");
+    if (points == nullptr || corners == nullptr) throw Error(Code::memory, "out of memory for distances to a mesh");
     for (size_t i = 0; i < surface->vertices.size(); ++i) {
       const Vec3 p = frame(surface->vertices[i]);
       for (int axis = 0; axis < 3; ++axis) points[3 * i + axis] = static_cast<float>(p[axis]);

@@ -92,7 +92,8 @@ class Unescaper {
     const size_t size = text_[at_] == '\0' ? 0 : code_point_size(text_, at_);
     if (size == 0) {
       if (!was_reported_)
-        diagnostics_.error(part(at_, at_ + 1), "this is not text in UTF-8", "save the file as plain UTF-8 text");
+        diagnostics_.error(Code::syntax, part(at_, at_ + 1), "this is not text in UTF-8",
+                           "save the file as plain UTF-8 text");
       was_reported_ = true;
       ++at_;
       return;
@@ -146,12 +147,12 @@ class Unescaper {
     for (size_t i = 0; i < digits; ++i, ++at_) {
       const int digit = at_ < text_.size() ? hex(text_[at_]) : -1;
       if (digit < 0)
-        return diagnostics_.error(part(begin, at_),
+        return diagnostics_.error(Code::syntax, part(begin, at_),
                                   "this escape needs " + std::to_string(digits) + " hexadecimal digits");
       value = value * 16 + static_cast<uint32_t>(digit);
     }
     if (!is_code_point(value) || (digits == 2 && value > 0x7F))
-      return diagnostics_.error(part(begin, at_), "this escape is no Unicode character",
+      return diagnostics_.error(Code::syntax, part(begin, at_), "this escape is no Unicode character",
                                 digits == 2 ? "\\x goes from 01 to 7f; write \\u for other characters" : "");
     append_code_point(result_.text, value);
   }

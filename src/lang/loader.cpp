@@ -87,9 +87,11 @@ class Loader {
 
   bool may_open(const ast::Include& include, const std::string& path) {
     std::string message, hint;
+    Code code = Code::limit;
     if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
       message = '"' + path + "\" includes itself" + way_round(path);
       hint = "move what both need into a third file";
+      code = Code::script;
     } else if (open_.size() > static_cast<size_t>(limits_.include_depth)) {
       message = "files include each other deeper than " + std::to_string(limits_.include_depth) + " levels";
     } else if (program_.files.size() >= static_cast<size_t>(limits_.files)) {
@@ -99,7 +101,7 @@ class Loader {
     } else {
       return true;
     }
-    diagnostics_.error(include.path_span.range(), message, hint);
+    diagnostics_.error(code, include.path_span.range(), message, hint);
     return false;
   }
 
@@ -114,7 +116,7 @@ class Loader {
   // Beside the file that asks first, then beside the one that it links to, then from the working directory.
   SourcePtr find(const ast::Include& include) {
     if (include.path.empty()) {
-      diagnostics_.error(include.span.range(), "there is no path between < and >");
+      diagnostics_.error(Code::syntax, include.span.range(), "there is no path between < and >");
       return nullptr;
     }
     std::vector<std::string> places = places_of(include.path, (*include.span.source)->name());
@@ -127,8 +129,8 @@ class Loader {
       return nullptr;
     }
     if (places.size() > 1) places.back() += " in the working directory";
-    diagnostics_.error(include.path_span.range(), "there is no file \"" + include.path + '"',
-                       "looked for " + join(places, " and "));
+    diagnostics_.error(Code::file_missing, include.path_span.range(), "there is no file \"" + include.path + '"',
+                       "looked for " + join(places, " and "), {{"file", include.path}});
     return nullptr;
   }
 

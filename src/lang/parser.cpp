@@ -96,7 +96,7 @@ void Parser::statements(std::vector<StatementPtr>& into, bool inside_braces) {
     if (accept(TokenKind::semicolon)) continue;
     if (at(TokenKind::right_brace)) {
       if (inside_braces) return;
-      diagnostics_.error(span(token()).range(), "this \"}\" closes nothing",
+      diagnostics_.error(Code::syntax, span(token()).range(), "this \"}\" closes nothing",
                          "remove it, or write the \"{\" it belongs to");
       take();
       continue;
@@ -147,7 +147,7 @@ StatementPtr Parser::include() {
   const std::string name(text_.substr(inside.begin, inside.end - inside.begin));
   take();
   if (depth_ > 0)
-    diagnostics_.error(span(path).range(), "files are included at the top level of a file only",
+    diagnostics_.error(Code::syntax, span(path).range(), "files are included at the top level of a file only",
                        "move this line out of the braces");
   return std::make_unique<Include>(span(path), path.kind == TokenKind::use_path, name, inside);
 }
@@ -346,7 +346,7 @@ File parse(const SourcePtr& source, std::shared_ptr<Names> names, Dialect dialec
   file.source = std::make_unique<const SourcePtr>(source);
   file.names = std::move(names);
   if (source->text().size() >= UINT32_MAX / 2) {
-    diagnostics.error({source, 0, 1}, "the file is larger than 2 GB");
+    diagnostics.error(Code::limit, {source, 0, 1}, "the file is larger than 2 GB");
     return file;
   }
   Diagnostics lexical, syntactic;

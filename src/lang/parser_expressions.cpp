@@ -199,7 +199,8 @@ ExprPtr Parser::number() {
   if (dialect_ == Dialect::openscad && status == std::errc::result_out_of_range)
     value = std::strtod(std::string(digits).c_str(), nullptr);
   else if (status != std::errc() || end != digits.data() + digits.size())
-    diagnostics_.error(where.range(), "this number is out of range", "numbers reach from 1e-307 to 1e308");
+    diagnostics_.error(Code::syntax, where.range(), "this number is out of range",
+                       "numbers reach from 1e-307 to 1e308");
   take();
   return std::make_unique<Number>(where, value);
 }
@@ -233,7 +234,8 @@ ExprPtr Parser::parenthesised() {
   expect(TokenKind::right_paren, ")");
   tuple->span = since(begin);
   if (tuple->elements.size() == 1)
-    diagnostics_.error(tuple->span.range(), "a tuple has at least 2 elements", "a list of one is written [a]");
+    diagnostics_.error(Code::syntax, tuple->span.range(), "a tuple has at least 2 elements",
+                       "a list of one is written [a]");
   return tuple;
 }
 
@@ -426,7 +428,9 @@ void Parser::parameters(std::vector<Parameter>& into) {
     if (accept(TokenKind::assign)) parameter.value = expression();
     for (const Parameter& other : into)
       if (dialect_ == Dialect::vcad && other.name.symbol == parameter.name.symbol)
-        diagnostics_.error(parameter.name.span.range(), "the parameter \"" + other.name.text() + "\" is there already");
+        diagnostics_.error(Code::twice, parameter.name.span.range(),
+                           "the parameter \"" + other.name.text() + "\" is there already", {},
+                           {{"name", other.name.text()}});
     into.push_back(std::move(parameter));
     if (!accept(TokenKind::comma)) break;
   }

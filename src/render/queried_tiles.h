@@ -14,12 +14,12 @@ namespace ombre::render {
 struct QueriedTiles {
   explicit QueriedTiles(const RaySteps& steps) : intervals(steps) {}
 
-  // Tiles in fine steps. The program outlives the questions.
+  // Evaluates the intervals of `program`, which must outlive this, over tiles in fine steps.
   void ask(const program::Program& program, std::vector<TileBox> fine, const voxel::StripSources& sources) {
     intervals.evaluate(program, std::move(fine), sources);
     shortener.begin(program);
   }
-  // To what one of them needs, or some.
+  // Shortens the program to what one of the tiles needs, or several of them.
   template <class Tiles>
   void shorten(const Tiles& tiles) {
     intervals.values(tiles, values);
@@ -32,7 +32,7 @@ struct QueriedTiles {
     if (are_turned) left = program::compose_affine(left);
     kept.assign(left.code.size(), Interval::everything());
   }
-  // Are there parts that are not evaluated at the inputs themselves? Those that are have composed what is affine
+  // Whether there are parts that are not evaluated at the inputs themselves. The others have composed what is affine
   // already.
   bool has_turned_parts() const {
     return std::ranges::any_of(left.code, [&](const program::Instruction& in) {

@@ -359,7 +359,8 @@ Tetrahedra make(TetrahedraRequest request) {
       }
     }
   }
-  throw Error("the tetrahedra become far too many and too small: sharp edges may lie too close together for this size");
+  throw Error(Code::not_meshed,
+              "the tetrahedra become far too many and too small: sharp edges may lie too close together for this size");
 }
 
 }  // namespace
@@ -372,6 +373,6 @@ extern "C" void ombre_make_tetrahedra(const ombre::solids::TetrahedraRequest& re
   } catch (const ombre::Error&) {
     throw;
   } catch (const std::logic_error& failure) {
-    throw ombre::Error(std::string("the tetrahedra could not be made: ") + failure.what());
+    throw ombre::Error(ombre::Code::not_meshed, std::string("the tetrahedra could not be made: ") + failure.what());
   }
 }

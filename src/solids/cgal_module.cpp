@@ -159,7 +159,7 @@ Parts of_shells(const ExactMesh& mesh) {
   Parts solids, cavities;
   processing::split_connected_components(mesh, shells);
   for (ExactMesh& shell : shells) {
-    if (processing::does_self_intersect(shell)) throw Error("its surface crosses itself");
+    if (processing::does_self_intersect(shell)) throw Error(Code::surface_crosses, "its surface crosses itself");
     const bool is_cavity = !processing::is_outward_oriented(shell);
     if (is_cavity) processing::reverse_face_orientations(shell);
     (is_cavity ? cavities : solids).emplace_back(std::move(shell));
@@ -207,7 +207,7 @@ class CgalKernel : public Kernel {
     Soup soup = soup_of(mesh);
     const bool touches = !processing::is_polygon_soup_a_polygon_mesh(soup.polygons);
     ExactMesh exact = mesh_of_soup(std::move(soup.points), std::move(soup.polygons));
-    if (!CGAL::is_closed(exact)) throw Error("its surface is not closed");
+    if (!CGAL::is_closed(exact)) throw Error(Code::surface_open, "its surface is not closed");
     if (!is_trusted || touches) {
       if (processing::does_self_intersect(exact)) return body_of(of_shells(exact));
       turn_outward(exact, remark);

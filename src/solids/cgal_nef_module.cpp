@@ -90,8 +90,9 @@ Parts combine_nef(Boolean operation, const Part& a, const Part& b) {
         return parts_of((first - second).regularization());
     }
   } catch (const std::exception& failure) {
-    throw Error(std::string("two solids cannot be combined, most likely since a surface crosses itself: ") +
-                failure.what());
+    throw Error(
+        Code::surface_crosses,
+        std::string("two solids cannot be combined, most likely since a surface crosses itself: ") + failure.what());
   }
   return {};
 }

@@ -41,7 +41,7 @@ void refuse_other_than_cubes(const Box& box) {
   const Vec3 size = box.size();
   for (const double side : {size.y, size.z})
     if (!(std::abs(side - size.x) <= same * size.x))
-      throw Error("tetrahedra repeat in cubes alone; choose bricks for other cells");
+      throw Error(Code::option, "tetrahedra repeat in cubes alone; choose bricks for other cells");
 }
 
 // A size that depends on the point, as criteria ask for it.
@@ -119,6 +119,7 @@ Tetrahedra make_periodic(const TetrahedraRequest& request) {
     return make(false);
   } catch (const Questions::Enough&) {
     throw Error(
+        Code::not_meshed,
         "the tetrahedra become far too many and too small: sharp edges may lie too close together for this size");
   }
 }

@@ -68,7 +68,7 @@ double reach_of(std::span<const Ring> rings) {
   for (const Ring& ring : rings)
     for (const Vec2& p : ring) reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
   constexpr double farthest = 1e15;
-  if (!(reach <= farthest)) throw Error("a region of the plane reaches farther than 10^15 mm");
+  if (!(reach <= farthest)) throw Error(Code::limit, "a region of the plane reaches farther than 10^15 mm");
   return reach;
 }
 

@@ -23,7 +23,7 @@ std::string make_and_pack(Make* make, const TetrahedraRequest& request) {
   try {
     make(request, made);
   } catch (const std::bad_alloc&) {
-    throw Error("the tetrahedra take more memory than is allowed; choose a larger size, or more memory");
+    throw Error(Code::memory, "the tetrahedra take more memory than is allowed; choose a larger size, or more memory");
   }
   BytePacker packer;
   packer.add_list(made.points);
@@ -34,8 +34,9 @@ std::string make_and_pack(Make* make, const TetrahedraRequest& request) {
   return packer.take();
 }
 
-std::string explain(HelperFailure) {
-  return "the mesher of tetrahedra crashed, most likely since sharp edges cross or touch each other";
+Error explain(HelperFailure) {
+  return {Code::not_meshed,
+          "the mesher of tetrahedra crashed, most likely since sharp edges cross or touch each other"};
 }
 
 }  // namespace

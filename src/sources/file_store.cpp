@@ -56,7 +56,8 @@ std::vector<std::string> FileStore::paths() const {
 std::shared_ptr<const std::string> FileStore::bytes(const std::string& path, const Content& content) {
   if (content.bytes) return content.bytes;
   const Content now = read(path);
-  if (now.hash != content.hash) throw Error(Code::cannot_read, "cannot read " + path + ": it changes while it is read");
+  if (now.hash != content.hash)
+    throw Error(Code::cannot_read, "cannot read " + path + ": it changes while it is read", {{"file", path}});
   return now.bytes;
 }
 
@@ -65,7 +66,7 @@ FileView FileStore::view(const std::string& path, const Content& content) {
     ++reads_;
     const auto file = std::make_shared<const formats::MappedFile>(path);
     if (hash_bytes(file->bytes()) != content.hash)
-      throw Error(Code::cannot_read, "cannot read " + path + ": it changes while it is read");
+      throw Error(Code::cannot_read, "cannot read " + path + ": it changes while it is read", {{"file", path}});
     return {file->bytes(), file, true};
   }
   auto all = bytes(path, content);

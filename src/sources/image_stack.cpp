@@ -26,9 +26,11 @@ class StackBuilder {
   void add(const sources::LayerColours& image, const std::string& path) {
     if (volume_.empty()) start(image, path);
     if (image.width != width_ || image.height != height_)
-      throw Error("the image \"" + path + "\" has " + size_text(image.width, image.height) +
-                  " pixels, but those below it have " + size_text(width_, height_) +
-                  "; all images of a stack need the same size");
+      throw Error(Code::file_content,
+                  "the image \"" + path + "\" has " + size_text(image.width, image.height) +
+                      " pixels, but those below it have " + size_text(width_, height_) +
+                      "; all images of a stack need the same size",
+                  {{"file", path}});
     // Rows of images go down, those of voxels along y.
     for (uint32_t row = image.height; row-- > 0;)
       for (size_t n = size_t{4} * row * image.width; n < size_t{4} * (row + 1) * image.width; n += 4)
@@ -65,8 +67,8 @@ class StackBuilder {
     height_ = image.height;
     const uint64_t pixels = uint64_t{width_} * height_;
     if (pixels > most_voxels / files_)
-      throw Error("the images beginning with \"" + path + "\" have more than " + std::to_string(most_voxels) +
-                  " voxels together; cut them or make them coarser");
+      throw Error(Code::too_large, "the images beginning with \"" + path + "\" have more than " +
+                                       std::to_string(most_voxels) + " voxels together; cut them or make them coarser");
     volume_.reserve(pixels * files_);
   }
 
@@ -75,7 +77,9 @@ class StackBuilder {
     if (colour == last_colour_) return last_;
     const auto [it, is_new] = numbers_.try_emplace(colour, static_cast<uint16_t>(colours_.size() + 1));
     if (is_new && colours_.size() == most_colours)
-      throw Error("the images up to \"" + path + "\" have more than 65535 colours; give each material one colour");
+      throw Error(Code::file_content,
+                  "the images up to \"" + path + "\" have more than 65535 colours; give each material one colour",
+                  {{"file", path}});
     if (is_new) colours_.push_back(colour);
     last_colour_ = colour;
     return last_ = it->second;
@@ -97,8 +101,11 @@ std::vector<std::string> images_at(const std::string& path) {
   std::vector<std::string> images;
   for (const auto& entry : fs::directory_iterator(path, error))
     if (sources::has_image_name(entry.path().string())) images.push_back(entry.path().string());
-  if (error) throw Error("the folder \"" + path + "\" cannot be read: " + error.message());
-  if (images.empty()) throw Error("the folder \"" + path + "\" has no images; .png, .tif and .bmp are read");
+  if (error)
+    throw Error(Code::cannot_read, "the folder \"" + path + "\" cannot be read: " + error.message(), {{"file", path}});
+  if (images.empty())
+    throw Error(Code::file_missing, "the folder \"" + path + "\" has no images; .png, .tif and .bmp are read",
+                {{"file", path}});
   std::ranges::sort(images, sources::is_numbered_before);
   return images;
 }

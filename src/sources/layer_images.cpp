@@ -39,8 +39,10 @@ LayerNumbers channel_of(const LayerColours& image, int channel) {
 }
 
 [[noreturn]] void fail_coloured(const std::string& path, size_t channels) {
-  throw Error("the image \"" + path + "\" is in colour; choose one of its values by channel=0, up to " +
-              std::to_string(channels - 1) + ", or save it in shades of grey");
+  throw Error(Code::file_content,
+              "the image \"" + path + "\" is in colour; choose one of its values by channel=0, up to " +
+                  std::to_string(channels - 1) + ", or save it in shades of grey",
+              {{"file", path}});
 }
 
 // The same in the three colours.
@@ -54,8 +56,10 @@ LayerNumbers shades_of(const LayerColours& image, const std::string& path) {
 
 void check_channel(const std::string& path, int channel, size_t channels) {
   if (channel >= static_cast<int>(channels))
-    throw Error("the image \"" + path + "\" has no channel " + std::to_string(channel) + "; 0 to " +
-                std::to_string(channels - 1) + " are there");
+    throw Error(Code::file_content,
+                "the image \"" + path + "\" has no channel " + std::to_string(channel) + "; 0 to " +
+                    std::to_string(channels - 1) + " are there",
+                {{"file", path}});
 }
 
 LayerNumbers numbers_of(const tiff::Page& page, const std::string& path, int channel) {

@@ -106,7 +106,8 @@ MadeParts parts_of(const std::string& path, formats::Mesh mesh, const Hash& all,
     parts->push_back(part_of(path, material, std::move(part.mesh), own, rule_of(use.inside.text())));
   }
   if (parts->front().source->channel("distance") >= 0) return {std::move(parts), size};
-  reader.diagnostics.error(reader.where, "meshes are not available: this build has no library for their distances");
+  reader.diagnostics.error(Code::library_missing, reader.where,
+                           "meshes are not available: this build has no library for their distances");
   return {};
 }
 
@@ -196,7 +197,7 @@ std::shared_ptr<const std::vector<MeshPart>> SolidsRequest::load(sources::Loadin
   const Reader& reader = loading.reader();
   formats::Mesh mesh = joined(*solids);
   if (mesh.triangles.empty()) {
-    reader.diagnostics.error(reader.where, '"' + name + "\" gives no solids");
+    reader.diagnostics.error(Code::file_content, reader.where, '"' + name + "\" gives no solids", {}, {{"file", name}});
     return nullptr;
   }
   const Hash content = content_of(mesh);

@@ -99,7 +99,7 @@ importing::OutsideRule rule_of(const ResultsRequest& request) {
 // Is `within` of use?
 bool fits_rule(const ResultsRequest& request, const LoadedResults& loaded, const Reader& reader) {
   if (!request.within_mm || !loaded.mesh || request.outside == "nearest") return true;
-  reader.diagnostics.error(reader.where, "results has `within`, which is for outside=\"nearest\"",
+  reader.diagnostics.error(Code::parameters, reader.where, "results has `within`, which is for outside=\"nearest\"",
                            "write " + spelled::parameter("outside", "\"nearest\"") + " as well");
   return false;
 }

@@ -126,12 +126,13 @@ bool check_pieces(const ScadRequest& request, const solids::Pieces& pieces, cons
   const bool has_solids = std::ranges::any_of(pieces, [](const solids::Piece& piece) { return piece.solid(); });
   const std::string name = '"' + request.file.path + '"';
   if (has_areas && !has_solids)
-    reader.diagnostics.error(reader.where, name + " makes areas, not solids", "give them a height by linear_extrude()");
+    reader.diagnostics.error(Code::file_content, reader.where, name + " makes areas, not solids",
+                             "give them a height by linear_extrude()", {{"file", name}});
   else if (has_areas)
     reader.diagnostics.warning(reader.where, name + " makes areas beside its solids; they are left out",
                                "give them a height by linear_extrude()");
   else if (!has_solids && request.script.empty())
-    reader.diagnostics.error(reader.where, name + " makes no solid");
+    reader.diagnostics.error(Code::nothing_inside, reader.where, name + " makes no solid");
   return has_solids || (!has_areas && !request.script.empty());
 }
 

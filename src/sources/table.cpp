@@ -44,8 +44,10 @@ class TableReader {
 
  private:
   [[noreturn]] void fail(int line, const std::string& message) const {
-    throw Error(path_ + ":" + std::to_string(line) + ": " + message +
-                "; expected lines of numbers such as 0.5, 20, beneath one of names if there is one");
+    throw Error(Code::file_content,
+                path_ + ":" + std::to_string(line) + ": " + message +
+                    "; expected lines of numbers such as 0.5, 20, beneath one of names if there is one",
+                {{"file", path_}});
   }
 
   void take(std::string_view line, int number) {

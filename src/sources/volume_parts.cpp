@@ -24,8 +24,12 @@ std::vector<std::string> files_in(const std::string& folder) {
     std::error_code unknown;
     if (it->is_regular_file(unknown)) files.push_back(it->path().string());
   }
-  if (error) throw Error("the folder \"" + folder + "\" cannot be read: " + error.message());
-  if (files.empty()) throw Error("the folder \"" + folder + "\" is empty; give one of DICOM files or of images");
+  if (error)
+    throw Error(Code::cannot_read, "the folder \"" + folder + "\" cannot be read: " + error.message(),
+                {{"file", folder}});
+  if (files.empty())
+    throw Error(Code::file_missing, "the folder \"" + folder + "\" is empty; give one of DICOM files or of images",
+                {{"file", folder}});
   std::ranges::sort(files, is_numbered_before);
   return files;
 }
@@ -47,12 +51,16 @@ void add_layer(const LayerNumbers& image, const std::string& path, formats::Voxe
     volume.values = formats::values_of_type(path, image.type);
   }
   if (volume.count[0] != image.width || volume.count[1] != image.height)
-    throw Error("the image \"" + path + "\" has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-                " pixels, but those below it have " + std::to_string(volume.count[0]) + " x " +
-                std::to_string(volume.count[1]) + "; all images of a stack need the same size");
+    throw Error(Code::file_content,
+                "the image \"" + path + "\" has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                    " pixels, but those below it have " + std::to_string(volume.count[0]) + " x " +
+                    std::to_string(volume.count[1]) + "; all images of a stack need the same size",
+                {{"file", path}});
   if (volume.type != image.type)
-    throw Error("the image \"" + path + "\" has numbers of the type " + image.type + ", but those below it have " +
-                volume.type + "; all images of a stack need the same type");
+    throw Error(Code::file_content,
+                "the image \"" + path + "\" has numbers of the type " + image.type + ", but those below it have " +
+                    volume.type + "; all images of a stack need the same type",
+                {{"file", path}});
   std::visit(
       [&]<class T>(std::vector<T>& values) {
         const auto& rows = std::get<std::vector<T>>(image.values);
@@ -132,7 +140,9 @@ formats::VoxelVolume read_numbers(const std::string& path, const VolumeParts& pa
 
 void check_no_channel(const std::string& path, int channel) {
   if (channel > 0)
-    throw Error("the scan \"" + path + "\" has one value in each voxel, and no channel " + std::to_string(channel));
+    throw Error(Code::file_content,
+                "the scan \"" + path + "\" has one value in each voxel, and no channel " + std::to_string(channel),
+                {{"file", path}});
 }
 
 }  // namespace

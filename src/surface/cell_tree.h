@@ -63,8 +63,8 @@ class CellTree {
   void forget_growth() { grown_.clear(); }
   // Leaves get new numbers.
   void grow(const Growth& growth, const LabelQuery& ask);
-  // Grows again and again by what `more` asks for. It gets the leaves in and around the cells of the grid that grew
-  // last; what was cut is still among all leaves() until the end, but is not found.
+  // Grows by what `more` requests until it requests nothing. `more` gets the leaves in and around the cells of the grid
+  // that grew last; what was cut is still among all leaves() until the end, but is not found.
   using MoreGrowth = std::function<Growth(const std::vector<uint32_t>& leaves)>;
   void grow_on(Growth growth, const LabelQuery& ask, const MoreGrowth& more);
 

@@ -1,4 +1,4 @@
-// Whether facets and the borders of regions keep together within a tolerance.
+// Checks whether facets and the borders of regions agree within a tolerance.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ class FacetCheck {
   void check(const QuadSurface& surface);
   // Crossings, and the quads around them, have other numbers.
   void renumber(const std::vector<Crossing>& crossings);
-  // As the last look said; in order.
+  // The far quads of the last check, in order.
   std::vector<uint32_t> far_quads() const;
   // Places on borders that quads among them pass by.
   std::vector<Vec3> missed_borders() const;

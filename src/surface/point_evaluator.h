@@ -1,4 +1,4 @@
-// Asks the details of a partition at scattered points, in double precision.
+// Evaluates the details of a partition at scattered points, in double precision.
 #pragma once
 
 #include <limits>
@@ -20,11 +20,11 @@ class PointEvaluator {
  public:
   // `program` gives the partition's details in a region that holds all points.
   void begin(const Partition& partition, const program::Program& program);
-  // The answers replace those of the last call.
+  // The results replace those of the last call.
   void ask(const std::vector<Vec3>& points);
 
   Label label(size_t n) const { return static_cast<Label>(value(Partition::label_output, n)); }
-  // What goes from negative to positive on the way from region a to region b.
+  // A number that goes from negative to positive on the way from region a to region b.
   double between(Label a, Label b, size_t n) const;
 
  private:

@@ -1,4 +1,4 @@
-// Regions at scattered points, in parallel.
+// Finds the regions of scattered points, in parallel.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace ombre::surface {
 
-// By the reference evaluator. Throws Cancelled.
+// Uses the reference evaluator. Throws Cancelled.
 std::vector<Label> labels_at(const Partition& partition, const std::vector<Vec3>& points, int threads,
                              const StopFlag* stop = nullptr);
 

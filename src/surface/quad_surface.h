@@ -34,7 +34,7 @@ class QuadSurface {
   std::span<const uint32_t> quads_around(uint32_t vertex) const {
     return std::span(quads_of_vertices_).subspan(quad_begins_[vertex], quad_begins_[vertex + 1] - quad_begins_[vertex]);
   }
-  // Of quads: equal where they look the same, also after their clusters got other numbers.
+  // Hashes of the quads' shapes: equal where the shapes are, also after their clusters got other numbers.
   const std::vector<uint64_t>& shape_hashes() const { return shape_hashes_; }
   // Whether the quad is small, the border around it nearly flat, and the quad along it.
   bool is_calm(uint32_t quad) const;

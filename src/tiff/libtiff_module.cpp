@@ -101,7 +101,7 @@ class Reading {
  private:
   [[noreturn]] void fail(const std::string& reason = "") const {
     const std::string why = !reason.empty() ? reason : file_.first_error.empty() ? "it is broken" : file_.first_error;
-    throw Error("the image \"" + name_ + "\" cannot be read: " + why);
+    throw Error(Code::file_content, "the image \"" + name_ + "\" cannot be read: " + why, {{"file", name_}});
   }
 
   template <class T>

@@ -95,7 +95,7 @@ auto guarded(const std::string& what, F f) {
     throw Error(Code::memory, what + ": not enough memory; choose larger voxels with " + spelled::option("--voxel") +
                                   ", or a part with " + spelled::option("--box"));
   } catch (const std::exception& error) {
-    throw Error(what + ": " + error.what());
+    throw Error(Code::cannot_write, what + ": " + error.what());
   }
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double most_bytes = 16.0 * (1U << 30);
 
 [[noreturn]] void fail(const std::string& path, const std::string& message) {
-  throw Error("the grid file \"" + path + "\" " + message);
+  throw Error(Code::file_content, "the grid file \"" + path + "\" " + message, {{"file", path}});
 }
 
 std::string names_in(openvdb::io::File& file) {
@@ -149,16 +149,19 @@ void ombre_read_vdb_grid(const std::string* path, const std::string* name, int c
   const HelperLimits limits{least_seconds + seconds_for_a_byte * static_cast<double>(failed ? 0 : size),
                             size_t{40} << 30};
   const auto explain = [&](HelperFailure failure) {
-    return "the grid file \"" + *path + "\" is broken: reading it " +
-           (failure == HelperFailure::crashed ? "crashes the library" : "takes too long");
+    return Error(Code::file_content,
+                 "the grid file \"" + *path + "\" is broken: reading it " +
+                     (failure == HelperFailure::crashed ? "crashes the library" : "takes too long"),
+                 {{"file", *path}});
   };
   const auto work = [&] {
     try {
       return pack(read(*path, *name, channel));
     } catch (const openvdb::Exception& error) {
-      throw Error("the grid file \"" + *path + "\" cannot be read: " + error.what());
+      throw Error(Code::cannot_read, "the grid file \"" + *path + "\" cannot be read: " + error.what(),
+                  {{"file", *path}});
     } catch (const std::bad_alloc&) {
-      throw Error("the grid file \"" + *path + "\" needs more memory than there is");
+      throw Error(Code::memory, "the grid file \"" + *path + "\" needs more memory than there is");
     }
   };
   *grid = unpack(run_in_helper(work, limits, explain, stop));

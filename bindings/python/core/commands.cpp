@@ -130,7 +130,7 @@ int run_main(const std::vector<std::string>& arguments, const py::function& load
     const py::gil_scoped_acquire lock;
     script_design = load_script(path, options.materials, options.definitions);
     if (!script_design.is_none()) return script_design.cast<DesignHandle&>().loaded();
-    diagnostics.error({}, path + " gives no design");
+    diagnostics.error(Code::script, {}, path + " gives no design");
     return compile::LoadedPtr();
   };
   const auto list = pointers(arguments);

@@ -256,10 +256,10 @@ std::unique_ptr<DesignHandle> from_json(const CachePtr& cache, const std::string
 std::string to_json(const DesignHandle& handle) {
   if (const design::Node* node = design::find_host_function(handle.design())) {
     Diagnostics diagnostics;
-    diagnostics.error(node->where(),
+    diagnostics.error(Code::parameters, node->where(),
                       node->type().name + " has a Python function, so the design can be neither saved, copied to " +
                           "another process nor resumed: nothing tells what the function is",
-                      "write it as an expression");
+                      "write it as an expression", {{"node", node->type().name}});
     raise_errors(diagnostics);
   }
   return print_json(design::to_data(handle.design()));

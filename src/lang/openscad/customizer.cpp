@@ -227,8 +227,9 @@ std::optional<std::vector<std::string>> parameter_set(const SourcePtr& file, con
     std::vector<std::string> names;
     if (sets && sets->members())
       for (const auto& [known, members] : *sets->members()) names.push_back(known);
-    diagnostics.error({file, 0, 0}, "there is no parameter set \"" + name + '"',
-                      names.empty() ? "the file has none" : "the file has " + join(names, ", "));
+    diagnostics.error(Code::unknown_object, {file, 0, 0}, "there is no parameter set \"" + name + '"',
+                      names.empty() ? "the file has none" : "the file has " + join(names, ", "),
+                      {{"file", file->name()}, {"name", name}});
     return std::nullopt;
   }
   std::vector<std::string> definitions;

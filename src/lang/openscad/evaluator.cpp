@@ -62,7 +62,7 @@ solids::TreePtr Evaluator::run() {
     return roots.empty() ? result : roots.front();
   } catch (const Stopped&) {
   } catch (const LimitReached& limit) {
-    say(Message::Kind::error, limit.message + (limit.hint.empty() ? "" : "; " + limit.hint), at_);
+    say(Message::Kind::error, limit.message + (limit.hint.empty() ? "" : "; " + limit.hint), at_, Code::limit);
   }
   return nullptr;
 }
@@ -100,9 +100,9 @@ std::pair<std::string, int> Evaluator::place(const ast::Span& where) {
           line};
 }
 
-void Evaluator::say(Message::Kind kind, std::string text, const ast::Span& where) {
+void Evaluator::say(Message::Kind kind, std::string text, const ast::Span& where, Code code) {
   auto [file, line] = place(where);
-  messages_.add({kind, std::move(text), std::move(file), line});
+  messages_.add({kind, std::move(text), std::move(file), line, code});
   if (kind == Message::Kind::warning && options_.stops_at_warnings) throw Stopped{};
 }
 
@@ -118,8 +118,8 @@ void Evaluator::warn_all(Problems& problems, const ast::Span& where) {
   }
 }
 
-void Evaluator::stop(std::string text, const ast::Span& where) {
-  say(Message::Kind::error, std::move(text), where);
+void Evaluator::stop(std::string text, const ast::Span& where, Code code) {
+  say(Message::Kind::error, std::move(text), where, code);
   throw Stopped{};
 }
 

@@ -124,10 +124,10 @@ class Evaluator {
   };
 
   // --- messages
-  void say(Message::Kind kind, std::string text, const ast::Span& where);
+  void say(Message::Kind kind, std::string text, const ast::Span& where, Code code = Code::script);
   void warn(std::string text, const ast::Span& where);
   void warn_all(Problems& problems, const ast::Span& where);
-  [[noreturn]] void stop(std::string text, const ast::Span& where);
+  [[noreturn]] void stop(std::string text, const ast::Span& where, Code code = Code::script);
   void trace(const std::string& name, const ast::Span& where);
   std::pair<std::string, int> place(const ast::Span& where);
 

@@ -229,7 +229,7 @@ void Evaluator::assert_true(const std::vector<ast::Argument>& arguments, const a
   std::string text = condition ? "Assertion '" + expression_text(*condition) + "' failed" : "Assertion failed";
   const Value note = message ? eval(*message, scope) : Value();
   if (!note.is_undef()) text += ": " + value_text(note, true, meter_);
-  stop(std::move(text), where);
+  stop(std::move(text), where, Code::assertion);
 }
 
 void Evaluator::echo(const std::vector<ast::Argument>& arguments, const ScopePtr& scope) {

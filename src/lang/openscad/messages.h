@@ -19,6 +19,7 @@ struct Message {
   std::string text;
   std::string file;  // empty: nowhere in particular
   int line = 0;
+  Code code = Code::script;  // of an error
 
   bool operator==(const Message&) const = default;
 };

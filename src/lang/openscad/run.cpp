@@ -90,9 +90,10 @@ void report_syntax(const Diagnostics& found, const std::string& main, Messages& 
     if (is_unterminated(diagnostic)) {
       const bool is_string = diagnostic.message.starts_with("the string");
       messages.add({Message::Kind::error,
-                    std::string("Parser error: Unterminated ") + (is_string ? "string" : "comment"), file, line});
+                    std::string("Parser error: Unterminated ") + (is_string ? "string" : "comment"), file, line,
+                    Code::syntax});
     }
-    messages.add({Message::Kind::error, "Parser error: syntax error", file, line});
+    messages.add({Message::Kind::error, "Parser error: syntax error", file, line, Code::syntax});
   }
   messages.add({Message::Kind::note, "Can't parse file '" + main + "'!\n", "", 0});
 }

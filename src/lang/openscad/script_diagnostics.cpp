@@ -29,7 +29,7 @@ void add_diagnostics(const Messages& messages, const SourcePtr& script, const So
     // Of other files, the line says which.
     const std::string text = where == otherwise && !message.file.empty() ? to_line(message) : message.text;
     if (message.kind == Kind::error && !messages.details.has_errors())
-      diagnostics.error(where, text);
+      diagnostics.error(message.code, where, text);
     else if (message.kind == Kind::warning || message.kind == Kind::deprecated)
       diagnostics.warning(where, text);
     else if (message.kind == Kind::echo)

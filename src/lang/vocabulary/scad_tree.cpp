@@ -195,8 +195,8 @@ WordSolids ScadTreeReader::solids_of(const TreePtr& pointer) {
 
 WordSolids ScadTreeReader::needs_polyhedra(const Tree& tree) {
   const std::string name = called_name(tree.where);
-  diagnostics_.error(tree.where, name + "() works on polyhedra, and a solid of use <ombre> stands in it",
-                     "use " + name + "() first, and give the word what it makes");
+  diagnostics_.error(Code::inputs, tree.where, name + "() works on polyhedra, and a solid of use <ombre> stands in it",
+                     "use " + name + "() first, and give the word what it makes", {{"node", name}});
   return {};
 }
 

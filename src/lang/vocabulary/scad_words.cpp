@@ -105,7 +105,7 @@ std::optional<design::Design> ScadWords::finish(const solids::TreePtr& tree, con
     if (!solid.node->is_nothing())
       design.parts.push_back({solid.part.empty() ? std::string(design::nameless_part) : solid.part, solid.node});
   if (!design.parts.empty()) return design;
-  diagnostics.error(whole, "the script makes no solid");
+  diagnostics.error(Code::nothing_inside, whole, "the script makes no solid");
   return std::nullopt;
 }
 

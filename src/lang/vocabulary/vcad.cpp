@@ -177,7 +177,7 @@ std::vector<NodePtr> VcadVocabulary::groups(const NodeType& type, const Invocati
 
 NodePtr VcadVocabulary::make_root(Invocation& call, Diagnostics& diagnostics) {
   const auto fail = [&](const SourceRange& where, const std::string& message, const Phrase& hint = {}) {
-    diagnostics.error(where, message, hint);
+    diagnostics.error(Code::script, where, message, hint);
     return nullptr;
   };
   if (!call.is_top_level) return fail(call.where, "root stands at the top level of the main file only");
@@ -230,13 +230,13 @@ std::optional<design::Design> VcadVocabulary::finish(std::vector<Product> produc
   if (root_where_) {
     for (const NodePtr& beside : top_level)
       if (beside != root_ && !beside->is_nothing())
-        diagnostics.error(beside->where(), "this stands beside root, which is all that is sampled",
+        diagnostics.error(Code::script, beside->where(), "this stands beside root, which is all that is sampled",
                           "put it inside the braces of root");
     if (diagnostics.has_errors()) return std::nullopt;
   }
   const std::vector<NodePtr>& solids = root_where_ ? root_children_ : top_level;
   if (std::ranges::all_of(solids, [](const NodePtr& solid) { return solid->is_nothing(); })) {
-    diagnostics.error(whole, "the design is empty: nothing in it makes a solid",
+    diagnostics.error(Code::nothing_inside, whole, "the design is empty: nothing in it makes a solid",
                       "write for example sphere(5, \"red\");");
     return std::nullopt;
   }
@@ -251,7 +251,9 @@ std::optional<design::Design> VcadVocabulary::finish(std::vector<Product> produc
     }
     const std::string name = *solid->type().get(*solid, 0, false).string();
     for (const design::Part& other : design.parts)
-      if (other.name == name) diagnostics.error(solid->where(), "there are two parts with the name \"" + name + "\"");
+      if (other.name == name)
+        diagnostics.error(Code::twice, solid->where(), "there are two parts with the name \"" + name + "\"", {},
+                          {{"name", name}});
     design.parts.push_back({name, solid});
   }
   if (!unnamed.empty()) {
