@@ -9,6 +9,7 @@ tests/python/test_codes.py does so for Python.
 import json
 import pathlib
 import re
+import shutil
 import sys
 import tempfile
 
@@ -108,6 +109,14 @@ def check_machine(ombre, folder):
     program.run([ombre, "slice", design, "--voxel", "1", "-o", folder / "layers"])
     error = first_error(ombre, design)
     assert error["code"] == "exists" and "--force" in error["message"], error
+    assert error["values"] == {"file": str(folder / "layers")}, error
+    error = first_error(ombre, design, "--materials", "none.json")
+    assert error["code"] == "file-missing" and error["values"] == {"file": "none.json"}, error
+    taken = folder / "taken"
+    taken.mkdir()
+    (taken / "layers").write_text("no folder", encoding="utf-8")
+    error = first_error(ombre, pathlib.Path(shutil.copy(design, taken)))
+    assert error["code"] == "cannot-write" and error["values"] == {"file": str(taken / "layers")}, error
 
 
 def check_all_used():
@@ -154,7 +163,7 @@ def check_wrong_designs(ombre):
 
 def check_all_coded():
     """Errors have a code where they are thrown."""
-    general = re.compile(r"throw (?:ombre::)?Error\((?!\s*(?:Code::|code\b))")
+    general = re.compile(r"throw (?:ombre::)?Error\((?!\s*(?:ombre::)?(?:Code::|code\b))")
     without = {path.relative_to(program.SOURCE).as_posix()
                for top in ("src", "apps", "bindings/python/core") for path in (program.SOURCE / top).rglob("*")
                if path.suffix in (".h", ".cpp") and "test_" not in path.name and "_test" not in path.name

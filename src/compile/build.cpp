@@ -128,7 +128,7 @@ std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnos
       if (report_beyond_limit(*part.solid, diagnostics)) return std::nullopt;
       diagnostics.error(
           Code::unbounded, part.solid->where(),
-          "this has no end along " + std::string(1, static_cast<char>('x' + axis)),
+          "the solid is unbounded along " + std::string(1, static_cast<char>('x' + axis)),
           "give the function bounds, intersect it with a bounded solid, or " +
               spelled::either("put everything into root(min, max, voxel)", "say \"sampling\" with min, max and voxel",
                               "give the design a box and a voxel: ombre.Design(solid, box=..., voxel=...)"));

@@ -20,12 +20,13 @@ inline expr::Variables child_variables(const design::Inputs& in, const program::
   };
 }
 
-// `use` says who takes the value for a distance: "offset measures from".
+// `user` names what needs a distance: "offset".
 inline void warn_of_implicit_distance(const design::Reader& reader, const design::Node& input,
-                                      const std::string& use = "\"d\" is used over") {
+                                      const std::string& user = "\"d\"") {
   if (!input.metric().is_implicit()) return;
-  reader.diagnostics.warning(Code::distance_unknown, reader.where, use + " a shape of which only the sign is known",
-                             "its value is taken as it is, which need not be a distance in mm");
+  reader.diagnostics.warning(Code::distance_unknown, reader.where,
+                             user + " needs distances, but this shape only gives a sign",
+                             "the result may not be in mm; redistance gives it distances");
 }
 
 // False, and a diagnostic, when the numbers use what the input does not know.

@@ -70,7 +70,7 @@ struct ConformalMap {
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
-    warn_of_implicit_distance(reader, *inputs[0], "conformal_map measures from");
+    warn_of_implicit_distance(reader, *inputs[0], "conformal_map");
     if (length(direction) > 0) return true;
     reader.diagnostics.error(reader.where, "the ref_dir of conformal_map has no direction",
                              "write " + spelled::either("x, y, z or for example (1, 1, 0)", "for example [1, 1, 0]",
@@ -146,7 +146,7 @@ struct SurfaceMap {
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
-    for (size_t i = 0; i < 2; ++i) warn_of_implicit_distance(reader, *inputs[i], "surface_map measures from");
+    for (size_t i = 0; i < 2; ++i) warn_of_implicit_distance(reader, *inputs[i], "surface_map");
     return true;
   }
 

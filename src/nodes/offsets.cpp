@@ -39,7 +39,7 @@ struct Offset {
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
-    warn_of_implicit_distance(reader, *inputs[0], "offset measures from");
+    warn_of_implicit_distance(reader, *inputs[0], "offset");
     return true;
   }
 
@@ -79,7 +79,7 @@ struct Shell {
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
-    warn_of_implicit_distance(reader, *inputs[0], "shell measures from");
+    warn_of_implicit_distance(reader, *inputs[0], "shell");
     return true;
   }
 

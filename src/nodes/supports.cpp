@@ -46,8 +46,9 @@ struct Support {
       return false;
     }
     if (clearance > 0 && inputs[0]->metric().is_implicit())
-      reader.diagnostics.warning(reader.where, "clearance is kept from a shape of which only the sign is known",
-                                 "its value is taken as it is, which need not be a distance in mm");
+      reader.diagnostics.warning(Code::distance_unknown, reader.where,
+                                 "clearance needs distances, but this shape only gives a sign",
+                                 "the result may not be in mm; redistance gives it distances");
     stage = reader.loader->support(inputs[0], {angle, pitch}, reader);
     return stage != nullptr;
   }

@@ -59,7 +59,7 @@ struct Tile {
                         spelled::parameter("last", "(9, 9, 0)"));
       if (axis.step == 0) continue;
       if (axis.hi - axis.lo >= design_limit_mm)
-        return fail("what tile repeats has no end along " + std::string(1, "xyz"[n]),
+        return fail("the child of tile is unbounded along " + std::string(1, "xyz"[n]),
                     inputs[0]->uses_cell() ? "bound sizes that use ci, cj or ck, for example clamp(0.5, 1 + 0.1*ci, 2)"
                                            : "cut it to size first, or write 0 for that axis");
       axis.is_one_enough = step[n] >= traits.nearest_copy_is_enough_from[n];

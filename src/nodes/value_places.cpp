@@ -132,7 +132,7 @@ struct DistanceTo {
   }
 
   bool complete(const Reader& reader) const {
-    warn_of_sign_alone(reader, solid, "distance_to measures from");
+    warn_of_sign_alone(reader, solid, "distance_to");
     return true;
   }
 
@@ -162,7 +162,7 @@ struct Mask {
   }
 
   bool complete(const Reader& reader) const {
-    if (width > 0) warn_of_sign_alone(reader, solid, "mask measures from");
+    if (width > 0) warn_of_sign_alone(reader, solid, "mask");
     return true;
   }
 

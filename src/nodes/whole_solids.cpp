@@ -77,7 +77,7 @@ struct Redistance {
     return {
         "redistance",
         "voxel shapes",
-        "Gives its child, of which only the sign is known (a scan, a formula), distances in mm that offset, shell and "
+        "Gives its child, which only has a sign (a scan, a formula), distances in mm that offset, shell and "
         "blends can use.",
         {{"margin", &Redistance::margin, "How far around the child distances are known", positive("mm")},
          {"pitch", &Redistance::pitch, about_pitch, unit::positive_mm}},

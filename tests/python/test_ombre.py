@@ -328,7 +328,7 @@ def test_what_is_no_number_is_outside():
     (lambda: ombre.cube(1).mesh("x.xyz"), ombre.DesignError, "let it end in"),
     (lambda: ombre.cube(1).slice("x", prnter="j750"), TypeError, "did you mean 'printer'"),
     (lambda: ombre.cube(1).slice("x", printer="j75"), ombre.DesignError, "j750"),
-    (lambda: ombre.half_space((0, 0, 1)).volume(), ombre.DesignError, "no end along"),
+    (lambda: ombre.half_space((0, 0, 1)).volume(), ombre.DesignError, "unbounded along"),
     (lambda: ombre.Design(), ValueError, "at least one part"),
     (lambda: ombre.Design(3), TypeError, "expected a solid"),
     (lambda: ombre.Design(ombre.cube(1), part=ombre.cube(1)), ValueError, "two parts"),

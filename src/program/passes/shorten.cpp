@@ -49,7 +49,7 @@ ValueId Shortener::settled(ValueId i) const {
       if (values[in.a] == Interval(0)) return in.c;
       return i;
     case Op::add: {
-      // Zeros aside, whose sign a sum may change.
+      // x + 0 is x, except that -0 + 0 is +0; this is left out where the sign of zero matters.
       const bool any_zero = zero_sign_matters_[i] == 0;
       if (values[in.a] == Interval(0) && (any_zero || lacks_zero(values[in.b]))) return in.b;
       if (values[in.b] == Interval(0) && (any_zero || lacks_zero(values[in.a]))) return in.a;
