@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "surface/point_asker.h"
+#include "surface/shortened.h"
 
 namespace ombre::compile {
 namespace {

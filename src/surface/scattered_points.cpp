@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/tasks.h"
 #include "surface/point_asker.h"
+#include "surface/shortened.h"
 
 namespace ombre::surface {
 namespace {
