@@ -2,25 +2,25 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/file_ending.h"
 #include "base/text.h"
 #include "compile/bundle.h"
+#include "compile/bundle_choices.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/interrupt.h"
+#include "ombre/options.h"
 #include "ombre/overwrite.h"
 
 namespace ombre::cli {
 namespace {
 
-struct BundleArguments {
-  std::string design, materials, output;
-  bool force = false;
-};
+using compile::BundleChoices;
 
-int write_bundle(const BundleArguments& a, Session& session) {
+int write_bundle(const BundleChoices& a, Session& session) {
   namespace fs = std::filesystem;
   const fs::path design(a.design);
-  if (to_lower(design.extension().string()) == ".py")
+  if (ending_of(design) == ".py")
     throw WrongArgument(a.design +
                         " is a Python script, which may read anything; write its design into a file first: " +
                         "ombre slice " + a.design + " --emit json > " + design.stem().string() + ".json");
@@ -55,14 +55,8 @@ int write_bundle(const BundleArguments& a, Session& session) {
 
 Command add_bundle(CLI::App& program, OutputOptions& output) {
   CLI::App* app = program.add_subcommand("bundle", "Put a design and the files that it reads into one file");
-  auto arguments = std::make_shared<BundleArguments>();
-  app->add_option("design", arguments->design, "The design: a .vcad, .scad or .json file")
-      ->required()
-      ->type_name("FILE");
-  app->add_option("--materials", arguments->materials, "Materials file, which is in the bundle too")->type_name("FILE");
-  app->add_option("-o,--output", arguments->output, "The bundle to write (default: the design's name with .ombre)")
-      ->type_name("FILE");
-  app->add_flag("--force", arguments->force, "Replace the bundle if it is there");
+  auto arguments = std::make_shared<BundleChoices>();
+  add_options(*app, *arguments);
   add_output_options(*app, output);
   app->footer(
       "A bundle is a zip archive, which opens by itself wherever a design is expected.\n\n"
@@ -70,7 +64,8 @@ Command add_bundle(CLI::App& program, OutputOptions& output) {
       "  ombre bundle part.vcad                 part.ombre\n"
       "  ombre slice part.ombre --printer j750\n"
       "  ombre studio part.ombre\n");
-  return {app, [arguments](Session& session) { return write_bundle(*arguments, session); }};
+  return {app, [arguments](Session& session) { return write_bundle(*arguments, session); },
+          BundleChoices::options().options()};
 }
 
 }  // namespace ombre::cli

@@ -19,10 +19,4 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
                         '{' + join(names, ",") + '}', "");
 }
 
-void add_threads(CLI::App& app, int& threads) {
-  app.add_option("--threads", threads, "Threads (default: all cores); never changes a result")
-      ->check(whole_between(1, 1024))
-      ->type_name("N");
-}
-
 }  // namespace ombre::cli

@@ -16,7 +16,4 @@ CLI::Validator between(double least, double greatest);
 CLI::Validator whole_between(int least, int greatest);
 CLI::Validator one_of(const std::vector<std::string>& names);
 
-// The option of all that run on several threads; without it `threads` stays as it is.
-void add_threads(CLI::App& app, int& threads);
-
 }  // namespace ombre::cli

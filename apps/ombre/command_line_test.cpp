@@ -52,6 +52,7 @@ TEST(CommandLine, SlipsGetSuggestions) {
   expect_wrong({"slice", "part.vcad", "--printer", "j570"}, "did you mean \"j750\"?");
   expect_wrong({"slice", "part.vcad", "--voxel", "thin"}, "write for example --voxel 0.1");
   expect_wrong({"slice", "part.vcad", "--force", "--resume"}, "--force and --resume do not go together");
+  expect_wrong({"voxels", "part.vcad", "--ouput", "part.npy"}, "did you mean \"--output\"?");
   expect_wrong({"nodes", "spere"}, "did you mean \"sphere\"?");
 }
 

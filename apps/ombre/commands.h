@@ -6,8 +6,9 @@
 #include <string>
 
 #include "base/progress.h"
-#include "ombre/command_line.h"
 #include "ombre/console.h"
+#include "ombre/exit_codes.h"
+#include "ombre/host.h"
 #include "options/option.h"
 
 namespace ombre::cli {

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/json.h"
-#include "ombre/command_line.h"
+#include "ombre/host.h"
 
 namespace ombre::cli {
 namespace {

@@ -10,6 +10,7 @@
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
+#include "ombre/job_steps.h"
 #include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
@@ -108,7 +109,6 @@ void tell_totals(const Console& console, const ContourChoices& a, const formats:
 int write(const ContourChoices& a, OutlineFormat format, const compile::ContourPlan& plan, Session& session,
           const StopFlag& stop) {
   const Stopwatch watch;
-  tell_plan(session.console, plan, a.work.threads);
   const auto document = document_of(plan, std::filesystem::path(a.design.design).stem().string());
   Totals totals(plan.regions.size());
   const auto files = exporting::begin_outline_files(
@@ -133,15 +133,16 @@ int contours(const ContourChoices& a, Session& session) {
   if (format == OutlineFormat::svg && !request.z_mm)
     throw WrongArgument(spelled::option("-o", a.output) + " holds one layer; say which with " + spelled::option("--z") +
                         ", or name a folder: -o " + std::filesystem::path(a.output).stem().string() + "/");
-  refuse_to_overwrite_layers(a, format);
-
-  Diagnostics diagnostics;
-  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
   request.stop = &session.stop;
-  const auto plan = loaded ? compile::plan_contours(*loaded, request, diagnostics) : std::nullopt;
-  session.console.diagnose(diagnostics);
-  if (!plan || diagnostics.has_errors()) return wrong_input;
-  return write(a, format, *plan, session, session.stop);
+  JobSteps<compile::ContourPlan> steps;
+  steps.refuse = [&] { refuse_to_overwrite_layers(a, format); };
+  steps.plan = [&](Diagnostics& diagnostics) {
+    const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
+    return loaded ? compile::plan_contours(*loaded, request, diagnostics) : std::nullopt;
+  };
+  steps.check = [&](const compile::ContourPlan& plan) { tell_plan(session.console, plan, a.work.threads); };
+  steps.run = [&](const compile::ContourPlan& plan) { return write(a, format, plan, session, session.stop); };
+  return take_steps(steps, session);
 }
 
 }  // namespace

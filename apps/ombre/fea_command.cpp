@@ -4,32 +4,67 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/file_ending.h"
 #include "base/json.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "compile/fea_selection.h"
 #include "compile/fea_xdmf.h"
-#include "compile/find_printer.h"
 #include "export/output_file.h"
 #include "fea/calculix.h"
 #include "fea/inp_writer.h"
 #include "fea/mesh_elastic.h"
 #include "fea/vtu_writer.h"
 #include "formats/file.h"
-#include "ombre/checks.h"
 #include "ombre/commands.h"
+#include "ombre/fea_files.h"
 #include "ombre/fea_repeat.h"
 #include "ombre/fea_report.h"
 #include "ombre/fea_rounds.h"
+#include "ombre/job_arguments.h"
+#include "ombre/job_steps.h"
+#include "ombre/options.h"
 #include "ombre/progress_line.h"
+#include "ombre/solve_memory.h"
 
 namespace ombre::cli {
 namespace {
 
-fea::BrickType type_of(const std::string& name) {
-  if (name == "C3D8I") return fea::BrickType::c3d8i;
-  return name == "C3D8R" ? fea::BrickType::c3d8r : fea::BrickType::c3d8;
-}
+using compile::FeaChoices;
+
+constexpr const char* fea_footer =
+    "Lengths are millimetres, forces newtons, stresses MPa; heat is in watts, temperatures are degrees Celsius.\n\n"
+    "FILE ends in\n"
+    "  .inp   a deck for Abaqus and CalculiX, complete with supports and loads\n"
+    "  .vtu   a grid for ParaView and others with VTK: fractions, attributes, moduli; with --solve the results too\n"
+    "  .xdmf  the same for ParaView and FEniCSx, its numbers in a file of HDF5 beside it, part.h5\n"
+    "  .csv   with --rounds: a line for each round\n\n"
+    "--rounds solves a design that reads its own results: the variable --follow gets the name of the .vtu file of the\n"
+    "round before, until nothing changes. Files get the number of their round: part_1.vtu, part_2.vtu.\n\n"
+    "STUDY is a JSON file: properties of materials, what is held, what pulls.\n"
+    "  {\"materials\": {\"red\": {\"modulus_mpa\": 2850, \"poissons_ratio\": 0.39, \"density_kg_m3\": 1180}},\n"
+    "   \"supports\": [{\"on\": \"zmin\", \"fix\": \"xyz\"}],\n"
+    "   \"loads\": [{\"on\": \"zmax\", \"force_n\": [0, 0, -10]}]}\n"
+    "\"on\" is a side of the part (xmin to zmax), or braces with some of \"box\": [x0, y0, z0, x1, y1, z1], \"plane\": "
+    "[x, y, z,\n"
+    "nx, ny, nz], \"facing\": [0, 0, 1], \"material\": \"red\", \"part\": \"arm\" and \"where\": \"z > 9 && x < 2\". A "
+    "support says\n"
+    "\"fix\" or \"displacement_mm\": [null, null, -1]; a load \"force_n\" or \"pressure_mpa\"; \"gravity_mm_s2\" is a "
+    "vector.\n"
+    "With \"physics\": \"heat\" or \"electric\" materials have \"conductivity_w_mk\" or \"conductivity_s_m\", "
+    "supports\n"
+    "\"temperature_c\" or \"potential_v\", and loads \"heat_w\", \"flux_w_mm2\" or \"film_w_m2k\" with \"ambient_c\"; "
+    "or\n"
+    "\"current_a\" or \"current_a_mm2\". \"mean_strain\": [xx, yy, zz, xy, yz, zx] in place of supports and loads "
+    "means a cell\n"
+    "that repeats, whose deck ties copies of nodes.\n\n"
+    "Examples:\n"
+    "  ombre fea part.vcad --study pull.json --cell 1 -o part.inp\n"
+    "  ombre fea part.vcad --study pull.json --cell 0.5 --solve -o part.vtu\n"
+    "  ombre fea part.vcad --study pull.json --elements tet10 --size 1.5 --solve -o part.vtu\n"
+    "  ombre fea part.vcad --study pull.json --elements tet4 --size-by \"min_cell + h*(max_cell - min_cell)\" \\\n"
+    "            --min-cell 0.5 --max-cell 3 -o part.inp\n"
+    "  ombre fea seat.vcad --study rider.json --cell 4 --rounds 5 --follow moved -o seat.vtu -o seat.csv\n";
 
 std::optional<fea::Study> read_study(const std::string& path, Diagnostics& diagnostics) {
   const auto data = parse_json(make_source(path, formats::read_file(path)), diagnostics);
@@ -47,16 +82,14 @@ void write_xdmf(const std::string& path, const Case& here, const compile::FeaRes
   exporting::write_file(path, files.xdmf);
 }
 
-void write_output(const FeaArguments& a, const std::string& path, const Case& here,
-                  const compile::FeaResults& results) {
+void write_output(const FeaChoices& a, const std::string& path, const Case& here, const compile::FeaResults& results) {
   if (ending_of(path) == ".xdmf") return write_xdmf(path, here, results);
   exporting::NewFile file(path);
   const fea::Sink sink = [&](std::string_view bytes) { file.append(bytes); };
   const fea::ModelView model = here.view();
   const fea::Physics physics = here.conditions.physics;
   if (ending_of(path) == ".inp")
-    fea::write_inp(model, here.conditions, type_of(a.element),
-                   std::filesystem::path(a.design.design).filename().string(), sink);
+    fea::write_inp(model, here.conditions, a.brick, std::filesystem::path(a.design.design).filename().string(), sink);
   else
     fea::write_vtu(model.mesh, compile::fea_element_fields(model, physics, results),
                    compile::fea_node_fields(physics, results), sink);
@@ -64,69 +97,43 @@ void write_output(const FeaArguments& a, const std::string& path, const Case& he
   file.commit();
 }
 
-std::optional<compile::PlanOptions> plan_options_of(const FeaArguments& a, Diagnostics& diagnostics) {
-  compile::SamplingOptions sampling;
-  if (!a.cell.empty()) sampling.voxel = parse_voxel(a.cell, "--cell");
-  sampling.rules.seed = options::parse_seed(a.seed);
-  return plan_options(sampling, diagnostics);
-}
-
-std::optional<compile::Plan> plan_bricks(const FeaArguments& a, const compile::LoadedPtr& loaded, Session& session,
+std::optional<compile::Plan> plan_bricks(const FeaChoices& a, const compile::LoadedPtr& loaded, Session& session,
                                          Diagnostics& diagnostics) {
-  auto options = plan_options_of(a, diagnostics);
+  const auto options = plan_options(a.sampling(), a.work, session, diagnostics);
   if (!options) return std::nullopt;
-  options->threads = a.threads;
-  options->stop = &session.stop;
   return compile::plan_slice(loaded, *options, diagnostics);
-}
-
-compile::FeaRequest request_of(const FeaArguments& a) {
-  compile::FeaRequest request;
-  if (a.assign == "mix") request.assign = compile::FeaRequest::Assign::mix;
-  if (!a.modulus.empty()) request.modulus = a.modulus;
-  if (!a.conductivity.empty()) request.conductivity = a.conductivity;
-  request.most_sections = static_cast<size_t>(a.sections);
-  request.threads = a.threads;
-  return request;
-}
-
-compile::SizeRequest size_of(const FeaArguments& a) {
-  if (a.size_by.empty()) return {a.size, a.size, ""};
-  return {a.min_cell, a.max_cell, a.size_by};
 }
 
 // The model of a study of this design; with a period it repeats.
 class ModelMaker {
  public:
-  ModelMaker(const FeaArguments& a, const compile::LoadedPtr& loaded, const fea::Study& study,
+  ModelMaker(const FeaChoices& a, const compile::LoadedPtr& loaded, const fea::Study& study,
              const std::optional<Box>& period, Session& session, Diagnostics& diagnostics)
       : a_(a), loaded_(loaded), study_(study), period_(period), session_(session), diagnostics_(diagnostics) {}
 
   std::optional<fea::Model> bricks() {
-    FeaArguments own = a_;
+    FeaChoices own = a_;
     compile::LoadedPtr sampled = loaded_;
     if (period_) {
       sampled = with_repeating_bricks(a_, loaded_, *period_, diagnostics_);
-      own.cell.clear();  // the bricks of the period are the design's own
+      own.cell.reset();  // the bricks of the period are the design's own
     }
     if (!sampled) return std::nullopt;
     const auto plan = plan_bricks(own, sampled, session_, diagnostics_);
     if (!plan) return std::nullopt;
     ProgressLine progress(session_.console, Counted::voxels);
-    return compile::fea_model(sampled, *plan, study_, request_of(a_), diagnostics_, &progress, &session_.stop);
+    return compile::fea_model(sampled, *plan, study_, a_.request(), diagnostics_, &progress, &session_.stop);
   }
 
   std::optional<compile::TetraModel> tetrahedra() {
-    const auto options = plan_options_of(a_, diagnostics_);
-    if (!options) return std::nullopt;
     compile::TetraRequest request;
-    request.size = size_of(a_);
-    request.quadratic = a_.elements == "tet10";
+    request.size = a_.size();
+    request.quadratic = a_.elements == FeaChoices::Elements::tet10;
     request.by_material = !a_.subdomains.empty();
-    request.sections = request_of(a_);
-    request.seed = options->seed;
+    request.sections = a_.request();
+    request.seed = a_.seed;
     request.period = period_;
-    request.memory_bytes = parse_memory(a_.memory);
+    request.memory_bytes = a_.work.memory_bytes;
     request.announce = [&](const compile::TetraPlan& plan) {
       session_.console.say("about " + format_rounded(plan.elements, 2) + " tetrahedra; meshing takes about " +
                            format_bytes(plan.memory_bytes));
@@ -136,7 +143,7 @@ class ModelMaker {
   }
 
  private:
-  const FeaArguments& a_;
+  const FeaChoices& a_;
   const compile::LoadedPtr& loaded_;
   const fea::Study& study_;
   const std::optional<Box>& period_;
@@ -172,11 +179,11 @@ void warn_of_mesh(const Case& here, const fea::Study& study, Diagnostics& diagno
                         "choose a smaller --size");
 }
 
-std::optional<Case> make_case(const FeaArguments& a, Session& session, Diagnostics& diagnostics) {
+std::optional<Case> make_case(const FeaChoices& a, Session& session, Diagnostics& diagnostics) {
   const auto study = read_study(a.study, diagnostics);
   if (!study) return std::nullopt;
   if (study->mean_strain) check_repeats(a);
-  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
   if (!loaded) return std::nullopt;
   std::optional<Box> period;
   if (study->mean_strain) {
@@ -184,7 +191,7 @@ std::optional<Case> make_case(const FeaArguments& a, Session& session, Diagnosti
     if (!period) return std::nullopt;
   }
   ModelMaker maker(a, loaded, *study, period, session, diagnostics);
-  auto here = a.elements == "brick" ? case_of(maker.bricks()) : case_of(maker.tetrahedra());
+  auto here = a.elements == FeaChoices::Elements::brick ? case_of(maker.bricks()) : case_of(maker.tetrahedra());
   if (!here) return std::nullopt;
   warn_of_mesh(*here, *study, diagnostics);
   const fea::ModelView view = here->view();
@@ -192,15 +199,15 @@ std::optional<Case> make_case(const FeaArguments& a, Session& session, Diagnosti
     here->conditions = repeating_conditions(view, *period, *study->mean_strain);
     return here;
   }
-  const auto choose = compile::node_chooser(*loaded, view.mesh, a.threads, &session.stop);
+  const auto choose = compile::node_chooser(*loaded, view.mesh, a.work.threads, &session.stop);
   auto conditions = fea::conditions_of(*study, view, diagnostics, choose);
   if (!conditions) return std::nullopt;
   here->conditions = std::move(*conditions);
   return here;
 }
 
-compile::FeaResults solve_elsewhere(const FeaArguments& a, const Case& here, Session& session) {
-  const fea::CalculixOptions options{type_of(a.element), a.threads};
+compile::FeaResults solve_elsewhere(const FeaChoices& a, const Case& here, Session& session) {
+  const fea::CalculixOptions options{a.brick, a.work.threads};
   compile::FeaResults results;
   if (here.is_mechanics())
     results.solution = fea::solve_by_calculix(here.view(), here.conditions, options, &session.stop);
@@ -209,18 +216,18 @@ compile::FeaResults solve_elsewhere(const FeaArguments& a, const Case& here, Ses
   return results;
 }
 
-fea::Solver solver_of(const FeaArguments& a) {
+fea::Solver solver_of(const FeaChoices& a) {
   if (a.solver == "direct") return fea::Solver::direct;
   return a.solver == "multigrid" ? fea::Solver::multigrid : fea::Solver::automatic;
 }
 
-compile::FeaResults solve_case(const FeaArguments& a, const Case& here, Session& session) {
+compile::FeaResults solve_case(const FeaChoices& a, const Case& here, Session& session) {
   const Stopwatch watch;
   fea::SolveOptions options;
   options.tolerance = a.tolerance;
-  options.threads = a.threads;
+  options.threads = a.work.threads;
   options.solver = solver_of(a);
-  options.memory_bytes = static_cast<double>(parse_memory(a.memory)) - here.solve_bytes();
+  options.memory_bytes = static_cast<double>(a.work.memory_bytes) - here.solve_bytes();
   options.announce = [&](const fea::DirectUse& use) { tell_factorisation(session.console, use); };
   ProgressLine progress(session.console, Counted::steps);
   const fea::ModelView model = here.view();
@@ -239,27 +246,24 @@ compile::FeaResults solve_case(const FeaArguments& a, const Case& here, Session&
   return results;
 }
 
-void check_memory(const FeaArguments& a, const Case& here) {
-  const auto allowed = static_cast<double>(parse_memory(a.memory));
-  if (const double bytes = here.solve_bytes(); a.solve && a.solver != "calculix" && bytes > allowed)
-    throw Error(Code::memory, "solving takes about " + format_bytes(bytes) + " of memory, more than the " +
-                                  format_bytes(allowed) + " allowed; choose larger elements with " +
-                                  (here.tetrahedra() ? spelled::option("--size") : spelled::option("--cell")) +
-                                  ", or more " + spelled::option("--memory"));
+void check_memory(const FeaChoices& a, const Case& here) {
+  if (!a.solves() || a.solver == "calculix") return;
+  const Phrase option = here.tetrahedra() ? spelled::option("--size") : spelled::option("--cell");
+  refuse_little_memory(here.solve_bytes(), a.work.memory_bytes, "choose larger elements with " + option);
 }
 
-// The model of the design, said and found to fit; nothing, and diagnostics said, where something is wrong.
-std::optional<Case> next_case(const FeaArguments& a, Session& session) {
-  Diagnostics diagnostics;
-  auto made = make_case(a, session, diagnostics);
-  session.console.diagnose(diagnostics);
-  if (!made || diagnostics.has_errors()) return std::nullopt;
-  tell_model(session.console, *made);
-  check_memory(a, *made);
-  return made;
+// What comes before a model is solved or written.
+JobSteps<Case> steps_before(const FeaChoices& a, Session& session) {
+  JobSteps<Case> steps;
+  steps.plan = [&](Diagnostics& diagnostics) { return make_case(a, session, diagnostics); };
+  steps.check = [&](const Case& here) {
+    tell_model(session.console, here);
+    check_memory(a, here);
+  };
+  return steps;
 }
 
-void write_outputs(const FeaArguments& a, Session& session, const Case& here, const compile::FeaResults& results,
+void write_outputs(const FeaChoices& a, Session& session, const Case& here, const compile::FeaResults& results,
                    int round, DataList& files) {
   for (const std::string& path : a.outputs) {
     if (ending_of(path) == ".csv") continue;
@@ -271,12 +275,12 @@ void write_outputs(const FeaArguments& a, Session& session, const Case& here, co
 }
 
 // -D for the next round: the file with the results of this one.
-std::string definition_of(const FeaArguments& a, int round) {
+std::string definition_of(const FeaChoices& a, int round) {
   const auto grid = std::ranges::find_if(a.outputs, [](const std::string& path) { return ending_of(path) == ".vtu"; });
   return a.follow + "=" + std::filesystem::absolute(path_of_round(*grid, round)).string();
 }
 
-void write_history(const FeaArguments& a, const RoundHistory& history) {
+void write_history(const FeaChoices& a, const RoundHistory& history) {
   for (const std::string& path : a.outputs)
     if (ending_of(path) == ".csv") exporting::write_file(path, history.text());
 }
@@ -287,61 +291,85 @@ void tell_change(const Console& console, int round, std::optional<double> change
               (change ? "the mixture changed by at most " + format_rounded(*change, 3) : "other elements"));
 }
 
-int run_rounds(FeaArguments a, Session& session) {
-  const Stopwatch watch;
-  const std::vector<std::string> definitions = a.design.definitions;
-  a.design.needed = {a.follow};
-  RoundHistory history;
-  RoundModel before;
-  DataList files;
-  for (int round = 1; round <= a.rounds; ++round) {
-    const auto made = next_case(a, session);
-    if (!made) return wrong_input;
-    RoundModel now = round_model_of(made->view());
-    const auto change = round == 1 ? std::nullopt : change_between(before, now);
-    tell_change(session.console, round, change);
-    if (change && *change <= a.change) {
-      session.console.say("nothing changes any more after " + counted(static_cast<size_t>(round - 1), "round"));
-      break;
-    }
-    const compile::FeaResults results = solve_case(a, *made, session);
-    write_outputs(a, session, *made, results, round, files);
-    history.add(round, now, change, made->conditions.physics, results);
-    write_history(a, history);
-    before = std::move(now);
-    a.design.definitions = definitions;
-    a.design.definitions.push_back(definition_of(a, round));
+// Rounds of a design that reads its own results.
+class Rounds {
+ public:
+  Rounds(const FeaChoices& choices, Session& session) : a_(choices), session_(session) {
+    a_.design.needed = {a_.follow};
   }
-  for (const std::string& path : a.outputs)
-    if (ending_of(path) == ".csv") files.emplace_back(path);
-  session.console.say("the design that follows: -D " + a.design.definitions.back());
-  session.console.event("done", {{"files", files}, {"seconds", watch.seconds()}});
-  return done;
+
+  int run() {
+    const std::vector<std::string> definitions = a_.design.definitions;
+    for (int round = 1; round <= a_.rounds && !is_over_; ++round) {
+      JobSteps<Case> steps = steps_before(a_, session_);
+      steps.run = [&](const Case& here) { return run(round, here, definitions); };
+      if (const int code = take_steps(steps, session_); code != done) return code;
+    }
+    for (const std::string& path : a_.outputs)
+      if (ending_of(path) == ".csv") files_.emplace_back(path);
+    session_.console.say("the design that follows: -D " + a_.design.definitions.back());
+    session_.console.event("done", {{"files", files_}, {"seconds", watch_.seconds()}});
+    return done;
+  }
+
+ private:
+  int run(int round, const Case& here, const std::vector<std::string>& definitions) {
+    RoundModel now = round_model_of(here.view());
+    const auto change = round == 1 ? std::nullopt : change_between(before_, now);
+    tell_change(session_.console, round, change);
+    is_over_ = change && *change <= a_.change;
+    if (is_over_) {
+      session_.console.say("nothing changes any more after " + counted(static_cast<size_t>(round - 1), "round"));
+      return done;
+    }
+    const compile::FeaResults results = solve_case(a_, here, session_);
+    write_outputs(a_, session_, here, results, round, files_);
+    history_.add(round, now, change, here.conditions.physics, results);
+    write_history(a_, history_);
+    before_ = std::move(now);
+    a_.design.definitions = definitions;
+    a_.design.definitions.push_back(definition_of(a_, round));
+    return done;
+  }
+
+  FeaChoices a_;
+  Session& session_;
+  Stopwatch watch_;
+  RoundHistory history_;
+  RoundModel before_;
+  DataList files_;
+  bool is_over_ = false;
+};
+
+int run_once(const FeaChoices& a, Session& session) {
+  const Stopwatch watch;
+  JobSteps<Case> steps = steps_before(a, session);
+  steps.run = [&](const Case& here) {
+    compile::FeaResults results;
+    if (a.solves()) results = solve_case(a, here, session);
+    DataList files;
+    write_outputs(a, session, here, results, 0, files);
+    session.console.event("done", {{"files", files}, {"seconds", watch.seconds()}});
+    return done;
+  };
+  return take_steps(steps, session);
 }
 
-int run_fea(FeaArguments a, Session& session) {
-  a.solve = a.solve || a.rounds > 0;
-  check(a);
-  if (a.rounds > 0) return run_rounds(a, session);
-  const Stopwatch watch;
-  const auto made = next_case(a, session);
-  if (!made) return wrong_input;
-  compile::FeaResults results;
-  if (a.solve) results = solve_case(a, *made, session);
-  DataList files;
-  write_outputs(a, session, *made, results, 0, files);
-  session.console.event("done", {{"files", files}, {"seconds", watch.seconds()}});
-  return done;
+int run_fea(const FeaChoices& a, Session& session) {
+  a.check();
+  refuse_to_overwrite(a);
+  return a.rounds > 0 ? Rounds(a, session).run() : run_once(a, session);
 }
 
 }  // namespace
 
 Command add_fea(CLI::App& program, OutputOptions& output) {
   CLI::App* app = program.add_subcommand("fea", "Write a finite-element model, or solve it under loads");
-  auto arguments = std::make_shared<FeaArguments>();
-  add_arguments(*app, *arguments);
+  auto arguments = std::make_shared<FeaChoices>();
+  add_options(*app, *arguments);
   add_output_options(*app, output);
-  return {app, [arguments](Session& session) { return run_fea(*arguments, session); }};
+  app->footer(fea_footer);
+  return {app, [arguments](Session& session) { return run_fea(*arguments, session); }, FeaChoices::options().options()};
 }
 
 }  // namespace ombre::cli

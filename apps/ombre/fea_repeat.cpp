@@ -4,7 +4,6 @@
 #include "base/text.h"
 #include "compile/build.h"
 #include "compile/homogenise_job.h"
-#include "ombre/checks.h"
 #include "ombre/job_arguments.h"
 
 namespace ombre::cli {
@@ -14,11 +13,12 @@ std::optional<Box> period_of(const compile::Loaded& loaded, Diagnostics& diagnos
   return compile::design_box(loaded.design, diagnostics);
 }
 
-compile::LoadedPtr with_repeating_bricks(const FeaArguments& a, const compile::LoadedPtr& loaded, const Box& period,
-                                         Diagnostics& diagnostics) {
-  const auto cell = parse_number(a.cell);
-  if (!cell) throw WrongArgument("a cell that repeats is cut into bricks of one length: --cell 0.5");
-  const auto box = compile::periodic_box(loaded, period, *cell, diagnostics);
+compile::LoadedPtr with_repeating_bricks(const compile::FeaChoices& a, const compile::LoadedPtr& loaded,
+                                         const Box& period, Diagnostics& diagnostics) {
+  const options::Pitches& cell = *a.cell;
+  if (cell[1] != cell[0] || cell[2] != cell[0])
+    throw WrongArgument("a cell that repeats is cut into bricks of one length: --cell 0.5");
+  const auto box = compile::periodic_box(loaded, period, cell[0]->mm(), diagnostics);
   return box ? compile::sampled_by(loaded, *box) : nullptr;
 }
 
@@ -31,8 +31,8 @@ fea::Conditions repeating_conditions(const fea::ModelView& model, const Box& per
   return conditions;
 }
 
-void check_repeats(const FeaArguments& a) {
-  if (a.solve && a.solver != "calculix")
+void check_repeats(const compile::FeaChoices& a) {
+  if (a.solves() && a.solver != "calculix")
     throw WrongArgument(
         "a cell that repeats is solved by --solver calculix, or, for all strains and without other programs, by ombre "
         "homogenise");

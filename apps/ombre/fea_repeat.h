@@ -1,9 +1,8 @@
 // Cells that repeat, for ombre fea.
 #pragma once
 
-#include "compile/load.h"
+#include "compile/fea_choices.h"
 #include "fea/study.h"
-#include "ombre/fea_arguments.h"
 #include "ombre/fea_report.h"
 
 namespace ombre::cli {
@@ -11,13 +10,13 @@ namespace ombre::cli {
 // The box after which the design repeats: that in which it is sampled, or its own.
 std::optional<Box> period_of(const compile::Loaded& loaded, Diagnostics& diagnostics);
 // The design, sampled in bricks of about the size of --cell that fill the box.
-compile::LoadedPtr with_repeating_bricks(const FeaArguments& arguments, const compile::LoadedPtr& loaded,
+compile::LoadedPtr with_repeating_bricks(const compile::FeaChoices& arguments, const compile::LoadedPtr& loaded,
                                          const Box& period, Diagnostics& diagnostics);
 // Ties copies of nodes, and holds one node.
 fea::Conditions repeating_conditions(const fea::ModelView& model, const Box& period,
                                      const std::array<double, 6>& mean_strain);
 // Throws WrongArgument where the arguments do not fit a cell that repeats.
-void check_repeats(const FeaArguments& arguments);
+void check_repeats(const compile::FeaChoices& arguments);
 void tell_mean_stress(const Console& console, const Case& here, const fea::Solution& solution);
 
 }  // namespace ombre::cli

@@ -35,7 +35,7 @@ void tell_quality(const Console& console, const compile::TetraModel& made) {
                             {"surface_mm3", made.surface_mm3}});
 }
 
-std::string solved_text(const FeaArguments& a, size_t iterations, bool is_direct, double seconds) {
+std::string solved_text(const compile::FeaChoices& a, size_t iterations, bool is_direct, double seconds) {
   const std::string way = a.solver == "calculix" ? "by CalculiX"
                           : is_direct            ? "by a factorisation and " + counted(iterations, "iteration")
                           : iterations == 0      ? "directly"
@@ -43,7 +43,7 @@ std::string solved_text(const FeaArguments& a, size_t iterations, bool is_direct
   return "solved " + way + " and " + format_rounded(seconds, 3) + " s";
 }
 
-void tell_solution(const FeaArguments& a, const Console& console, const fea::MeshView& mesh,
+void tell_solution(const compile::FeaChoices& a, const Console& console, const fea::MeshView& mesh,
                    const fea::Solution& solution, double seconds) {
   size_t far = 0, strong = 0;
   for (size_t n = 0; n < solution.displacement_mm.size(); ++n)
@@ -72,8 +72,8 @@ void tell_solution(const FeaArguments& a, const Console& console, const fea::Mes
                              {"strain_energy_mj", solution.energy_mj}});
 }
 
-void tell_conduction(const FeaArguments& a, const Console& console, const Case& here, const fea::Conduction& found,
-                     double seconds) {
+void tell_conduction(const compile::FeaChoices& a, const Console& console, const Case& here,
+                     const fea::Conduction& found, double seconds) {
   const bool is_heat = here.conditions.physics == fea::Physics::heat;
   const fea::ModelView model = here.view();
   const auto [least, most] = std::ranges::minmax_element(found.value);
@@ -146,8 +146,8 @@ void tell_factorisation(const Console& console, const fea::DirectUse& use) {
                 {{"operations", use.operations}, {"memory_bytes", use.memory_bytes}, {"disk_bytes", use.disk_bytes}});
 }
 
-void tell_results(const FeaArguments& a, const Console& console, const Case& here, const compile::FeaResults& results,
-                  double seconds) {
+void tell_results(const compile::FeaChoices& a, const Console& console, const Case& here,
+                  const compile::FeaResults& results, double seconds) {
   if (results.solution) tell_solution(a, console, here.view().mesh, *results.solution, seconds);
   if (results.conduction) tell_conduction(a, console, here, *results.conduction, seconds);
 }

@@ -4,10 +4,9 @@
 #include <string>
 #include <variant>
 
-#include "compile/fea_job.h"
-#include "compile/tetra_job.h"
+#include "compile/fea_choices.h"
 #include "ombre/command_line.h"
-#include "ombre/fea_arguments.h"
+#include "ombre/console.h"
 
 namespace ombre::cli {
 
@@ -30,7 +29,7 @@ void tell_model(const Console& console, const Case& here);
 // Before equations are factorised.
 void tell_factorisation(const Console& console, const fea::DirectUse& use);
 
-void tell_results(const FeaArguments& arguments, const Console& console, const Case& here,
+void tell_results(const compile::FeaChoices& arguments, const Console& console, const Case& here,
                   const compile::FeaResults& results, double seconds);
 
 // "1 round", "12,092 rounds".

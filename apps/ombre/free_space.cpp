@@ -1,8 +1,8 @@
-// Words about disks that are too small for what is still to be written.
 #include "ombre/free_space.h"
 
 #include <filesystem>
 
+#include "base/error.h"
 #include "base/text.h"
 #include "ombre/slice_report.h"
 
@@ -17,6 +17,15 @@ std::optional<double> free_bytes(const std::string& folder) {
   const fs::space_info space = fs::space(path, error);
   if (error) return std::nullopt;
   return static_cast<double>(space.available);
+}
+
+void refuse_small_disk(const std::string& path, double bytes, const std::string& what, const Phrase& remedy) {
+  const std::string folder = fs::absolute(path).parent_path().string();
+  const std::optional<double> free = free_bytes(folder);
+  if (!free || bytes <= *free) return;
+  throw Error(Code::disk_space, what + " takes " + format_bytes(bytes) + ", and the disk of " + folder + " has " +
+                                    format_bytes(*free) + " left; free some space there, " + remedy +
+                                    ", or write all the same with " + spelled::option("--force"));
 }
 
 std::string space_warning(const std::string& folder, double bytes) {

@@ -5,30 +5,26 @@
 #include "base/json.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "compile/homogenise_choices.h"
 #include "compile/homogenise_job.h"
 #include "export/output_file.h"
 #include "fea/conduction.h"
 #include "fea/homogenise.h"
 #include "fea/homogenise_conductivity.h"
 #include "formats/file.h"
-#include "ombre/arguments.h"
-#include "ombre/checks.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
+#include "ombre/job_steps.h"
+#include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
+#include "ombre/solve_memory.h"
 
 namespace ombre::cli {
 namespace {
 
-struct HomogeniseArguments {
-  DesignArguments design;
-  std::string study, box, output, assign = "draw", seed = "0", memory = "8G";
-  double cell = 0, tolerance = 1e-6;
-  int threads = 0;
-  bool force = false;
-};
+using compile::HomogeniseChoices;
 
 constexpr const char* homogenise_footer =
     "The box is cut into bricks and repeated in all directions. Six strains, one after the other, give the stiffness "
@@ -45,55 +41,28 @@ constexpr const char* homogenise_footer =
     "  ombre homogenise part.vcad --box 0,0,0,2,2,2 --cell 0.05 --assign draw --seed 3   # what dithering prints "
     "there\n";
 
-void add_arguments(CLI::App& app, HomogeniseArguments& a) {
-  add_design_arguments(app, a.design);
-  app.add_option("--cell", a.cell, "About how large bricks are, mm")
-      ->required()
-      ->check(between(1e-6, 1e6))
-      ->type_name("MM");
-  app.add_option("--box", a.box, "The box that repeats, mm (default: that of the design)")
-      ->type_name("X0,Y0,Z0,X1,Y1,Z1");
-  app.add_option("--study", a.study, "Properties of materials; a .json file")->type_name("FILE");
-  app.add_option("--assign", a.assign,
-                 "What a brick of a mixture is made of: draw (default: one material, by the odds of its fractions) or\n"
-                 "mix (mean properties)")
-      ->check(one_of({"draw", "mix"}))
-      ->type_name("RULE");
-  app.add_option("--seed", a.seed, "Seed of draw (default 0)")->type_name("N");
-  app.add_option("-o,--output", a.output, "A chart of Young's modulus by direction, .svg")->type_name("FILE");
-  app.add_option("--tolerance", a.tolerance, "How near the forces must come to balance (default 1e-6)")
-      ->check(between(1e-12, 0.1))
-      ->type_name("X");
-  add_threads(app, a.threads);
-  app.add_option("--memory", a.memory, "Most memory for solving (default 8G)")->type_name("SIZE");
-  app.add_flag("--force", a.force, "Replace a file that is there");
-}
-
-std::optional<fea::Study> study_of(const HomogeniseArguments& a, Diagnostics& diagnostics) {
+std::optional<fea::Study> study_of(const HomogeniseChoices& a, Diagnostics& diagnostics) {
   if (a.study.empty()) return fea::Study{};
   const auto data = parse_json(make_source(a.study, formats::read_file(a.study)), diagnostics);
   return data ? fea::read_study(*data, diagnostics) : std::nullopt;
 }
 
-std::optional<fea::Model> make_model(const HomogeniseArguments& a, const fea::Study& study, Session& session,
+std::optional<fea::Model> make_model(const HomogeniseChoices& a, const fea::Study& study, Session& session,
                                      Diagnostics& diagnostics) {
-  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
   if (!loaded) return std::nullopt;
-  const std::optional<Box> wanted = a.box.empty() ? std::nullopt : std::optional(parse_box(a.box));
-  const auto box = compile::periodic_box(loaded, wanted, a.cell, diagnostics);
+  const auto box = compile::periodic_box(loaded, a.box, a.cell_mm, diagnostics);
   if (!box) return std::nullopt;
   const compile::LoadedPtr sampled = compile::sampled_by(loaded, *box);
   compile::SamplingOptions sampling;
-  sampling.rules.seed = options::parse_seed(a.seed);
-  auto options = plan_options(sampling, diagnostics);
+  sampling.rules.seed = a.seed;
+  const auto options = plan_options(sampling, a.work, session, diagnostics);
   if (!options) return std::nullopt;
-  options->threads = a.threads;
-  options->stop = &session.stop;
   const auto plan = compile::plan_slice(sampled, *options, diagnostics);
   if (!plan) return std::nullopt;
   compile::FeaRequest request;
-  if (a.assign == "mix") request.assign = compile::FeaRequest::Assign::mix;
-  request.threads = a.threads;
+  request.assign = a.assign;
+  request.threads = a.work.threads;
   ProgressLine progress(session.console);
   auto model = compile::fea_model(sampled, *plan, study, request, diagnostics, &progress, &session.stop);
   progress.finish();
@@ -178,7 +147,7 @@ void tell(const Console& console, const fea::HomogenisedConductivity& found, boo
                                 {"seconds", seconds}});
 }
 
-void check_output(const HomogeniseArguments& a) {
+void check_output(const HomogeniseChoices& a) {
   if (a.output.empty()) return;
   if (!to_lower(a.output).ends_with(".svg"))
     throw WrongArgument(spelled::option("-o", a.output) + " does not say a format; let it end in .svg");
@@ -186,18 +155,15 @@ void check_output(const HomogeniseArguments& a) {
 }
 
 // Throws Error where it takes more than is allowed.
-void tell_size(const HomogeniseArguments& a, const Console& console, const fea::Bricks& bricks, double bytes) {
+void tell_size(const HomogeniseChoices& a, const Console& console, const fea::Bricks& bricks, double bytes) {
   console.say(std::to_string(bricks.period[0]) + " x " + std::to_string(bricks.period[1]) + " x " +
               std::to_string(bricks.period[2]) + " bricks of " + format_rounded(bricks.size_mm.x, 4) + " x " +
               format_rounded(bricks.size_mm.y, 4) + " x " + format_rounded(bricks.size_mm.z, 4) +
               " mm; solving takes about " + format_bytes(bytes));
-  if (const auto allowed = static_cast<double>(parse_memory(a.memory)); bytes > allowed)
-    throw Error(Code::memory, "solving takes about " + format_bytes(bytes) + " of memory, more than the " +
-                                  format_bytes(allowed) + " allowed; choose larger bricks with " +
-                                  spelled::option("--cell") + ", or more " + spelled::option("--memory"));
+  refuse_little_memory(bytes, a.work.memory_bytes, "choose larger bricks with " + spelled::option("--cell"));
 }
 
-void solve_stiffness(const HomogeniseArguments& a, const fea::Model& model, const fea::SolveOptions& options,
+void solve_stiffness(const HomogeniseChoices& a, const fea::Model& model, const fea::SolveOptions& options,
                      Session& session, DataList& files) {
   const Stopwatch watch;
   ProgressLine progress(session.console, Counted::steps);
@@ -218,41 +184,62 @@ void solve_conductivity(const fea::Model& model, const fea::SolveOptions& option
   tell(session.console, found, is_heat, watch.seconds());
 }
 
-int run_homogenise(const HomogeniseArguments& a, Session& session) {
-  check_output(a);
-  parse_memory(a.memory);
-  Diagnostics diagnostics;
+// A model, and the physics of its study.
+struct HomogenisePlan {
+  fea::Model model;
+  fea::Physics physics = fea::Physics::mechanics;
+
+  bool is_mechanics() const { return physics == fea::Physics::mechanics; }
+  double solve_bytes() const {
+    return is_mechanics() ? fea::solve_bytes(model.bricks) : fea::conduct_bytes(model.bricks);
+  }
+};
+
+std::optional<HomogenisePlan> plan_job(const HomogeniseChoices& a, Session& session, Diagnostics& diagnostics) {
   const auto study = study_of(a, diagnostics);
-  const bool is_mechanics = !study || study->physics == fea::Physics::mechanics;
-  if (!is_mechanics && !a.output.empty()) throw WrongArgument("-o is a chart of stiffness: conductivities have none");
-  const auto model = study ? make_model(a, *study, session, diagnostics) : std::nullopt;
-  session.console.diagnose(diagnostics);
-  if (!model) return wrong_input;
-  const double bytes = is_mechanics ? fea::solve_bytes(model->bricks) : fea::conduct_bytes(model->bricks);
-  tell_size(a, session.console, model->bricks, bytes);
+  if (!study) return std::nullopt;
+  if (study->physics != fea::Physics::mechanics && !a.output.empty())
+    throw WrongArgument("-o is a chart of stiffness: conductivities have none");
+  auto model = make_model(a, *study, session, diagnostics);
+  return model ? std::optional(HomogenisePlan{std::move(*model), study->physics}) : std::nullopt;
+}
+
+int solve(const HomogeniseChoices& a, const HomogenisePlan& plan, Session& session) {
   fea::SolveOptions options;
   options.tolerance = a.tolerance;
-  options.threads = a.threads;
+  options.threads = a.work.threads;
   options.solver = fea::Solver::automatic;
-  options.memory_bytes = static_cast<double>(parse_memory(a.memory)) - bytes;
+  options.memory_bytes = static_cast<double>(a.work.memory_bytes) - plan.solve_bytes();
   DataList files;
-  if (is_mechanics)
-    solve_stiffness(a, *model, options, session, files);
+  if (plan.is_mechanics())
+    solve_stiffness(a, plan.model, options, session, files);
   else
-    solve_conductivity(*model, options, study->physics == fea::Physics::heat, session);
+    solve_conductivity(plan.model, options, plan.physics == fea::Physics::heat, session);
   session.console.event("done", {{"files", files}});
   return done;
+}
+
+int run_homogenise(const HomogeniseChoices& a, Session& session) {
+  JobSteps<HomogenisePlan> steps;
+  steps.refuse = [&] { check_output(a); };
+  steps.plan = [&](Diagnostics& diagnostics) { return plan_job(a, session, diagnostics); };
+  steps.check = [&](const HomogenisePlan& plan) {
+    tell_size(a, session.console, plan.model.bricks, plan.solve_bytes());
+  };
+  steps.run = [&](const HomogenisePlan& plan) { return solve(a, plan, session); };
+  return take_steps(steps, session);
 }
 
 }  // namespace
 
 Command add_homogenise(CLI::App& program, OutputOptions& output) {
   CLI::App* app = program.add_subcommand("homogenise", "Say how stiff a cell of a design is as a material");
-  auto arguments = std::make_shared<HomogeniseArguments>();
-  add_arguments(*app, *arguments);
+  auto arguments = std::make_shared<HomogeniseChoices>();
+  add_options(*app, *arguments);
   add_output_options(*app, output);
   app->footer(homogenise_footer);
-  return {app, [arguments](Session& session) { return run_homogenise(*arguments, session); }};
+  return {app, [arguments](Session& session) { return run_homogenise(*arguments, session); },
+          HomogeniseChoices::options().options()};
 }
 
 }  // namespace ombre::cli

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/file_ending.h"
 #include "base/json.h"
 #include "base/text.h"
 #include "compile/attribute_survey.h"
@@ -104,7 +105,7 @@ int show_design(const std::string& path, Session& session) {
 }
 
 bool is_design(const std::string& path) {
-  const std::string ending = to_lower(std::filesystem::path(path).extension().string());
+  const std::string ending = ending_of(path);
   return ending == ".vcad" || ending == ".py" || ending == ".json" || ending == ".ombre";
 }
 

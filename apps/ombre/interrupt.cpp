@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "base/assert.h"
-#include "ombre/command_line.h"
+#include "ombre/exit_codes.h"
 
 namespace ombre::cli {
 namespace {

@@ -2,11 +2,8 @@
 
 #include "compile/turned.h"
 #include "ombre/interrupt.h"
-#include "ombre/options.h"
 
 namespace ombre::cli {
-
-void add_design_arguments(CLI::App& app, DesignArguments& arguments) { add_options(app, arguments); }
 
 std::optional<compile::PlanOptions> plan_options(const compile::SamplingOptions& sampling, Diagnostics& diagnostics,
                                                  const compile::ImageOptions& images) {

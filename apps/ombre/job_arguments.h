@@ -1,7 +1,6 @@
 // Designs and jobs as commands need them.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <optional>
 
 #include "base/diagnostic.h"
@@ -12,7 +11,6 @@
 namespace ombre::cli {
 
 using DesignArguments = compile::DesignOptions;
-void add_design_arguments(CLI::App& app, DesignArguments& arguments);
 
 // Makes plan options as compile::plan_options does, in the name of this program.
 std::optional<compile::PlanOptions> plan_options(const compile::SamplingOptions& sampling, Diagnostics& diagnostics,

@@ -11,6 +11,7 @@
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
+#include "ombre/job_steps.h"
 #include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/slice_report.h"
@@ -95,15 +96,23 @@ void tell_layer(const Console& console, const compile::SliceRequest& request, in
                          {"materials", materials}});
 }
 
-int write_layer(const LayerChoices& a, const compile::Plan& plan, Session& session) {
-  const compile::SliceRequest& request = plan.request;
-  const int64_t layer = chosen_layer(a, request.lattice);
-  const auto window = chosen_window(a, request.lattice);
-  const std::vector<std::string> files = output_files(a, request, layer);
-  const bool to_stdout = a.output == "-";
-  if (!to_stdout)
-    for (const std::string& file : files) refuse_to_overwrite(file, a.force);
+// Which layer, what of it, and in which files.
+struct LayerPlan {
+  compile::Plan plan;
+  int64_t layer = 0;
+  std::optional<compile::LayerWindow> window;
+  std::vector<std::string> files;
+};
 
+void refuse_to_overwrite_any(const std::vector<std::string>& files, bool force) {
+  for (const std::string& file : files)
+    if (file != "-") refuse_to_overwrite(file, force);
+}
+
+int write_layer(const LayerChoices& a, const LayerPlan& layer_plan, Session& session) {
+  const auto& [plan, layer, window, files] = layer_plan;
+  const compile::SliceRequest& request = plan.request;
+  const bool to_stdout = a.output == "-";
   const compile::StageLoan loan{a.work.threads, a.work.memory_bytes, nullptr, &session.stop};
   warn_of_memory(session.console, "the layer",
                  compile::layer_memory_bytes(request, window) + static_cast<double>(plan.stages->memory_bytes(loan)),
@@ -120,26 +129,47 @@ int write_layer(const LayerChoices& a, const compile::Plan& plan, Session& sessi
   return done;
 }
 
-// Ctrl-C stops the loading in good order; after it there is nothing to put in order.
-std::optional<compile::Plan> plan_job(const LayerChoices& a, Session& session, Diagnostics& diagnostics) {
-  const auto options = plan_options(a.sampling, a.work, session, diagnostics, a.images);
-  if (!options) return std::nullopt;
+std::optional<LayerPlan> plan_job(const LayerChoices& a, const compile::PlanOptions& options, Session& session,
+                                  Diagnostics& diagnostics) {
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
-  return loaded ? compile::plan_slice(loaded, *options, diagnostics) : std::nullopt;
+  auto plan = loaded ? compile::plan_slice(loaded, options, diagnostics) : std::nullopt;
+  if (!plan) return std::nullopt;
+  const int64_t layer = chosen_layer(a, plan->request.lattice);
+  const auto window = chosen_window(a, plan->request.lattice);
+  std::vector<std::string> files = output_files(a, plan->request, layer);
+  return LayerPlan{std::move(*plan), layer, window, std::move(files)};
 }
 
-int layer(const LayerChoices& a, Session& session) {
+// Names that nobody chose, and those of a file for each material, are known once the layer is planned.
+bool has_known_name(const LayerChoices& a, const compile::PlanOptions& options) {
+  compile::SliceRequest images;
+  compile::use_printer(images, options.printer, options.value ? ImageFormat::gray : options.image);
+  return !a.output.empty() && !images.files.has_material();
+}
+
+void check_choices(const LayerChoices& a, const Session& session) {
   if (!a.z_mm && a.index.empty())
     throw WrongArgument("which layer? write " + spelled::option("--z") + " with a height in mm, or " +
                         spelled::option("--index") + " with a number");
   if (a.output == "-" && session.console.voice() == Voice::programs)
     throw WrongArgument("-o - writes the image to stdout, where " + spelled::option("--json") +
                         " writes events; give -o a file name");
-  Diagnostics diagnostics;
-  const auto plan = plan_job(a, session, diagnostics);
-  session.console.diagnose(diagnostics);
-  if (!plan || diagnostics.has_errors()) return wrong_input;
-  return write_layer(a, *plan, session);
+}
+
+int layer(const LayerChoices& a, Session& session) {
+  check_choices(a, session);
+  Diagnostics of_printer;
+  const auto options = plan_options(a.sampling, a.work, session, of_printer, a.images);
+  session.console.diagnose(of_printer);
+  if (!options) return wrong_input;
+  JobSteps<LayerPlan> steps;
+  steps.refuse = [&] {
+    if (has_known_name(a, *options)) refuse_to_overwrite_any({a.output}, a.force);
+  };
+  steps.plan = [&](Diagnostics& diagnostics) { return plan_job(a, *options, session, diagnostics); };
+  steps.check = [&](const LayerPlan& plan) { refuse_to_overwrite_any(plan.files, a.force); };
+  steps.run = [&](const LayerPlan& plan) { return write_layer(a, plan, session); };
+  return take_steps(steps, session);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
+#include "ombre/job_steps.h"
 #include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
@@ -185,65 +186,107 @@ void check_beams(const MeshChoices& a, const compile::MeshRequest& request, cons
                         ", or leave " + spelled::option("--beams") + " out");
 }
 
-int mesh(const MeshChoices& a, Session& session) {
-  compile::MeshRequest request = a.request();
-  Diagnostics diagnostics;
-  size_t reported = 0;
-  const auto diagnose = [&] {
-    session.console.diagnose(diagnostics.after(reported));
-    reported = diagnostics.list().size();
-  };
+// The file to write, and its format.
+struct MeshOutput {
+  std::string stem, path;
+  exporting::MeshFormat format = exporting::MeshFormat::three_mf;
+};
+
+MeshOutput output_of(const MeshChoices& a) {
+  const std::string stem = std::filesystem::path(a.design.design).stem().string();
+  const std::string path = a.output.empty() ? stem + ".3mf" : a.output;
+  const auto format = exporting::mesh_format_of(path);
+  if (!format)
+    throw WrongArgument(spelled::option("-o", path) + " does not say a format; let it end in " +
+                        exporting::mesh_endings());
+  return {stem, path, *format};
+}
+
+void refuse(const MeshChoices& a, const compile::MeshRequest& request, const MeshOutput& output) {
+  using exporting::MeshFormat;
+  refuse_to_overwrite(output.path, a.force);
+  if (output.format == MeshFormat::obj) refuse_to_overwrite(exporting::material_library_path(output.path), a.force);
+  if (a.beams) check_beams(a, request, output.path, output.format);
+  if (!a.colour_by.empty() && (output.format == MeshFormat::stl || output.format == MeshFormat::off))
+    throw WrongArgument(spelled::option("--colour-by") + ": " + output.path +
+                        " holds no colours of vertices; write .ply, .glb, .3mf, .obj or .amf");
+  if (output.format == MeshFormat::three_mf && !formats::can_write_3mf())
+    throw WrongArgument("this ombre was built without libzip, which .3mf files need; write -o " + output.stem + ".amf");
+}
+
+// Shows diagnostics as they come.
+class Shown {
+ public:
+  explicit Shown(const Console& console) : console_(console) {}
+  Diagnostics& diagnostics() { return diagnostics_; }
+  void show() {
+    console_.diagnose(diagnostics_.after(shown_));
+    shown_ = diagnostics_.list().size();
+  }
+
+ private:
+  const Console& console_;
+  Diagnostics diagnostics_;
+  size_t shown_ = 0;
+};
+
+std::optional<compile::MeshedDesign> make_mesh(const compile::Loaded& loaded, compile::MeshRequest request,
+                                               Shown& shown, Session& session) {
   request.announce = [&](const compile::MeshPlan& plan) {
-    diagnose();
+    shown.show();
     tell_plan(session.console, plan);
   };
-  const std::vector<SlicerSetting> settings(a.settings.begin(), a.settings.end());
-  const std::string stem = std::filesystem::path(a.design.design).stem().string();
-  const std::string output = a.output.empty() ? stem + ".3mf" : a.output;
-  const auto format = exporting::mesh_format_of(output);
-  if (!format)
-    throw WrongArgument(spelled::option("-o", output) + " does not say a format; let it end in " +
-                        exporting::mesh_endings());
-  refuse_to_overwrite(output, a.force);
-  if (*format == exporting::MeshFormat::obj) refuse_to_overwrite(exporting::material_library_path(output), a.force);
-  if (a.beams) check_beams(a, request, output, *format);
-  if (!a.colour_by.empty() && (*format == exporting::MeshFormat::stl || *format == exporting::MeshFormat::off))
-    throw WrongArgument(spelled::option("--colour-by") + ": " + output +
-                        " holds no colours of vertices; write .ply, .glb, .3mf, .obj or .amf");
-  if (*format == exporting::MeshFormat::three_mf && !formats::can_write_3mf())
-    throw WrongArgument("this ombre was built without libzip, which .3mf files need; write -o " + stem + ".amf");
+  ProgressLine progress(session.console, Counted::steps);
+  auto made = compile::mesh_design(loaded, request, shown.diagnostics(), &progress, &session.stop);
+  progress.finish();
+  shown.show();
+  if (!made || shown.diagnostics().has_errors()) return std::nullopt;
+  if (!made->bodies.empty() || !made->beams.empty()) return made;
+  session.console.warn("no cell's corner is inside the design: there is nothing to write; choose a smaller " +
+                       spelled::option("--cell"));
+  return std::nullopt;
+}
 
-  const Stopwatch watch;
-  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
-  std::optional<compile::MeshedDesign> made;
-  if (loaded) {
-    ProgressLine progress(session.console, Counted::steps);
-    made = compile::mesh_design(*loaded, request, diagnostics, &progress, &session.stop);
-  }
-  diagnose();
-  if (!made || diagnostics.has_errors()) return wrong_input;
-  if (made->bodies.empty() && made->beams.empty()) {
-    session.console.warn("no cell's corner is inside the design: there is nothing to write; choose a smaller " +
-                         spelled::option("--cell"));
-    return wrong_input;
-  }
-  tell_bodies(session.console, *made);
-  warn_of_folds(session.console, *made);
-  warn_of_distance(session.console, *made);
-  warn_of_lost_parts(session.console, *made);
-  formats::MeshDocument document = document_of(*made, stem, settings);
+int write(const MeshChoices& a, const compile::Loaded& loaded, compile::MeshedDesign& made, const MeshOutput& output,
+          const std::vector<SlicerSetting>& settings, Shown& shown, Session& session) {
+  formats::MeshDocument document = document_of(made, output.stem, settings);
   if (!a.colour_by.empty()) {
     const compile::VertexColouring colouring{a.colour_by, a.palette, a.range};
     const bool good =
-        compile::colour_vertices(*loaded, colouring, document, diagnostics, a.work.threads, &session.stop);
-    diagnose();
+        compile::colour_vertices(loaded, colouring, document, shown.diagnostics(), a.work.threads, &session.stop);
+    shown.show();
     if (!good) return wrong_input;
   }
-  compile::add_beams(*made, loaded->design.materials, document);
-  exporting::write_mesh_file(output, document, *format, a.flavour);
-  session.console.say(output + " written in " + format_rounded(watch.seconds(), 3) + " s");
-  session.console.event("done", {{"file", output}, {"seconds", watch.seconds()}});
+  compile::add_beams(made, loaded.design.materials, document);
+  exporting::write_mesh_file(output.path, document, output.format, a.flavour);
   return done;
+}
+
+int mesh(const MeshChoices& a, Session& session) {
+  const compile::MeshRequest request = a.request();
+  const std::vector<SlicerSetting> settings(a.settings.begin(), a.settings.end());
+  const MeshOutput output = output_of(a);
+  const Stopwatch watch;
+  JobSteps<compile::LoadedPtr> steps;
+  steps.refuse = [&] { refuse(a, request, output); };
+  steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::LoadedPtr> {
+    const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
+    return loaded ? std::optional(loaded) : std::nullopt;
+  };
+  steps.run = [&](const compile::LoadedPtr& loaded) {
+    Shown shown(session.console);
+    auto made = make_mesh(*loaded, request, shown, session);
+    if (!made) return wrong_input;
+    tell_bodies(session.console, *made);
+    warn_of_folds(session.console, *made);
+    warn_of_distance(session.console, *made);
+    warn_of_lost_parts(session.console, *made);
+    if (const int code = write(a, *loaded, *made, output, settings, shown, session); code != done) return code;
+    session.console.say(output.path + " written in " + format_rounded(watch.seconds(), 3) + " s");
+    session.console.event("done", {{"file", output.path}, {"seconds", watch.seconds()}});
+    return done;
+  };
+  return take_steps(steps, session);
 }
 
 }  // namespace

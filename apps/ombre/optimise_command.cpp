@@ -4,18 +4,19 @@
 #include <map>
 #include <memory>
 
+#include "base/file_ending.h"
 #include "base/hash.h"
 #include "base/json.h"
 #include "base/tasks.h"
 #include "base/text.h"
+#include "compile/optimise_choices.h"
 #include "compile/optimise_job.h"
 #include "export/output_file.h"
 #include "formats/file.h"
-#include "ombre/arguments.h"
-#include "ombre/checks.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
 #include "ombre/optimise_topology.h"
+#include "ombre/options.h"
 #include "ombre/progress_line.h"
 #include "optimise/chart.h"
 #include "optimise/ranking.h"
@@ -25,15 +26,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using compile::History;
+using compile::OptimiseChoices;
 using compile::OptimiseStudy;
 using optimise::Outcome;
-
-struct OptimiseArguments {
-  DesignArguments design;
-  std::string study, folder, memory = "8G";
-  int threads = 0, best = 10;
-  bool resume = false, force = false;
-};
 
 constexpr const char* optimise_footer =
     "STUDY is a JSON file: what may change, what shall become small, what has limits.\n"
@@ -56,22 +51,6 @@ constexpr const char* optimise_footer =
     "  ombre optimise hook.vcad --study lighter.json -o lighter\n"
     "  ombre optimise hook.vcad --study lighter.json -o lighter --resume\n";
 
-void add_arguments(CLI::App& app, OptimiseArguments& a) {
-  add_design_arguments(app, a.design);
-  app.add_option("--study", a.study, "The study: variables, objectives, constraints; or topology; a .json file")
-      ->required()
-      ->type_name("FILE");
-  app.add_option("-o,--output", a.folder, "The folder for what is found")->required()->type_name("FOLDER");
-  CLI::Option* force = app.add_flag("--force", a.force, "Begin again in a folder that has a history");
-  app.add_flag("--resume", a.resume, "Go on with the history in the folder")->excludes(force);
-  app.add_option("--best", a.best, "Write at most so many of the best designs as scripts (default 10)")
-      ->check(whole_between(1, 10000))
-      ->type_name("N");
-  add_threads(app, a.threads);
-  app.add_option("--memory", a.memory, "Most memory for solving several designs at once (default 8G)")
-      ->type_name("SIZE");
-}
-
 // The folder's files.
 struct Folder {
   fs::path path;
@@ -82,7 +61,7 @@ struct Folder {
 };
 
 // A text that is equal for two searches if they find the same, whatever number of designs each may measure.
-std::string key_of(const OptimiseArguments& a, const Data& study) {
+std::string key_of(const OptimiseChoices& a, const Data& study) {
   DataMembers members;
   for (const auto& [name, value] : *study.members())
     if (name != "evaluations") members.emplace_back(name, value);
@@ -95,7 +74,7 @@ std::string key_of(const OptimiseArguments& a, const Data& study) {
 }
 
 // Makes the folder ready. The history of it counts when it is resumed.
-bool open_folder(const OptimiseArguments& a, const Folder& folder, const std::string& key, History& history,
+bool open_folder(const OptimiseChoices& a, const Folder& folder, const std::string& key, History& history,
                  Diagnostics& diagnostics) {
   std::error_code problem;
   fs::create_directories(folder.path, problem);
@@ -123,7 +102,7 @@ bool open_folder(const OptimiseArguments& a, const Folder& folder, const std::st
 // Measures designs that are not in the history, several at once where there is memory.
 class Evaluator {
  public:
-  Evaluator(const OptimiseArguments& a, const OptimiseStudy& study, const compile::DesignMeter& meter, History& history,
+  Evaluator(const OptimiseChoices& a, const OptimiseStudy& study, const compile::DesignMeter& meter, History& history,
             const Folder& folder, Session& session)
       : study_(study),
         meter_(meter),
@@ -131,8 +110,8 @@ class Evaluator {
         file_(folder.history()),
         session_(session),
         progress_(session.console, Counted::steps),
-        threads_(a.threads > 0 ? a.threads : core_count()),
-        memory_(static_cast<double>(parse_memory(a.memory))) {}
+        threads_(a.work.threads > 0 ? a.work.threads : core_count()),
+        memory_(static_cast<double>(a.work.memory_bytes)) {}
 
   std::vector<Outcome> measure(const std::vector<optimise::Point>& points) {
     if (session_.stop.requested()) throw Cancelled();
@@ -201,7 +180,7 @@ std::string measures_text(const OptimiseStudy& study, const History::Row& row) {
 }
 
 // A script that is the design with other values: the last value of a variable counts.
-std::string script_of(const OptimiseArguments& a, const OptimiseStudy& study, const Folder& folder,
+std::string script_of(const OptimiseChoices& a, const OptimiseStudy& study, const Folder& folder,
                       const History::Row& row) {
   const fs::path design = fs::proximate(fs::absolute(a.design.design), fs::absolute(folder.path));
   std::string text = "// " + measures_text(study, row) + "\ninclude <" + design.generic_string() + ">\n";
@@ -244,7 +223,7 @@ std::string chart_of(const OptimiseStudy& study, const History& history, const s
 
 class Report {
  public:
-  Report(const OptimiseArguments& a, const OptimiseStudy& study, const History& history, const Folder& folder,
+  Report(const OptimiseChoices& a, const OptimiseStudy& study, const History& history, const Folder& folder,
          const Console& console)
       : a_(a), study_(study), history_(history), folder_(folder), console_(console) {
     for (const History::Row& row : history.rows()) outcomes_.push_back(outcome_of(study, row.measured));
@@ -296,7 +275,7 @@ class Report {
     return check_failed;
   }
 
-  const OptimiseArguments& a_;
+  const OptimiseChoices& a_;
   const OptimiseStudy& study_;
   const History& history_;
   const Folder& folder_;
@@ -334,7 +313,7 @@ bool run_search(const OptimiseStudy& study, const History& history, Evaluator& e
   return true;
 }
 
-int optimise_variables(const OptimiseArguments& a, const OptimiseStudy& study, const Data& data, Session& session) {
+int optimise_variables(const OptimiseChoices& a, const OptimiseStudy& study, const Data& data, Session& session) {
   const optimise::Method& method = *optimise::find_method(study.search.method);
   if (!optimise::is_built(method)) optimise::search({}, study.search);  // which says what is missing
   Diagnostics diagnostics;
@@ -371,15 +350,11 @@ int optimise_variables(const OptimiseArguments& a, const OptimiseStudy& study, c
   return Report(a, study, history, folder, session.console).write();
 }
 
-int run_optimise(const OptimiseArguments& a, Session& session) {
+int run_optimise(const OptimiseChoices& a, Session& session) {
   Diagnostics diagnostics;
   const auto data = parse_json(make_source(a.study, formats::read_file(a.study)), diagnostics);
-  const auto memory = static_cast<double>(parse_memory(a.memory));
-  if (data && data->find("topology")) {
-    if (a.resume) throw WrongArgument("a search for a topology begins anew; leave out " + spelled::option("--resume"));
-    return optimise_topology({a.design, a.folder, memory, a.threads, a.force}, *data, session);
-  }
-  const std::string ending = to_lower(fs::path(a.design.design).extension().string());
+  if (data && data->find("topology")) return optimise_topology(a, *data, session);
+  const std::string ending = ending_of(a.design.design);
   if (ending != ".vcad" && ending != ".scad")
     throw WrongArgument(a.design.design + " has no variables that could be set; take a .vcad or .scad script");
   const auto study = data ? compile::read_optimise_study(*data, diagnostics) : std::nullopt;
@@ -393,11 +368,12 @@ int run_optimise(const OptimiseArguments& a, Session& session) {
 Command add_optimise(CLI::App& program, OutputOptions& output) {
   CLI::App* app =
       program.add_subcommand("optimise", "Search for the values of a design's variables that serve it best");
-  auto arguments = std::make_shared<OptimiseArguments>();
-  add_arguments(*app, *arguments);
+  auto arguments = std::make_shared<OptimiseChoices>();
+  add_options(*app, *arguments);
   add_output_options(*app, output);
   app->footer(optimise_footer);
-  return {app, [arguments](Session& session) { return run_optimise(*arguments, session); }};
+  return {app, [arguments](Session& session) { return run_optimise(*arguments, session); },
+          OptimiseChoices::options().options()};
 }
 
 }  // namespace ombre::cli

@@ -8,16 +8,21 @@
 #include "compile/optimise_job.h"
 #include "compile/topology_study.h"
 #include "export/volume_file.h"
+#include "ombre/job_arguments.h"
+#include "ombre/job_steps.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
+#include "ombre/solve_memory.h"
 #include "optimise/chart.h"
 
 namespace ombre::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using compile::OptimiseChoices;
 
 struct TopologyCase {
+  compile::TopologyStudy study;
   fea::Model model;
   fea::Conditions conditions;
   std::optional<optimise::TopologyGoal> goal;
@@ -33,25 +38,23 @@ std::optional<optimise::TopologyGoal> make_goal(const compile::TopologyStudy& st
   return optimise::TopologyGoal{std::move(conditions->forces), study.is_greatest};
 }
 
-std::optional<TopologyCase> make_topology_case(const TopologyArguments& a, const compile::TopologyStudy& study,
+std::optional<TopologyCase> make_topology_case(const OptimiseChoices& a, const compile::TopologyStudy& study,
                                                Session& session, Diagnostics& diagnostics) {
-  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.threads);
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
   if (!loaded) return std::nullopt;
-  auto options = plan_options({}, diagnostics);
+  const auto options = plan_options({}, a.work, session, diagnostics);
   if (!options) return std::nullopt;
-  options->threads = a.threads;
-  options->stop = &session.stop;
   const auto plan = compile::plan_bricks(loaded, study.model, *options, diagnostics);
   if (!plan) return std::nullopt;
   compile::FeaRequest request = study.model.request;
-  request.threads = a.threads;
+  request.threads = a.work.threads;
   auto model = compile::fea_model(loaded, *plan, study.model.fea, request, diagnostics, nullptr, &session.stop);
   if (!model) return std::nullopt;
   auto conditions = fea::conditions_of(study.model.fea, *model, diagnostics);
   if (!conditions) return std::nullopt;
   std::optional<optimise::TopologyGoal> goal;
   if (study.goal && !(goal = make_goal(study, *model, diagnostics))) return std::nullopt;
-  return TopologyCase{std::move(*model), std::move(*conditions), std::move(goal)};
+  return TopologyCase{study, std::move(*model), std::move(*conditions), std::move(goal)};
 }
 
 // Densities as a grid around the bricks; 0 where there is none.
@@ -119,65 +122,87 @@ std::string change_of(const optimise::Topology& topology, bool has_goal) {
 }
 
 // A design that uses the result: it is solid where the density is above a half.
-std::string script_of(const TopologyArguments& a) {
+std::string script_of(const OptimiseChoices& a) {
   const fs::path design = fs::proximate(fs::absolute(a.design.design), fs::absolute(a.folder));
   return "// The densities are numbers of a grid, for solids and for mixtures: volume(\"density.nrrd\").value.\n"
          "// The design was " +
          design.generic_string() + "\nvolume_solid(\"density.nrrd\", level=0.5);\n";
 }
 
-}  // namespace
+// density.nrrd, topology.vcad, history.csv and chart.svg.
+std::vector<std::string> files_of(const OptimiseChoices& a) {
+  std::vector<std::string> files;
+  for (const char* name : {"density.nrrd", "topology.vcad", "history.csv", "chart.svg"})
+    files.push_back((fs::path(a.folder) / name).string());
+  return files;
+}
 
-int optimise_topology(const TopologyArguments& a, const Data& data, Session& session) {
-  Diagnostics diagnostics;
-  auto study = compile::read_topology_study(data, diagnostics);
-  const auto made = study ? make_topology_case(a, *study, session, diagnostics) : std::nullopt;
-  session.console.diagnose(diagnostics);
-  if (!made) return wrong_input;
-  const double bytes = fea::solve_bytes(made->model.bricks);
-  if (bytes > a.memory_bytes)
-    throw Error(Code::memory, "solving takes about " + format_bytes(bytes) + " of memory, more than the " +
-                                  format_bytes(a.memory_bytes) +
-                                  " allowed; choose larger bricks with \"cell\", or more " +
-                                  spelled::option("--memory"));
-  const auto file = [&](const char* name) { return (fs::path(a.folder) / name).string(); };
-  const std::vector<std::string> files{file("density.nrrd"), file("topology.vcad"), file("history.csv"),
-                                       file("chart.svg")};
-  for (const std::string& path : files) refuse_to_overwrite(path, a.force);
-  std::error_code problem;
-  fs::create_directories(a.folder, problem);
-  if (problem) throw Error("cannot make the folder " + a.folder + ": " + problem.message());
+void refuse_to_overwrite_any(const OptimiseChoices& a) {
+  if (a.resume) throw WrongArgument("a search for a topology begins anew; leave out " + spelled::option("--resume"));
+  if (!fs::exists(a.folder)) return;
+  for (const std::string& path : files_of(a)) refuse_to_overwrite(path, a.force);
+}
 
-  optimise::TopologyOptions options = study->options;
-  options.threads = a.threads;
-  options.goal = made->goal;
-  const Vec3 size = made->model.bricks.size_mm;
+optimise::Topology search(const OptimiseChoices& a, const TopologyCase& made, Session& session) {
+  optimise::TopologyOptions options = made.study.options;
+  options.threads = a.work.threads;
+  options.goal = made.goal;
+  const Vec3 size = made.model.bricks.size_mm;
   if (!(options.radius_mm > 0)) options.radius_mm = 1.5 * std::max({size.x, size.y, size.z});
   ProgressLine progress(session.console, Counted::steps);
   const auto told = [&](const optimise::TopologyStep& step) { progress.update({step.number, options.steps}); };
-  const optimise::Topology topology =
-      optimise::find_topology(made->model, made->conditions, options, told, &session.stop);
+  optimise::Topology topology = optimise::find_topology(made.model, made.conditions, options, told, &session.stop);
   progress.finish();
+  return topology;
+}
 
-  write_density(files[0], made->model.bricks, topology.density);
-  exporting::write_file(files[1], script_of(a));
-  exporting::write_file(files[2], history_of(topology, made->goal.has_value()));
-  exporting::write_file(files[3], chart_of(topology, made->goal.has_value()));
+void tell(const TopologyCase& made, const optimise::Topology& topology, const std::vector<std::string>& files,
+          const Console& console) {
   const optimise::TopologyStep& last = topology.steps.back();
-  session.console.say(format_count(topology.steps.size()) + " steps: " + change_of(topology, made->goal.has_value()) +
-                      " with " + format_rounded(100 * last.volume_fraction, 3) + " % of the volume, " +
-                      format_rounded(100 * last.greyness, 3) + " % grey" +
-                      (last.change > options.change ? ", and would change further with more steps" : ""));
-  session.console.say("densities in " + files[0] + ", a solid of them in " + files[1]);
-  session.console.event("topology", {{"bricks", static_cast<double>(made->model.bricks.count())},
-                                     {"steps", static_cast<double>(topology.steps.size())},
-                                     {"compliance_n_mm", last.compliance},
-                                     {"displacement_mm", made->goal ? Data(last.displacement) : Data()},
-                                     {"volume_fraction", last.volume_fraction},
-                                     {"change", last.change},
-                                     {"greyness", last.greyness},
-                                     {"files", DataList(files.begin(), files.end())}});
+  console.say(format_count(topology.steps.size()) + " steps: " + change_of(topology, made.goal.has_value()) + " with " +
+              format_rounded(100 * last.volume_fraction, 3) + " % of the volume, " +
+              format_rounded(100 * last.greyness, 3) + " % grey" +
+              (last.change > made.study.options.change ? ", and would change further with more steps" : ""));
+  console.say("densities in " + files[0] + ", a solid of them in " + files[1]);
+  console.event("topology", {{"bricks", static_cast<double>(made.model.bricks.count())},
+                             {"steps", static_cast<double>(topology.steps.size())},
+                             {"compliance_n_mm", last.compliance},
+                             {"displacement_mm", made.goal ? Data(last.displacement) : Data()},
+                             {"volume_fraction", last.volume_fraction},
+                             {"change", last.change},
+                             {"greyness", last.greyness},
+                             {"files", DataList(files.begin(), files.end())}});
+}
+
+int find_and_write(const OptimiseChoices& a, const TopologyCase& made, Session& session) {
+  std::error_code problem;
+  fs::create_directories(a.folder, problem);
+  if (problem) throw Error("cannot make the folder " + a.folder + ": " + problem.message());
+  const optimise::Topology topology = search(a, made, session);
+  const std::vector<std::string> files = files_of(a);
+  write_density(files[0], made.model.bricks, topology.density);
+  exporting::write_file(files[1], script_of(a));
+  exporting::write_file(files[2], history_of(topology, made.goal.has_value()));
+  exporting::write_file(files[3], chart_of(topology, made.goal.has_value()));
+  tell(made, topology, files, session.console);
   return done;
+}
+
+}  // namespace
+
+int optimise_topology(const OptimiseChoices& a, const Data& data, Session& session) {
+  JobSteps<TopologyCase> steps;
+  steps.refuse = [&] { refuse_to_overwrite_any(a); };
+  steps.plan = [&](Diagnostics& diagnostics) -> std::optional<TopologyCase> {
+    const auto study = compile::read_topology_study(data, diagnostics);
+    return study ? make_topology_case(a, *study, session, diagnostics) : std::nullopt;
+  };
+  steps.check = [&](const TopologyCase& made) {
+    refuse_little_memory(fea::solve_bytes(made.model.bricks), a.work.memory_bytes,
+                         "choose larger bricks with \"cell\"");
+  };
+  steps.run = [&](const TopologyCase& made) { return find_and_write(a, made, session); };
+  return take_steps(steps, session);
 }
 
 }  // namespace ombre::cli

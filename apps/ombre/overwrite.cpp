@@ -1,17 +1,32 @@
-// Files that are there already.
 #include "ombre/overwrite.h"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <filesystem>
 
 #include "base/error.h"
+#include "export/output_file.h"
 
 namespace ombre::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Else writing would fail, once all is computed.
+void check_folder(const std::string& path) {
+  std::error_code error;
+  const fs::path folder = fs::absolute(path, error).parent_path();
+  if (!error && ::access(folder.c_str(), W_OK | X_OK) != 0) throw exporting::write_error(path, errno);
+}
+
+}  // namespace
 
 void refuse_to_overwrite(const std::string& path, bool force) {
   std::error_code ignored;
-  const auto status = std::filesystem::status(path, ignored);
-  if (!std::filesystem::exists(status)) return;
-  if (!std::filesystem::is_regular_file(status))
+  const auto status = fs::status(path, ignored);
+  if (!fs::exists(status)) return check_folder(path);
+  if (!fs::is_regular_file(status))
     throw Error(Code::cannot_write, path + " is not a file; choose another name", {{"file", path}});
   if (!force)
     throw Error(Code::exists,

@@ -4,29 +4,16 @@
 #include "base/point_text.h"
 #include "base/text.h"
 #include "compile/probe.h"
+#include "compile/probe_choices.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
+#include "ombre/options.h"
 
 namespace ombre::cli {
 namespace {
 
-struct ProbeArguments : DesignArguments {
-  std::vector<std::string> points;
-};
-
-Vec3 parse_point(const std::string& text) {
-  const auto parts = split(text, ',');
-  Vec3 point;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto number = parts.size() == 3 ? parse_number(trim(parts[static_cast<size_t>(axis)])) : std::nullopt;
-    if (!number)
-      throw WrongArgument("\"" + text + "\" is not a point; write " + spelled::option("--at", "x,y,z") +
-                          " in mm, for example " + spelled::option("--at", "0,0,2.5"));
-    point[axis] = *number;
-  }
-  return point;
-}
+using compile::ProbeChoices;
 
 DataMembers to_members(const std::vector<std::pair<std::string, double>>& values) {
   DataMembers members;
@@ -43,12 +30,10 @@ std::string for_people(const compile::ProbeResult& result) {
   return text + "\n";
 }
 
-int probe(const ProbeArguments& a, Session& session) {
-  std::vector<Vec3> points;
-  for (const std::string& text : a.points) points.push_back(parse_point(text));
+int probe(const ProbeChoices& a, Session& session) {
   Diagnostics diagnostics;
-  const auto loaded = load_design(a, session, diagnostics);
-  const auto results = loaded ? compile::probe(*loaded, points, diagnostics) : std::nullopt;
+  const auto loaded = load_design(a.design, session, diagnostics);
+  const auto results = loaded ? compile::probe(*loaded, a.points, diagnostics) : std::nullopt;
   session.console.diagnose(diagnostics);
   if (!results) return wrong_input;
   for (const compile::ProbeResult& result : *results) {
@@ -74,15 +59,11 @@ int probe(const ProbeArguments& a, Session& session) {
 Command add_probe(CLI::App& program, OutputOptions& output) {
   CLI::App* app =
       program.add_subcommand("probe", "Say what a design is at single points: distance, materials, attributes");
-  auto a = std::make_shared<ProbeArguments>();
-  add_design_arguments(*app, *a);
-  app->add_option("--at", a->points, "A point, in mm; may be repeated")
-      ->required()
-      ->type_name("X,Y,Z")
-      ->allow_extra_args(false);
+  auto a = std::make_shared<ProbeChoices>();
+  add_options(*app, *a);
   add_output_options(*app, output);
   app->footer("Example:\n  ombre probe part.vcad --at 0,0,2.5 --at 1,0,2.5\n");
-  return {app, [a](Session& session) { return probe(*a, session); }};
+  return {app, [a](Session& session) { return probe(*a, session); }, ProbeChoices::options().options()};
 }
 
 }  // namespace ombre::cli

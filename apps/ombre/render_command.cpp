@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/file_ending.h"
 #include "base/text.h"
 #include "compile/picture_choices.h"
 #include "export/output_file.h"
@@ -9,6 +10,7 @@
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
+#include "ombre/job_steps.h"
 #include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
@@ -36,8 +38,7 @@ constexpr const char* render_footer =
 std::vector<std::string> output_files(const PictureChoices& a) {
   namespace fs = std::filesystem;
   const fs::path path(a.output.empty() ? fs::path(a.design.design).stem().string() + ".png" : a.output);
-  if (const std::string ending = to_lower(path.extension().string());
-      !ending.empty() && ending != ".png" && a.output != "-")
+  if (const std::string ending = ending_of(path); !ending.empty() && ending != ".png" && a.output != "-")
     throw WrongArgument(spelled::option("-o", a.output) + ": pictures are PNG files; write for example -o " +
                         fs::path(path).replace_extension(".png").string());
   if (a.frames == 1) return {path.string()};
@@ -67,6 +68,26 @@ compile::LoadedPtr load_pictured(const PictureChoices& a, Session& session, Diag
   return load_design(a.design, session, diagnostics, a.work.threads);
 }
 
+int take_pictures(const compile::Loaded& loaded, const compile::PictureRequest& request,
+                  const std::vector<std::string>& files, Session& session) {
+  Diagnostics diagnostics;
+  ProgressLine progress(session.console, Counted::steps);
+  const auto take = [&](int frame, const compile::Picture& picture) {
+    const std::string bytes =
+        formats::encode_png(static_cast<uint32_t>(request.width), static_cast<uint32_t>(request.height), picture.rgba);
+    const std::string& file = files[static_cast<size_t>(frame)];
+    if (file == "-") return session.console.print(bytes);
+    exporting::write_file(file, bytes);
+    progress.finish();
+    session.console.say("written to " + file + ", " + format_rounded(picture.pixel_mm, 3) + " mm a pixel");
+    session.console.event("picture", {{"file", file}, {"pixel_mm", picture.pixel_mm}});
+  };
+  const bool is_done = compile::take_pictures(loaded, request, session.stop, take, diagnostics, &progress);
+  progress.finish();
+  session.console.diagnose(diagnostics);
+  return is_done && !diagnostics.has_errors() ? done : wrong_input;
+}
+
 int render_design(const PictureChoices& a, Session& session) {
   const compile::PictureRequest request = a.request();
   const bool to_stdout = a.output == "-";
@@ -75,26 +96,17 @@ int render_design(const PictureChoices& a, Session& session) {
                         " writes events; give -o a file name");
   if (to_stdout && a.frames > 1) throw WrongArgument("stdout holds one picture; give -o a file name");
   const std::vector<std::string> files = output_files(a);
-  if (!to_stdout)
-    for (const std::string& file : files) refuse_to_overwrite(file, a.force);
-
-  Diagnostics diagnostics;
-  const compile::LoadedPtr loaded = load_pictured(a, session, diagnostics);
-  ProgressLine progress(session.console, Counted::steps);
-  const auto take = [&](int frame, const compile::Picture& picture) {
-    const std::string bytes =
-        formats::encode_png(static_cast<uint32_t>(request.width), static_cast<uint32_t>(request.height), picture.rgba);
-    if (to_stdout) return session.console.print(bytes);
-    const std::string& file = files[static_cast<size_t>(frame)];
-    exporting::write_file(file, bytes);
-    progress.finish();
-    session.console.say("written to " + file + ", " + format_rounded(picture.pixel_mm, 3) + " mm a pixel");
-    session.console.event("picture", {{"file", file}, {"pixel_mm", picture.pixel_mm}});
+  JobSteps<compile::LoadedPtr> steps;
+  steps.refuse = [&] {
+    for (const std::string& file : files)
+      if (!to_stdout) refuse_to_overwrite(file, a.force);
   };
-  const bool is_done = loaded && compile::take_pictures(*loaded, request, session.stop, take, diagnostics, &progress);
-  progress.finish();
-  session.console.diagnose(diagnostics);
-  return is_done && !diagnostics.has_errors() ? done : wrong_input;
+  steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::LoadedPtr> {
+    const compile::LoadedPtr loaded = load_pictured(a, session, diagnostics);
+    return loaded ? std::optional(loaded) : std::nullopt;
+  };
+  steps.run = [&](const compile::LoadedPtr& loaded) { return take_pictures(*loaded, request, files, session); };
+  return take_steps(steps, session);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/file_ending.h"
 #include "base/temporary_folder.h"
 #include "base/text.h"
 #include "compile/scad_words_design.h"
@@ -39,9 +40,7 @@ std::string format_of(const std::string& output, const ScadArguments& arguments)
   return ending.empty() ? "" : to_lower(ending.substr(1));
 }
 
-bool has_ending(const std::string& path, const std::string& format) {
-  return to_lower(fs::path(path).extension().string()) == "." + format;
-}
+bool has_ending(const std::string& path, const std::string& format) { return ending_of(path) == "." + format; }
 
 void write_output(const std::string& path, const std::string& bytes, Session& session) {
   if (path == "-")

@@ -2,11 +2,13 @@
 #include <memory>
 
 #include "base/error.h"
+#include "compile/job_folder.h"
 #include "compile/slice_choices.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/free_space.h"
 #include "ombre/job_arguments.h"
+#include "ombre/job_steps.h"
 #include "ombre/options.h"
 #include "ombre/progress_line.h"
 #include "ombre/slice_report.h"
@@ -84,35 +86,51 @@ int write_slices(const compile::Plan& plan, const compile::SliceOptions& options
   }
 }
 
-int slice(const SliceChoices& a, Session& session) {
-  Diagnostics diagnostics;
-  const auto diagnosed = [&] {
-    session.console.diagnose(diagnostics);
-    return diagnostics.has_errors() ? wrong_input : done;
-  };
-  const auto options_of_plan = plan_options(a.sampling, a.work, session, diagnostics, a.images);
-  if (!options_of_plan) return diagnosed();
-
+// Nothing, and a diagnostic, where the design has a function that no file can hold.
+compile::LoadedPtr load_sliced(const SliceChoices& a, Session& session, Diagnostics& diagnostics) {
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
-  if (!loaded) return diagnosed();
-  if (const design::Node* node = a.resume || a.emit == "json" ? design::find_host_function(loaded->design) : nullptr) {
-    diagnostics.error(Code::option, node->where(),
-                      node->type().name + " has a function of the host program, so the design can be neither " +
-                          "written to a file nor resumed: nothing tells what the function is",
-                      "write it as an expression");
-    return diagnosed();
-  }
-  if (!a.emit.empty()) {
-    session.console.print(compile::emit(*loaded, a.emit));
-    return diagnosed();
-  }
-  const std::optional<compile::Plan> plan = compile::plan_slice(loaded, *options_of_plan, diagnostics);
-  if (const int code = diagnosed(); !plan || code != done) return wrong_input;
+  if (!loaded || !(a.resume || a.emit == "json")) return loaded;
+  const design::Node* node = design::find_host_function(loaded->design);
+  if (!node) return loaded;
+  diagnostics.error(Code::option, node->where(),
+                    node->type().name + " has a function of the host program, so the design can be neither " +
+                        "written to a file nor resumed: nothing tells what the function is",
+                    "write it as an expression");
+  return nullptr;
+}
 
-  const compile::SliceOptions options = compile::slice_options(a, *plan);
-  tell_plan(session.console, plan->request, options);
-  const StopFlag& stop = session.stop;
-  return a.dry_run ? dry_run(*plan, options, session, stop) : write_slices(*plan, options, session, stop);
+int emit(const SliceChoices& a, Session& session) {
+  JobSteps<compile::LoadedPtr> steps;
+  steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::LoadedPtr> {
+    if (!plan_options(a.sampling, a.work, session, diagnostics, a.images)) return std::nullopt;
+    const compile::LoadedPtr loaded = load_sliced(a, session, diagnostics);
+    return loaded ? std::optional(loaded) : std::nullopt;
+  };
+  steps.run = [&](const compile::LoadedPtr& loaded) {
+    session.console.print(compile::emit(*loaded, a.emit));
+    return done;
+  };
+  return take_steps(steps, session);
+}
+
+int slice(const SliceChoices& a, Session& session) {
+  if (!a.emit.empty()) return emit(a, session);
+  JobSteps<compile::Plan> steps;
+  steps.refuse = [&] {
+    if (!a.dry_run) compile::refuse_used_folder(a.output_folder(), a.folder_use());
+  };
+  steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::Plan> {
+    const auto options = plan_options(a.sampling, a.work, session, diagnostics, a.images);
+    const compile::LoadedPtr loaded = options ? load_sliced(a, session, diagnostics) : nullptr;
+    return loaded ? compile::plan_slice(loaded, *options, diagnostics) : std::nullopt;
+  };
+  steps.run = [&](const compile::Plan& plan) {
+    const compile::SliceOptions options = compile::slice_options(a, plan);
+    tell_plan(session.console, plan.request, options);
+    return a.dry_run ? dry_run(plan, options, session, session.stop)
+                     : write_slices(plan, options, session, session.stop);
+  };
+  return take_steps(steps, session);
 }
 
 }  // namespace

@@ -77,12 +77,15 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
   const std::string help = "; see ombre " + (&command == &program ? "" : command.get_name() + ' ') + "--help";
   // CLI11 lists what was left over, of the program and of the command.
   const std::vector<std::string> left_over = program.remaining(true);
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || left_over.empty()) {
+  const auto first_option =
+      std::find_if(left_over.begin(), left_over.end(), [](const std::string& s) { return s.starts_with('-'); });
+  // What is missing may be there with a slip in its name.
+  const bool is_slip = dynamic_cast<const CLI::RequiredError*>(&error) && first_option != left_over.end();
+  const bool is_extra = dynamic_cast<const CLI::ExtrasError*>(&error) && !left_over.empty();
+  if (!is_slip && !is_extra) {
     const std::string text = in_other_words(command, error);
     return text.ends_with('?') ? text : text + help;
   }
-  const auto first_option =
-      std::find_if(left_over.begin(), left_over.end(), [](const std::string& s) { return s.starts_with('-'); });
   if (first_option == left_over.end()) return "one argument too many: \"" + left_over.front() + '"' + help;
   const std::string option = first_option->substr(0, first_option->find('='));
   const std::string hint = did_you_mean(option, option_names(command));

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "base/error.h"
+#include "base/file_ending.h"
 #include "base/text.h"
 #include "compile/grid_choices.h"
 #include "compile/sparse_file.h"
@@ -15,6 +16,7 @@
 #include "ombre/commands.h"
 #include "ombre/free_space.h"
 #include "ombre/job_arguments.h"
+#include "ombre/job_steps.h"
 #include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
@@ -60,7 +62,7 @@ struct VtiFormat {};
 using Format = std::variant<exporting::VolumeFormat, vdb::FileFormat, VtiFormat>;
 
 Format chosen_format(const GridChoices& a) {
-  const std::string ending = to_lower(std::filesystem::path(a.output).extension().string());
+  const std::string ending = ending_of(a.output);
   if (a.gzip && ending != ".nrrd")
     throw WrongArgument(spelled::option("--gzip") + " is for .nrrd files; leave it out, or write " +
                         spelled::option("-o", "part.nrrd"));
@@ -125,68 +127,57 @@ void warn_of_metric(const Console& console, const compile::GridJob& job) {
     console.warn("of this design's distance only the sign is meant, since a formula gives it; its values are no mm");
 }
 
+// The files of a grid, without descriptions beside them.
+std::vector<std::string> paths_of(const GridChoices& a, const compile::GridJob& job, const Format& format) {
+  const bool is_dense = std::holds_alternative<exporting::VolumeFormat>(format);
+  return is_dense ? compile::volume_paths(a.output, job.grids) : std::vector{a.output};
+}
+
 // Files of the grid, and those beside them.
-void refuse_to_overwrite_any(const std::vector<std::string>& paths, exporting::VolumeFormat format, bool force) {
+void refuse_to_overwrite_any(const std::vector<std::string>& paths, const Format& format, bool force) {
+  const auto* dense = std::get_if<exporting::VolumeFormat>(&format);
   for (const std::string& path : paths) {
     refuse_to_overwrite(path, force);
-    if (exporting::has_description(format)) refuse_to_overwrite(exporting::description_path(path), force);
+    if (dense && exporting::has_description(*dense)) refuse_to_overwrite(exporting::description_path(path), force);
   }
 }
 
-void refuse_small_disk(const std::string& path, uint64_t bytes) {
-  const std::string folder = std::filesystem::absolute(path).parent_path().string();
-  const std::optional<double> free = free_bytes(folder);
-  if (!free || static_cast<double>(bytes) <= *free) return;
-  throw Error(Code::disk_space,
-              "the grid takes " + format_bytes(static_cast<double>(bytes)) + ", and the disk of " + folder + " has " +
-                  format_bytes(*free) + " left; free some space there, choose larger voxels with " +
-                  spelled::option("--voxel") + ", or write all " + "the same with " + spelled::option("--force"));
+// Only the design says how many grids there are of fractions and attributes.
+bool has_one_file(const Format& format, const compile::GridQuery& query) {
+  if (!std::holds_alternative<exporting::VolumeFormat>(format)) return true;
+  const bool is_one = query.materials != query.distance;
+  return is_one && !query.fractions && !query.all_attributes && query.attributes.empty();
 }
 
-int write_dense(const GridChoices& a, const compile::GridJob& job, exporting::VolumeFormat format, Session& session,
-                const StopFlag& stop) {
-  const std::vector<std::string> paths = compile::volume_paths(a.output, job.grids);
+// Tells the plan, once it is known to be possible.
+void check(const GridChoices& a, const compile::GridJob& job, const Format& format, Session& session) {
+  const std::vector<std::string> paths = paths_of(a, job, format);
   refuse_to_overwrite_any(paths, format, a.force);
-  const uint64_t bytes = compile::volume_bytes(job);
-  const bool is_compressed = format == exporting::VolumeFormat::nrrd_gzip;
-  if (!a.force && !is_compressed) refuse_small_disk(a.output, bytes);
-  tell_plan(session.console, job, a.work.threads, paths,
-            (is_compressed ? "at most " : "") + format_bytes(static_cast<double>(bytes)));
+  warn_of_metric(session.console, job);
+  if (is_sparse(format)) return tell_plan(session.console, job, a.work.threads, paths, "sparse");
+  const auto bytes = static_cast<double>(compile::volume_bytes(job));
+  const auto* dense = std::get_if<exporting::VolumeFormat>(&format);
+  const bool is_compressed = dense && *dense == exporting::VolumeFormat::nrrd_gzip;
+  if (!a.force && !is_compressed)
+    refuse_small_disk(a.output, bytes, "the grid", "choose larger voxels with " + spelled::option("--voxel"));
+  tell_plan(session.console, job, a.work.threads, paths, (is_compressed ? "at most " : "") + format_bytes(bytes));
+}
+
+int write(const GridChoices& a, const compile::GridJob& job, const Format& format, Session& session) {
   ProgressLine progress(session.console);
-  const compile::GridReport report = compile::write_volumes(job, paths, format, a.work.threads, &progress, &stop);
+  const auto written = [&]() -> compile::GridReport {
+    const int threads = a.work.threads;
+    if (const auto* sparse = std::get_if<vdb::FileFormat>(&format))
+      return compile::write_sparse(job, a.output, *sparse, threads, &progress, &session.stop);
+    if (std::holds_alternative<VtiFormat>(format))
+      return compile::write_vti(job, a.output, threads, &progress, &session.stop);
+    return compile::write_volumes(job, paths_of(a, job, format), std::get<exporting::VolumeFormat>(format), threads,
+                                  &progress, &session.stop);
+  };
+  const compile::GridReport report = written();
   progress.finish();
   tell_report(session.console, report);
   return done;
-}
-
-int write_sparse(const GridChoices& a, const compile::GridJob& job, vdb::FileFormat format, Session& session,
-                 const StopFlag& stop) {
-  refuse_to_overwrite(a.output, a.force);
-  tell_plan(session.console, job, a.work.threads, {a.output}, "sparse");
-  ProgressLine progress(session.console);
-  const compile::GridReport report = compile::write_sparse(job, a.output, format, a.work.threads, &progress, &stop);
-  progress.finish();
-  tell_report(session.console, report);
-  return done;
-}
-
-int write_image_data(const GridChoices& a, const compile::GridJob& job, Session& session, const StopFlag& stop) {
-  refuse_to_overwrite(a.output, a.force);
-  const uint64_t bytes = compile::volume_bytes(job);
-  if (!a.force) refuse_small_disk(a.output, bytes);
-  tell_plan(session.console, job, a.work.threads, {a.output}, format_bytes(static_cast<double>(bytes)));
-  ProgressLine progress(session.console);
-  const compile::GridReport report = compile::write_vti(job, a.output, a.work.threads, &progress, &stop);
-  progress.finish();
-  tell_report(session.console, report);
-  return done;
-}
-
-int write(const GridChoices& a, const compile::GridJob& job, const Format& format, Session& session,
-          const StopFlag& stop) {
-  if (const auto* sparse = std::get_if<vdb::FileFormat>(&format)) return write_sparse(a, job, *sparse, session, stop);
-  if (std::holds_alternative<VtiFormat>(format)) return write_image_data(a, job, session, stop);
-  return write_dense(a, job, std::get<exporting::VolumeFormat>(format), session, stop);
 }
 
 std::optional<compile::GridJob> plan_job(const GridChoices& a, const compile::GridQuery& query, Session& session,
@@ -208,18 +199,19 @@ std::optional<compile::GridJob> plan_job(const GridChoices& a, const compile::Gr
 }
 
 int voxels(const GridChoices& a, Session& session) {
-  // A slip is reported before a long load, not after it.
   const Format format = chosen_format(a);
   const std::string usual = is_scan(a.design.design) ? "number"
                             : is_sparse(format)      ? "distance,fractions"
                                                      : "materials";
   const compile::GridQuery query = a.query(usual, is_sparse(format));
-  Diagnostics diagnostics;
-  const auto job = plan_job(a, query, session, diagnostics);
-  session.console.diagnose(diagnostics);
-  if (!job || diagnostics.has_errors()) return wrong_input;
-  warn_of_metric(session.console, *job);
-  return write(a, *job, format, session, session.stop);
+  JobSteps<compile::GridJob> steps;
+  steps.refuse = [&] {
+    if (has_one_file(format, query)) refuse_to_overwrite_any({a.output}, format, a.force);
+  };
+  steps.plan = [&](Diagnostics& diagnostics) { return plan_job(a, query, session, diagnostics); };
+  steps.check = [&](const compile::GridJob& job) { check(a, job, format, session); };
+  steps.run = [&](const compile::GridJob& job) { return write(a, job, format, session); };
+  return take_steps(steps, session);
 }
 
 }  // namespace

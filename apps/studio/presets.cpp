@@ -2,25 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "base/error.h"
 #include "base/json.h"
 #include "base/text.h"
 #include "export/output_file.h"
 #include "formats/file.h"
+#include "studio/preset_files.h"
 
 namespace ombre::studio {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* sets_member = "parameterSets";
 constexpr const char* version_member = "fileFormatVersion";
 constexpr const char* known_version = "1";
-constexpr const char* presets_ending = ".presets.json";
-
-bool is_of_openscad(const std::string& name) { return to_lower(fs::path(name).extension().string()) == ".scad"; }
 
 Data* member(Data& data, std::string_view name) {
   auto* members = std::get_if<DataMembers>(&data.value);
@@ -29,10 +25,10 @@ Data* member(Data& data, std::string_view name) {
   return found == members->end() ? nullptr : &found->second;
 }
 
-DataMembers& sets_of(Data& file) { return std::get<DataMembers>(member(file, sets_member)->value); }
+DataMembers& sets_of(Data& file) { return std::get<DataMembers>(member(file, presets_member)->value); }
 
 bool is_of_presets(Data& file) {
-  const Data* sets = member(file, sets_member);
+  const Data* sets = member(file, presets_member);
   if (!sets || !sets->members()) return false;
   const Data* version = member(file, version_member);
   if (version && *version != Data(known_version) && *version != Data(1.0)) return false;
@@ -43,7 +39,7 @@ bool is_of_presets(Data& file) {
 // presets is empty.
 Data read_presets(const fs::path& path) {
   std::error_code error;
-  if (!fs::exists(path, error)) return DataMembers{{sets_member, DataMembers{}}, {version_member, known_version}};
+  if (!fs::exists(path, error)) return DataMembers{{presets_member, DataMembers{}}, {version_member, known_version}};
   if (fs::is_regular_file(path, error) && fs::file_size(path, error) > Presets::most_bytes)
     throw RequestError("size", path.filename().string() + " is too large to be a file of presets");
   Diagnostics ignored;
@@ -99,21 +95,6 @@ void check_value(const std::string& variable, const Data& value) {
 }
 
 }  // namespace
-
-std::string presets_file_of(const std::string& design) {
-  return fs::path(design).replace_extension(is_of_openscad(design) ? ".json" : presets_ending).generic_string();
-}
-
-bool is_presets_file(const fs::path& file) {
-  if (to_lower(file.filename().string()).ends_with(presets_ending)) return true;
-  std::error_code ignored;
-  if (to_lower(file.extension().string()) != ".json" || !fs::exists(fs::path(file).replace_extension(".scad"), ignored))
-    return false;
-  std::string beginning(256, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  return beginning.find('"' + std::string(sets_member) + '"') != std::string::npos;
-}
 
 DataList Presets::list(const std::string& design) {
   const fs::path path = workspace_.path(presets_file_of(design));

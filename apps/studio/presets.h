@@ -12,11 +12,6 @@
 
 namespace ombre::studio {
 
-// part.scad has part.json, where OpenSCAD keeps them; part.vcad and others have part.presets.json.
-std::string presets_file_of(const std::string& design);
-// Does the file hold presets? By its name, and by what it begins with where a script beside it has the same name.
-bool is_presets_file(const std::filesystem::path& file);
-
 // Thread-safe. Files of another format are errors, and stay as they are.
 class Presets {
  public:

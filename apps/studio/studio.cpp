@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "base/error.h"
+#include "base/file_ending.h"
 #include "base/tasks.h"
 #include "base/text.h"
 #include "compile/build.h"
@@ -16,6 +17,8 @@
 #include "compile/turned.h"
 #include "lang/builtins.h"
 #include "studio/bundles.h"
+#include "studio/data_files.h"
+#include "studio/data_scripts.h"
 #include "studio/design_answer.h"
 #include "studio/python_design.h"
 #include "studio/scad_design.h"
@@ -69,9 +72,7 @@ DataList describe_functions() {
   return list;
 }
 
-bool has_ending(const std::string& file, std::string_view ending) {
-  return to_lower(std::filesystem::path(file).extension().string()) == ending;
-}
+bool has_ending(const std::string& file, std::string_view ending) { return ending_of(file) == ending; }
 
 }  // namespace
 

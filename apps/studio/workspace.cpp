@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/file_ending.h"
 #include "base/hash.h"
 #include "base/text.h"
 #include "base/utf8.h"
 #include "export/output_file.h"
 #include "formats/file.h"
 #include "studio/messages.h"
-#include "studio/presets.h"
+#include "studio/preset_files.h"
 
 namespace ombre::studio {
 namespace {
@@ -45,7 +46,7 @@ bool is_utf8(const std::string& text) {
 }  // namespace
 
 bool is_design_name(const std::string& name) {
-  const std::string ending = to_lower(fs::path(name).extension().string());
+  const std::string ending = ending_of(name);
   return ending == ".vcad" || ending == ".scad" || ending == ".py" || ending == ".json";
 }
 

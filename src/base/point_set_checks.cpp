@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "base/point_sets.h"
 #include "base/text.h"
 
 namespace ombre {

@@ -11,8 +11,6 @@
 
 namespace ombre {
 
-inline constexpr size_t most_set_points = 100'000;
-
 // Behind it lies the side where dot(normal, p) <= offset; the normal has length one.
 struct Plane {
   Vec3 normal;

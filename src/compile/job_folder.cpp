@@ -73,12 +73,28 @@ std::optional<LayerFiles> layer_files(const std::optional<Data>& job) {
   return LayerFiles(*pattern, *materials, static_cast<int64_t>(first_index), static_cast<int64_t>(count));
 }
 
-void make_folder(const std::string& path) {
+void refuse_file(const std::string& path) {
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_directory(path, error))
     throw Error(Code::cannot_write, path + " is a file, and the layers need a folder; choose another name",
                 {{"file", path}});
-  error.clear();
+}
+
+// Sorted.
+std::vector<std::string> names_in(const std::string& path) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error))
+    names.push_back(entry->path().filename().string());
+  if (error)
+    throw Error(Code::cannot_read, "cannot read the folder " + path + ": " + error.message(), {{"file", path}});
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void make_folder(const std::string& path) {
+  refuse_file(path);
+  std::error_code error;
   fs::create_directories(path, error);
   if (error) throw exporting::write_error(path, error.value());
 }
@@ -97,39 +113,40 @@ void remove_file(const std::string& path) {
 
 }  // namespace
 
+void refuse_used_folder(const std::string& path, FolderUse use) {
+  refuse_file(path);
+  std::error_code ignored;
+  if (use == FolderUse::replace || !fs::exists(path, ignored)) return;
+  if (fs::exists(fs::path(path) / job_file, ignored)) {
+    if (use == FolderUse::resume) return;
+    throw Error(Code::exists,
+                path + " already holds a slice job; continue it with " + spelled::option("--resume") +
+                    ", replace it with " + spelled::option("--force") + ", or choose another folder",
+                {{"file", path}});
+  }
+  for (const std::string& name : names_in(path))
+    if (name != job_file + std::string(part_suffix))  // of a run that ended before it began
+      throw Error(Code::exists,
+                  path + " is not empty, it holds for example " + name +
+                      "; choose another folder, or write beside what is there with " + spelled::option("--force"),
+                  {{"file", path}});
+}
+
 JobFolder::JobFolder(std::string path, const SliceRequest& request, FolderUse use, int threads, Progress* progress,
                      const StopFlag* stop)
     : path_(std::move(path)), request_(request), files_(request), threads_(threads), progress_(progress), stop_(stop) {
   make_folder(path_);
   lock_ = std::make_unique<FolderLock>(path_);
-  switch (use) {
-    case FolderUse::fresh:
-      refuse_job();
-      [[fallthrough]];
-    case FolderUse::resume:
-      if (holds(job_file)) {
-        resume();
-      } else {
-        refuse_foreign_files();
-        start_fresh();
-      }
-      break;
-    case FolderUse::replace:
-      remove_old_job();
-      start_fresh();
-  }
+  refuse_used_folder(path_, use);
+  if (use == FolderUse::replace) remove_old_job();
+  if (use == FolderUse::resume && holds(job_file))
+    resume();
+  else
+    start_fresh();
   journal_ = std::make_unique<exporting::AppendFile>(in_folder(journal_file));
 }
 
 JobFolder::~JobFolder() = default;
-
-void JobFolder::refuse_job() const {
-  if (!holds(job_file)) return;
-  throw Error(Code::exists,
-              path_ + " already holds a slice job; continue it with " + spelled::option("--resume") +
-                  ", replace it with " + spelled::option("--force") + ", or choose another folder",
-              {{"file", path_}});
-}
 
 void JobFolder::start_fresh() {
   refuse_collisions();
@@ -175,7 +192,7 @@ void JobFolder::remove_old_job() {
 
   // Before anything goes: what stays may not be in the new job's way.
   std::vector<std::string> old;
-  for (std::string& name : names()) {
+  for (std::string& name : names_in(path_)) {
     const std::string_view whole = without_part(name);
     if (is_bookkeeping(whole)) continue;
     if (layers ? layers->contains(whole) : in_journal.count(whole) > 0)
@@ -199,18 +216,9 @@ NameSet JobFolder::images_in_journal() const {
   return images;
 }
 
-void JobFolder::refuse_foreign_files() const {
-  for (const std::string& name : names())
-    if (name != job_file + std::string(part_suffix))  // of a run that ended before it began
-      throw Error(Code::exists,
-                  path_ + " is not empty, it holds for example " + name +
-                      "; choose another folder, or write beside what is there with " + spelled::option("--force"),
-                  {{"file", path_}});
-}
-
 // Whatever the user allowed, a file that Ombre did not write is not replaced by a layer.
 void JobFolder::refuse_collisions() const {
-  for (const std::string& name : names())
+  for (const std::string& name : names_in(path_))
     if (name == journal_file || files_.contains(without_part(name))) refuse_collision(name);
 }
 
@@ -223,7 +231,7 @@ void JobFolder::refuse_collision(const std::string& name) const {
 }
 
 void JobFolder::remove_parts() const {
-  for (const std::string& name : names()) {
+  for (const std::string& name : names_in(path_)) {
     const std::string_view whole = without_part(name);
     if (whole.size() < name.size() && (is_bookkeeping(whole) || files_.contains(whole))) remove_file(in_folder(name));
   }
@@ -288,17 +296,6 @@ bool JobFolder::holds(const char* name) const {
 }
 
 std::string JobFolder::in_folder(std::string_view name) const { return (fs::path(path_) / name).string(); }
-
-std::vector<std::string> JobFolder::names() const {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error))
-    names.push_back(entry->path().filename().string());
-  if (error)
-    throw Error(Code::cannot_read, "cannot read the folder " + path_ + ": " + error.message(), {{"file", path_}});
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 std::string JobFolder::job_text(bool complete) const {
   DataMembers job = describe_job(request_);

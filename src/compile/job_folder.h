@@ -25,6 +25,10 @@ inline constexpr const char* journal_file = "journal.jsonl";
 
 class FolderLock;
 
+// Throws Error where the folder, if it is there, holds what a job of this use may not go beside: another job, or files
+// of others. What a resumed or replaced job needs besides is known once it is planned.
+void refuse_used_folder(const std::string& path, FolderUse use);
+
 using NameSet = std::set<std::string, std::less<>>;
 
 class JobFolder {
@@ -49,12 +53,10 @@ class JobFolder {
   bool close();
 
  private:
-  void refuse_job() const;
   void start_fresh();
   void resume();
   void remove_old_job();
   NameSet images_in_journal() const;
-  void refuse_foreign_files() const;
   void refuse_collisions() const;
   [[noreturn]] void refuse_collision(const std::string& name) const;
   void remove_parts() const;
@@ -63,7 +65,6 @@ class JobFolder {
   bool is_complete() const;
   bool holds(const char* name) const;
   std::string in_folder(std::string_view name) const;
-  std::vector<std::string> names() const;
   std::string job_text(bool complete) const;
   std::string journal_text() const;
   void update(const char* name, const std::string& text) const;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "surface/point_evaluator.h"
+#include "surface/shortened.h"
 
 namespace ombre::compile {
 namespace {

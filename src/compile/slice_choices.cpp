@@ -10,11 +10,15 @@ std::string SliceChoices::output_folder() const {
   return folder.empty() ? std::filesystem::path(design.design).stem().string() + "_slices" : folder;
 }
 
+FolderUse SliceChoices::folder_use() const {
+  if (force) return FolderUse::replace;
+  return resume ? FolderUse::resume : FolderUse::fresh;
+}
+
 SliceOptions slice_options(const SliceChoices& choices, const Plan& plan) {
   SliceOptions options;
   options.folder = choices.output_folder();
-  if (choices.force) options.use = FolderUse::replace;
-  if (choices.resume) options.use = FolderUse::resume;
+  options.use = choices.folder_use();
   options.threads = choices.work.threads;
   options.memory_bytes = choices.work.memory_bytes;
   options.strict = choices.strict;

@@ -40,6 +40,7 @@ struct SliceChoices {
   }
   // The folder that was chosen, or one that has the design's name.
   std::string output_folder() const;
+  FolderUse folder_use() const;
 };
 
 // For the plan of the same choices. Throws options::WrongValue when the layers are not among the plan's.

@@ -8,6 +8,8 @@
 
 namespace ombre::design {
 
+bool Node::is_nothing() const { return type().is_nothing; }
+
 size_t NodeType::mixture_output() const {
   const auto found = std::ranges::find(outputs, ValueType::mixture, &OutputInfo::type);
   return static_cast<size_t>(found - outputs.begin());

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "export/contact_sheet.h"
+#include "export/picture.h"
 
 namespace ombre::exporting {
 

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/file_ending.h"
 #include "base/text.h"
 #include "export/output_file.h"
 
@@ -66,7 +67,7 @@ void write_archive(const std::string& path, const MeshDocument& document, format
 }  // namespace
 
 std::optional<MeshFormat> mesh_format_of(const std::string& path) {
-  const std::string wanted = to_lower(fs::path(path).extension().string());
+  const std::string wanted = ending_of(path);
   for (const Ending& ending : endings)
     if (ending.text == wanted) return ending.format;
   return std::nullopt;

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/file_ending.h"
 #include "base/text.h"
 #include "export/output_file.h"
 #include "formats/cli.h"
@@ -127,7 +128,7 @@ class SvgFolder : public OutlineFiles {
 }  // namespace
 
 OutlineFormat outline_format_of(const std::string& path) {
-  const std::string ending = to_lower(fs::path(path).extension().string());
+  const std::string ending = ending_of(path);
   if (ending == ".cli") return OutlineFormat::cli;
   return ending == ".svg" ? OutlineFormat::svg : OutlineFormat::svg_folder;
 }

@@ -3,15 +3,13 @@
 
 #include <filesystem>
 
-#include "base/text.h"
+#include "base/file_ending.h"
 #include "formats/file.h"
 #include "formats/file_kinds.h"
 #include "formats/zip_archive.h"
 
 namespace ombre::formats {
 namespace {
-
-std::string extension(const std::string& name) { return to_lower(std::filesystem::path(name).extension().string()); }
 
 // The outermost element, behind a declaration and comments.
 bool is_amf(std::string_view bytes) {
@@ -36,7 +34,7 @@ std::optional<Mesh> read_mesh(const std::string& path, Diagnostics& diagnostics)
 }
 
 std::optional<Mesh> read_mesh(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  const std::string ending = extension(name);
+  const std::string ending = ending_of(name);
   if (is_ply(bytes)) return read_ply(name, bytes, diagnostics);
   if (is_off(bytes)) return read_off(name, bytes, diagnostics);
   if (is_zip(bytes)) return ending == ".amf" ? read_amf(name, bytes, diagnostics) : read_3mf(name, bytes, diagnostics);

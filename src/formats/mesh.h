@@ -11,6 +11,7 @@
 #include "base/diagnostic.h"
 #include "base/vec.h"
 #include "formats/beam_lattice.h"
+#include "formats/greatest_coordinate.h"
 #include "formats/rgba.h"
 
 namespace ombre::formats {
@@ -41,9 +42,6 @@ struct Mesh {
   std::vector<std::array<uint32_t, 3>> texture_triangles;  // empty, or one per triangle, into texture_coordinates
   std::vector<PlacedLattice> lattices;  // of 3MF; they unite with the triangles, and what comes first wins
 };
-
-// Farther away, a double cannot tell micrometres apart.
-inline constexpr double greatest_coordinate = 1e15;
 
 // Chooses the reader by the file's content, else by its extension. Throws Error if the file cannot be
 // read. Nothing is returned, and the reason is in the diagnostics, if it holds no mesh.

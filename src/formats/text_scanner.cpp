@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "base/text.h"
-#include "formats/mesh.h"
+#include "formats/greatest_coordinate.h"
 
 namespace ombre::formats {
 namespace {

@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "lang/builtins.h"
-#include "lang/interpret.h"
 #include "lang/loader.h"
 #include "lang/operators.h"
+#include "lang/options.h"
 #include "lang/read_ahead.h"
 #include "lang/scope.h"
+#include "lang/vocabulary.h"
 
 namespace ombre::lang {
 

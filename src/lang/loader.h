@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "lang/ast.h"
-#include "lang/interpret.h"
+#include "lang/options.h"
 
 namespace ombre::lang {
 

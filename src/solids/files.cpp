@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/text.h"
+#include "base/file_ending.h"
 #include "formats/file.h"
 #include "formats/mesh.h"
 #include "formats/mesh_objects.h"
@@ -17,8 +17,6 @@
 
 namespace ombre::solids {
 namespace {
-
-std::string ending_of(const std::string& path) { return to_lower(std::filesystem::path(path).extension().string()); }
 
 std::optional<std::string> bytes_of(const std::string& path, const SourceRange& where, Diagnostics& messages) {
   try {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "base/error.h"
-#include "base/text.h"
+#include "base/file_ending.h"
 #include "formats/file.h"
 #include "formats/png.h"
 #include "formats/text_scanner.h"
@@ -152,7 +152,7 @@ TriangleMesh mesh_of(const Surface& surface, const SourceRange& where, Diagnosti
     messages.warning(where, "The file '" + surface.path + "' couldn't be opened.");
     return {};
   }
-  const bool is_picture = to_lower(std::filesystem::path(surface.path).extension().string()) == ".png";
+  const bool is_picture = ending_of(surface.path) == ".png";
   try {
     const Heights heights = is_picture ? heights_of_picture(surface.path, bytes, surface.inverted)
                                        : heights_of_text(surface.path, bytes, messages);

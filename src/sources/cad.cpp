@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "base/error.h"
+#include "base/file_ending.h"
 #include "base/tasks.h"
 #include "base/text.h"
 #include "import/cad_source.h"
@@ -178,7 +179,7 @@ std::shared_ptr<const CadFile> read_cad(const FilePath& file, sources::Loading& 
     return nullptr;
   }
   using Made = sources::Loading::Made<CadFile>;
-  const Hash key = sources::Key("cad file").add(file.content).add(sources::ending_of(file.path)).hash();
+  const Hash key = sources::Key("cad file").add(file.content).add(ending_of(file.path)).hash();
   return loading.cached<CadFile>(key, file.path, [&](const Reader&) {
     const size_t bytes = bytes_of_file_byte * loading.bytes(file)->size();
     return Made{std::make_shared<CadFile>(CadFile{cad::read_solids(file.path, loading.stop()), bytes}), bytes};
@@ -206,7 +207,7 @@ std::shared_ptr<const std::vector<CadPart>> CadRequest::load(sources::Loading& l
   if (!loading.find(file)) return nullptr;
   if (!loading.read_content(file)) return nullptr;
   sources::Key key("cad");
-  key.add(file.content).add(sources::ending_of(file.path)).add(is_exact ? "exact" : "fast").add(tolerance_mm);
+  key.add(file.content).add(ending_of(file.path)).add(is_exact ? "exact" : "fast").add(tolerance_mm);
   sources::add_use(key, use, loading.reader());
   using Made = sources::Loading::Made<Result>;
   return loading.cached<Result>(key.hash(), file.path, [&](const Reader& reader) -> Made {

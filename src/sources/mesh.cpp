@@ -1,6 +1,7 @@
 // Mesh files of designs.
 #include "cad/solids.h"
 
+#include "base/file_ending.h"
 #include "base/text.h"
 #include "formats/mesh_objects.h"
 #include "import/beam_source.h"
@@ -182,7 +183,7 @@ std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading&
   const Hash content =
       has_numbers ? sources::Key("mesh and numbers").add(file.content).add(numbers.content).hash() : file.content;
   sources::Key key("mesh");
-  key.add(content).add(deform).add(sources::ending_of(file.path)).add(use.inside.text());
+  key.add(content).add(deform).add(ending_of(file.path)).add(use.inside.text());
   sources::add_use(key, use, loading.reader());
   return loading.cached<Result>(key.hash(), file.path, [&](const Reader& reader) {
     const auto bytes = loading.bytes(file);

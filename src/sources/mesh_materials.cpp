@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/file_ending.h"
 #include "base/json.h"
 #include "base/text.h"
 #include "design/nearest_material.h"
@@ -170,7 +171,5 @@ void add_use(Key& key, const design::MeshUse& use, const design::Reader& reader)
 }
 
 std::string kind_of(const std::string& path) { return ending_of(path) == ".scad" ? "the script" : "the mesh"; }
-
-std::string ending_of(const std::string& path) { return to_lower(std::filesystem::path(path).extension().string()); }
 
 }  // namespace ombre::sources

@@ -43,7 +43,4 @@ void add_use(Key& key, const design::MeshUse& use, const design::Reader& reader)
 // "the mesh", or "the script" for one that made it; for messages.
 std::string kind_of(const std::string& path);
 
-// ".stl": what tells the formats apart that their content does not.
-std::string ending_of(const std::string& path);
-
 }  // namespace ombre::sources

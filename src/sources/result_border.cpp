@@ -2,19 +2,19 @@
 
 #include <filesystem>
 
-#include "base/text.h"
+#include "base/file_ending.h"
 #include "import/result_mesh.h"
 
 namespace ombre::sources {
 
 bool has_elements(const std::string& path) {
-  const std::string ending = to_lower(std::filesystem::path(path).extension().string());
+  const std::string ending = ending_of(path);
   return ending == ".vtu" || ending == ".xdmf" || ending == ".frd" || ending == ".inp";
 }
 
 std::string numbers_beside(const std::string& path) {
   std::filesystem::path beside(path);
-  if (to_lower(beside.extension().string()) != ".xdmf") return "";
+  if (ending_of(beside) != ".xdmf") return "";
   std::error_code ignored;
   return std::filesystem::exists(beside.replace_extension(".h5"), ignored) ? beside.string() : "";
 }

@@ -10,6 +10,7 @@
 #include "base/tasks.h"
 #include "surface/border_normals.h"
 #include "surface/edge_search.h"
+#include "surface/shortened.h"
 
 namespace ombre::surface {
 namespace {

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <utility>
 
-#include "surface/point_evaluator.h"
+#include "surface/shortened.h"
 
 namespace ombre::surface {
 namespace {

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/tasks.h"
 #include "surface/point_evaluator.h"
+#include "surface/shortened.h"
 #include "voxel/fields.h"
 #include "voxel/layers.h"
 

@@ -9,6 +9,7 @@
 #include "surface/border_normals.h"
 #include "surface/edge_search.h"
 #include "surface/quadric.h"
+#include "surface/shortened.h"
 
 namespace ombre::surface {
 namespace {

@@ -1,20 +1,13 @@
 // Evaluates the details of a partition at scattered points, in double precision.
 #pragma once
 
-#include <limits>
 #include <vector>
 
-#include "base/box.h"
+#include "base/vec.h"
 #include "eval/rows.h"
 #include "surface/partition.h"
 
 namespace ombre::surface {
-
-constexpr size_t all_parts = std::numeric_limits<size_t>::max();
-
-// The program for a box of points: what is settled there is left out, and many parts are written out, if fewer than
-// `many` reach it.
-program::Program shortened_for(const program::Program& details, const Box& box, size_t many = all_parts);
 
 class PointEvaluator {
  public:

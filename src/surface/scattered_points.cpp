@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/tasks.h"
 #include "surface/point_evaluator.h"
+#include "surface/shortened.h"
 
 namespace ombre::surface {
 namespace {

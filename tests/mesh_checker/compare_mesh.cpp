@@ -21,6 +21,7 @@
 #include "off_soup.h"
 #include "program/evaluate.h"
 #include "surface/point_evaluator.h"
+#include "surface/shortened.h"
 
 namespace {
 

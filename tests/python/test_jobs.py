@@ -120,6 +120,28 @@ def test_studies_may_be_dicts(tmp_path):
         ombre.cube(10, "red").fea(study={**study, "supports": []}, cell=5, solve=True)
 
 
+def test_even_cells_are_as_stiff_as_their_material(tmp_path):
+    study = {"materials": {"red": {"modulus_mpa": 2850, "poissons_ratio": 0.39}}}
+    report = ombre.cube(10, "red").homogenise(tmp_path / "cube.svg", study=study, cell=5)
+    assert report["modulus_mpa"] == pytest.approx([2850] * 3, rel=1e-5)
+    assert (tmp_path / "cube.svg").read_text().startswith("<svg")
+    with pytest.raises(TypeError, match="did you mean 'tolerance'"):
+        ombre.cube(10, "red").homogenise(study=study, cell=5, tolerence=1e-3)
+
+
+def test_scripts_are_optimised(tmp_path):
+    """The least of (x - 0.25)^2, whose place is known."""
+    (tmp_path / "least.vcad").write_text("x = 0.9;\necho(cost = (x - 0.25)*(x - 0.25));\ncube(1, red);")
+    study = {"variables": {"x": {"from": 0, "to": 1}}, "objectives": [{"minimise": "echo", "name": "cost"}],
+             "method": "bobyqa", "evaluations": 40}
+    report = ombre.optimise(tmp_path / "least.vcad", tmp_path / "found", study, best=1)
+    best, = (e for e in report.events if e["event"] == "best")
+    assert best["variables"]["x"] == pytest.approx(0.25, abs=1e-3)
+    assert len(list((tmp_path / "found").glob("best_*.vcad"))) == 1
+    with pytest.raises(TypeError, match="did you mean 'resume'"):
+        ombre.optimise(tmp_path / "least.vcad", tmp_path / "found", study, resum=True)
+
+
 def test_interrupts_stop_jobs(tmp_path):
     script = tmp_path / "long.py"
     script.write_text("import ombre, sys\n"

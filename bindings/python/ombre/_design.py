@@ -1,4 +1,5 @@
 """Designs: parts and materials, queries, and jobs."""
+import contextlib
 import dataclasses
 import html
 import json
@@ -284,13 +285,17 @@ class Design:
 
         `study` is a path, or what such a file holds, as a dict.
         """
-        study = options.get("study")
-        if not isinstance(study, dict):
+        with _study_file(options) as options:
             return self._job("fea", path, progress, options)
-        with tempfile.TemporaryDirectory(prefix="ombre_") as folder:
-            file = pathlib.Path(folder) / "study.json"
-            file.write_text(json.dumps(study), encoding="utf-8")
-            return self._job("fea", path, progress, {**options, "study": file})
+
+    def homogenise(self, path=None, progress=None, **options):
+        """Says how stiff a cell of the design is as a material, or how well it conducts; see `ombre homogenise`.
+
+        `path` is a chart (.svg); `study` a path, or what such a file holds, as a dict. The report has
+        `stiffness_mpa`, `modulus_mpa` and so on.
+        """
+        with _study_file(options) as options:
+            return self._job("homogenise", path, progress, options)
 
     def write_voxels(self, path, progress=None, **options):
         """Writes a grid (.vdb, .nvdb, .npy, .nrrd, .raw); see `ombre voxels`."""
@@ -331,6 +336,19 @@ class Design:
         names = html.escape(", ".join(name for name, _ in self.parts))
         return (f'<div><img alt="{names}" width="480" src="data:image/png;base64,{picture}"/><div>{names}: '
                 f"{x1 - x0:.4g} × {y1 - y0:.4g} × {z1 - z0:.4g} mm</div></div>")
+
+
+@contextlib.contextmanager
+def _study_file(options):
+    """The options, with a file in place of a study that is a dict."""
+    study = options.get("study")
+    if not isinstance(study, dict):
+        yield options
+        return
+    with tempfile.TemporaryDirectory(prefix="ombre_") as folder:
+        file = pathlib.Path(folder) / "study.json"
+        file.write_text(json.dumps(study), encoding="utf-8")
+        yield {**options, "study": file}
 
 
 def _grid_arguments(grids):
@@ -378,6 +396,28 @@ def load_text(text, name="design.vcad", folder="", materials=None, **variables):
     return Design._of(_core.Design.load(path, "" if materials is None else os.fspath(materials), definitions, text))
 
 
+def optimise(script, folder, study, materials=None, progress=None, **options):
+    """Searches for the values of a script's variables that serve it best; see `ombre optimise`.
+
+    Args:
+        script: a .vcad or .scad file, whose variables the study names.
+        folder: for the history of the search and the best designs.
+        study: a .json file, or what it holds, as a dict; names of files in a dict begin in the working folder.
+        materials: a materials file.
+        progress: True for a bar, or a function of the share that is done, 0 to 1.
+
+    Returns:
+        What `--json` would tell; `events` has a "best" for each of the best designs, with `variables` and `measures`.
+    """
+    arguments = [os.fspath(script), "-o", os.fspath(folder)]
+    if materials is not None:
+        arguments += ["--materials", os.fspath(materials)]
+    if isinstance(study, dict) and isinstance(study.get("fea"), str):
+        study = {**study, "fea": os.path.abspath(study["fea"])}
+    with _study_file({**options, "study": study}) as options:
+        return run("optimise", arguments, options, progress=progress)[0]
+
+
 def source_memory(limit=None):
     """What this process keeps of the files that designs have loaded, so that they load quickly again.
 
@@ -398,10 +438,13 @@ def _definition(value):
     return value if isinstance(value, str) else json.dumps(value)
 
 
+# Methods of designs and solids that are commands, with these names there.
+JOBS = {"slice": "slice", "layer": "layer", "mesh": "mesh", "contours": "contours", "fea": "fea",
+        "homogenise": "homogenise", "write_voxels": "voxels", "render": "render"}
+
+
 def _document_jobs():
     """Adds the commands' options to the jobs' texts."""
-    for method, command in (("slice", "slice"), ("layer", "layer"), ("mesh", "mesh"), ("contours", "contours"),
-                            ("fea", "fea"), ("write_voxels", "voxels"), ("render", "render")):
-        function = getattr(Design, method)
+    for function, command in ((optimise, "optimise"), *((getattr(Design, method), JOBS[method]) for method in JOBS)):
         lines = [f"    {name}: {option['help']}" for name, option in keywords_of(command).items()]
         function.__doc__ = textwrap.dedent(function.__doc__) + "\n\nOptions:\n" + "\n".join(lines)

@@ -2,6 +2,7 @@
 
     python3 -m ombre._stubs __init__.pyi
 """
+import inspect
 import keyword
 import sys
 
@@ -9,6 +10,7 @@ import ombre
 
 from . import _solid
 from ._commands import keywords_of
+from ._design import JOBS
 
 _head = '''# Generated from the registry of nodes; do not edit.
 import decimal
@@ -156,6 +158,8 @@ def _option_type(option):
     if option.get("choices"):
         # Numbers among the words may be written as such.
         kind = "Literal[" + ", ".join(f'"{c}"' + (f", {c}" if c.isdigit() else "") for c in option["choices"]) + "]"
+    elif option["name"] == "--study":
+        kind = "Union[Path, dict[str, Any]]"
     else:
         kind = _option_kinds.get(option.get("kind"), "Option")
     return "Option" if option["is_list"] else kind if option["is_flag"] else f"Optional[{kind}]"
@@ -166,21 +170,22 @@ def _options(command, without=()):
                    for name, option in keywords_of(command).items() if name not in without)
 
 
-def _job(name, command, first, result, progress=True):
-    words = _options(command)
-    bar = ", progress: Progress = ..." if progress else ""
-    return (f"    def {name}(self, {first}{bar}{words}) -> {result}:\n" +
-            _docstring(getattr(ombre.Design, name).__doc__, 8) + "        ...\n")
+# What comes before the options of a job, and what it returns.
+_firsts = {"slice": "folder: Path", "fea": "path: Optional[Path] = ...", "homogenise": "path: Optional[Path] = ...",
+           "render": "path: Optional[Path] = ..."}
+_job_results = {"render": "Any"}
+
+
+def _has_progress(function):
+    return ", progress: Progress = ..." if "progress" in inspect.signature(function).parameters else ""
 
 
 def _jobs():
-    yield _job("slice", "slice", "folder: Path", "dict[str, Any]")
-    yield _job("layer", "layer", "path: Path", "dict[str, Any]", progress=False)
-    yield _job("mesh", "mesh", "path: Path", "dict[str, Any]")
-    yield _job("contours", "contours", "path: Path", "dict[str, Any]")
-    yield _job("fea", "fea", "path: Optional[Path] = ...", "dict[str, Any]")
-    yield _job("write_voxels", "voxels", "path: Path", "dict[str, Any]")
-    yield _job("render", "render", "path: Optional[Path] = ...", "Any", progress=False)
+    for name, command in JOBS.items():
+        function = getattr(ombre.Design, name)
+        first, result = _firsts.get(name, "path: Path"), _job_results.get(name, "dict[str, Any]")
+        yield (f"    def {name}(self, {first}{_has_progress(function)}{_options(command)}) -> {result}:\n" +
+               _docstring(function.__doc__, 8) + "        ...\n")
     words = _options("voxels", ("voxel", "what"))
     for name, result in (("voxels", "Voxels"), ("volumes", "dict[str, float]"), ("volume", "float")):
         what = ", what: str = ..., progress: Progress = ..." if name == "voxels" else ""
@@ -193,6 +198,9 @@ def stub():
     out += [f"    def __{name}__(self, other: Number) -> Expression: ...\n" for name in _operators]
     out += [f"    def __{name}__(self) -> Expression: ...\n" for name in ("neg", "pos", "abs", "invert")]
     out += [_middle]
+    out += ["def optimise(script: Path, folder: Path, study: Union[Path, dict[str, Any]], materials: Optional[Path] = ...," +
+            f" progress: Progress = ...{_options('optimise', ('study',))}) -> dict[str, Any]:\n" +
+            _docstring(ombre.optimise.__doc__, 4) + "    ...\n"]
     infos = _solid.node_infos()
     jobs = "".join(_jobs())
     out += ["\nclass Solid:\n", _questions, jobs,

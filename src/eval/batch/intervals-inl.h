@@ -10,6 +10,7 @@
 #endif
 
 #include <numbers>
+#include <type_traits>
 
 #include "eval/batch/kernels.h"
 #include "eval/batch/math-inl.h"
@@ -124,71 +125,80 @@ HWY_INLINE Ends select(Ends condition, Ends a, Ends b) {
   return everything_where(is_everything(condition), one);
 }
 
+// Stands for ops that have nothing here: they are evaluated interval by interval.
+struct OneByOne {};
+
 // On bounded operands. Sums, products, quotients and roots are rounded once, which keeps the order.
 template <Op op>
-HWY_INLINE Ends on(Ends a, [[maybe_unused]] Ends b, [[maybe_unused]] Ends c) {
-  if constexpr (op == Op::add) return {hn::Add(a.lo, b.lo), hn::Add(a.hi, b.hi)};
-  if constexpr (op == Op::subtract) return {hn::Sub(a.lo, b.hi), hn::Sub(a.hi, b.lo)};
-  if constexpr (op == Op::multiply)
+HWY_INLINE auto on(Ends a, [[maybe_unused]] Ends b, [[maybe_unused]] Ends c) {
+  if constexpr (op == Op::add) {
+    return Ends{hn::Add(a.lo, b.lo), hn::Add(a.hi, b.hi)};
+  } else if constexpr (op == Op::subtract) {
+    return Ends{hn::Sub(a.lo, b.hi), hn::Sub(a.hi, b.lo)};
+  } else if constexpr (op == Op::multiply) {
     return around(hn::Mul(a.lo, b.lo), hn::Mul(a.lo, b.hi), hn::Mul(a.hi, b.lo), hn::Mul(a.hi, b.hi));
-  if constexpr (op == Op::divide)
+  } else if constexpr (op == Op::divide) {
     return everything_where(hn::Not(lacks_zero(b)),
                             around(hn::Div(a.lo, b.lo), hn::Div(a.lo, b.hi), hn::Div(a.hi, b.lo), hn::Div(a.hi, b.hi)));
-  if constexpr (op == Op::negate) return {hn::Neg(a.hi), hn::Neg(a.lo)};
-  if constexpr (op == Op::min) return {least(a.lo, b.lo), least(a.hi, b.hi)};
-  if constexpr (op == Op::max) return {most(a.lo, b.lo), most(a.hi, b.hi)};
-  if constexpr (op == Op::abs) return absolute(a);
-  if constexpr (op == Op::sqrt)
+  } else if constexpr (op == Op::negate) {
+    return Ends{hn::Neg(a.hi), hn::Neg(a.lo)};
+  } else if constexpr (op == Op::min) {
+    return Ends{least(a.lo, b.lo), least(a.hi, b.hi)};
+  } else if constexpr (op == Op::max) {
+    return Ends{most(a.lo, b.lo), most(a.hi, b.hi)};
+  } else if constexpr (op == Op::abs) {
+    return absolute(a);
+  } else if constexpr (op == Op::sqrt) {
     return everything_where(hn::Lt(a.lo, zero()), {hn::Sqrt(most(a.lo, zero())), hn::Sqrt(most(a.hi, zero()))});
-  if constexpr (op == Op::square) {
+  } else if constexpr (op == Op::square) {
     const Ends size = absolute(a);
-    return {hn::Mul(size.lo, size.lo), hn::Mul(size.hi, size.hi)};
-  }
-  if constexpr (op == Op::floor) return {batch::floor(a.lo), batch::floor(a.hi)};
-  if constexpr (op == Op::ceil) return {batch::ceil(a.lo), batch::ceil(a.hi)};
-  if constexpr (op == Op::round) return {batch::round(a.lo), batch::round(a.hi)};
-  if constexpr (op == Op::trunc) return {batch::trunc(a.lo), batch::trunc(a.hi)};
-  if constexpr (op == Op::sin) return wave(a, batch::sin(a.lo), batch::sin(a.hi), std::numbers::pi_v<float> / 2);
-  if constexpr (op == Op::cos) return wave(a, batch::cos(a.lo), batch::cos(a.hi), 0);
-  if constexpr (op == Op::atan2) return arc(a, b);
-  if constexpr (op == Op::exp) return exponential(a);
-  if constexpr (op == Op::less) return truth_of(hn::Lt(a.hi, b.lo), hn::Ge(a.lo, b.hi));
-  if constexpr (op == Op::less_equal) return truth_of(hn::Le(a.hi, b.lo), hn::Gt(a.lo, b.hi));
-  if constexpr (op == Op::equal) {
+    return Ends{hn::Mul(size.lo, size.lo), hn::Mul(size.hi, size.hi)};
+  } else if constexpr (op == Op::floor) {
+    return Ends{batch::floor(a.lo), batch::floor(a.hi)};
+  } else if constexpr (op == Op::ceil) {
+    return Ends{batch::ceil(a.lo), batch::ceil(a.hi)};
+  } else if constexpr (op == Op::round) {
+    return Ends{batch::round(a.lo), batch::round(a.hi)};
+  } else if constexpr (op == Op::trunc) {
+    return Ends{batch::trunc(a.lo), batch::trunc(a.hi)};
+  } else if constexpr (op == Op::sin) {
+    return wave(a, batch::sin(a.lo), batch::sin(a.hi), std::numbers::pi_v<float> / 2);
+  } else if constexpr (op == Op::cos) {
+    return wave(a, batch::cos(a.lo), batch::cos(a.hi), 0);
+  } else if constexpr (op == Op::atan2) {
+    return arc(a, b);
+  } else if constexpr (op == Op::exp) {
+    return exponential(a);
+  } else if constexpr (op == Op::less) {
+    return truth_of(hn::Lt(a.hi, b.lo), hn::Ge(a.lo, b.hi));
+  } else if constexpr (op == Op::less_equal) {
+    return truth_of(hn::Le(a.hi, b.lo), hn::Gt(a.lo, b.hi));
+  } else if constexpr (op == Op::equal) {
     const M points = hn::And(hn::Eq(a.lo, a.hi), hn::Eq(b.lo, b.hi));
     return truth_of(hn::And(points, hn::Eq(a.lo, b.lo)), hn::Or(hn::Lt(a.hi, b.lo), hn::Lt(b.hi, a.lo)));
-  }
-  if constexpr (op == Op::truth) return truth_of(lacks_zero(a), is_zero(a));
-  if constexpr (op == Op::logical_not) return truth_of(is_zero(a), lacks_zero(a));
-  if constexpr (op == Op::logical_and)
+  } else if constexpr (op == Op::truth) {
+    return truth_of(lacks_zero(a), is_zero(a));
+  } else if constexpr (op == Op::logical_not) {
+    return truth_of(is_zero(a), lacks_zero(a));
+  } else if constexpr (op == Op::logical_and) {
     return truth_of(hn::And(lacks_zero(a), lacks_zero(b)), hn::Or(is_zero(a), is_zero(b)));
-  if constexpr (op == Op::logical_or)
+  } else if constexpr (op == Op::logical_or) {
     return truth_of(hn::Or(lacks_zero(a), lacks_zero(b)), hn::And(is_zero(a), is_zero(b)));
-  if constexpr (op == Op::select) return select(a, b, c);
-  if constexpr (op == Op::is_finite) return {number(1), number(1)};
-  if constexpr (op == Op::fma) return fused(a, b, c);
-  if constexpr (op == Op::share) return share(a, b);
+  } else if constexpr (op == Op::select) {
+    return select(a, b, c);
+  } else if constexpr (op == Op::is_finite) {
+    return Ends{number(1), number(1)};
+  } else if constexpr (op == Op::fma) {
+    return fused(a, b, c);
+  } else if constexpr (op == Op::share) {
+    return share(a, b);
+  } else {
+    return OneByOne{};
+  }
 }
 
-constexpr bool is_one_by_one(Op op) {
-  switch (op) {
-    case Op::mod:
-    case Op::pow:
-    case Op::tan:
-    case Op::asin:
-    case Op::acos:
-    case Op::atan:
-    case Op::sinh:
-    case Op::cosh:
-    case Op::tanh:
-    case Op::log:
-    case Op::log10:
-    case Op::log2:
-      return true;
-    default:
-      return false;
-  }
-}
+template <Op op>
+constexpr bool is_one_by_one = std::is_same_v<decltype(on<op>(Ends(), Ends(), Ends())), OneByOne>;
 
 HWY_INLINE Ends load(IntervalRow row, size_t n) { return {hn::Load(D(), row.lo + n), hn::Load(D(), row.hi + n)}; }
 inline Interval at(IntervalRow row, size_t n) {
@@ -237,8 +247,8 @@ inline IntervalKernel kernel(Op op) {
   switch (op) {
 #define OMBRE_ROW(name, arity)                                           \
   case Op::name:                                                         \
-    if constexpr (is_one_by_one(Op::name)) return nullptr;               \
-    if constexpr (!is_one_by_one(Op::name)) return run<Op::name, arity>; \
+    if constexpr (is_one_by_one<Op::name>) return nullptr;               \
+    if constexpr (!is_one_by_one<Op::name>) return run<Op::name, arity>; \
     break;
     OMBRE_OPS(OMBRE_ROW)
 #undef OMBRE_ROW

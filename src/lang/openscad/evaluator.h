@@ -10,7 +10,8 @@
 
 #include "lang/loader.h"
 #include "lang/openscad/functions.h"
-#include "lang/openscad/run.h"
+#include "lang/openscad/messages.h"
+#include "lang/openscad/options.h"
 #include "lang/scope.h"
 
 namespace ombre::lang::openscad {

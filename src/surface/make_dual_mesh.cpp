@@ -1,3 +1,4 @@
+// Makes dual meshes.
 #include "surface/dual_mesh.h"
 
 #include <algorithm>

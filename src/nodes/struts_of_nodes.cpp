@@ -1,3 +1,4 @@
+// Struts of nodes of all families.
 #include "nodes/struts.h"
 
 #include "nodes/strut_families.h"

@@ -1,0 +1,12 @@
+// What the program ends with.
+#pragma once
+
+namespace ombre::cli {
+
+inline constexpr int done = 0;
+inline constexpr int wrong_input = 1;  // the design or the arguments
+inline constexpr int failed = 2;       // a file or the machine
+inline constexpr int check_failed = 3;
+inline constexpr int interrupted = 130;
+
+}  // namespace ombre::cli

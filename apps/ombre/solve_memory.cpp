@@ -1,0 +1,15 @@
+#include "ombre/solve_memory.h"
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace ombre::cli {
+
+void refuse_little_memory(double bytes, size_t allowed, const Phrase& remedy) {
+  if (bytes <= static_cast<double>(allowed)) return;
+  throw Error(Code::memory, "solving takes about " + format_bytes(bytes) + " of memory, more than the " +
+                                format_bytes(static_cast<double>(allowed)) + " allowed; " + remedy + ", or more " +
+                                spelled::option("--memory"));
+}
+
+}  // namespace ombre::cli

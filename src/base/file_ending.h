@@ -1,0 +1,12 @@
+// The ending of a file's name, which says its format.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace ombre {
+
+// In small letters, with its dot: ".vtu"; empty where the name has none.
+std::string ending_of(const std::filesystem::path& path);
+
+}  // namespace ombre
