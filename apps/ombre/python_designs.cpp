@@ -86,8 +86,8 @@ int become_python(int argc, char** argv) {
   arguments.push_back(nullptr);
   ::execvp(python.c_str(), arguments.data());
   Console().error(Code::other_program, "designs in Python need Python: cannot run " + python + ": " +
-                                     std::generic_category().message(errno) +
-                                     "; OMBRE_PYTHON names another interpreter");
+                                           std::generic_category().message(errno) +
+                                           "; OMBRE_PYTHON names another interpreter");
   return failed;
 }
 

@@ -19,7 +19,8 @@ namespace {
 class Pipe {
  public:
   Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw Error(Code::other_program, "cannot make a pipe to another program");
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
+      throw Error(Code::other_program, "cannot make a pipe to another program");
   }
   ~Pipe() {
     close(0);
