@@ -73,6 +73,39 @@ TEST(HelperProcess, KeepsItsMemory) {
   EXPECT_EQ(run(greedy), "error: std::bad_alloc");
 }
 
+TEST(HelperProcess, AnswersOneRequestAfterAnother) {
+  int sum = 0;
+  Helper helper([&](const std::string& request) { return std::to_string(sum += std::stoi(request)); }, {}, explain);
+  EXPECT_EQ(helper.ask("3", nullptr), "3");
+  EXPECT_EQ(helper.ask("4", nullptr), "7");
+  EXPECT_EQ(sum, 0);
+  // An error leaves it as it is.
+  EXPECT_THROW(helper.ask("x", nullptr), Error);
+  EXPECT_EQ(helper.ask("5", nullptr), "12");
+}
+
+TEST(HelperProcess, ThatEndedAnswersNoMore) {
+  const auto answer = [](const std::string& request) -> std::string {
+    if (request == "crash") std::raise(SIGKILL);
+    if (request == "hang") return wait_forever();
+    return request + request;
+  };
+  Helper first(answer, {20, 0}, explain);
+  const std::string large(3'000'000, 'x');
+  EXPECT_EQ(first.ask(large, nullptr), large + large);
+  for (int round = 0; round < 2; ++round) EXPECT_THROW(first.ask("crash", nullptr), Error);
+  EXPECT_THROW(first.ask(large, nullptr), Error);
+  Helper second(answer, {20, 0}, explain);
+  StopFlag stop;
+  int waited = 0;
+  const auto waiting = [&] {
+    if (++waited == 3) stop.request();
+  };
+  EXPECT_THROW(second.ask("hang", &stop, waiting), Cancelled);
+  EXPECT_GE(waited, 3);
+  EXPECT_THROW(second.ask("more", nullptr), Error);
+}
+
 TEST(HelperProcess, IsStopped) {
   StopFlag stop;
   std::thread other([&] {

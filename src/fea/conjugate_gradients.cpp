@@ -65,7 +65,7 @@ void Gradients::factorise() {
         "solve by multigrid");
   if (const double least = element_matrix_bytes(stiffness_); least > options_.memory_bytes)
     refuse_memory(least, options_.memory_bytes);
-  prepared_ = std::make_unique<Factorisation>(stiffness_, stop_);
+  prepared_ = std::make_unique<Factorisation>(stiffness_, progress_, stop_);
   const auto use = use_of(prepared_->cost(), options_.memory_bytes);
   if (!use) refuse_memory(prepared_->cost().bytes_on_disk, options_.memory_bytes);
   take(*use);
@@ -84,7 +84,7 @@ bool Gradients::change(double iterations) {
   if (!prepared_) {
     may_change_ = can_factorise(stiffness_) && element_matrix_bytes(stiffness_) <= options_.memory_bytes;
     if (!may_change_) return false;
-    prepared_ = std::make_unique<Factorisation>(stiffness_, stop_);
+    prepared_ = std::make_unique<Factorisation>(stiffness_, progress_, stop_);
   }
   const auto use = use_of(prepared_->cost(), options_.memory_bytes);
   may_change_ = use.has_value();

@@ -1,24 +1,13 @@
 #include "fea/direct.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <condition_variable>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <functional>
-#include <iostream>
-#include <mutex>
-#include <optional>
-#include <thread>
 #include <utility>
 
+#include "base/byte_pack.h"
 #include "base/error.h"
 #include "base/module_loader.h"
-#include "base/temporary_folder.h"
+#include "base/stopwatch.h"
 
 namespace ombre::fea {
 namespace {
@@ -29,17 +18,10 @@ constexpr const char* mumps_module = OMBRE_MUMPS_MODULE;
 constexpr const char* mumps_module = nullptr;
 #endif
 
-constexpr std::chrono::milliseconds between_looks{50};
+// Operations a second are so many times those of a product of matrices: measured 0.4 to 0.8.
+constexpr double usual_share = 0.5;
 
-std::atomic<int> abandoned_threads{0};
-
-// A thread that could not be stopped must not go on while the program takes its variables down.
-void leave_at_once(int status, void*) {
-  if (abandoned_threads == 0) return;
-  std::cout.flush();
-  std::fflush(nullptr);
-  ::_exit(status);
-}
+enum class Step : uint8_t { analyse, factorise, solve };
 
 void number_unknowns(const BrickOperator& stiffness, ElementEquations& equations) {
   const Bricks& bricks = stiffness.bricks();
@@ -120,67 +102,64 @@ double element_matrix_bytes(const BrickOperator& stiffness) {
   return of_brick * static_cast<double>(stiffness.bricks().count());
 }
 
-// What a thread of MUMPS works on, which may outlive the factorisation that it was for.
-struct Factorisation::Work {
-  ElementEquations equations;
-  std::optional<TemporaryFolder> folder;
-  std::unique_ptr<Factoriser> factoriser;
-  std::vector<float> values;
+namespace {
 
-  std::mutex mutex;
-  std::condition_variable ended;
-  bool is_done = false, is_abandoned = false;
-  std::exception_ptr thrown;
+// Lives in the helper process.
+class Server {
+ public:
+  Server(const BrickOperator& stiffness, decltype(ombre_make_factoriser)* make) : stiffness_(stiffness), make_(make) {}
+
+  std::string answer(const std::string& request) {
+    ByteUnpacker unpacker(request);
+    BytePacker packer;
+    switch (unpacker.get<Step>()) {
+      case Step::analyse:
+        number_unknowns(stiffness_, equations_);
+        make_(&equations_, &factoriser_);
+        packer.add(factoriser_->cost());
+        break;
+      case Step::factorise:
+        fill_matrices(stiffness_, equations_);
+        factoriser_->factorise(std::string(unpacker.get_text()));
+        equations_.matrices = {};
+        break;
+      case Step::solve:
+        std::vector<float> values = unpacker.get_list<float>();
+        factoriser_->solve(values);
+        packer.add_list(values);
+        break;
+    }
+    return packer.take();
+  }
+
+ private:
+  const BrickOperator& stiffness_;
+  decltype(ombre_make_factoriser)* make_;
+  ElementEquations equations_;
+  std::unique_ptr<Factoriser> factoriser_;
 };
 
-// In a thread, which is left alone when the work is not wanted any more.
-template <class Body>
-void Factorisation::run(const Body& body) {
-  work_->is_done = false;
-  std::thread thread([work = work_, body]() mutable {
-    std::exception_ptr thrown;
-    try {
-      body(*work);
-    } catch (...) {
-      thrown = std::current_exception();
-    }
-    bool is_abandoned = false;
-    {
-      const std::lock_guard lock(work->mutex);
-      work->thrown = thrown;
-      work->is_done = true;
-      is_abandoned = work->is_abandoned;
-      work->ended.notify_all();
-    }
-    work.reset();
-    if (is_abandoned) --abandoned_threads;
-  });
-  std::unique_lock lock(work_->mutex);
-  while (!work_->ended.wait_for(lock, between_looks, [&] { return work_->is_done; })) {
-    if (!stop_ || !stop_->requested()) continue;
-    ++abandoned_threads;
-    work_->is_abandoned = true;
-    static const int registered = ::on_exit(leave_at_once, nullptr);
-    static_cast<void>(registered);
-    thread.detach();
-    if (work_->folder) {
-      std::error_code ignored;
-      std::filesystem::remove_all(work_->folder->path(), ignored);
-    }
-    throw Cancelled();
-  }
-  lock.unlock();
-  thread.join();
-  if (work_->thrown) std::rethrow_exception(std::exchange(work_->thrown, nullptr));
+Error explain(HelperFailure) {
+  return {
+      Code::memory,
+      "the factorisation of the equations ended early, most likely since memory ran out; solve by multigrid, choose "
+      "larger bricks, or allow less memory, so that the factor goes to the disk"};
 }
 
-Factorisation::Factorisation(const BrickOperator& stiffness, const StopFlag* stop)
-    : stiffness_(stiffness), stop_(stop), work_(std::make_shared<Work>()) {
+}  // namespace
+
+Factorisation::Factorisation(const BrickOperator& stiffness, Progress* progress, const StopFlag* stop)
+    : stiffness_(stiffness), progress_(progress), stop_(stop) {
   const auto make =
       load_function<decltype(ombre_make_factoriser)>(mumps_module, "ombre_make_factoriser", "direct solutions");
-  number_unknowns(stiffness, work_->equations);
-  run([make](Work& work) { make(&work.equations, &work.factoriser); });
-  cost_ = work_->factoriser->cost();
+  constexpr double a_week = 7 * 24 * 3600.0;
+  const auto server = std::make_shared<Server>(stiffness, make);
+  helper_ = std::make_unique<Helper>([server](const std::string& request) { return server->answer(request); },
+                                     HelperLimits{a_week, 0}, explain);
+  BytePacker request;
+  request.add(Step::analyse);
+  const std::string answer = ask(request.take(), "ordering the equations", 0);
+  cost_ = ByteUnpacker(answer).get<FactorisationCost>();
   const double matrices = element_matrix_bytes(stiffness);
   cost_.bytes += matrices;
   cost_.bytes_on_disk += matrices;
@@ -188,11 +167,29 @@ Factorisation::Factorisation(const BrickOperator& stiffness, const StopFlag* sto
 
 Factorisation::~Factorisation() = default;
 
+// While it waits, progress goes with the time that is expected, if it is known.
+std::string Factorisation::ask(const std::string& request, const std::string& step, double expected_seconds) {
+  const Stopwatch watch;
+  const auto tell = [&] {
+    if (!progress_) return;
+    constexpr uint64_t parts = 1000, last = 990;
+    HowFar how_far{0, parts};
+    const double left = expected_seconds - watch.seconds();
+    if (expected_seconds > 0)
+      how_far.done = std::min(last, static_cast<uint64_t>(parts * watch.seconds() / expected_seconds));
+    if (left > 0) how_far.seconds_left = left;
+    progress_->preparing(step, how_far);
+  };
+  return helper_->ask(request, stop_, tell);
+}
+
 void Factorisation::factorise(bool on_disk) {
-  fill_matrices(stiffness_, work_->equations);
-  if (on_disk) work_->folder.emplace();
-  run([](Work& work) { work.factoriser->factorise(work.folder ? work.folder->path() : ""); });
-  work_->equations.matrices = {};
+  if (on_disk) folder_.emplace();
+  BytePacker request;
+  request.add(Step::factorise);
+  request.add_text(folder_ ? folder_->path().string() : "");
+  const double rate = usual_share * cost_.operations_a_second;
+  ask(request.take(), "factorising the equations", rate > 0 ? cost_.operations / rate : 0);
 }
 
 void Factorisation::apply(const Vector& forces, Vector& displacements) {
@@ -201,11 +198,14 @@ void Factorisation::apply(const Vector& forces, Vector& displacements) {
   for (const double force : forces) scale = std::max(scale, std::abs(force));
   displacements.assign(forces.size(), 0);
   if (!(scale > 0)) return;
-  std::vector<float>& values = work_->values;
-  values.clear();
+  std::vector<float> values;
   for (size_t n = 0; n < forces.size(); ++n)
     if (stiffness_.free()[n] != 0) values.push_back(static_cast<float>(forces[n] / scale));
-  run([](Work& work) { work.factoriser->solve(work.values); });
+  BytePacker request;
+  request.add(Step::solve);
+  request.add_list(values);
+  const std::string answer = helper_->ask(request.take(), stop_);
+  values = ByteUnpacker(answer).get_list<float>();
   size_t next = 0;
   for (size_t n = 0; n < forces.size(); ++n)
     if (stiffness_.free()[n] != 0) displacements[n] = scale * static_cast<double>(values[next++]);

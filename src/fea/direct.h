@@ -3,8 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 
+#include "base/helper_process.h"
 #include "base/progress.h"
+#include "base/temporary_folder.h"
 #include "fea/direct_module.h"
 #include "fea/preconditioner.h"
 
@@ -17,11 +21,12 @@ bool can_factorise(const BrickOperator& stiffness);
 // The memory that the matrices of the bricks take, less than all that a factorisation takes.
 double element_matrix_bytes(const BrickOperator& stiffness);
 
+// MUMPS cannot be stopped, and says nothing while it works: it runs in a process of its own.
 class Factorisation : public Preconditioner {
  public:
-  // Orders and counts. The operator and the flag must live as long; a request ends all members soon with Cancelled,
-  // though a thread of MUMPS may run on for a while, as MUMPS cannot be stopped.
-  Factorisation(const BrickOperator& stiffness, const StopFlag* stop);
+  // Orders and counts. What is passed must live as long, and so must the thread; `progress` and `stop` may be null. A
+  // request to stop ends all members soon with Cancelled.
+  Factorisation(const BrickOperator& stiffness, Progress* progress, const StopFlag* stop);
   ~Factorisation() override;
 
   const FactorisationCost& cost() const { return cost_; }
@@ -31,13 +36,13 @@ class Factorisation : public Preconditioner {
   void apply(const Vector& forces, Vector& displacements) override;
 
  private:
-  struct Work;
-  template <class Body>
-  void run(const Body& body);
+  std::string ask(const std::string& request, const std::string& step, double expected_seconds);
 
   const BrickOperator& stiffness_;
+  Progress* progress_;
   const StopFlag* stop_;
-  std::shared_ptr<Work> work_;
+  std::optional<TemporaryFolder> folder_;
+  std::unique_ptr<Helper> helper_;  // ends before its folder goes
   FactorisationCost cost_;
 };
 

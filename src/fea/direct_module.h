@@ -25,9 +25,10 @@ struct FactorisationCost {
   double operations = 0;                // of floating point
   double bytes = 0, bytes_on_disk = 0;  // of memory, with the factor in it or on disk
   double factor_bytes = 0;
+  double operations_a_second = 0;  // of a product of matrices on this machine; 0 where it is not known
 };
 
-// Throws Error from all of them. One at a time in a process.
+// Throws Error from all of them.
 class Factoriser {
  public:
   virtual ~Factoriser() = default;

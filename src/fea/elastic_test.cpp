@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 
 #include "base/error.h"
 #include "fea/brick_stiffness.h"
@@ -283,6 +284,21 @@ TEST(Elastic, AFactorisationStops) {
   SolveOptions options{1e-10, 20000, 0, Solver::direct};
   options.announce = [&](const DirectUse&) { stop.request(); };
   EXPECT_THROW(solve(model, compressed(model.bricks), options, nullptr, &stop), Cancelled);
+}
+
+TEST(Elastic, AFactorisationSaysWhatItDoes) {
+  if (!has_factorisations()) GTEST_SKIP() << "built without MUMPS";
+  struct Listener : Progress {
+    std::set<std::string> steps;
+    void update(const HowFar&) override {}
+    void preparing(const std::string& what, const HowFar& how_far) override {
+      steps.insert(what);
+      EXPECT_LT(how_far.done, how_far.total);
+    }
+  } listener;
+  const Model model = graded_lattice();
+  solve(model, compressed(model.bricks), {1e-10, 20000, 0, Solver::direct}, &listener);
+  EXPECT_EQ(listener.steps, (std::set<std::string>{"factorising the equations", "ordering the equations"}));
 }
 
 TEST(Elastic, StopsAndFailsInWords) {

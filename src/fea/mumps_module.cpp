@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <mutex>
+#include <ctime>
 #include <string>
 
 #include "base/error.h"
@@ -13,15 +13,14 @@
 
 // Of OpenBLAS, where that is the BLAS of the system: sums have one order with one thread alone.
 extern "C" __attribute__((weak)) void openblas_set_num_threads(int threads);
+// Of any BLAS: a product of matrices in single precision.
+extern "C" __attribute__((weak)) void sgemm_(const char* of_a, const char* of_b, const int* rows, const int* columns,
+                                             const int* inner, const float* alpha, const float* a, const int* a_rows,
+                                             const float* b, const int* b_rows, const float* beta, float* c,
+                                             const int* c_rows);
 
 namespace ombre::fea {
 namespace {
-
-// MUMPS keeps what belongs to all of its instances in variables without locks.
-std::mutex& mumps_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
 
 // Numbers of MUMPS' manual, from 1.
 enum Control : size_t { errors = 1, diagnostics, information, verbosity, elemental, ordering = 7, out_of_core = 22 };
@@ -74,6 +73,23 @@ std::vector<int> order_of(const ElementEquations& equations) {
   return order;
 }
 
+// Measured by a product that takes some milliseconds of processor time, the best of three.
+double operations_a_second() {
+  if (!sgemm_) return 0;
+  constexpr int size = 384;
+  constexpr float one = 1, zero = 0;
+  const std::vector<float> a(size_t{size} * size, one), b = a;
+  std::vector<float> c(a.size());
+  double best = 0;
+  for (int run = 0; run < 3; ++run) {
+    const std::clock_t begin = std::clock();
+    sgemm_("N", "N", &size, &size, &size, &one, a.data(), &size, b.data(), &size, &zero, c.data(), &size);
+    const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    if (seconds > 0) best = std::max(best, 2.0 * size * size * size / seconds);
+  }
+  return best;
+}
+
 class Mumps : public Factoriser {
  public:
   explicit Mumps(ElementEquations& equations) : equations_(equations), order_(order_of(equations)) {
@@ -102,6 +118,7 @@ class Mumps : public Factoriser {
     cost_.bytes_on_disk = bytes_of_megabyte * mumps_.infog[beside_disk - 1];
     // Negative numbers are millions.
     const double count = mumps_.infog[entries - 1];
+    cost_.operations_a_second = operations_a_second();
     cost_.factor_bytes = sizeof(float) * (count < 0 ? -1e6 * count : count);
   }
   ~Mumps() override { finish(); }
@@ -137,7 +154,6 @@ class Mumps : public Factoriser {
   int& control(Control which) { return mumps_.icntl[which - 1]; }
 
   void call(int job) {
-    const std::lock_guard lock(mumps_mutex());
     if (openblas_set_num_threads) openblas_set_num_threads(1);
     mumps_.job = job;
     constexpr int of_sequential_mpi = -987654;
@@ -157,7 +173,6 @@ class Mumps : public Factoriser {
   }
 
   void finish() {
-    const std::lock_guard lock(mumps_mutex());
     mumps_.job = end;
     smumps_c(&mumps_);
   }

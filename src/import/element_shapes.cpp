@@ -238,6 +238,45 @@ bool place_in_element(ElementKind kind, std::span<const Vec3> nodes, Vec3 target
   return length(target - here) <= 1e-9 * extent;
 }
 
+namespace {
+
+// The nodes beside the first one along each reference axis.
+std::array<size_t, 3> nodes_along_axes(ElementKind kind) {
+  if (is_tetrahedron(kind)) return {1, 2, 3};
+  return {1, 3, 4};
+}
+
+}  // namespace
+
+bool is_affine(ElementKind kind, std::span<const Vec3> nodes) {
+  constexpr double rounding = 1e-13;
+  const auto along = nodes_along_axes(kind);
+  const std::span<const Vec3> places = node_places(kind);
+  // Of the coordinates, too, which were rounded where they are far from the origin.
+  double extent = length(nodes[0]);
+  for (const Vec3& node : nodes) extent = std::max(extent, length(node - nodes[0]));
+  for (size_t n = 0; n < nodes.size(); ++n) {
+    Vec3 expected = nodes[0];
+    for (int axis = 0; axis < 3; ++axis) {
+      const size_t neighbour = along[static_cast<size_t>(axis)];
+      const double step = places[neighbour][axis] - places[0][axis];
+      expected = expected + ((places[n][axis] - places[0][axis]) / step) * (nodes[neighbour] - nodes[0]);
+    }
+    if (!(length(nodes[n] - expected) <= rounding * extent)) return false;
+  }
+  return true;
+}
+
+bool place_in_affine_element(ElementKind kind, std::span<const Vec3> nodes, Vec3 target, Vec3& at) {
+  const auto along = nodes_along_axes(kind);
+  std::array<Vec3, 3> edges{};
+  for (size_t axis = 0; axis < 3; ++axis) edges[axis] = nodes[along[axis]] - nodes[0];
+  Vec3 shares;
+  if (!solve(edges, target - nodes[0], shares)) return false;
+  at = is_tetrahedron(kind) ? shares : 2 * shares - Vec3{1, 1, 1};
+  return true;
+}
+
 const std::vector<ElementSide>& sides_of(ElementKind kind) {
   static const std::array<Sides, 4> all{make_tetrahedron_sides(false), make_tetrahedron_sides(true),
                                         make_brick_sides(false), make_brick_sides(true)};

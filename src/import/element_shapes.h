@@ -39,6 +39,12 @@ Interval field_bounds(ElementKind kind, std::span<const double> values);
 // not arrive.
 bool place_in_element(ElementKind kind, std::span<const Vec3> nodes, Vec3 target, Vec3& at);
 
+// Is the element the image of the reference element under one affine map, as tetrahedra and bricks with straight edges
+// and even sides are? Up to rounding.
+bool is_affine(ElementKind kind, std::span<const Vec3> nodes);
+// The same as place_in_element() for such an element, at once.
+bool place_in_affine_element(ElementKind kind, std::span<const Vec3> nodes, Vec3 target, Vec3& at);
+
 // The triangles of an element's sides, corner by corner, counter-clockwise from outside; those of a quadratic element
 // go through the nodes between corners.
 struct ElementSide {

@@ -63,18 +63,27 @@ struct NamedSide {
 ResultMesh::ResultMesh(formats::Results results) : results_(std::move(results)) {
   ASSERT(!results_.kinds.empty());
   boxes_.reserve(element_count());
+  affine_.reserve(element_count());
+  std::array<Vec3, most_element_nodes> points{};
   for (size_t n = 0; n < element_count(); ++n) {
     boxes_.push_back(box_of_element(results_, n));
+    affine_.push_back(is_affine(results_.kinds[n], points_of(n, points)) ? 1 : 0);
     bounds_ = hull(bounds_, boxes_.back());
   }
   tree_ = BoxTree(boxes_);
 }
 
 bool ResultMesh::find_in(uint32_t element, Vec3 p, Vec3& at) const {
-  std::array<Vec3, most_element_nodes> points{};
+  std::array<Vec3, most_element_nodes> points;
+  const std::span<const Vec3> own = points_of(element, points);
+  const ElementKind kind = results_.kinds[element];
+  return affine_[element] != 0 ? place_in_affine_element(kind, own, p, at) : place_in_element(kind, own, p, at);
+}
+
+std::span<const Vec3> ResultMesh::points_of(size_t element, std::span<Vec3> room) const {
   const auto numbers = nodes(element);
-  for (size_t n = 0; n < numbers.size(); ++n) points[n] = results_.points[numbers[n]];
-  return place_in_element(results_.kinds[element], {points.data(), numbers.size()}, p, at);
+  for (size_t n = 0; n < numbers.size(); ++n) room[n] = results_.points[numbers[n]];
+  return room.first(numbers.size());
 }
 
 std::optional<ElementPlace> ResultMesh::place(Vec3 p, const ElementPlace* guess) const {
@@ -93,21 +102,25 @@ std::optional<ElementPlace> ResultMesh::place(Vec3 p, const ElementPlace* guess)
   return found;
 }
 
-ElementPlace ResultMesh::nearest(Vec3 p) const {
+ElementPlace ResultMesh::nearest(Vec3 p, uint32_t* triangle_beside) const {
   const auto& triangles = border();
   if (triangles.empty()) return {0, middle_of(results_.kinds[0]), Box::inf};
   double best = Box::inf;
   uint32_t which = 0;
+  // A little more, so that rounding hides no triangle that is as near.
   const auto distance = [&](uint32_t n) {
+    constexpr double rounding = 1e-14;
     const auto corners = corners_of(results_, triangles[n]);
     const double here = length(p - blended(corners, nearest_shares(corners, p)));
     if (here < best || (here == best && n < which)) {
       best = here;
       which = n;
     }
-    return here;
+    return here * (1 + rounding);
   };
-  border_tree_.nearest(p, Box::inf, -1, distance);
+  const double reach = triangle_beside && *triangle_beside < triangles.size() ? distance(*triangle_beside) : Box::inf;
+  border_tree_.nearest(p, reach, -1, distance);
+  if (triangle_beside) *triangle_beside = which;
   const BorderTriangle& triangle = triangles[which];
   const auto shares = nearest_shares(corners_of(results_, triangle), p);
   return {triangle.element, clamped_to(results_.kinds[triangle.element], blended(triangle.at, shares)), best};

@@ -44,7 +44,9 @@ class ResultMesh {
   // it.
   std::optional<ElementPlace> place(Vec3 p, const ElementPlace* guess = nullptr) const;
   // The nearest place of the border; sides are taken as flat triangles. Infinitely far where there is no border.
-  ElementPlace nearest(Vec3 p) const;
+  // `triangle`, which may be null, is where a point beside it was found, and gets where this one is; the answer does
+  // not depend on it.
+  ElementPlace nearest(Vec3 p, uint32_t* triangle = nullptr) const;
 
   // The sides that belong to one element alone, in the order of elements. Made on first use.
   const std::vector<BorderTriangle>& border() const;
@@ -58,10 +60,13 @@ class ResultMesh {
 
  private:
   bool find_in(uint32_t element, Vec3 p, Vec3& at) const;
+  // Copies the nodes' places into `room`.
+  std::span<const Vec3> points_of(size_t element, std::span<Vec3> room) const;
   void make_border() const;
 
   formats::Results results_;
   std::vector<Box> boxes_;
+  std::vector<uint8_t> affine_;  // of each element: is_affine()
   BoxTree tree_;
   Box bounds_;
   mutable std::once_flag border_made_;

@@ -172,6 +172,28 @@ TEST(ElementShapes, AreShapeFunctions) {
   }
 }
 
+TEST(ElementShapes, AffineElementsAreFoundAtOnce) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const auto vec = [&] { return Vec3{any(random), any(random), any(random)}; };
+  for (const ElementKind kind : all_kinds)
+    for (int round = 0; round < 20; ++round) {
+      const Vec3 origin = 10 * vec(), u = vec() + Vec3{3, 0, 0}, v = vec() + Vec3{0, 3, 0}, w = vec() + Vec3{0, 0, 3};
+      const auto map = [&](Vec3 at) { return origin + at.x * u + at.y * v + at.z * w; };
+      std::vector<Vec3> nodes;
+      for (const Vec3& place : node_places(kind)) nodes.push_back(map(place));
+      ASSERT_TRUE(is_affine(kind, nodes));
+      const Vec3 wanted = vec();
+      Vec3 quick, slow;
+      ASSERT_TRUE(place_in_affine_element(kind, nodes, map(wanted), quick));
+      ASSERT_TRUE(place_in_element(kind, nodes, map(wanted), slow));
+      EXPECT_LT(length(quick - wanted), 1e-12);
+      EXPECT_LT(length(slow - wanted), 1e-12);
+      nodes.back().x += 1e-9;
+      EXPECT_EQ(is_affine(kind, nodes), kind == ElementKind::tetrahedron4);
+    }
+}
+
 TEST(ElementShapes, BoundsHoldAllValues) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -208,6 +230,24 @@ TEST(ResultMesh, OutsideCountsAsTheRuleSays) {
       ASSERT_EQ(std::isnan(source_of(mesh, nowhere)->sample(1, p)), !is_in);
       ASSERT_EQ(std::isnan(close->sample(1, p)), length(p - kept) > 0.75);
       ASSERT_NEAR(source_of(mesh, seven)->sample(1, p), is_in ? linear(p) : 7, 1e-9);
+    }
+  }
+}
+
+TEST(ResultMesh, TheNearestPlaceDoesNotDependOnWhereTheLastOneWas) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> any(-4, 10);
+  for (const ElementKind kind : all_kinds) {
+    const ResultMesh mesh(GridMaker(kind, 0.4).run());
+    uint32_t triangle = UINT32_MAX;
+    for (int n = 0; n < 2000; ++n) {
+      Vec3 p{any(random), any(random), any(random)};
+      // Many are as near to several triangles: at edges and corners, and in the middle of the cube.
+      if (n % 2 == 0) p = {std::round(p.x), std::round(p.y), std::round(p.z)};
+      const ElementPlace with = mesh.nearest(p, &triangle), without = mesh.nearest(p);
+      ASSERT_EQ(with.element, without.element) << n;
+      ASSERT_EQ(with.at, without.at);
+      ASSERT_EQ(with.distance_mm, without.distance_mm);
     }
   }
 }

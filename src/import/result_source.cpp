@@ -100,10 +100,11 @@ class ResultSource final : public program::FieldSource {
     bool needs_values = false;
     for (const int channel : channels) needs_values = needs_values || channel != inside_channel_number;
     std::optional<ElementPlace> last;
+    uint32_t last_triangle = UINT32_MAX;
     for (size_t n = 0; n < points.size(); ++n) {
       const auto held = mesh_->place(points[n], last ? &*last : nullptr);
       if (held) last = held;
-      const auto place = held || !needs_values ? held : outside(points[n]);
+      const auto place = held || !needs_values ? held : outside(points[n], last_triangle);
       for (size_t c = 0; c < channels.size(); ++c)
         values[c][n] = channels[c] == inside_channel_number ? (held ? 1 : 0) : value(channels[c], place, points[n]);
     }
@@ -131,9 +132,9 @@ class ResultSource final : public program::FieldSource {
   static constexpr int inside_channel_number = 0;
   static constexpr double rounding = 1e-12;
 
-  std::optional<ElementPlace> outside(Vec3 p) const {
+  std::optional<ElementPlace> outside(Vec3 p, uint32_t& triangle_beside) const {
     if (outside_.kind != OutsideRule::Kind::nearest || !is_finite(p)) return std::nullopt;
-    const ElementPlace place = mesh_->nearest(p);
+    const ElementPlace place = mesh_->nearest(p, &triangle_beside);
     return std::isfinite(place.distance_mm) && place.distance_mm <= outside_.within_mm ? std::optional(place)
                                                                                        : std::nullopt;
   }
