@@ -110,7 +110,7 @@ def check_machine(ombre, folder):
     error = first_error(ombre, design)
     assert error["code"] == "exists" and "--force" in error["message"], error
     assert error["values"] == {"file": str(folder / "layers")}, error
-    error = first_error(ombre, design, "--materials", "none.json")
+    error = first_error(ombre, design, "--force", "--materials", "none.json")
     assert error["code"] == "file-missing" and error["values"] == {"file": "none.json"}, error
     taken = folder / "taken"
     taken.mkdir()
