@@ -112,6 +112,8 @@ def check_machine(ombre, folder):
     assert error["values"] == {"file": str(folder / "layers")}, error
     error = first_error(ombre, design, "--force", "--materials", "none.json")
     assert error["code"] == "file-missing" and error["values"] == {"file": "none.json"}, error
+    for wrong in (["--voxel", "2"], ["--vxel", "2"], ["--threads", "none"]):
+        assert first_error(ombre, design, *wrong)["code"] == "option", wrong
     taken = folder / "taken"
     taken.mkdir()
     (taken / "layers").write_text("no folder", encoding="utf-8")

@@ -81,6 +81,9 @@ class CommandLine {
   int run(int argc, const char* const* argv) {
     if (argc > 2 && std::string_view(argv[1]) == "completion" && std::string_view(argv[2]) == "words")
       return complete({argv + 3, argv + argc});
+    // Before the options are known, as wrong ones are reported in the same way.
+    if (!host_.on_event && std::find(argv, argv + argc, std::string_view("--json")) != argv + argc)
+      console_.set_voice(Voice::programs);
     if (argc > 1)
       if (const std::string problem = unknown_command(program_, argv[1]); !problem.empty()) return wrong(problem);
     try {
