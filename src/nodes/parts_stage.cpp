@@ -19,10 +19,11 @@ struct MarkedRun {
 // The runs of voxels with one mark, joined where they touch by their sides.
 class MarkedRuns {
  public:
-  MarkedRuns(const std::vector<float>& marks, const IndexBox& box, bool wanted) : box_(box) {
+  MarkedRuns(const std::vector<float>& marks, const IndexBox& box, bool wanted, const StopFlag* stop) : box_(box) {
     const auto width = static_cast<size_t>(box.size(0));
     const auto rows = static_cast<size_t>(box.size(1) * box.size(2));
     for (size_t row = 0; row < rows; ++row) {
+      design::check_stop(stop);
       first_.push_back(runs_.size());
       add_row(marks.data() + row * width, wanted);
       if (row % static_cast<size_t>(box.size(1)) > 0) join(row, row - 1);
@@ -100,13 +101,16 @@ double cell_volume(const design::StageLattice& lattice) {
   return lattice.pitch[0].mm() * lattice.pitch[1].mm() * lattice.pitch[2].mm();
 }
 
-void mark(const MarkedRuns& runs, const std::vector<char>& chosen, const IndexBox& box, std::vector<float>& marks) {
-  for (size_t row = 0; row < runs.rows(); ++row)
+void mark(const MarkedRuns& runs, const std::vector<char>& chosen, const IndexBox& box, std::vector<float>& marks,
+          const StopFlag* stop) {
+  for (size_t row = 0; row < runs.rows(); ++row) {
+    design::check_stop(stop);
     for (size_t n = runs.first(row); n < runs.first(row + 1); ++n) {
       if (!chosen[runs.root(n)]) continue;
       const auto begin = marks.begin() + static_cast<ptrdiff_t>(static_cast<int64_t>(row) * box.size(0));
       std::fill(begin + runs.run(n).begin, begin + runs.run(n).end, 1.0f);
     }
+  }
 }
 
 class MarkStage : public design::WholeStage {
@@ -146,9 +150,9 @@ class PartsStage final : public MarkStage {
   }
 
   void compute(const StageValues& read, StageValues& made, const design::StageLattice& lattice,
-               const design::StageWork&) const override {
-    const MarkedRuns runs(read.channel(0), read.box(), true);
-    mark(runs, chosen(runs, lattice), made.box(), made.channel(0));
+               const design::StageWork& work) const override {
+    const MarkedRuns runs(read.channel(0), read.box(), true, work.stop);
+    mark(runs, chosen(runs, lattice), made.box(), made.channel(0), work.stop);
   }
 
  private:
@@ -191,16 +195,16 @@ class FillStage final : public MarkStage {
   Hash content() const override { return hash_bytes("fill " + format_number(most_mm3_)); }
 
   void compute(const StageValues& read, StageValues& made, const design::StageLattice& lattice,
-               const design::StageWork&) const override {
+               const design::StageWork& work) const override {
     const IndexBox& box = read.box();
-    const MarkedRuns runs(read.channel(0), box, false);
+    const MarkedRuns runs(read.channel(0), box, false, work.stop);
     const std::vector<int64_t> sizes = runs.sizes();
     std::vector<char> filled(runs.count(), 0);
     for (size_t n = 0; n < sizes.size(); ++n)
       filled[n] = static_cast<double>(sizes[n]) * cell_volume(lattice) <= most_mm3_ ? 1 : 0;
     leave_open(runs, box, filled);
     made.channel(0) = read.channel(0);
-    mark(runs, filled, box, made.channel(0));
+    mark(runs, filled, box, made.channel(0), work.stop);
   }
 
  private:
