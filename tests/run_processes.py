@@ -2,7 +2,7 @@
 """Jobs as processes: Ctrl-C is answered at once, --threads 1 means one busy thread, at any moment of any job, and --memory
 is kept or reported.
 
-    python3 tests/run_processes.py build/dev/apps/ombre/ombre [NAME...]
+    python3 tests/run_processes.py build/dev/apps/ombre/ombre [NAME or group...]
 """
 import json
 import os
@@ -33,8 +33,30 @@ FOAM = """fgrade(["0.5 + x/120", "0.5 - x/120"], ["red", "blue"]) {
   }
 }
 """
+# A block whose materials are smoothed by large kernels in a row, or sorted out as a whole.
+BLURRED = "gaussian(sigma_voxels=(10, 10, 10)) gaussian(sigma_voxels=(10, 10, 10)) {\n" + FOAM + "}\n"
+SMOOTHED = "smooth(sigma_voxels=(8, 8, 8)) {\n" + FOAM + "}\n"
+MEDIAN = "median(\"density\", (9, 9, 9)) attribute(\"density\", \"sin(x*y*z)\") {\n" + FOAM + "}\n"
+DISTANCES = "redistance(3, pitch=(0.25, 0.25, 0.25)) {\n" + FOAM + "}\n"
+PARTS = "keep_parts(\"largest\", pitch=(0.2, 0.2, 0.2)) {\n" + FOAM + "}\n"
+SCAN = """volume_solid("scan.nrrd", level=0.5);\n"""
+# Many exact booleans, one after the other; and one that is a single call of the kernel.
+SCREWS = """for (i = [0:400]) difference() {
+  translate([i, i % 7, 0]) rotate([i, 2*i, 3*i]) sphere(5, $fn = 40);
+  translate([i, 0, 0]) cylinder(h = 30, r = 2, center = true, $fn = 50);
+}
+"""
+SUM = "minkowski() { difference() { cube(20); sphere(12, $fn = 60); } sphere(3, $fn = 60); }\n"
+# A bar whose width is searched for by solutions that take a second each, or which is a block for a topology.
+SLOW_BAR = "width = 20;\nrectprism((width, 20, 60), red);\n"
+BLOCK = "rectprism((40, 40, 40), red);\n"
 STUDY = {"materials": {name: {"modulus_mpa": 2000, "poissons_ratio": 0.3} for name in ("red", "blue", "white")},
          "supports": [{"on": "zmin", "fix": "xyz"}], "loads": [{"on": "zmax", "force_n": [0, 0, -10]}]}
+
+TOPOLOGY = {"topology": {"volume_fraction": 0.3, "radius": 2}, "fea": STUDY, "cell": 1}
+SEARCH = {"variables": {"width": {"from": 10, "to": 40}}, "objectives": [{"minimise": "mass"}],
+          "constraints": [{"measure": "displacement", "at_most": 0.001}],
+          "fea": {**STUDY, "materials": {"red": {**STUDY["materials"]["red"], "density_kg_m3": 1180}}}, "cell": 1}
 
 # Jobs that take half a minute or more on one thread, and the moments at which they are stopped, in seconds.
 JOBS = {
@@ -50,6 +72,18 @@ JOBS = {
     "layer_of_supports": (SUPPORTS, ["layer", "--voxel", "0.02", "--z", "0", "-o", "out.png"], (0.3, 2)),
     # Its solver checks between iterations, each of which takes longer with more bricks.
     "fea": (FOAM, ["fea", "--study", "study.json", "--cell", "1", "--solve", "-o", "out.vtu"], (0.3, 1)),
+    "homogenise": (FOAM, ["homogenise", "--study", "study.json", "--cell", "0.5"], (0.3, 3)),
+    "search": (SLOW_BAR, ["optimise", "--study", "search.json", "-o", "out"], (0.3, 3)),
+    "topology": (BLOCK, ["optimise", "--study", "topology.json", "-o", "out"], (0.3, 3)),
+    "halo_stages": (BLURRED, ["slice", "--voxel", "0.2", "-o", "out"], (0.3, 3)),
+    "halo_stages_of_attributes": (MEDIAN, ["voxels", "--voxel", "0.2", "--what", "density", "-o", "out.npy"], (0.3, 3)),
+    "whole_stages": (DISTANCES, ["slice", "--voxel", "0.1", "-o", "out"], (0.3, 3, 6)),
+    "whole_stages_of_parts": (PARTS, ["slice", "--voxel", "0.1", "-o", "out"], (0.3, 3)),
+    "scan": (SCAN, ["mesh", "--cell", "0.2", "-o", "out.stl"], (0.3, 3)),
+    "slice_of_a_scan": (SCAN, ["slice", "--voxel", "0.02", "-o", "out"], (0.3, 3)),
+    "booleans_of_openscad": (SCREWS, ["scad", "-o", "out.stl"], (0.3, 3)),
+    "a_sum_of_openscad": (SUM, ["scad", "-o", "out.stl"], (0.3, 3)),
+    "design_of_openscad": (SCREWS, ["slice", "--voxel", "0.1", "-o", "out"], (0.3, 3)),
     "tetrahedra": (FOAM, ["fea", "--study", "study.json", "--elements", "tet4", "--size", "0.6", "-o", "out.vtu"], (0.3, 3)),
 }
 # Of work after the interrupt, which a machine under load does not make more.
@@ -86,12 +120,25 @@ def stop(process):
     return usage.ru_utime + usage.ru_stime - before
 
 
+def write_files(job, design):
+    """Returns the design's name and those of all files."""
+    name = "part.scad" if design in (SCREWS, SUM) else "part.vcad"
+    job.write(name, design)
+    for study, content in (("study.json", STUDY), ("topology.json", TOPOLOGY), ("search.json", SEARCH)):
+        job.write(study, json.dumps(content))
+    side = 200
+    (job.folder / "scan.nrrd").write_bytes(
+        f"NRRD0004\ntype: uint8\ndimension: 3\nsizes: {side} {side} {side}\nspace directions: (0.3,0,0) (0,0.3,0) (0,0,0.3)\n"
+        "space dimension: 3\nencoding: raw\n\n".encode() + bytes((n // side // 20 + n % side // 20) % 2 for n in range(side * side)) * side)
+    return name, {path.name for path in job.folder.iterdir()}
+
+
 def check_job(job, name):
     design, words, moments = JOBS[name]
-    (job.folder / "part.vcad").write_text(design)
-    (job.folder / "study.json").write_text(json.dumps(STUDY))
+    design_name, there = write_files(job, design)
+    options = [] if words[0] == "scad" else ["--threads", "1", "--force"]
     for moment in moments:
-        with subprocess.Popen([str(job.ombre), words[0], "part.vcad", *words[1:], "--threads", "1", "--force"],
+        with subprocess.Popen([str(job.ombre), words[0], design_name, *words[1:], *options],
                               cwd=job.folder, env=program.environment(), stdout=subprocess.DEVNULL,
                               stderr=subprocess.PIPE, text=True) as process:
             time.sleep(moment)
@@ -101,9 +148,10 @@ def check_job(job, name):
             seconds = stop(process)
         if os.environ.get("OMBRE_TELL_TIMES"):
             print(f"{name}, stopped at {moment} s: threads with {busy} s, {seconds:.2f} s of work to end")
-        expect(sum(busy) - max(busy) < 0.05, f"threads have worked {busy} s with --threads 1")
+        if options:
+            expect(sum(busy) - max(busy) < 0.05, f"threads have worked {busy} s with --threads 1")
         expect(seconds < MOST_SECONDS, f"stopped at {moment} s, it worked {seconds:.2f} s more")
-        left = [path.name for path in job.folder.iterdir() if path.name not in ("ball.vcad", "part.vcad", "study.json", "out")]
+        left = [path.name for path in job.folder.iterdir() if path.name not in {*there, "out"}]
         expect(not left, f"it left {left}")
 
 
@@ -140,8 +188,18 @@ def too_little_memory_is_reported(job):
     expect(not (job.folder / "a.png").exists() and (job.folder / "b.png").exists(), "not the files that were meant")
 
 
-CHECKS = {name: lambda job, name=name: check_job(job, name) for name in JOBS}
-CHECKS |= {check.__name__: check for check in (little_memory_gives_the_same_bytes, too_little_memory_is_reported)}
+# Those that are tests by themselves; the rest are "jobs".
+GROUPS = {"simulations": ("fea", "homogenise", "search", "topology", "tetrahedra"),
+          "stages": ("halo_stages", "halo_stages_of_attributes", "whole_stages", "whole_stages_of_parts", "scan", "slice_of_a_scan",
+                     "booleans_of_openscad", "a_sum_of_openscad", "design_of_openscad")}
+
+
+def with_group(name):
+    return name + " " + next((group for group, names in GROUPS.items() if name in names), "jobs")
+
+
+CHECKS = {with_group(name): lambda job, name=name: check_job(job, name) for name in JOBS}
+CHECKS |= {with_group(check.__name__): check for check in (little_memory_gives_the_same_bytes, too_little_memory_is_reported)}
 
 
 if __name__ == "__main__":

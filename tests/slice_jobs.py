@@ -86,6 +86,6 @@ def main(description, functions):
     parser.add_argument("names", nargs="*", help="only these")
     a = parser.parse_args()
     if a.names:
-        functions = {name: f for name, f in functions.items() if name in a.names or name.split()[-1] in a.names}
+        functions = {name: f for name, f in functions.items() if name in a.names or not set(a.names).isdisjoint(name.split())}
     ombre = a.ombre.resolve()
     return program.check_all([(name, lambda f=f: in_scratch(f, ombre)) for name, f in functions.items()])

@@ -53,7 +53,7 @@ std::optional<fea::Model> make_model(const HomogeniseChoices& a, const fea::Stud
   if (!loaded) return std::nullopt;
   const auto box = compile::periodic_box(loaded, a.box, a.cell_mm, diagnostics);
   if (!box) return std::nullopt;
-  const compile::LoadedPtr sampled = compile::sampled_by(loaded, *box);
+  const compile::LoadedPtr sampled = compile::sampled_by(loaded, *box, &session.stop);
   compile::SamplingOptions sampling;
   sampling.rules.seed = a.seed;
   const auto options = plan_options(sampling, a.work, session, diagnostics);
@@ -67,7 +67,7 @@ std::optional<fea::Model> make_model(const HomogeniseChoices& a, const fea::Stud
   auto model = compile::fea_model(sampled, *plan, study, request, diagnostics, &progress, &session.stop);
   progress.finish();
   if (!model || diagnostics.has_errors()) return std::nullopt;
-  return compile::repeating(std::move(*model), *box);
+  return compile::repeating(std::move(*model), *box, &session.stop);
 }
 
 std::string percent(double share) { return format_rounded(100 * share, 4) + " %"; }

@@ -3,8 +3,10 @@
 
 #include "compile/job_sheet.h"
 #include "compile/sheet_choices.h"
+#include "export/output_file.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
+#include "ombre/interrupt.h"
 #include "ombre/options.h"
 #include "ombre/overwrite.h"
 
@@ -15,7 +17,12 @@ using compile::SheetChoices;
 
 int sheet(const SheetChoices& a, Session& session) {
   refuse_to_overwrite(a.picture, a.force);
-  compile::write_contact_sheet(a.folder, a.picture, a.layers);
+  std::string picture;
+  {
+    const QuitAtOnce quits;
+    picture = compile::contact_sheet(a.folder, a.layers);
+  }
+  exporting::write_file(a.picture, picture);
   session.console.say("wrote " + a.picture);
   session.console.event("done", {{"file", a.picture}});
   return done;

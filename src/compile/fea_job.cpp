@@ -53,7 +53,7 @@ class ModelMaker {
       return fail("no brick's centre is inside the design", "choose smaller bricks with " + spelled::option("--cell"));
     fea::Model model;
     const voxel::Lattice& lattice = plan_.request.lattice;
-    model.bricks = fea::make_bricks(lattice.origin, lattice.voxel_mm(), std::move(cells_));
+    model.bricks = fea::make_bricks(lattice.origin, lattice.voxel_mm(), std::move(cells_), {}, stop_);
     if (!find_fields(model) || !has_numbers(model.bricks)) return std::nullopt;
     auto sections = make_sections(*loaded_, study_, request_, {model.bricks.count(), drawn_, fractions_, &model.fields},
                                   diagnostics_);

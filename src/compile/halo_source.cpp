@@ -177,7 +177,7 @@ ValueBlock HaloSource::compute(const IndexBox& box) const {
 
 StageValues HaloSource::made_of(const StageValues& read, const IndexBox& box) const {
   StageValues made(box, frame().channels.size());
-  stage_->compute(read, made, frame().lattice.voxel_mm());
+  stage_->compute(read, made, frame().lattice.voxel_mm(), shared_->stop.load());
   return made;
 }
 
@@ -200,7 +200,7 @@ HaloSource::Around HaloSource::around_cells(const IndexBox& box) const {
 ValueBlockPtr HaloSource::input_block(const CellIndex& number) const {
   return shared_->blocks.get({input_blocks_, number}, [&] {
     const StopFlag* stop = shared_->stop.load();
-    if (stop && stop->requested()) throw Cancelled();
+    design::check_stop(stop);
     const IndexBox box = block_at(number, least_block);
     if (input_.is_zero_outside() && intersect(box, filled_).is_empty())
       return ValueBlock(box, input_.channels().size());

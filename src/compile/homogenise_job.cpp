@@ -56,9 +56,9 @@ LoadedPtr sampled_by(const LoadedPtr& loaded, const PeriodicBox& box) {
   return std::make_shared<const Loaded>(std::move(copy));
 }
 
-fea::Model repeating(fea::Model model, const PeriodicBox& box) {
+fea::Model repeating(fea::Model model, const PeriodicBox& box, const StopFlag* stop) {
   fea::Bricks& bricks = model.bricks;
-  bricks = fea::make_bricks(bricks.origin, bricks.size_mm, std::move(bricks.cells), box.count);
+  bricks = fea::make_bricks(bricks.origin, bricks.size_mm, std::move(bricks.cells), box.count, stop);
   return model;
 }
 

@@ -26,6 +26,6 @@ std::optional<PeriodicBox> periodic_box(const LoadedPtr& loaded, const std::opti
 LoadedPtr sampled_by(const LoadedPtr& loaded, const PeriodicBox& box);
 
 // A model by `fea_model` of such a design, whose bricks repeat after the box.
-fea::Model repeating(fea::Model model, const PeriodicBox& box);
+fea::Model repeating(fea::Model model, const PeriodicBox& box, const StopFlag* stop = nullptr);
 
 }  // namespace ombre::compile

@@ -12,7 +12,6 @@
 #include "compile/job_folder.h"
 #include "export/contact_sheet.h"
 #include "export/material_stack.h"
-#include "export/output_file.h"
 #include "formats/file.h"
 
 namespace ombre::compile {
@@ -96,7 +95,7 @@ exporting::SheetLayer sheet_layer(const JournalEntry& entry, const JobSummary& s
 
 }  // namespace
 
-void write_contact_sheet(const std::string& folder, const std::string& image_path, int layer_count) {
+std::string contact_sheet(const std::string& folder, int layer_count) {
   const std::filesystem::path base(folder);
   const JobSummary summary = read_summary((base / job_file).string());
   const std::string journal = formats::read_file((base / journal_file).string());
@@ -107,7 +106,7 @@ void write_contact_sheet(const std::string& folder, const std::string& image_pat
     throw Error(Code::file_content, folder + " has no layer with material to draw", {{"file", folder}});
   layers = evenly_spaced(layers, static_cast<size_t>(std::max(1, layer_count)));
   const exporting::Picture sheet = exporting::draw_contact_sheet(layers, summary.style);
-  exporting::write_file(image_path, formats::encode_png(sheet.width, sheet.height, sheet.rgba));
+  return formats::encode_png(sheet.width, sheet.height, sheet.rgba);
 }
 
 }  // namespace ombre::compile

@@ -5,9 +5,8 @@
 
 namespace ombre::compile {
 
-// Draws up to `layer_count` evenly spaced layers with material of the job in `folder`, finished or
-// not, into one PNG file. Throws Error when the folder holds no job, no layer with material yet, or
-// a file fails.
-void write_contact_sheet(const std::string& folder, const std::string& image_path, int layer_count);
+// A PNG file of up to `layer_count` evenly spaced layers with material of the job in `folder`, finished or not. Throws
+// Error when the folder holds no job or no layer with material yet, or a file cannot be read.
+std::string contact_sheet(const std::string& folder, int layer_count);
 
 }  // namespace ombre::compile

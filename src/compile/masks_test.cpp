@@ -1,6 +1,7 @@
 #include "compile/test_slices.h"
 
 #include "compile/job_sheet.h"
+#include "export/output_file.h"
 
 namespace ombre::compile {
 
@@ -66,7 +67,7 @@ TEST_F(Slice, ForceReplacesMasks) {
 TEST_F(Slice, ContactSheetsOfMasksHaveTheColoursOfMaterials) {
   run(mask_request(), options());
   const std::string sheet = folder("sheet.png");
-  write_contact_sheet(folder(), sheet, 1);
+  exporting::write_file(sheet, contact_sheet(folder(), 1));
   const formats::PngImage image = formats::decode_png(formats::read_file(sheet), sheet);
   uint64_t red = 0, blue = 0, white = 0;
   for (uint32_t row = 0; row < image.height; ++row)

@@ -6,6 +6,7 @@
 #include "compile/job_sheet.h"
 #include "compile/layer_files.h"
 #include "compile/slice_work.h"
+#include "export/output_file.h"
 
 namespace ombre::compile {
 
@@ -175,7 +176,7 @@ TEST_F(Slice, EstimatesFollowTheShape) {
 TEST_F(Slice, ContactSheetsKeepTrueProportions) {
   run(ball_request(), options());
   const std::string sheet = folder("sheet.png");
-  write_contact_sheet(folder(), sheet, 6);
+  exporting::write_file(sheet, contact_sheet(folder(), 6));
   const formats::PngImage image = formats::decode_png(formats::read_file(sheet), sheet);
   EXPECT_LE(image.width, 1600U);
   // The ball's pixels are twice as high as wide. Its widest tile shows it as wide as high.
@@ -197,7 +198,7 @@ TEST_F(Slice, ContactSheetsKeepTrueProportions) {
   }
   EXPECT_GT(widest, 100U);
   EXPECT_NEAR(static_cast<double>(tallest) / widest, 1.0, 0.1);
-  expect_error([&] { write_contact_sheet(folder("nothing"), sheet, 6); }, "nothing");
+  expect_error([&] { contact_sheet(folder("nothing"), 6); }, "nothing");
 }
 
 TEST(LayerFiles, WordsOfMaterialsAreDistinct) {

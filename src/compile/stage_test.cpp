@@ -65,7 +65,7 @@ class BoxCount final : public OneChannel<design::HaloStage> {
   Reach reach(Vec3) const override {
     return {{size_[0] / 2, size_[1] / 2, size_[2] / 2}, {(size_[0] - 1) / 2, (size_[1] - 1) / 2, (size_[2] - 1) / 2}};
   }
-  void compute(const StageValues& read, StageValues& made, Vec3 cell_mm) const override {
+  void compute(const StageValues& read, StageValues& made, Vec3 cell_mm, const StopFlag*) const override {
     const Reach reach = this->reach(cell_mm);
     const IndexBox& box = made.box();
     for (int64_t k = box.lo[2]; k < box.hi[2]; ++k)

@@ -35,7 +35,7 @@ double WholeSource::kept_bytes() const {
 // Slab by slab, in which half of the time is taken to pass.
 StageValues WholeSource::read_all(const StageLoan& loan, const design::StageWork& work) const {
   const IndexBox& cells = frame().cells;
-  StageValues read(cells, input().channels().size());
+  StageValues read(cells, input().channels().size(), loan.stop);
   const auto slabs = static_cast<size_t>((cells.size(2) + slab_layers - 1) / slab_layers);
   run_ordered<StageValues>(
       slabs, loan.threads, 2 * static_cast<size_t>(loan.threads > 0 ? loan.threads : core_count()),
@@ -46,7 +46,7 @@ StageValues WholeSource::read_all(const StageLoan& loan, const design::StageWork
         return input().values(box, loan.stop);
       },
       [&](size_t n, StageValues& slab) {
-        if (loan.stop && loan.stop->requested()) throw Cancelled();
+        design::check_stop(loan.stop);
         for (size_t c = 0; c < slab.channels(); ++c)
           std::ranges::copy(slab.channel(c),
                             read.channel(c).begin() +
@@ -58,7 +58,7 @@ StageValues WholeSource::read_all(const StageLoan& loan, const design::StageWork
 
 void WholeSource::compute(const StageLoan& loan, const design::StageWork& work) const {
   const StageValues read = read_all(loan, work);
-  const auto made = std::make_shared<StageValues>(frame().cells, frame().channels.size());
+  const auto made = std::make_shared<StageValues>(frame().cells, frame().channels.size(), loan.stop);
   design::StageWork rest = work;
   rest.tell = [&](double share) { work.tell(0.5 + 0.5 * share); };
   stage_->compute(read, *made, {frame().lattice.origin, frame().lattice.pitch}, rest);

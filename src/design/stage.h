@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/index_box.h"
 #include "base/interval.h"
 #include "base/pitch.h"
@@ -51,12 +52,22 @@ struct StageChannel {
   Interval range = Interval::everything();  // encloses all its values
 };
 
+// Throws Cancelled once it is asked to stop; the flag may be null.
+inline void check_stop(const StopFlag* stop) {
+  if (stop && stop->requested()) throw Cancelled();
+}
+
 // The values of some channels in a box of cells.
 class StageValues {
  public:
   StageValues() = default;
-  StageValues(const IndexBox& box, size_t channels)
-      : box_(box), values_(channels, std::vector<float>(static_cast<size_t>(box.voxels()))) {}
+  // All 0. Many take some time to get: throws Cancelled when `stop`, which may be null, asks for it meanwhile.
+  StageValues(const IndexBox& box, size_t channels, const StopFlag* stop = nullptr) : box_(box), values_(channels) {
+    for (std::vector<float>& values : values_) {
+      check_stop(stop);
+      values.resize(static_cast<size_t>(box.voxels()));
+    }
+  }
 
   const IndexBox& box() const { return box_; }
   size_t channels() const { return values_.size(); }
@@ -102,8 +113,9 @@ class HaloStage : public Stage {
   };
   // In cells of that size.
   virtual Reach reach(Vec3 cell_mm) const = 0;
-  // `read` has all cells that those of `made` read. Every cell is computed in the same way, wherever it lies.
-  virtual void compute(const StageValues& read, StageValues& made, Vec3 cell_mm) const = 0;
+  // `read` has all cells that those of `made` read. Every cell is computed in the same way, wherever it lies. Throws
+  // Cancelled within a tenth of a second or so once `stop`, which may be null, asks for it.
+  virtual void compute(const StageValues& read, StageValues& made, Vec3 cell_mm, const StopFlag* stop) const = 0;
 };
 
 // Values along columns of cells, as runs of equal ones.

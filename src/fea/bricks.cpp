@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/error.h"
+
 namespace ombre::fea {
 namespace {
 
@@ -20,20 +22,24 @@ Cell corner_of(const Cell& cell, const Cell& offset, const Cell& period) {
   return corner;
 }
 
+constexpr size_t bricks_between_looks = 16384;
+
+void check_stop(const StopFlag* stop) {
+  if (stop && stop->requested()) throw Cancelled();
+}
+
 }  // namespace
 
-Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells, const Cell& period) {
+Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells, const Cell& period, const StopFlag* stop) {
   Bricks bricks{origin, size_mm, std::move(cells), {}, {}, period};
   bricks.corners.reserve(bricks.cells.size() * 2);
   // Layer by layer, so that no more than two layers' corners are there several times; those of the first layer come
   // again at the end where the mesh repeats along z.
   std::vector<Cell> found;
-  const auto sort = [](std::vector<Cell>& list) {
-    std::ranges::sort(list, is_before);
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  };
   const auto take = [&](int32_t below) {
-    sort(found);
+    check_stop(stop);
+    std::ranges::sort(found, is_before);
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     const auto rest = std::ranges::find_if(found, [&](const Cell& corner) { return corner[2] >= below; });
     bricks.corners.insert(bricks.corners.end(), found.begin(), rest);
     found.erase(found.begin(), rest);
@@ -43,12 +49,18 @@ Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells, const Cel
     for (const Cell& offset : brick_corners) found.push_back(corner_of(bricks.cells[n], offset, period));
   }
   take(std::numeric_limits<int32_t>::max());
-  if (period[2] > 0) sort(bricks.corners);
+  if (period[2] > 0) {
+    const auto again = std::is_sorted_until(bricks.corners.begin(), bricks.corners.end(), is_before);
+    std::inplace_merge(bricks.corners.begin(), again, bricks.corners.end(), is_before);
+    bricks.corners.erase(std::unique(bricks.corners.begin(), bricks.corners.end()), bricks.corners.end());
+  }
   bricks.nodes.resize(bricks.cells.size());
-  for (size_t n = 0; n < bricks.cells.size(); ++n)
+  for (size_t n = 0; n < bricks.cells.size(); ++n) {
+    if (n % bricks_between_looks == 0) check_stop(stop);
     for (size_t c = 0; c < 8; ++c)
       bricks.nodes[n][c] =
           static_cast<uint32_t>(find(bricks.corners, corner_of(bricks.cells[n], brick_corners[c], period)));
+  }
   return bricks;
 }
 

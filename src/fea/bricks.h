@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/box.h"
+#include "base/progress.h"
 
 namespace ombre::fea {
 
@@ -46,8 +47,9 @@ inline constexpr std::array<Cell, 8> brick_corners{
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
 // The cells come in ascending order of z, then y, then x. Nodes are numbered in the same order, and none is there
-// twice. With a period cells are from 0 to below it.
-Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells, const Cell& period = {});
+// twice. With a period cells are from 0 to below it. Throws Cancelled.
+Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells, const Cell& period = {},
+                   const StopFlag* stop = nullptr);
 
 // One of a brick's six faces that no other brick touches.
 struct OuterFace {

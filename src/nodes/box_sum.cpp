@@ -21,7 +21,7 @@ struct NumberBlock {
 };
 
 // Sums of `length` neighbours along an axis, by one addition and one subtraction each.
-NumberBlock sums_along(const NumberBlock& block, size_t axis, int64_t length) {
+NumberBlock sums_along(const NumberBlock& block, size_t axis, int64_t length, const StopFlag* stop) {
   NumberBlock made{block.size, {}};
   made.size[axis] -= length - 1;
   made.values.resize(static_cast<size_t>(made.size[0] * made.size[1] * made.size[2]));
@@ -31,10 +31,12 @@ NumberBlock sums_along(const NumberBlock& block, size_t axis, int64_t length) {
   const int64_t lines = static_cast<int64_t>(block.values.size()) / (side * block.size[axis]);
   std::vector<int64_t> sum(static_cast<size_t>(side));
   for (int64_t line = 0; line < lines; ++line) {
+    design::check_stop(stop);
     const int64_t* const from = block.values.data() + line * side * block.size[axis];
     int64_t* const to = made.values.data() + line * side * made.size[axis];
     std::ranges::fill(sum, 0);
     for (int64_t n = 0; n < block.size[axis]; ++n) {
+      if (side > 1) design::check_stop(stop);
       for (int64_t s = 0; s < side; ++s) sum[static_cast<size_t>(s)] += from[n * side + s];
       const int64_t first = n - length + 1;
       if (first < 0) continue;
@@ -84,12 +86,12 @@ class BoxSumStage final : public design::HaloStage {
   }
 
   // The read channels are the fractions and then "inside"; void comes first where the solid has it itself.
-  void compute(const StageValues& read, StageValues& made, Vec3) const override {
+  void compute(const StageValues& read, StageValues& made, Vec3, const StopFlag* stop) const override {
     const size_t fractions = read.channels() - 1;
-    for (size_t c = 0; c < fractions; ++c) add(read, c, false, made, c);
+    for (size_t c = 0; c < fractions; ++c) add(read, c, false, made, c, stop);
     if (!use_.count_void) return;
     const bool has_own_void = made.channels() == fractions;
-    add(read, fractions, true, made, has_own_void ? 0 : fractions);
+    add(read, fractions, true, made, has_own_void ? 0 : fractions, stop);
   }
 
  private:
@@ -99,7 +101,8 @@ class BoxSumStage final : public design::HaloStage {
   }
 
   // Adds the sums of a channel, or of what it lacks to 1.
-  void add(const StageValues& read, size_t from, bool is_rest, StageValues& made, size_t to) const {
+  void add(const StageValues& read, size_t from, bool is_rest, StageValues& made, size_t to,
+           const StopFlag* stop) const {
     const std::vector<float>& values = read.channel(from);
     const float none = is_rest ? 1 : 0;
     if (std::ranges::all_of(values, [&](float v) { return v == none; })) return;
@@ -109,7 +112,7 @@ class BoxSumStage final : public design::HaloStage {
     const double scale = is_rest ? -1 / fixed_point : 1 / fixed_point, offset = (is_rest ? 1 / fixed_point : 0) + 0.5;
     for (const float v : values) block.values.push_back(static_cast<int64_t>(scale * static_cast<double>(v) + offset));
     for (size_t axis = 0; axis < 3; ++axis)
-      if (use_.size[axis] > 1) block = sums_along(block, axis, use_.size[axis]);
+      if (use_.size[axis] > 1) block = sums_along(block, axis, use_.size[axis], stop);
     std::vector<float>& sums = made.channel(to);
     for (size_t n = 0; n < sums.size(); ++n)
       sums[n] += static_cast<float>(static_cast<double>(block.values[n]) * fixed_point);

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <span>
 
-#include "base/error.h"
 #include "base/text.h"
 #include "nodes/whole_stages.h"
 
@@ -17,10 +16,16 @@ using Place = std::array<float, 3>;  // mm from the first voxel's centre
 // Each voxel keeps the nearest point of the surface that it knows of.
 class Sweeping {
  public:
-  Sweeping(const std::vector<float>& values, const IndexBox& box, Vec3 cell) : cell_(cell), values_(values) {
+  Sweeping(const std::vector<float>& values, const IndexBox& box, Vec3 cell, const StopFlag* stop)
+      : cell_(cell), values_(values), stop_(stop) {
     for (size_t a = 0; a < 3; ++a) size_[a] = box.size(static_cast<int>(a));
     step_ = {1, size_[0], size_[0] * size_[1]};
-    nearest_.assign(values.size(), Place{none, none, none});
+    // Row by row, since getting so much memory takes its time.
+    nearest_.reserve(values.size());
+    for (int64_t row = 0; row < size_[1] * size_[2]; ++row) {
+      design::check_stop(stop);
+      nearest_.insert(nearest_.end(), static_cast<size_t>(size_[0]), Place{none, none, none});
+    }
     each_cell([&](const Cell& at, size_t n) { begin(at, n); });
   }
 
@@ -28,7 +33,6 @@ class Sweeping {
   void run(const design::StageWork& work) {
     constexpr int rounds = 2, directions = 8;
     for (int n = 0; n < rounds * directions; ++n) {
-      if (work.stop && work.stop->requested()) throw Cancelled();
       sweep((n & 1) != 0, (n & 2) != 0, (n & 4) != 0);
       work.tell(static_cast<double>(n + 1) / (rounds * directions));
     }
@@ -49,8 +53,10 @@ class Sweeping {
   void each_cell(const Visit& visit) const {
     size_t n = 0;
     for (int64_t k = 0; k < size_[2]; ++k)
-      for (int64_t j = 0; j < size_[1]; ++j)
+      for (int64_t j = 0; j < size_[1]; ++j) {
+        design::check_stop(stop_);
         for (int64_t i = 0; i < size_[0]; ++i, ++n) visit(Cell{i, j, k}, n);
+      }
   }
 
   Place place(const Cell& at) const {
@@ -102,9 +108,11 @@ class Sweeping {
 
   void sweep(bool back_x, bool back_y, bool back_z) {
     for (int64_t z = 0; z < size_[2]; ++z)
-      for (int64_t y = 0; y < size_[1]; ++y)
+      for (int64_t y = 0; y < size_[1]; ++y) {
+        design::check_stop(stop_);
         for (int64_t x = 0; x < size_[0]; ++x)
           update({back_x ? size_[0] - 1 - x : x, back_y ? size_[1] - 1 - y : y, back_z ? size_[2] - 1 - z : z});
+      }
   }
 
   // Near the surface also of neighbours that touch by edges and corners: one point for each voxel lies sparsely there.
@@ -149,6 +157,7 @@ class Sweeping {
 
   Vec3 cell_;
   const std::vector<float>& values_;
+  const StopFlag* stop_;
   std::array<int64_t, 3> size_{}, step_{};
   std::vector<Place> nearest_;
   const std::vector<Cell> neighbours_ = make_neighbours();
@@ -180,7 +189,7 @@ class DistanceStage final : public design::WholeStage {
   void compute(const StageValues& read, StageValues& made, const design::StageLattice& lattice,
                const design::StageWork& work) const override {
     Sweeping sweeping(read.channel(0), read.box(),
-                      {lattice.pitch[0].mm(), lattice.pitch[1].mm(), lattice.pitch[2].mm()});
+                      {lattice.pitch[0].mm(), lattice.pitch[1].mm(), lattice.pitch[2].mm()}, work.stop);
     sweeping.run(work);
     sweeping.write(made.channel(0));
     std::ranges::fill(made.channel(1), 1.0f);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/math.h"
+#include "design/stage.h"
 
 namespace ombre::nodes {
 namespace {
@@ -129,13 +130,14 @@ Interval LinearFilter::range() const {
   return {std::min(a, b) + std::min(centre_, 0.0) - rounding, std::max(a, b) + std::max(centre_, 0.0) + rounding};
 }
 
-NumberGrid LinearFilter::applied(const Pass& pass, const NumberGrid& grid) {
+NumberGrid LinearFilter::applied(const Pass& pass, const NumberGrid& grid, const StopFlag* stop) {
   NumberGrid made;
   for (size_t axis = 0; axis < 3; ++axis) made.size[axis] = grid.size[axis] - (pass.size[axis] - 1);
   made.values.assign(static_cast<size_t>(made.size[0] * made.size[1] * made.size[2]), 0.0);
   const int64_t width = made.size[0];
   for (int64_t k = 0; k < made.size[2]; ++k)
     for (int64_t j = 0; j < made.size[1]; ++j) {
+      design::check_stop(stop);
       double* const to = made.values.data() + (k * made.size[1] + j) * width;
       const double* weight = pass.weights.data();
       for (int64_t z = 0; z < pass.size[2]; ++z)
@@ -151,9 +153,9 @@ NumberGrid LinearFilter::applied(const Pass& pass, const NumberGrid& grid) {
   return made;
 }
 
-NumberGrid LinearFilter::apply(const NumberGrid& grid) const {
+NumberGrid LinearFilter::apply(const NumberGrid& grid, const StopFlag* stop) const {
   NumberGrid made = grid;
-  for (const Pass& pass : passes_) made = applied(pass, made);
+  for (const Pass& pass : passes_) made = applied(pass, made, stop);
   if (centre_ == 0 && scale_ == 1) return made;
   const std::array<int64_t, 3> first = below();
   size_t n = 0;

@@ -7,6 +7,7 @@
 
 #include "base/index_box.h"
 #include "base/interval.h"
+#include "base/progress.h"
 #include "base/vec.h"
 #include "design/values.h"
 
@@ -37,8 +38,9 @@ class LinearFilter {
   // Encloses the results for values from 0 to 1.
   Interval range() const;
 
-  // The grid's outermost voxels are only read: the result is smaller by `below` and `above`.
-  NumberGrid apply(const NumberGrid& grid) const;
+  // The grid's outermost voxels are only read: the result is smaller by `below` and `above`. Throws Cancelled soon
+  // after `stop`, which may be null, asks for it.
+  NumberGrid apply(const NumberGrid& grid, const StopFlag* stop = nullptr) const;
 
  private:
   // One box of weights.
@@ -47,7 +49,7 @@ class LinearFilter {
     std::vector<double> weights;  // x fastest
   };
   static Pass along(size_t axis, std::vector<double> weights);
-  static NumberGrid applied(const Pass& pass, const NumberGrid& grid);
+  static NumberGrid applied(const Pass& pass, const NumberGrid& grid, const StopFlag* stop);
 
   std::vector<Pass> passes_;
   double centre_ = 0, scale_ = 1;

@@ -22,12 +22,12 @@ class LinearStage final : public FilterStage {
     return {filter.below(), filter.above()};
   }
 
-  void compute(const StageValues& read, StageValues& made, Vec3 cell_mm) const override {
+  void compute(const StageValues& read, StageValues& made, Vec3 cell_mm, const StopFlag* stop) const override {
     const LinearFilter filter = filter_(cell_mm);
     const std::vector<float>& inside = read.channel(FilterStage::inside(read));
     std::vector<float>& share = made.channel(made_share(made));
     add(
-        filter, read, [&](size_t n) { return inside[n]; }, share);
+        filter, stop, read, [&](size_t n) { return inside[n]; }, share);
     for (size_t c = 0; c < fractions(read); ++c) {
       const std::vector<float>& fraction = read.channel(c);
       // Where there is one material alone its sums are those of "inside".
@@ -35,15 +35,15 @@ class LinearStage final : public FilterStage {
         made.channel(c) = share;
       else
         add(
-            filter, read, [&](size_t n) { return fraction[n]; }, made.channel(c));
+            filter, stop, read, [&](size_t n) { return fraction[n]; }, made.channel(c));
     }
     if (use().count_void)
       add(
-          filter, read, [&](size_t n) { return 1 - inside[n]; }, made.channel(made_void(read, made)));
+          filter, stop, read, [&](size_t n) { return 1 - inside[n]; }, made.channel(made_void(read, made)));
     for (size_t a = 0; a < use().attributes.size(); ++a) {
       const std::vector<float>& values = read.channel(attribute(read, a));
       add(
-          filter, read, [&](size_t n) { return inside[n] != 0 ? values[n] : 0.0f; },
+          filter, stop, read, [&](size_t n) { return inside[n] != 0 ? values[n] : 0.0f; },
           made.channel(made_attribute(made, a)));
     }
   }
@@ -54,7 +54,7 @@ class LinearStage final : public FilterStage {
 
  private:
   template <class ValueAt>
-  static void add(const LinearFilter& filter, const StageValues& read, const ValueAt& value_at,
+  static void add(const LinearFilter& filter, const StopFlag* stop, const StageValues& read, const ValueAt& value_at,
                   std::vector<float>& made) {
     const IndexBox& box = read.box();
     NumberGrid grid{{box.size(0), box.size(1), box.size(2)}, {}};
@@ -66,7 +66,7 @@ class LinearStage final : public FilterStage {
       is_same &= grid.values[n] == first;
     }
     if (is_same) return add_same(filter, first, made);
-    const NumberGrid sums = filter.apply(grid);
+    const NumberGrid sums = filter.apply(grid, stop);
     for (size_t n = 0; n < made.size(); ++n)
       made[n] = static_cast<float>(static_cast<double>(made[n]) + sums.values[n]);
   }

@@ -42,13 +42,14 @@ struct FlagGrid {
 };
 
 // Flags of cells near which a cell has the mark `wanted`; the result is smaller by the ball's radius on each side.
-FlagGrid near(const FlagGrid& grid, const Ball& ball, uint8_t wanted) {
+FlagGrid near(const FlagGrid& grid, const Ball& ball, uint8_t wanted, const StopFlag* stop) {
   FlagGrid made;
   for (size_t axis = 0; axis < 3; ++axis) made.size[axis] = grid.size[axis] - 2 * ball.radius[axis];
   made.flags.assign(static_cast<size_t>(made.size[0] * made.size[1] * made.size[2]), 0);
   std::vector<int64_t> before(static_cast<size_t>(grid.size[0]) + 1);  // wanted cells of a row before each
   for (int64_t k = 0; k < made.size[2]; ++k)
     for (int64_t j = 0; j < made.size[1]; ++j) {
+      design::check_stop(stop);
       uint8_t* const to = made.flags.data() + (k * made.size[1] + j) * made.size[0];
       for (const BallRow& row : ball.rows) {
         const int64_t y = j + row.j + ball.radius[1], z = k + row.k + ball.radius[2];
@@ -67,10 +68,10 @@ FlagGrid near(const FlagGrid& grid, const Ball& ball, uint8_t wanted) {
   return made;
 }
 
-FlagGrid dilated(const FlagGrid& grid, const Ball& ball) { return near(grid, ball, 1); }
+FlagGrid dilated(const FlagGrid& grid, const Ball& ball, const StopFlag* stop) { return near(grid, ball, 1, stop); }
 
-FlagGrid eroded(const FlagGrid& grid, const Ball& ball) {
-  FlagGrid made = near(grid, ball, 0);
+FlagGrid eroded(const FlagGrid& grid, const Ball& ball, const StopFlag* stop) {
+  FlagGrid made = near(grid, ball, 0, stop);
   for (uint8_t& flag : made.flags) flag ^= 1;
   return made;
 }
@@ -108,13 +109,13 @@ class MorphologyStage final : public design::HaloStage {
     return {cells, cells};
   }
 
-  void compute(const StageValues& read, StageValues& made, Vec3 cell_mm) const override {
+  void compute(const StageValues& read, StageValues& made, Vec3 cell_mm, const StopFlag* stop) const override {
     const Ball ball = make_ball(radius_mm_, cell_mm);
     FlagGrid grid{{read.box().size(0), read.box().size(1), read.box().size(2)}, {}};
     for (const float value : read.channel(0)) grid.flags.push_back(value != 0 ? 1 : 0);
-    if (what_ == Morphology::erode || what_ == Morphology::opening) grid = eroded(grid, ball);
-    if (what_ != Morphology::erode) grid = dilated(grid, ball);
-    if (what_ == Morphology::closing) grid = eroded(grid, ball);
+    if (what_ == Morphology::erode || what_ == Morphology::opening) grid = eroded(grid, ball, stop);
+    if (what_ != Morphology::erode) grid = dilated(grid, ball, stop);
+    if (what_ == Morphology::closing) grid = eroded(grid, ball, stop);
     for (size_t n = 0; n < grid.flags.size(); ++n) made.channel(0)[n] = static_cast<float>(grid.flags[n]);
   }
 

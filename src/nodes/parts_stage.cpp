@@ -19,10 +19,11 @@ struct AlikeRun {
 // The runs of voxels with one mark, joined where they touch by their sides.
 class AlikeRuns {
  public:
-  AlikeRuns(const std::vector<float>& flags, const IndexBox& box, bool wanted) : box_(box) {
+  AlikeRuns(const std::vector<float>& flags, const IndexBox& box, bool wanted, const StopFlag* stop) : box_(box) {
     const auto width = static_cast<size_t>(box.size(0));
     const auto rows = static_cast<size_t>(box.size(1) * box.size(2));
     for (size_t row = 0; row < rows; ++row) {
+      design::check_stop(stop);
       first_.push_back(runs_.size());
       add_row(flags.data() + row * width, wanted);
       if (row % static_cast<size_t>(box.size(1)) > 0) join(row, row - 1);
@@ -100,13 +101,16 @@ double cell_volume(const design::StageLattice& lattice) {
   return lattice.pitch[0].mm() * lattice.pitch[1].mm() * lattice.pitch[2].mm();
 }
 
-void flag(const AlikeRuns& runs, const std::vector<char>& chosen, const IndexBox& box, std::vector<float>& flags) {
-  for (size_t row = 0; row < runs.rows(); ++row)
+void flag(const AlikeRuns& runs, const std::vector<char>& chosen, const IndexBox& box, std::vector<float>& flags,
+          const StopFlag* stop) {
+  for (size_t row = 0; row < runs.rows(); ++row) {
+    design::check_stop(stop);
     for (size_t n = runs.first(row); n < runs.first(row + 1); ++n) {
       if (!chosen[runs.root(n)]) continue;
       const auto begin = flags.begin() + static_cast<ptrdiff_t>(static_cast<int64_t>(row) * box.size(0));
       std::fill(begin + runs.run(n).begin, begin + runs.run(n).end, 1.0f);
     }
+  }
 }
 
 class FlagStage : public design::WholeStage {
@@ -146,9 +150,9 @@ class PartsStage final : public FlagStage {
   }
 
   void compute(const StageValues& read, StageValues& made, const design::StageLattice& lattice,
-               const design::StageWork&) const override {
-    const AlikeRuns runs(read.channel(0), read.box(), true);
-    flag(runs, chosen(runs, lattice), made.box(), made.channel(0));
+               const design::StageWork& work) const override {
+    const AlikeRuns runs(read.channel(0), read.box(), true, work.stop);
+    flag(runs, chosen(runs, lattice), made.box(), made.channel(0), work.stop);
   }
 
  private:
@@ -191,16 +195,16 @@ class FillStage final : public FlagStage {
   Hash content() const override { return hash_bytes("fill " + format_number(most_mm3_)); }
 
   void compute(const StageValues& read, StageValues& made, const design::StageLattice& lattice,
-               const design::StageWork&) const override {
+               const design::StageWork& work) const override {
     const IndexBox& box = read.box();
-    const AlikeRuns runs(read.channel(0), box, false);
+    const AlikeRuns runs(read.channel(0), box, false, work.stop);
     const std::vector<int64_t> sizes = runs.sizes();
     std::vector<char> filled(runs.count(), 0);
     for (size_t n = 0; n < sizes.size(); ++n)
       filled[n] = static_cast<double>(sizes[n]) * cell_volume(lattice) <= most_mm3_ ? 1 : 0;
     leave_open(runs, box, filled);
     made.channel(0) = read.channel(0);
-    flag(runs, filled, box, made.channel(0));
+    flag(runs, filled, box, made.channel(0), work.stop);
   }
 
  private:

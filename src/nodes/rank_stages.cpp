@@ -29,11 +29,14 @@ class BoxStage : public FilterStage {
   }
 
   template <class Visit>
-  void each_cell(const IndexBox& box, const Visit& visit) const {
+  static void each_cell(const IndexBox& box, const StopFlag* stop, const Visit& visit) {
     size_t n = 0;
     for (int64_t k = box.lo[2]; k < box.hi[2]; ++k)
       for (int64_t j = box.lo[1]; j < box.hi[1]; ++j)
-        for (int64_t i = box.lo[0]; i < box.hi[0]; ++i, ++n) visit(Cell{i, j, k}, n);
+        for (int64_t i = box.lo[0]; i < box.hi[0]; ++i, ++n) {
+          design::check_stop(stop);
+          visit(Cell{i, j, k}, n);
+        }
   }
 
   // The places in `read` of the voxels in the box around a cell.
@@ -57,12 +60,12 @@ class MajorityStage final : public BoxStage {
   std::string name() const override { return "majority"; }
   Hash content() const override { return hash_with("majority " + size_text()); }
 
-  void compute(const StageValues& read, StageValues& made, Vec3) const override {
+  void compute(const StageValues& read, StageValues& made, Vec3, const StopFlag* stop) const override {
     const size_t count = fractions(read) + (use().count_void ? 1 : 0);
     const std::vector<float>& inside = read.channel(FilterStage::inside(read));
     // Sums are taken in double precision and in one order.
     std::vector<double> sums(count);
-    each_cell(made.box(), [&](const Cell& cell, size_t n) {
+    each_cell(made.box(), stop, [&](const Cell& cell, size_t n) {
       std::ranges::fill(sums, 0.0);
       each_near(read, cell, [&](size_t at) {
         for (size_t c = 0; c < fractions(read); ++c) sums[c] += static_cast<double>(read.channel(c)[at]);
@@ -96,11 +99,11 @@ class MedianStage final : public BoxStage {
   std::string name() const override { return "median"; }
   Hash content() const override { return hash_with("median " + size_text()); }
 
-  void compute(const StageValues& read, StageValues& made, Vec3) const override {
+  void compute(const StageValues& read, StageValues& made, Vec3, const StopFlag* stop) const override {
     const std::vector<float>& inside = read.channel(FilterStage::inside(read));
     std::vector<float> values;
     for (size_t a = 0; a < use().attributes.size(); ++a)
-      each_cell(made.box(), [&](const Cell& cell, size_t n) {
+      each_cell(made.box(), stop, [&](const Cell& cell, size_t n) {
         values.clear();
         each_near(read, cell, [&](size_t at) {
           if (inside[at] != 0) values.push_back(read.channel(attribute(read, a))[at]);
