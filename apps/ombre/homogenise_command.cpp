@@ -53,7 +53,7 @@ std::optional<fea::Model> make_model(const HomogeniseChoices& a, const fea::Stud
   if (!loaded) return std::nullopt;
   const auto box = compile::periodic_box(loaded, a.box, a.cell_mm, diagnostics);
   if (!box) return std::nullopt;
-  const compile::LoadedPtr sampled = compile::sampled_by(loaded, *box, &session.stop);
+  const compile::LoadedPtr sampled = compile::sampled_by(loaded, *box);
   compile::SamplingOptions sampling;
   sampling.rules.seed = a.seed;
   const auto options = plan_options(sampling, a.work, session, diagnostics);

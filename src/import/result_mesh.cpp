@@ -169,10 +169,19 @@ void ResultMesh::make_border() const {
 }
 
 double ResultMesh::value(const formats::ResultField& field, size_t component, const ElementPlace& place) const {
-  if (field.is_of_elements) return field.values[place.element * field.components + component];
-  std::array<double, most_element_nodes> weights{};
-  const auto numbers = nodes(place.element);
+  Weights weights{};
+  if (!field.is_of_elements) find_weights(place, weights);
+  return value(field, component, place.element, weights);
+}
+
+void ResultMesh::find_weights(const ElementPlace& place, Weights& weights) const {
   shape_weights(results_.kinds[place.element], place.at, weights);
+}
+
+double ResultMesh::value(const formats::ResultField& field, size_t component, size_t element,
+                         const Weights& weights) const {
+  if (field.is_of_elements) return field.values[element * field.components + component];
+  const auto numbers = nodes(element);
   double sum = 0;
   for (size_t n = 0; n < numbers.size(); ++n)
     sum += weights[n] * field.values[numbers[n] * field.components + component];

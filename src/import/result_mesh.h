@@ -53,6 +53,10 @@ class ResultMesh {
 
   // One component of a field.
   double value(const formats::ResultField& field, size_t component, const ElementPlace& place) const;
+  // The same with the weights of the element's nodes there, which all fields share.
+  using Weights = std::array<double, most_element_nodes>;
+  void find_weights(const ElementPlace& place, Weights& weights) const;
+  double value(const formats::ResultField& field, size_t component, size_t element, const Weights& weights) const;
   // Encloses it in the whole element.
   Interval value_bounds(const formats::ResultField& field, size_t component, size_t element) const;
 

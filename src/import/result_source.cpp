@@ -97,16 +97,24 @@ class ResultSource final : public program::FieldSource {
 
   void sample_channels(std::span<const int> channels, std::span<const Vec3> points,
                        std::span<double* const> values) const override {
-    bool needs_values = false;
-    for (const int channel : channels) needs_values = needs_values || channel != inside_channel_number;
+    bool needs_values = false, needs_nodes = false;
+    for (const int channel : channels) {
+      if (channel == inside_channel_number) continue;
+      needs_values = true;
+      needs_nodes = needs_nodes || !mesh_->results().fields[of(channel).field].is_of_elements;
+    }
+    ResultMesh::Weights weights{};
     std::optional<ElementPlace> last;
     uint32_t last_triangle = UINT32_MAX;
     for (size_t n = 0; n < points.size(); ++n) {
       const auto held = mesh_->place(points[n], last ? &*last : nullptr);
       if (held) last = held;
       const auto place = held || !needs_values ? held : outside(points[n], last_triangle);
+      if (place && needs_nodes) mesh_->find_weights(*place, weights);
       for (size_t c = 0; c < channels.size(); ++c)
-        values[c][n] = channels[c] == inside_channel_number ? (held ? 1 : 0) : value(channels[c], place, points[n]);
+        values[c][n] = channels[c] == inside_channel_number ? (held ? 1 : 0)
+                       : place                              ? value(channels[c], place->element, weights)
+                                                            : value_outside(points[n]);
     }
   }
 
@@ -139,11 +147,15 @@ class ResultSource final : public program::FieldSource {
                                                                                        : std::nullopt;
   }
 
-  double value(int channel, const std::optional<ElementPlace>& place, Vec3 p) const {
-    if (!place && outside_.kind == OutsideRule::Kind::value && is_finite(p)) return outside_.value;
-    if (!place) return std::numeric_limits<double>::quiet_NaN();
-    const ResultChannel& which = channels_[static_cast<size_t>(channel - 1)];
-    return mesh_->value(mesh_->results().fields[which.field], which.component, *place);
+  const ResultChannel& of(int channel) const { return channels_[static_cast<size_t>(channel - 1)]; }
+
+  double value(int channel, size_t element, const ResultMesh::Weights& weights) const {
+    return mesh_->value(mesh_->results().fields[of(channel).field], of(channel).component, element, weights);
+  }
+
+  double value_outside(Vec3 p) const {
+    const bool is_known = outside_.kind == OutsideRule::Kind::value && is_finite(p);
+    return is_known ? outside_.value : std::numeric_limits<double>::quiet_NaN();
   }
 
   // No point of the box is farther from the mesh.
@@ -157,7 +169,7 @@ class ResultSource final : public program::FieldSource {
     const std::scoped_lock lock(mutex_);
     auto& known = channel_bounds_[channel];
     if (!known) {
-      const ResultChannel& which = channels_[static_cast<size_t>(channel - 1)];
+      const ResultChannel& which = of(channel);
       known = std::make_unique<ChannelBounds>(*mesh_, mesh_->results().fields[which.field], which.component);
     }
     return *known;
