@@ -133,6 +133,7 @@ Interval LinearFilter::range() const {
 NumberGrid LinearFilter::applied(const Pass& pass, const NumberGrid& grid, const StopFlag* stop) {
   NumberGrid made;
   for (size_t axis = 0; axis < 3; ++axis) made.size[axis] = grid.size[axis] - (pass.size[axis] - 1);
+  design::check_stop(stop);
   made.values.assign(static_cast<size_t>(made.size[0] * made.size[1] * made.size[2]), 0.0);
   const int64_t width = made.size[0];
   for (int64_t k = 0; k < made.size[2]; ++k)
@@ -154,8 +155,9 @@ NumberGrid LinearFilter::applied(const Pass& pass, const NumberGrid& grid, const
 }
 
 NumberGrid LinearFilter::apply(const NumberGrid& grid, const StopFlag* stop) const {
-  NumberGrid made = grid;
-  for (const Pass& pass : passes_) made = applied(pass, made, stop);
+  NumberGrid made;
+  for (size_t n = 0; n < passes_.size(); ++n) made = applied(passes_[n], n == 0 ? grid : made, stop);
+  if (passes_.empty()) made = grid;
   if (centre_ == 0 && scale_ == 1) return made;
   const std::array<int64_t, 3> first = below();
   size_t n = 0;

@@ -58,6 +58,7 @@ class LinearStage final : public FilterStage {
                   std::vector<float>& made) {
     const IndexBox& box = read.box();
     NumberGrid grid{{box.size(0), box.size(1), box.size(2)}, {}};
+    design::check_stop(stop);
     grid.values.resize(static_cast<size_t>(box.voxels()));
     const auto first = static_cast<double>(value_at(0));
     bool is_same = true;
@@ -66,6 +67,7 @@ class LinearStage final : public FilterStage {
       is_same &= grid.values[n] == first;
     }
     if (is_same) return add_same(filter, first, made);
+    design::check_stop(stop);
     const NumberGrid sums = filter.apply(grid, stop);
     for (size_t n = 0; n < made.size(); ++n)
       made[n] = static_cast<float>(static_cast<double>(made[n]) + sums.values[n]);
