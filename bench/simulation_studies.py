@@ -5,7 +5,7 @@
     python3 bench/simulation_studies.py lattice ... --calculix                      rule 2 by CalculiX, too
     python3 bench/simulation_studies.py bar build/release/apps/ombre/ombre          Fig. 7
 
-Tables go to the standard output; --chart FILE.svg draws the lattices' displacement by height. --cell 2 is a small run.
+Tables go to the standard output; --chart FILE.svg draws the lattices' displacement by height. --cell 1 is a small run.
 """
 import argparse
 import json
@@ -45,7 +45,7 @@ def run(command, folder):
         _, status, usage = os.wait4(process.pid, 0)
     seconds = time.perf_counter() - start
     if status != 0:
-        raise SystemExit((folder / "stderr").read_text()[-2000:])
+        raise SystemExit("".join((folder / name).read_text()[-2000:] for name in ("stdout", "stderr")))
     events = {}
     for line in (folder / "stdout").read_text().splitlines():
         event = json.loads(line)
