@@ -36,11 +36,11 @@ void tell_quality(const Console& console, const compile::TetraModel& made) {
 }
 
 std::string solved_text(const compile::FeaChoices& a, size_t iterations, bool is_direct, double seconds) {
-  const std::string way = a.solver == "calculix" ? "by CalculiX"
-                          : is_direct            ? "by a factorisation and " + counted(iterations, "iteration")
-                          : iterations == 0      ? "directly"
-                                                 : "in " + counted(iterations, "iteration");
-  return "solved " + way + " and " + format_rounded(seconds, 3) + " s";
+  const std::string way = a.solver == "calculix" ? "by CalculiX in "
+                          : is_direct            ? "by a factorisation and " + counted(iterations, "iteration") + " in "
+                          : iterations == 0      ? "directly in "
+                                                 : "in " + counted(iterations, "iteration") + " and ";
+  return "solved " + way + format_rounded(seconds, 3) + " s";
 }
 
 void tell_solution(const compile::FeaChoices& a, const Console& console, const fea::MeshView& mesh,

@@ -77,7 +77,7 @@ def test_solids_name_the_line_of_their_node():
 def test_warnings_name_the_line():
     implicit = pv.Function("r - 3")
     node = pv.FGrade(["0.5 + d", "0.5 - d"], [red, blue], True, implicit)
-    with pytest.warns(ombre.DesignWarning, match=r"test_pyvcad_errors\.py:\d+:\d+: warning: \"d\" is used"):
+    with pytest.warns(ombre.DesignWarning, match=r"test_pyvcad_errors\.py:\d+:\d+: warning: \"d\" needs distances"):
         node.prepare()
 
 
