@@ -137,9 +137,6 @@ GENERAL = {"machine", "design"}
 MACHINES = {
     "apps/studio/guard.cpp", "src/base/point_sets.cpp", "src/base/temporary_folder.cpp", "src/compile/stage_input.cpp",
     "src/import/closest_point.cpp", "src/lang/openscad/run.cpp", "src/render/ray_cast.cpp",
-    # Still to be given codes.
-    "apps/ombre/optimise_command.cpp", "apps/ombre/optimise_topology.cpp", "src/fea/calculix.cpp",
-    "src/fea/conjugate_gradients.cpp", "src/fea/mesh.cpp", "src/fea/mumps_module.cpp", "src/optimise/search.cpp",
 }
 
 

@@ -78,7 +78,8 @@ bool open_folder(const OptimiseChoices& a, const Folder& folder, const std::stri
                  Diagnostics& diagnostics) {
   std::error_code problem;
   fs::create_directories(folder.path, problem);
-  if (problem) throw Error("cannot make the folder " + folder.path.string() + ": " + problem.message());
+  if (problem)
+    throw Error(Code::cannot_write, "cannot make the folder " + folder.path.string() + ": " + problem.message());
   const bool has_history = fs::exists(folder.history());
   if (has_history && !a.resume && !a.force)
     throw WrongArgument(folder.history() + " is there; write " + spelled::option("--resume") +
@@ -120,8 +121,8 @@ class Evaluator {
     for (const auto& values : all)
       if (!history_.find(values) && std::ranges::find(missing, values) == missing.end()) missing.push_back(values);
     measure_missing(missing);
-    asked_ += points.size();
-    progress_.update({std::min(asked_, study_.search.evaluations), study_.search.evaluations});
+    requested_ += points.size();
+    progress_.update({std::min(requested_, study_.search.evaluations), study_.search.evaluations});
     std::vector<Outcome> outcomes;
     for (const auto& values : all) outcomes.push_back(outcome_of(study_, history_.find(values)->measured));
     return outcomes;
@@ -161,7 +162,7 @@ class Evaluator {
   ProgressLine progress_;
   int threads_;
   double memory_, largest_ = 0;
-  size_t asked_ = 0, measured_ = 0;
+  size_t requested_ = 0, measured_ = 0;
 };
 
 std::string values_text(const OptimiseStudy& study, const History::Row& row) {

@@ -150,8 +150,8 @@ optimise::Topology search(const OptimiseChoices& a, const TopologyCase& made, Se
   const Vec3 size = made.model.bricks.size_mm;
   if (!(options.radius_mm > 0)) options.radius_mm = 1.5 * std::max({size.x, size.y, size.z});
   ProgressLine progress(session.console, Counted::steps);
-  const auto told = [&](const optimise::TopologyStep& step) { progress.update({step.number, options.steps}); };
-  optimise::Topology topology = optimise::find_topology(made.model, made.conditions, options, told, &session.stop);
+  const auto report = [&](const optimise::TopologyStep& step) { progress.update({step.number, options.steps}); };
+  optimise::Topology topology = optimise::find_topology(made.model, made.conditions, options, report, &session.stop);
   progress.finish();
   return topology;
 }
@@ -177,7 +177,7 @@ void tell(const TopologyCase& made, const optimise::Topology& topology, const st
 int find_and_write(const OptimiseChoices& a, const TopologyCase& made, Session& session) {
   std::error_code problem;
   fs::create_directories(a.folder, problem);
-  if (problem) throw Error("cannot make the folder " + a.folder + ": " + problem.message());
+  if (problem) throw Error(Code::cannot_write, "cannot make the folder " + a.folder + ": " + problem.message());
   const optimise::Topology topology = search(a, made, session);
   const std::vector<std::string> files = files_of(a);
   write_density(files[0], made.model.bricks, topology.density);

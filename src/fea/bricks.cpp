@@ -22,7 +22,7 @@ Cell corner_of(const Cell& cell, const Cell& offset, const Cell& period) {
   return corner;
 }
 
-constexpr size_t bricks_between_looks = 16384;
+constexpr size_t bricks_between_checks = 16384;
 
 void check_stop(const StopFlag* stop) {
   if (stop && stop->requested()) throw Cancelled();
@@ -56,7 +56,7 @@ Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells, const Cel
   }
   bricks.nodes.resize(bricks.cells.size());
   for (size_t n = 0; n < bricks.cells.size(); ++n) {
-    if (n % bricks_between_looks == 0) check_stop(stop);
+    if (n % bricks_between_checks == 0) check_stop(stop);
     for (size_t c = 0; c < 8; ++c)
       bricks.nodes[n][c] =
           static_cast<uint32_t>(find(bricks.corners, corner_of(bricks.cells[n], brick_corners[c], period)));

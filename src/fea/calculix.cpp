@@ -55,7 +55,8 @@ int status_of(pid_t process, const StopFlag* stop) {
   for (;;) {
     const pid_t ended = waitpid(process, &status, stop ? WNOHANG : 0);
     if (ended == process) return status;
-    if (ended < 0 && errno != EINTR) throw Error(std::string("CalculiX cannot be waited for: ") + std::strerror(errno));
+    if (ended < 0 && errno != EINTR)
+      throw Error(Code::other_program, std::string("CalculiX cannot be waited for: ") + std::strerror(errno));
     if (stop && stop->requested()) {
       kill(process, SIGKILL);
       waitpid(process, &status, 0);
@@ -94,17 +95,18 @@ void run_program(const TemporaryFolder& folder, int threads, const StopFlag* sto
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
   if (failure == ENOENT)
-    throw Error("there is no program ccx: install CalculiX (calculix-ccx), or solve without " +
-                spelled::option("--solver", "calculix"));
-  if (failure != 0) throw Error(std::string("ccx cannot be started: ") + std::strerror(failure));
+    throw Error(Code::other_program, "there is no program ccx: install CalculiX (calculix-ccx), or solve without " +
+                                         spelled::option("--solver", "calculix"));
+  if (failure != 0) throw Error(Code::other_program, std::string("ccx cannot be started: ") + std::strerror(failure));
   const int status = status_of(process, stop);
   const std::string words = text_of_file(log);
   // Its exit code is 0 for some failures too.
   if (WIFSIGNALED(status))
-    throw Error("CalculiX was ended by signal " + std::to_string(WTERMSIG(status)) +
-                (WTERMSIG(status) == SIGKILL ? ", perhaps since memory ran out" : "") + "; " + words_of_failure(words));
+    throw Error(Code::other_program, "CalculiX was ended by signal " + std::to_string(WTERMSIG(status)) +
+                                         (WTERMSIG(status) == SIGKILL ? ", perhaps since memory ran out" : "") + "; " +
+                                         words_of_failure(words));
   if (words.find("Job finished") == std::string::npos)
-    throw Error("CalculiX did not finish; " + words_of_failure(words));
+    throw Error(Code::other_program, "CalculiX did not finish; " + words_of_failure(words));
 }
 
 // The numbers of a line.
@@ -115,7 +117,8 @@ size_t numbers_in(std::string_view line, std::array<double, 8>& numbers) {
     while (at < end && *at == ' ') ++at;
     if (at == end) break;
     const auto [next, failure] = std::from_chars(at, end, numbers[count]);
-    if (failure != std::errc()) throw Error("CalculiX gave a result that is no number: " + std::string(line));
+    if (failure != std::errc())
+      throw Error(Code::other_program, "CalculiX gave a result that is no number: " + std::string(line));
     ++count;
     at = next;
   }
@@ -124,14 +127,15 @@ size_t numbers_in(std::string_view line, std::array<double, 8>& numbers) {
 
 size_t place_of(double number, size_t count, std::string_view line) {
   if (!(number >= 1 && number <= static_cast<double>(count)))
-    throw Error("CalculiX gave a result for what there is not: " + std::string(line));
+    throw Error(Code::other_program, "CalculiX gave a result for what there is not: " + std::string(line));
   return static_cast<size_t>(number) - 1;
 }
 
 template <size_t size>
 void read_node(std::string_view line, size_t count, std::vector<std::array<double, size>>& values) {
   std::array<double, 8> numbers{};
-  if (numbers_in(line, numbers) < size + 1) throw Error("CalculiX gave too few results: " + std::string(line));
+  if (numbers_in(line, numbers) < size + 1)
+    throw Error(Code::other_program, "CalculiX gave too few results: " + std::string(line));
   values.resize(count);
   std::copy_n(numbers.begin() + 1, size, values[place_of(numbers[0], count, line)].begin());
 }
@@ -141,7 +145,8 @@ template <size_t size>
 void read_point(std::string_view line, size_t count, std::vector<std::array<double, size>>& values,
                 std::vector<double>& points) {
   std::array<double, 8> numbers{};
-  if (numbers_in(line, numbers) < size + 2) throw Error("CalculiX gave too few results: " + std::string(line));
+  if (numbers_in(line, numbers) < size + 2)
+    throw Error(Code::other_program, "CalculiX gave too few results: " + std::string(line));
   values.resize(count);
   points.resize(count);
   const size_t element = place_of(numbers[0], count, line);
@@ -152,7 +157,8 @@ void read_point(std::string_view line, size_t count, std::vector<std::array<doub
 template <size_t size>
 void divide(std::vector<std::array<double, size>>& values, const std::vector<double>& points) {
   for (size_t n = 0; n < values.size(); ++n) {
-    if (points[n] == 0) throw Error("CalculiX gave no result for element " + std::to_string(n + 1));
+    if (points[n] == 0)
+      throw Error(Code::other_program, "CalculiX gave no result for element " + std::to_string(n + 1));
     for (double& value : values[n]) value /= points[n];
   }
 }
@@ -171,14 +177,15 @@ PrintedResults results_of(const ModelView& model, const Conditions& conditions, 
         model, conditions, options.type, "ombre",
         [&](std::string_view bytes) { deck.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); }, true);
     deck.close();
-    if (!deck) throw Error("the deck cannot be written to " + folder.file("job.inp"));
+    if (!deck) throw Error(Code::cannot_write, "the deck cannot be written to " + folder.file("job.inp"));
   }
   run_program(folder, options.threads, stop);
   return read_printed(text_of_file(folder.file("job.dat")), model.mesh.node_count(), model.mesh.count());
 }
 
 [[noreturn]] void fail_without(const char* what) {
-  throw Error(std::string("CalculiX finished without ") + what + "; its equations may have no solution");
+  throw Error(Code::other_program,
+              std::string("CalculiX finished without ") + what + "; its equations may have no solution");
 }
 
 }  // namespace

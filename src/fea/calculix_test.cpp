@@ -88,7 +88,7 @@ std::string failure_of(const std::function<void()>& work) {
   return "nothing failed";
 }
 
-TEST_F(FakeProgram, FailuresAreTold) {
+TEST_F(FakeProgram, FailuresAreReported) {
   const auto solve = [] { solve_small(); };
   install("echo ' *ERROR in calinput: no such'; echo '        card'; exit 0");
   EXPECT_NE(failure_of(solve).find("did not finish; it said: *ERROR in calinput: no such card"), std::string::npos);
@@ -100,7 +100,7 @@ TEST_F(FakeProgram, FailuresAreTold) {
   EXPECT_NE(failure_of(solve).find("there is no program ccx"), std::string::npos);
 }
 
-TEST_F(FakeProgram, IsEndedWhenAsked) {
+TEST_F(FakeProgram, IsEndedWhenStopIsRequested) {
   install("sleep 60");
   StopFlag stop;
   std::thread asks([&] {

@@ -24,9 +24,10 @@ constexpr double worth_looking_at = 1e6;
   const std::string message = "the equations did not converge: after " + format_count(solution.iterations) +
                               " iterations the " + (is_conduction ? "flows" : "forces") + " are still off by " +
                               format_rounded(solution.residual, 2) + " of the loads; ";
-  if (is_conduction) throw Error(message + "conductivities differ too much: choose smaller bricks");
-  throw Error(message + "parts that hang together at an edge or a corner may turn about it, or moduli differ " +
-              "too much: choose smaller bricks, or support more of the part");
+  if (is_conduction) throw Error(Code::not_solved, message + "conductivities differ too much: choose smaller bricks");
+  throw Error(Code::not_solved,
+              message + "parts that hang together at an edge or a corner may turn about it, or moduli differ " +
+                  "too much: choose smaller bricks, or support more of the part");
 }
 
 // In memory where it fits, else with the factor on disk; nothing where that does not fit either.
@@ -37,8 +38,9 @@ std::optional<DirectUse> use_of(const FactorisationCost& cost, double memory_byt
 }
 
 [[noreturn]] void refuse_memory(double bytes, double allowed) {
-  throw Error("factorising the equations takes about " + format_bytes(bytes) + " of memory, more than the " +
-              format_bytes(allowed) + " allowed; solve by multigrid, choose larger bricks, or allow more memory");
+  throw Error(Code::memory, "factorising the equations takes about " + format_bytes(bytes) +
+                                " of memory, more than the " + format_bytes(allowed) +
+                                " allowed; solve by multigrid, choose larger bricks, or allow more memory");
 }
 
 }  // namespace

@@ -219,8 +219,9 @@ void refuse_inverted(const MeshView& mesh) {
     if (!(mesh.volume_mm3(element) > 0)) ++wrong, first = element;
   if (wrong == 0) return;
   const Vec3 at = mesh.centroid(first);
-  throw Error(format_count(wrong) + " of the mesh's elements are inside out or flat, the first at (" +
-              format_rounded(at.x) + ", " + format_rounded(at.y) + ", " + format_rounded(at.z) + ") mm");
+  throw Error(Code::not_meshed, format_count(wrong) + " of the mesh's elements are inside out or flat, the first at (" +
+                                    format_rounded(at.x) + ", " + format_rounded(at.y) + ", " + format_rounded(at.z) +
+                                    ") mm");
 }
 
 }  // namespace ombre::fea

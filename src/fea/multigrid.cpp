@@ -257,11 +257,11 @@ void Multigrid::cycle(size_t number, const Vector& forces, Vector& displacements
         level.direct->solve(Eigen::Map<const Eigen::VectorXd>(forces.data(), size));
     return;
   }
-  const auto stop_if_asked = [this] {
+  const auto stop_if_requested = [this] {
     if (stop_ && stop_->requested()) throw Cancelled();
   };
   level.smooth(forces, displacements, true);
-  stop_if_asked();
+  stop_if_requested();
   if (number + 1 < levels_.size()) {
     const BrickOperator& coarse = *levels_[number + 1]->fine;
     level.subtract_forces(forces, displacements);
@@ -269,7 +269,7 @@ void Multigrid::cycle(size_t number, const Vector& forces, Vector& displacements
     cycle(number + 1, level.coarse_forces, level.coarse_displacements);
     level.add_from(coarse, displacements);
   }
-  stop_if_asked();
+  stop_if_requested();
   level.smooth(forces, displacements, false);
 }
 

@@ -63,7 +63,7 @@ std::vector<int> order_of(const ElementEquations& equations) {
   auto count = static_cast<idx_t>(equations.nodes);
   std::vector<idx_t> nodes(equations.nodes), places(equations.nodes);
   if (METIS_NodeND(&count, begins.data(), neighbours.data(), nullptr, nullptr, nodes.data(), places.data()) != METIS_OK)
-    throw Error("METIS found no order for the equations; memory may be short");
+    throw Error(Code::memory, "METIS found no order for the equations; memory may be short");
   std::vector<int> order(static_cast<size_t>(equations.size));
   int place = 0;
   for (const idx_t node : nodes)
@@ -78,7 +78,7 @@ double operations_a_second() {
   if (!sgemm_) return 0;
   constexpr int size = 384;
   constexpr float one = 1, zero = 0;
-  const std::vector<float> a(size_t{size} * size, one), b = a;
+  const std::vector<float> a(size_t{size} * size, one), b(size_t{size} * size, one);
   std::vector<float> c(a.size());
   double best = 0;
   for (int run = 0; run < 3; ++run) {
@@ -128,7 +128,8 @@ class Mumps : public Factoriser {
   FactorisationCost cost() const override { return cost_; }
 
   void factorise(const std::string& folder) override {
-    if (folder.size() >= sizeof mumps_.ooc_tmpdir) throw Error("the name of the folder " + folder + " is too long");
+    if (folder.size() >= sizeof mumps_.ooc_tmpdir)
+      throw Error(Code::cannot_write, "the name of the folder " + folder + " is too long");
     if (!folder.empty()) {
       std::memcpy(mumps_.ooc_tmpdir, folder.c_str(), folder.size() + 1);
       std::memcpy(mumps_.ooc_prefix, "factor", sizeof "factor");
@@ -164,12 +165,12 @@ class Mumps : public Factoriser {
 
   [[noreturn]] void fail(int failure) const {
     if (failure == singular) throw Error(too_near_to_singular);
-    if (failure == out_of_memory) throw Error("memory ran out while the equations were factorised");
+    if (failure == out_of_memory) throw Error(Code::memory, "memory ran out while the equations were factorised");
     if (failure == out_of_disk)
-      throw Error("the factorisation could not be written to " + std::string(mumps_.ooc_tmpdir) +
-                  "; is there room? TMPDIR names another folder");
-    throw Error("the equations could not be factorised: MUMPS says " + std::to_string(failure) + ", " +
-                std::to_string(mumps_.infog[1]));
+      throw Error(Code::cannot_write, "the factorisation could not be written to " + std::string(mumps_.ooc_tmpdir) +
+                                          "; is there room? TMPDIR names another folder");
+    throw Error(Code::not_solved, "the equations could not be factorised: MUMPS says " + std::to_string(failure) +
+                                      ", " + std::to_string(mumps_.infog[1]));
   }
 
   void finish() {

@@ -101,7 +101,7 @@ TEST(Study, BoxesChooseNodesAndLaterSupportsCount) {
   EXPECT_EQ(conditions->displacements.front().value, 0.1);
 }
 
-TEST(Study, WrongOnesAreToldWhereAndWhatToWrite) {
+TEST(Study, WrongOnesAreReportedWithPlaceAndRemedy) {
   EXPECT_NE(complaint("[]").find("expected a study in braces"), std::string::npos);
   EXPECT_NE(complaint(R"({"suports": []})").find("did you mean \"supports\"?"), std::string::npos);
   EXPECT_NE(complaint(R"({"supports": [{"on": "top", "fix": "z"}]})").find("there is no side \"top\""),

@@ -56,7 +56,7 @@ bool is_built(const Method& method) { return (is_nlopt(method) ? nlopt_module : 
 
 void search(const Problem& problem, const SearchOptions& options) {
   const Method* const method = find_method(options.method);
-  if (!method) throw Error("there is no method \"" + options.method + "\"");
+  if (!method) throw Error(Code::option, "there is no method \"" + options.method + "\"");
   load_search (*method)(&problem, &options);
 }
 

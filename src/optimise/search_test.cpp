@@ -118,13 +118,13 @@ TEST(Search, RepeatsItself) {
 TEST(Search, EndsWithWhatAnEvaluationThrows) {
   for (const Method& method : methods()) {
     if (!is_built(method)) continue;
-    size_t asked = 0;
+    size_t evaluated = 0;
     const auto throws = [&](const Point& p) {
-      if (++asked > 10) throw Cancelled();
+      if (++evaluated > 10) throw Cancelled();
       return nearest(p);
     };
     EXPECT_THROW(nearest_by(method, 100, throws), Cancelled) << method.name;
-    EXPECT_EQ(asked, 11u) << method.name;
+    EXPECT_EQ(evaluated, 11u) << method.name;
   }
 }
 

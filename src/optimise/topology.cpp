@@ -180,7 +180,7 @@ class TopologySearch {
         design_(count_, options.volume_fraction),
         projection_{std::min(1.0, options.projection)} {}
 
-  Topology run(const std::function<void(const TopologyStep&)>& told) {
+  Topology run(const std::function<void(const TopologyStep&)>& report) {
     Topology topology;
     find_density(design_);
     size_t since = 0;  // steps with this projection
@@ -189,7 +189,7 @@ class TopologySearch {
       TopologyStep step{number, equilibrium_.compliance(), equilibrium_.displacement(), mean(density_), 0, greyness()};
       step.change = move();
       topology.steps.push_back(step);
-      if (told) told(step);
+      if (report) report(step);
       const bool is_last = projection_.steepness >= options_.projection, is_still = step.change <= options_.change;
       if (is_last && is_still) break;
       if (is_last || (!is_still && ++since < options_.projection_steps)) continue;
@@ -271,8 +271,8 @@ class TopologySearch {
 }  // namespace
 
 Topology find_topology(const fea::Model& model, const fea::Conditions& conditions, const TopologyOptions& options,
-                       const std::function<void(const TopologyStep&)>& told, const StopFlag* stop) {
-  return TopologySearch(model, conditions, options, stop).run(told);
+                       const std::function<void(const TopologyStep&)>& report, const StopFlag* stop) {
+  return TopologySearch(model, conditions, options, stop).run(report);
 }
 
 TopologySlopes topology_slopes(const fea::Model& model, const fea::Conditions& conditions,

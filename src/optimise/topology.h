@@ -52,10 +52,11 @@ struct Topology {
 // the fea's bricks, each with its own modulus. A goal's derivatives come from the adjoint displacements, under its unit
 // forces; where more material would harm the goal, gains are moved up by one number, and steps are damped (Bendsoe and
 // Sigmund, Topology Optimization, 2003, 2.3). Displacements must be held at 0. The same bits with any number of
-// threads. `told` gets each step. Throws Error when equations do not converge, or the goal's place is held, and
+// threads. `report` gets each step. Throws Error when equations do not converge, or the goal's place is held, and
 // Cancelled.
 Topology find_topology(const fea::Model& model, const fea::Conditions& conditions, const TopologyOptions& options,
-                       const std::function<void(const TopologyStep&)>& told = nullptr, const StopFlag* stop = nullptr);
+                       const std::function<void(const TopologyStep&)>& report = nullptr,
+                       const StopFlag* stop = nullptr);
 
 // The compliance, N mm, or the goal's displacement, mm, of bricks with these densities, and its derivatives by them.
 struct TopologySlopes {
