@@ -124,12 +124,14 @@ void refuse_used_folder(const std::string& path, FolderUse use) {
                     ", replace it with " + spelled::option("--force") + ", or choose another folder",
                 {{"file", path}});
   }
-  for (const std::string& name : names_in(path))
-    if (name != job_file + std::string(part_suffix))  // of a run that ended before it began
-      throw Error(Code::exists,
-                  path + " is not empty, it holds for example " + name +
-                      "; choose another folder, or write beside what is there with " + spelled::option("--force"),
-                  {{"file", path}});
+  const std::vector<std::string> names = names_in(path);
+  const std::string unfinished = job_file + std::string(part_suffix);  // of a run that ended before it began
+  const auto foreign = std::ranges::find_if(names, [&](const std::string& name) { return name != unfinished; });
+  if (foreign != names.end())
+    throw Error(Code::exists,
+                path + " is not empty, it holds for example " + *foreign +
+                    "; choose another folder, or write beside what is there with " + spelled::option("--force"),
+                {{"file", path}});
 }
 
 JobFolder::JobFolder(std::string path, const SliceRequest& request, FolderUse use, int threads, Progress* progress,
