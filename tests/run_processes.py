@@ -56,7 +56,7 @@ STUDY = {"materials": {name: {"modulus_mpa": 2000, "poissons_ratio": 0.3} for na
 TOPOLOGY = {"topology": {"volume_fraction": 0.3, "radius": 2}, "fea": STUDY, "cell": 1}
 SEARCH = {"variables": {"width": {"from": 10, "to": 40}}, "objectives": [{"minimise": "mass"}],
           "constraints": [{"measure": "displacement", "at_most": 0.001}],
-          "fea": {**STUDY, "materials": {"red": {**STUDY["materials"]["red"], "density_kg_m3": 1180}}}, "cell": 1}
+          "fea": {**STUDY, "materials": {"red": {**STUDY["materials"]["red"], "density_kg_m3": 1180}}}, "cell": 0.5}
 
 # Jobs that take half a minute or more on one thread, and the moments at which they are stopped, in seconds.
 JOBS = {

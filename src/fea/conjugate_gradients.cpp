@@ -62,6 +62,7 @@ void Gradients::multigrid() { preconditioner_ = std::make_unique<Multigrid>(stif
 void Gradients::factorise() {
   if (!can_factorise(stiffness_))
     throw Error(
+        Code::not_solved,
         "the equations cannot be factorised: a brick touches itself, or this ombre was built without MUMPS; in the "
         "latter case install libmumps-seq-dev and libmetis-dev, configure with -DOMBRE_MUMPS=ON and build again; or "
         "solve by multigrid");

@@ -138,7 +138,7 @@ class Mumps : public Factoriser {
     mumps_.a_elt = equations_.matrices.data();
     call(factorise_numbers);
     constexpr size_t negative_pivots = 12;
-    if (mumps_.infog[negative_pivots - 1] > 0) throw Error(too_near_to_singular);
+    if (mumps_.infog[negative_pivots - 1] > 0) throw Error(Code::not_solved, too_near_to_singular);
   }
 
   void solve(std::vector<float>& values) override {
@@ -164,7 +164,7 @@ class Mumps : public Factoriser {
   }
 
   [[noreturn]] void fail(int failure) const {
-    if (failure == singular) throw Error(too_near_to_singular);
+    if (failure == singular) throw Error(Code::not_solved, too_near_to_singular);
     if (failure == out_of_memory) throw Error(Code::memory, "memory ran out while the equations were factorised");
     if (failure == out_of_disk)
       throw Error(Code::cannot_write, "the factorisation could not be written to " + std::string(mumps_.ooc_tmpdir) +

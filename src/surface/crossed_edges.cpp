@@ -75,9 +75,14 @@ std::vector<ListedEdge> crossed_edges(const CellTree& tree, const std::vector<ui
     const Lister lister(tree);
     for (size_t n = p * piece; n < std::min((p + 1) * piece, leaves.size()); ++n) lister.list(leaves[n], pieces[p]);
   });
-  if (stop && stop->requested()) throw Cancelled();
+  size_t count = 0;
+  for (const auto& part : pieces) count += part.size();
   std::vector<ListedEdge> all;
-  for (const auto& part : pieces) all.insert(all.end(), part.begin(), part.end());
+  all.reserve(count);
+  for (const auto& part : pieces) {
+    if (stop && stop->requested()) throw Cancelled();
+    all.insert(all.end(), part.begin(), part.end());
+  }
   return all;
 }
 

@@ -15,7 +15,8 @@
 namespace ombre::surface {
 namespace {
 
-constexpr uint32_t leaves_between_checks = 4096;      // at the stop flag
+constexpr uint32_t leaves_between_checks = 4096;  // at the stop flag
+constexpr size_t comparisons_between_checks = 1 << 16;
 constexpr int32_t block_units = 16 * units_per_cell;  // along each axis of a block that shares a shortened program
 
 struct EdgeKey {
@@ -36,6 +37,7 @@ class CrossingList {
       : tree_(tree), before_(before), leaves_(leaves), stop_(stop) {
     note_before();
     const std::vector<ListedEdge> listed = crossed_edges(tree, !before.empty(), threads, stop);
+    all.reserve(same_.size() + listed.size());
     auto next = listed.begin();
     for (uint32_t n = 0; n < tree.leaves().size(); ++n) {
       if (n % leaves_between_checks == 0 && stop && stop->requested()) throw Cancelled();
@@ -98,14 +100,18 @@ class CrossingList {
 };
 
 // Numbers of crossings, block by block; edges of a block have the same length.
-std::vector<std::vector<uint32_t>> cut_into_blocks(const std::vector<Crossing>& crossings,
-                                                   std::vector<uint32_t> order) {
+std::vector<std::vector<uint32_t>> cut_into_blocks(const std::vector<Crossing>& crossings, std::vector<uint32_t> order,
+                                                   const StopFlag* stop) {
   const auto block_of = [&](uint32_t n) {
     const CrossedEdge& edge = crossings[n].edge;
     return std::array<int32_t, 4>{edge.level, edge.start[2] / block_units, edge.start[1] / block_units,
                                   edge.start[0] / block_units};
   };
-  std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) { return block_of(a) < block_of(b); });
+  size_t comparisons = 0;
+  std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) {
+    if (++comparisons % comparisons_between_checks == 0 && stop && stop->requested()) throw Cancelled();
+    return block_of(a) < block_of(b);
+  });
   std::vector<std::vector<uint32_t>> blocks;
   for (size_t n = 0; n < order.size(); ++n) {
     if (n == 0 || block_of(order[n]) != block_of(order[n - 1])) blocks.emplace_back();
@@ -191,7 +197,7 @@ class BlockFinder {
 
 std::vector<Crossing> find(const Partition& partition, const CellTree& tree, CrossingList crossings, int threads,
                            Progress* progress, const StopFlag* stop) {
-  const auto blocks = cut_into_blocks(crossings.all, std::move(crossings.unknown));
+  const auto blocks = cut_into_blocks(crossings.all, std::move(crossings.unknown), stop);
   const Stopwatch watch;
   std::atomic<uint64_t> done = 0;
   run_parallel(blocks.size(), threads, [&](size_t n) {
