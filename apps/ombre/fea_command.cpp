@@ -252,7 +252,7 @@ void check_memory(const FeaChoices& a, const Case& here) {
   refuse_little_memory(here.solve_bytes(), a.work.memory_bytes, "choose larger elements with " + option);
 }
 
-// What comes before a model is solved or written.
+// Returns the steps that solving and writing a model have in common: the plan, and the check of memory.
 JobSteps<Case> steps_before(const FeaChoices& a, Session& session) {
   JobSteps<Case> steps;
   steps.plan = [&](Diagnostics& diagnostics) { return make_case(a, session, diagnostics); };

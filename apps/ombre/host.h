@@ -28,7 +28,8 @@ namespace ombre::cli {
 using DesignLoader = std::function<std::shared_ptr<const compile::Loaded>(
     const std::string& path, const compile::LoadOptions& options, Diagnostics& diagnostics)>;
 
-// What a program that runs commands inside of itself does in its own way; what is empty goes the usual one.
+// A program that runs commands inside of itself, such as Python, sets here what it does in its own way. Members that
+// are empty leave the way of the command line.
 struct Host {
   DesignLoader load;                                 // reads designs
   std::function<void(const DataMembers&)> on_event;  // takes what --json would print

@@ -79,7 +79,7 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
   const std::vector<std::string> left_over = program.remaining(true);
   const auto first_option =
       std::find_if(left_over.begin(), left_over.end(), [](const std::string& s) { return s.starts_with('-'); });
-  // What is missing may be there with a slip in its name.
+  // A required option may be there with a slip in its name.
   const bool is_slip = dynamic_cast<const CLI::RequiredError*>(&error) && first_option != left_over.end();
   const bool is_extra = dynamic_cast<const CLI::ExtrasError*>(&error) && !left_over.empty();
   if (!is_slip && !is_extra) {

@@ -10,7 +10,7 @@
 namespace ombre::studio {
 namespace {
 
-// In g/cm3; nothing where the material does not say it.
+// Returns the density in g/cm3, or nothing where the material has none.
 std::optional<double> density_of(const design::Material& material) {
   for (const auto& [name, value] : material.properties)
     if (name == "density" && value.number()) return *value.number();
@@ -67,7 +67,7 @@ class Amounts {
     }
   };
 
-  // What has no name comes first.
+  // Returns the index of the part at a voxel; 0 stands for solids without a name.
   size_t part_at(const voxel::FieldTile& tile, int64_t n) const {
     const auto label = std::lround(tile.output(names_.size())[n]);
     return label > 0 && static_cast<size_t>(label) < of_part_.size() ? static_cast<size_t>(label) : 0;

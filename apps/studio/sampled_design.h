@@ -27,7 +27,7 @@ inline compile::GridQuery all_fractions() {
 // be sampled, and Cancelled.
 SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, const StopFlag& stop,
                      const compile::GridQuery& query = all_fractions());
-// The same of another form of the design.
+// Samples `form`, a changed copy of the design (one with labels of its parts, say), in the same way.
 SampledDesign sample(const OpenDesign& design, const compile::LoadedPtr& form, const Box& box, double voxels,
                      const StopFlag& stop, const compile::GridQuery& query);
 

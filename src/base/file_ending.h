@@ -6,7 +6,7 @@
 
 namespace ombre {
 
-// In small letters, with its dot: ".vtu"; empty where the name has none.
+// Returns the ending in small letters, with its dot: ".vtu"; an empty string where the name has none.
 std::string ending_of(const std::filesystem::path& path);
 
 }  // namespace ombre

@@ -2,6 +2,7 @@
 #include "cad/solids.h"
 
 #include <algorithm>
+
 #include "base/error.h"
 #include "base/module_loader.h"
 #include "base/text.h"

@@ -155,7 +155,7 @@ class OcctSolid final : public Solid {
     return triangles;
   }
 
-  // With geometry of its own: the library's surfaces keep their last query.
+  // A query copies the geometry, since the library's surfaces keep their last query.
   std::unique_ptr<Query> query() const override {
     const std::lock_guard lock(mutex_);
     return guarded(what(), [&] { return std::make_unique<OcctQuery>(copy_of(shape_, true), what()); });

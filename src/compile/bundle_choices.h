@@ -1,4 +1,4 @@
-// What people choose of bundles.
+// The options of bundles.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What people choose of finite-element models.
+// The options of finite-element models.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What people choose of voxel grids.
+// The options of voxel grids.
 #pragma once
 
 #include <optional>

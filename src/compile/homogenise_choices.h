@@ -1,4 +1,4 @@
-// What people choose of cells that are homogenised.
+// The options of homogenisation.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What people choose of searches for the best design.
+// The options of searches for the best design.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What people choose of pictures.
+// The options of pictures.
 #pragma once
 
 #include <array>

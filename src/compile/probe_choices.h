@@ -1,4 +1,4 @@
-// What people choose of questions at single points.
+// The options of queries at single points.
 #pragma once
 
 #include <string>

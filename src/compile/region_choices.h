@@ -1,4 +1,4 @@
-// What people choose of jobs that cut a design into regions: outlines of layers, and meshes.
+// The options of jobs that cut a design into regions: outlines of layers, and meshes.
 #pragma once
 
 #include <optional>

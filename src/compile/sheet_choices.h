@@ -1,4 +1,4 @@
-// What people choose of contact sheets.
+// The options of contact sheets.
 #pragma once
 
 #include <string>

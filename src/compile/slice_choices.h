@@ -1,4 +1,4 @@
-// What people choose of slice jobs, and of a single layer of one.
+// The options of slice jobs, and of a single layer of one.
 #pragma once
 
 #include <optional>

@@ -170,7 +170,7 @@ def _options(command, without=()):
                    for name, option in keywords_of(command).items() if name not in without)
 
 
-# What comes before the options of a job, and what it returns.
+# The first parameter of a job where it is not `path: Path`, and the result of a job where it is no dict.
 _firsts = {"slice": "folder: Path", "fea": "path: Optional[Path] = ...", "homogenise": "path: Optional[Path] = ...",
            "render": "path: Optional[Path] = ..."}
 _job_results = {"render": "Any"}
