@@ -214,33 +214,33 @@ void refuse(const MeshChoices& a, const compile::MeshRequest& request, const Mes
     throw WrongArgument("this ombre was built without libzip, which .3mf files need; write -o " + output.stem + ".amf");
 }
 
-// Shows diagnostics as they come.
-class Shown {
+// Prints diagnostics as they come.
+class PrintedDiagnostics {
  public:
-  explicit Shown(const Console& console) : console_(console) {}
+  explicit PrintedDiagnostics(const Console& console) : console_(console) {}
   Diagnostics& diagnostics() { return diagnostics_; }
-  void show() {
-    console_.diagnose(diagnostics_.after(shown_));
-    shown_ = diagnostics_.list().size();
+  void print() {
+    console_.diagnose(diagnostics_.after(printed_));
+    printed_ = diagnostics_.list().size();
   }
 
  private:
   const Console& console_;
   Diagnostics diagnostics_;
-  size_t shown_ = 0;
+  size_t printed_ = 0;
 };
 
 std::optional<compile::MeshedDesign> make_mesh(const compile::Loaded& loaded, compile::MeshRequest request,
-                                               Shown& shown, Session& session) {
+                                               PrintedDiagnostics& printed, Session& session) {
   request.announce = [&](const compile::MeshPlan& plan) {
-    shown.show();
+    printed.print();
     tell_plan(session.console, plan);
   };
   ProgressLine progress(session.console, Counted::steps);
-  auto made = compile::mesh_design(loaded, request, shown.diagnostics(), &progress, &session.stop);
+  auto made = compile::mesh_design(loaded, request, printed.diagnostics(), &progress, &session.stop);
   progress.finish();
-  shown.show();
-  if (!made || shown.diagnostics().has_errors()) return std::nullopt;
+  printed.print();
+  if (!made || printed.diagnostics().has_errors()) return std::nullopt;
   if (!made->bodies.empty() || !made->beams.empty()) return made;
   session.console.warn("no cell's corner is inside the design: there is nothing to write; choose a smaller " +
                        spelled::option("--cell"));
@@ -248,13 +248,13 @@ std::optional<compile::MeshedDesign> make_mesh(const compile::Loaded& loaded, co
 }
 
 int write(const MeshChoices& a, const compile::Loaded& loaded, compile::MeshedDesign& made, const MeshOutput& output,
-          const std::vector<SlicerSetting>& settings, Shown& shown, Session& session) {
+          const std::vector<SlicerSetting>& settings, PrintedDiagnostics& printed, Session& session) {
   formats::MeshDocument document = document_of(made, output.stem, settings);
   if (!a.colour_by.empty()) {
     const compile::VertexColouring colouring{a.colour_by, a.palette, a.range};
     const bool good =
-        compile::colour_vertices(loaded, colouring, document, shown.diagnostics(), a.work.threads, &session.stop);
-    shown.show();
+        compile::colour_vertices(loaded, colouring, document, printed.diagnostics(), a.work.threads, &session.stop);
+    printed.print();
     if (!good) return wrong_input;
   }
   compile::add_beams(made, loaded.design.materials, document);
@@ -274,14 +274,14 @@ int mesh(const MeshChoices& a, Session& session) {
     return loaded ? std::optional(loaded) : std::nullopt;
   };
   steps.run = [&](const compile::LoadedPtr& loaded) {
-    Shown shown(session.console);
-    auto made = make_mesh(*loaded, request, shown, session);
+    PrintedDiagnostics printed(session.console);
+    auto made = make_mesh(*loaded, request, printed, session);
     if (!made) return wrong_input;
     tell_bodies(session.console, *made);
     warn_of_folds(session.console, *made);
     warn_of_distance(session.console, *made);
     warn_of_lost_parts(session.console, *made);
-    if (const int code = write(a, *loaded, *made, output, settings, shown, session); code != done) return code;
+    if (const int code = write(a, *loaded, *made, output, settings, printed, session); code != done) return code;
     session.console.say(output.path + " written in " + format_rounded(watch.seconds(), 3) + " s");
     session.console.event("done", {{"file", output.path}, {"seconds", watch.seconds()}});
     return done;
