@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "base/error.h"
+
 namespace ombre {
 
 // A function of a module by its C name. `built` is the module's path where it was built; it is looked for beside this
@@ -12,6 +14,13 @@ void* load_symbol(const std::string& built, const char* function, const std::str
 template <class Function>
 Function* load_function(const std::string& built, const char* function, const std::string& what) {
   return reinterpret_cast<Function*>(load_symbol(built, function, what));  // NOLINT
+}
+
+// The same for a library that builds may lack: `built` is null then, and an Error with the text `without` is thrown.
+template <class Function>
+Function* load_function(const char* built, const char* function, const std::string& what, const char* without) {
+  if (!built) throw Error(Code::library_missing, without);
+  return load_function<Function>(built, function, what);
 }
 
 }  // namespace ombre

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "base/error.h"
 #include "base/module_loader.h"
 #include "base/text.h"
 #include "cad/module.h"
@@ -11,23 +10,10 @@
 namespace ombre::cad {
 namespace {
 
-using ReadCad = decltype(&ombre_read_cad);
-
 #ifdef OMBRE_OPENCASCADE_MODULE
-
-ReadCad load_module() {
-  return load_function<decltype(ombre_read_cad)>(OMBRE_OPENCASCADE_MODULE, "ombre_read_cad", "CAD files");
-}
-
+constexpr const char* opencascade_module = OMBRE_OPENCASCADE_MODULE;
 #else
-
-ReadCad load_module() {
-  throw Error(
-      Code::library_missing,
-      "this ombre was built without Open CASCADE; install libocct-data-exchange-dev, configure with -DOMBRE_CAD=ON and "
-      "build again, or save the part as a mesh (STL, 3MF)");
-}
-
+constexpr const char* opencascade_module = nullptr;
 #endif
 
 }  // namespace
@@ -39,7 +25,10 @@ bool is_cad_file(const std::string& path) {
 }
 
 std::vector<SolidPtr> read_solids(const std::string& path, const StopFlag* stop) {
-  static const ReadCad read = load_module();
+  static const auto read = load_function<decltype(ombre_read_cad)>(
+      opencascade_module, "ombre_read_cad", "CAD files",
+      "this ombre was built without Open CASCADE; install libocct-data-exchange-dev, configure with -DOMBRE_CAD=ON and "
+      "build again, or save the part as a mesh (STL, 3MF)");
   std::vector<SolidPtr> solids;
   read(&path, stop, &solids);
   return solids;

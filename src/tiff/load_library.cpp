@@ -1,30 +1,16 @@
 // Loads the module of TIFF files when the first is read.
 #include "tiff/pages.h"
 
-#include "base/error.h"
 #include "base/module_loader.h"
 #include "tiff/module.h"
 
 namespace ombre::tiff {
 namespace {
 
-using ReadTiff = decltype(&ombre_read_tiff);
-
 #ifdef OMBRE_LIBTIFF_MODULE
-
-ReadTiff load_tiff_module() {
-  return load_function<decltype(ombre_read_tiff)>(OMBRE_LIBTIFF_MODULE, "ombre_read_tiff", "TIFF images");
-}
-
+constexpr const char* libtiff_module = OMBRE_LIBTIFF_MODULE;
 #else
-
-ReadTiff load_tiff_module() {
-  throw Error(
-      Code::library_missing,
-      "this ombre was built without libtiff; install libtiff-dev, configure with -DOMBRE_TIFF=ON and build again, or "
-      "save the images as PNG");
-}
-
+constexpr const char* libtiff_module = nullptr;
 #endif
 
 }  // namespace
@@ -36,7 +22,10 @@ bool is_tiff(std::string_view bytes) {
 }
 
 std::vector<Page> read_pages(const std::string& name, std::string_view bytes, Wanted wanted, const StopFlag* stop) {
-  static const ReadTiff read = load_tiff_module();
+  static const auto read = load_function<decltype(ombre_read_tiff)>(
+      libtiff_module, "ombre_read_tiff", "TIFF images",
+      "this ombre was built without libtiff; install libtiff-dev, configure with -DOMBRE_TIFF=ON and build again, or "
+      "save the images as PNG");
   std::vector<Page> pages;
   read(&name, &bytes, wanted, stop, &pages);
   return pages;

@@ -1,32 +1,11 @@
 // Loads the module of sparse grids when the first file is read.
 #include "vdb/dense_grid.h"
 
-#include "base/error.h"
 #include "base/module_loader.h"
 #include "vdb/grid_reader.h"
+#include "vdb/module_path.h"
 
 namespace ombre::vdb {
-namespace {
-
-using ReadGrid = decltype(&ombre_read_vdb_grid);
-
-#ifdef OMBRE_OPENVDB_MODULE
-
-ReadGrid load_reader() {
-  return load_function<decltype(ombre_read_vdb_grid)>(OMBRE_OPENVDB_MODULE, "ombre_read_vdb_grid", "sparse grids");
-}
-
-#else
-
-ReadGrid load_reader() {
-  throw Error(Code::library_missing,
-              "this ombre was built without OpenVDB; install libopenvdb-dev and libnanovdb-dev, configure with "
-              "-DOMBRE_OPENVDB=ON and build again, or save the grid as a .nrrd file");
-}
-
-#endif
-
-}  // namespace
 
 bool is_vdb(std::string_view bytes) {
   using namespace std::string_view_literals;
@@ -34,7 +13,10 @@ bool is_vdb(std::string_view bytes) {
 }
 
 DenseGrid read_grid(const std::string& path, const std::string& name, int channel, const StopFlag* stop) {
-  static const ReadGrid read = load_reader();
+  static const auto read = load_function<decltype(ombre_read_vdb_grid)>(
+      openvdb_module, "ombre_read_vdb_grid", "sparse grids",
+      "this ombre was built without OpenVDB; install libopenvdb-dev and libnanovdb-dev, configure with "
+      "-DOMBRE_OPENVDB=ON and build again, or save the grid as a .nrrd file");
   DenseGrid grid;
   read(&path, &name, channel, stop, &grid);
   return grid;

@@ -1,35 +1,17 @@
 // Loads the module of sparse grids when the first are made.
 #include "vdb/sparse_grids.h"
 
-#include "base/error.h"
 #include "base/module_loader.h"
 #include "vdb/grid_store.h"
+#include "vdb/module_path.h"
 
 namespace ombre::vdb {
-namespace {
-
-using MakeGridStore = decltype(&ombre_make_grid_store);
-
-#ifdef OMBRE_OPENVDB_MODULE
-
-MakeGridStore load_module() {
-  return load_function<decltype(ombre_make_grid_store)>(OMBRE_OPENVDB_MODULE, "ombre_make_grid_store", "sparse grids");
-}
-
-#else
-
-MakeGridStore load_module() {
-  throw Error(Code::library_missing,
-              "this ombre was built without OpenVDB; install libopenvdb-dev and libnanovdb-dev, configure with "
-              "-DOMBRE_OPENVDB=ON and build again, or write a .nrrd file");
-}
-
-#endif
-
-}  // namespace
 
 SparseGrids::SparseGrids(Vec3 spacing_mm, Vec3 origin_mm) {
-  static const MakeGridStore make = load_module();
+  static const auto make = load_function<decltype(ombre_make_grid_store)>(
+      openvdb_module, "ombre_make_grid_store", "sparse grids",
+      "this ombre was built without OpenVDB; install libopenvdb-dev and libnanovdb-dev, configure with "
+      "-DOMBRE_OPENVDB=ON and build again, or write a .nrrd file");
   store_.reset(make(&spacing_mm, &origin_mm));
 }
 
