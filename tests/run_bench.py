@@ -11,8 +11,8 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 
+import processes
 import program
 from program import expect
 
@@ -110,11 +110,9 @@ def interrupts_leave_nothing(build):
     with tempfile.TemporaryDirectory() as scratch:
         process = subprocess.Popen([str(c) for c in command(build, scratch, "--runs", "1000")], text=True,
                                    env=program.environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        while not list(pathlib.Path(scratch).iterdir()):
-            time.sleep(0.02)
-        time.sleep(0.5)
+        processes.wait_until(lambda: process.poll() is not None or list(pathlib.Path(scratch).iterdir()), "it has a folder")
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=processes.PATIENCE_S)
         expect(process.returncode == 130, f"status {process.returncode}: {errors}")
         expect(not list(pathlib.Path(scratch).iterdir()), "folders stayed")
 

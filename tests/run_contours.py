@@ -14,9 +14,9 @@ import shutil
 import signal
 import subprocess
 import tempfile
-import time
 import xml.etree.ElementTree as ElementTree
 
+import processes
 import program
 from program import expect
 
@@ -219,11 +219,9 @@ def interrupts_leave_nothing(drawing):
                                                "--layer-height", "0.0005", "--threads", "1"),
                                cwd=drawing.folder, env=program.environment(), stdin=subprocess.DEVNULL,
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        deadline = time.monotonic() + 20
-        while not (drawing.folder / part).exists() and job.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.01)
+        processes.wait_until(lambda: job.poll() is not None or (drawing.folder / part).exists(), f"{out} is begun")
         job.send_signal(signal.SIGINT)
-        error = job.communicate(timeout=60)[1]
+        error = job.communicate(timeout=processes.PATIENCE_S)[1]
         expect(job.returncode == 130, f"status {job.returncode}: {error}")
         expect(drawing.names() == [], str(drawing.names()))
 

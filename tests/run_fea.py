@@ -9,11 +9,10 @@ import json
 import math
 import pathlib
 import shutil
-import signal
 import subprocess
 import tempfile
-import time
 
+import processes
 import program
 from fea_jobs import CUBE, PULL, RED, Folder, check_all, has_tetrahedra
 from program import expect, near
@@ -439,10 +438,8 @@ def ctrl_c_ends_it(folder):
     process = subprocess.Popen([folder.ombre, "fea", "mix.vcad", "--study", "pull.json", "--cell", "0.1", "--solve",
                                 "-o", "never.vtu"], cwd=folder.path, env=program.environment(), text=True,
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    time.sleep(3)
-    process.send_signal(signal.SIGINT)
-    process.communicate(timeout=60)
-    expect(process.returncode == 130, f"status {process.returncode}")
+    processes.wait_for_work(process, 3)
+    processes.interrupt(process)
     expect(not list(folder.path.glob("never*")), "a file is left")
 
 

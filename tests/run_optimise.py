@@ -13,8 +13,8 @@ import pathlib
 import signal
 import subprocess
 import tempfile
-import time
 
+import processes
 import program
 from program import expect, near
 
@@ -155,11 +155,10 @@ def ctrl_c_keeps_the_history(folder):
                                cwd=folder.path, env=program.environment(), text=True,
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     history = folder.path / "fine/history.csv"
-    end = time.monotonic() + 60
-    while time.monotonic() < end and not (history.exists() and history.read_text().count("\n") > 2):
-        time.sleep(0.05)
+    processes.wait_until(lambda: process.poll() is not None or (history.exists() and history.read_text().count("\n") > 2),
+                         "two designs are in the history")
     process.send_signal(signal.SIGINT)
-    _, reported = process.communicate(timeout=60)
+    _, reported = process.communicate(timeout=processes.PATIENCE_S)
     expect(process.returncode == 130 and "--resume goes on" in reported, f"{process.returncode}: {reported}")
     expect(history.read_text().endswith("\n") and len(folder.table("fine/history.csv")) >= 2, "the history is gone")
     expect(not list((folder.path / "fine").glob("*.part")), "a part of a file is left")

@@ -15,8 +15,8 @@ import signal
 import struct
 import subprocess
 import tempfile
-import time
 
+import processes
 import program
 from program import expect
 
@@ -289,11 +289,9 @@ def interrupts_leave_nothing(grid):
                                             "--threads", "1", "--force"),
                                cwd=grid.folder, env=program.environment(), stdin=subprocess.DEVNULL,
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        deadline = time.monotonic() + 20
-        while not (grid.folder / (name + ".part")).exists() and job.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.01)
+        processes.wait_until(lambda: job.poll() is not None or (grid.folder / (name + ".part")).exists(), f"{name} is begun")
         job.send_signal(signal.SIGINT)
-        error = job.communicate(timeout=60)[1]
+        error = job.communicate(timeout=processes.PATIENCE_S)[1]
         if "without OpenVDB" in error:
             continue
         expect(job.returncode == 130, f"status {job.returncode}: {error}")

@@ -23,7 +23,7 @@ def folder(tmp_path, monkeypatch):
 
 def show(design):
     try:
-        return _studio.show_in_studio(design, idle_seconds=3)
+        return _studio.show_in_studio(design, idle_seconds=6)
     except OSError as error:
         if "without the studio" in str(error):
             pytest.skip("the studio was not built")
@@ -31,10 +31,8 @@ def show(design):
 
 
 def wait_for_end(url):
-    end = time.monotonic() + 15
-    while _studio._is_alive(url) and time.monotonic() < end:
+    while _studio._is_alive(url):  # for ever if it does not end, which the test runner ends
         time.sleep(0.1)
-    return not _studio._is_alive(url)
 
 
 def test_a_server_shows_one_design_after_the_other_and_ends_by_itself(folder):
@@ -46,21 +44,21 @@ def test_a_server_shows_one_design_after_the_other_and_ends_by_itself(folder):
     [shown] = folder.glob("ombre-show-*/shown.json")
     assert json.loads(shown.read_text()) == json.loads(block.to_json())
     assert stat.S_IMODE(shown.parent.stat().st_mode) == 0o700
-    assert wait_for_end(url)
+    wait_for_end(url)
 
 
 def test_a_server_that_ended_is_started_again(folder):
     first, _ = show(ball)
-    assert wait_for_end(first)
+    wait_for_end(first)
     second, was_there = show(ball)
     assert not was_there and second != first
-    assert wait_for_end(second)
+    wait_for_end(second)
 
 
 def test_a_token_is_needed(folder):
     url, _ = show(ball)
     assert not _studio._is_alive(url.replace("token=", "token=00"))
-    assert wait_for_end(url)
+    wait_for_end(url)
 
 
 def test_show_prints_the_address(folder, monkeypatch, capfd):
@@ -68,7 +66,7 @@ def test_show_prints_the_address(folder, monkeypatch, capfd):
     url = show(ball)[0]
     ball.show()
     assert url in capfd.readouterr().err
-    assert wait_for_end(url)
+    wait_for_end(url)
 
 
 def test_a_folder_of_somebody_else_is_refused(folder):
