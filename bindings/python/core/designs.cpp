@@ -41,7 +41,7 @@ compile::SampleQuery query_for(const std::string& question, const design::Design
   if (question == "inside") query.inside = true;
   if (question == "distance") query.distance = true;
   if (question == "material") query.inside = query.fractions = true;
-  if (question == "all") query = {true, true, true, true, compile::all_attribute_parts(design)};
+  if (question == "all") query = {true, true, true, false, compile::all_attribute_parts(design)};
   if (question.starts_with("attribute ")) query.attributes = compile::attribute_parts(design, question.substr(10));
   return query;
 }
@@ -77,6 +77,18 @@ py::list sample(DesignHandle& handle, const Points& points, const std::string& q
   for (size_t c = 0; c < arrays.size(); ++c)
     result.append(py::make_tuple(name(sampler->columns()[c].kind), sampler->columns()[c].name, arrays[c]));
   return result;
+}
+
+// Refuses a NumPy whose arrays this build cannot read: its values would be wrong without a word.
+void check_numpy() {
+  const Points twice = py::module_::import("numpy").attr("arange")(6.0).attr("reshape")(2, 3);
+  py::array_t<double> made(2);
+  bool fits = twice.itemsize() == sizeof(double) && twice.size() == 6 && made.strides(0) == sizeof(double);
+  for (py::ssize_t n = 0; fits && n < 6; ++n) fits = twice.data()[n] == static_cast<double>(n);
+  if (fits) return;
+  const auto version = py::module_::import("numpy").attr("__version__").cast<std::string>();
+  throw py::import_error("this ombre was not built for NumPy " + version +
+                         ": install another with pip install 'numpy>=1.22,<3', or build ombre again");
 }
 
 FactoryPtr make_factory(const CachePtr& cache, const std::string& path) {
@@ -362,6 +374,7 @@ void add_designs(py::module_& module, const CachePtr& cache) {
                                return parts;
                              })
       .def("sample", &sample, py::arg("points"), py::arg("question"), py::arg("threads") = 0);
+  module.def("check_numpy", &check_numpy);
   module.def("source_memory", [cache] { return about(*cache); });
   module.def("set_source_memory", [cache](size_t bytes) { cache->set_most_bytes(bytes); });
 }

@@ -38,11 +38,34 @@ class Voxels:
         return numpy.stack([x, y, z], axis=-1)
 
 
+@dataclasses.dataclass(frozen=True)
+class Samples:
+    """What a design is at points of the shape (..., 3).
+
+    Attributes:
+        distance: signed distance, mm, negative inside; an array of the shape (...).
+        inside: truth values.
+        material: {material: volume fractions}; 0 outside.
+        attribute: {attribute: values}; those of vectors, colours and mixtures have one more axis, as in `attribute()`.
+    """
+    distance: numpy.ndarray
+    inside: numpy.ndarray
+    material: dict
+    attribute: dict
+
+
 def _points(points):
     array = numpy.ascontiguousarray(points, dtype=float)
     if array.shape[-1:] != (3,):
         raise ValueError(f"points have the shape (..., 3), mm, not {array.shape}")
     return array.reshape(-1, 3), array.shape[:-1]
+
+
+def _joined(name, columns):
+    """The values of an attribute from its columns, (name, values) each: one number, or several along a last axis."""
+    if len(columns) == 1 and columns[0][0] == name:
+        return columns[0][1][()]
+    return numpy.stack([values for _, values in columns], axis=-1)
 
 
 def _is_finite(points):
@@ -179,9 +202,25 @@ class Design:
         """An attribute's values at points of the shape (..., 3), mm. Of vectors, colours and mixtures the result has one
         more axis, for their numbers: x, y, z; red, green, blue, alpha; or the materials, in the order of their ids.
         """
-        columns = self._sample(points, "attribute " + name, threads)
-        is_one_number = len(columns) == 1 and columns[0][1] == name
-        return columns[0][2][()] if is_one_number else numpy.stack([values for _, _, values in columns], axis=-1)
+        return _joined(name, [column[1:] for column in self._sample(points, "attribute " + name, threads)])
+
+    def sample(self, points, threads=0):
+        """Distance, inside, materials and all attributes at points of the shape (..., 3), mm, in one question: Samples.
+
+        >>> import ombre
+        >>> ombre.sphere(10).sample([[15, 0, 0], [0, 0, 0]]).inside
+        array([False,  True])
+        """
+        columns = self._sample(points, "all", threads)
+        of_kind = {kind: [values for k, _, values in columns if k == kind] for kind in ("inside", "distance")}
+        inside = _is_finite(points) & (of_kind["inside"][0] != 0)
+        parts = {}
+        for kind, name, values in columns:
+            if kind == "attribute":
+                parts.setdefault(name.split(".", 1)[0], []).append((name, values))
+        return Samples(of_kind["distance"][0][()], inside[()],
+                       {name: numpy.where(inside, values, 0.0)[()] for kind, name, values in columns if kind == "fraction"},
+                       {name: _joined(name, values) for name, values in parts.items()})
 
     def gradient(self, points, step=1e-4, threads=0):
         """Gradient of the distance at points of the shape (..., 3), by central differences of `step` mm."""

@@ -15,21 +15,33 @@ from ._tree import Node, as_node
 from ._vectors import Vec3, Vec4
 
 
-def _kind_of(values: numpy.ndarray, name: str) -> Any:
-    numbers = [float(v) for v in numpy.atleast_1d(values)]
-    return {3: Vec3, 4: Vec4}[len(numbers)](*numbers) if len(numbers) in (3, 4) else numbers[0]
+def _values(found: numpy.ndarray) -> list[Any]:
+    """An attribute's values, one a point, as numbers or as vectors."""
+    kind = {3: Vec3, 4: Vec4}.get(found.shape[1]) if found.ndim == 2 else None
+    if kind is not None:
+        return [kind(*numbers) for numbers in found.tolist()]
+    return (found[:, 0] if found.ndim == 2 else found).tolist()
 
 
-def sampled(node: Node, x: float, y: float, z: float) -> tuple[float, AttributeSamples | None]:
-    """The distance at a point, and the attributes there; None outside."""
-    design, point = node._design(), [float(x), float(y), float(z)]
-    distance = float(design.distance(point))
-    if distance > 0:
-        return distance, None
-    values: dict[str, Any] = {name: _kind_of(design.attribute(name, point), name) for name in design.attributes}
+def _distributions(design: ombre.Design, fractions: dict[str, numpy.ndarray]) -> list[dict[int, float]]:
+    """{material's id: volume fraction} of each point."""
+    names = design.materials.names
+    ids = [names.index(name) for name in fractions]
+    rows = numpy.stack(list(fractions.values()), axis=-1).tolist()
+    return [{material: share for material, share in zip(ids, row) if share > 0} for row in rows]
+
+
+def sampled(node: Node, points: numpy.ndarray) -> list[tuple[float, AttributeSamples | None]]:
+    """The distance at each point, of the shape (N, 3), and the attributes there; None outside."""
+    design = node._design()
+    found = design.sample(points)
+    columns = {name: _values(values) for name, values in found.attribute.items()}
     if "volume_fractions" in node.attribute_list():
-        values["volume_fractions"] = node.distribution(x, y, z)
-    return distance, AttributeSamples(values)
+        columns["volume_fractions"] = _distributions(design, found.material)
+    names = list(columns)
+    rows = zip(*columns.values()) if columns else [()] * len(points)
+    return [(distance, AttributeSamples(dict(zip(names, row))) if distance <= 0 else None)
+            for distance, row in zip(found.distance.tolist(), rows)]
 
 
 class TreeSampler:
@@ -91,7 +103,7 @@ class TreeSampler:
         return [float(d) for d in self._design.distance(_array(points))]
 
     def sample_points(self, points: Any) -> list[tuple[float, AttributeSamples | None]]:
-        return [sampled(self._root, *point) for point in _array(points)]
+        return sampled(self._root, _array(points))
 
     def sample_line(self, start: Any, end: Any, count: int) -> list[tuple[float, AttributeSamples | None]]:
         if count < 2:
@@ -115,8 +127,10 @@ class TreeSampler:
 
 
 def _array(points: Any) -> numpy.ndarray:
-    return numpy.array([list(point) for point in points], dtype=float).reshape(-1, 3)
+    if not isinstance(points, numpy.ndarray):
+        points = [tuple(point) for point in points]
+    return numpy.asarray(points, dtype=float).reshape(-1, 3)
 
 
 # Put here instead of into the class, which samples know.
-Node.sample = lambda self, x, y, z: sampled(self, x, y, z)  # type: ignore[attr-defined]
+Node.sample = lambda self, x, y, z: sampled(self, _array([(x, y, z)]))[0]  # type: ignore[attr-defined]
