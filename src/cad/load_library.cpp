@@ -10,11 +10,8 @@
 namespace ombre::cad {
 namespace {
 
-#ifdef OMBRE_OPENCASCADE_MODULE
-constexpr const char* opencascade_module = OMBRE_OPENCASCADE_MODULE;
-#else
-constexpr const char* opencascade_module = nullptr;
-#endif
+constexpr Module opencascade{"ombre_opencascade",         "Open CASCADE", "CAD files",
+                             "libocct-data-exchange-dev", "OMBRE_CAD",    "save the part as a mesh (STL, 3MF)"};
 
 }  // namespace
 
@@ -25,10 +22,7 @@ bool is_cad_file(const std::string& path) {
 }
 
 std::vector<SolidPtr> read_solids(const std::string& path, const StopFlag* stop) {
-  static const auto read = load_function<decltype(ombre_read_cad)>(
-      opencascade_module, "ombre_read_cad", "CAD files",
-      "this ombre was built without Open CASCADE; install libocct-data-exchange-dev, configure with -DOMBRE_CAD=ON and "
-      "build again, or save the part as a mesh (STL, 3MF)");
+  static const auto read = load_function<decltype(ombre_read_cad)>(opencascade, "ombre_read_cad");
   std::vector<SolidPtr> solids;
   read(&path, stop, &solids);
   return solids;

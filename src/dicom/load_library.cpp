@@ -7,11 +7,8 @@
 namespace ombre::dicom {
 namespace {
 
-#ifdef OMBRE_GDCM_MODULE
-constexpr const char* gdcm_module = OMBRE_GDCM_MODULE;
-#else
-constexpr const char* gdcm_module = nullptr;
-#endif
+constexpr Module gdcm{"ombre_gdcm",  "GDCM",        "DICOM files",
+                      "libgdcm-dev", "OMBRE_DICOM", "save the scan as NRRD or NIfTI"};
 
 }  // namespace
 
@@ -22,10 +19,7 @@ bool is_dicom(std::string_view bytes) {
 
 Series read_series(const std::string& name, const std::vector<std::string>& files, const std::string& choice,
                    const StopFlag* stop) {
-  static const auto read = load_function<decltype(ombre_read_dicom)>(
-      gdcm_module, "ombre_read_dicom", "DICOM files",
-      "this ombre was built without GDCM; install libgdcm-dev, configure with -DOMBRE_DICOM=ON and build again, or "
-      "save the scan as NRRD or NIfTI");
+  static const auto read = load_function<decltype(ombre_read_dicom)>(gdcm, "ombre_read_dicom");
   Series series;
   read(&name, &files, &choice, stop, &series);
   return series;

@@ -63,9 +63,8 @@ void Gradients::factorise() {
   if (!can_factorise(stiffness_))
     throw Error(
         Code::not_solved,
-        "the equations cannot be factorised: a brick touches itself, or this ombre was built without MUMPS; in the "
-        "latter case install libmumps-seq-dev and libmetis-dev, configure with -DOMBRE_MUMPS=ON and build again; or "
-        "solve by multigrid");
+        has_factorisations() ? "the equations cannot be factorised, since a brick touches itself; solve by multigrid"
+                             : without_factorisations());
   if (const double least = element_matrix_bytes(stiffness_); least > options_.memory_bytes)
     refuse_memory(least, options_.memory_bytes);
   prepared_ = std::make_unique<Factorisation>(stiffness_, progress_, stop_);

@@ -14,8 +14,9 @@
 
 namespace ombre::fea {
 
-// Is MUMPS in this build?
+// Is MUMPS in this build? What a person reads where it is not.
 bool has_factorisations();
+std::string without_factorisations();
 // And can it be used for these bricks? Not where a brick touches itself.
 bool can_factorise(const BrickOperator& stiffness);
 // The memory that the matrices of the bricks take, less than all that a factorisation takes.

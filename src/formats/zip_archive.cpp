@@ -17,10 +17,12 @@
 namespace ombre::formats {
 namespace {
 
+constexpr Module libzip_module{"ombre_libzip", "libzip",    "zip archives",
+                               "libzip-dev",   "OMBRE_3MF", "write or read files of another kind"};
+
 // Loaded when the first archive is read or written.
 const LibzipCalls& libzip() {
-  static const LibzipCalls& calls =
-      *load_function<decltype(ombre_libzip_calls)>(OMBRE_LIBZIP_MODULE, "ombre_libzip_calls", "zip archives")();
+  static const LibzipCalls& calls = *load_function<decltype(ombre_libzip_calls)>(libzip_module, "ombre_libzip_calls")();
   return calls;
 }
 

@@ -1,7 +1,7 @@
 // The distance from a point to a mesh.
 #include "import/closest_point.h"
 
-#ifdef OMBRE_EMBREE_MODULE
+#ifdef OMBRE_EMBREE_VERSION
 
 #include <cmath>
 #include <future>
@@ -18,10 +18,13 @@ bool has_mesh_distance() { return true; }
 
 namespace {
 
+constexpr Module embree_module{"ombre_embree",        "Embree",
+                               "distances to meshes", "libembree-dev",
+                               "OMBRE_MESH_DISTANCE", "ask only for the inside of meshes"};
+
 // Loaded when the first distance is asked for.
 const EmbreeCalls& embree() {
-  static const EmbreeCalls& calls =
-      *load_function<decltype(ombre_embree_calls)>(OMBRE_EMBREE_MODULE, "ombre_embree_calls", "distances to meshes")();
+  static const EmbreeCalls& calls = *load_function<decltype(ombre_embree_calls)>(embree_module, "ombre_embree_calls")();
   return calls;
 }
 

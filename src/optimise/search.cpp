@@ -10,29 +10,16 @@ namespace {
 
 using Search = decltype(&ombre_search_nlopt);
 
-#ifdef OMBRE_NLOPT_MODULE
-constexpr const char* nlopt_module = OMBRE_NLOPT_MODULE;
-#else
-constexpr const char* nlopt_module = nullptr;
-#endif
-#ifdef OMBRE_PAGMO_MODULE
-constexpr const char* pagmo_module = OMBRE_PAGMO_MODULE;
-#else
-constexpr const char* pagmo_module = nullptr;
-#endif
+constexpr Module nlopt{"ombre_nlopt",  "NLopt",       "the methods cobyla, bobyqa and direct",
+                       "libnlopt-dev", "OMBRE_NLOPT", "choose another method"};
+constexpr Module pagmo{"ombre_pagmo",  "pagmo",       "the methods nsga2 and cmaes",
+                       "libpagmo-dev", "OMBRE_PAGMO", "choose another method"};
 
 bool is_nlopt(const Method& method) { return method.library == "NLopt"; }
 
 Search load_search(const Method& method) {
-  if (!is_built(method))
-    throw Error(Code::library_missing, "this ombre was built without " + method.library + ", which the method " +
-                                           method.name + " needs; install " +
-                                           (is_nlopt(method) ? "libnlopt-dev" : "libpagmo-dev") + ", configure with " +
-                                           (is_nlopt(method) ? "-DOMBRE_NLOPT=ON" : "-DOMBRE_PAGMO=ON") +
-                                           " and build again, or choose another method");
-  if (is_nlopt(method))
-    return load_function<decltype(ombre_search_nlopt)>(nlopt_module, "ombre_search_nlopt", "methods of NLopt");
-  return load_function<decltype(ombre_search_pagmo)>(pagmo_module, "ombre_search_pagmo", "methods of pagmo");
+  return is_nlopt(method) ? load_function<decltype(ombre_search_nlopt)>(nlopt, "ombre_search_nlopt")
+                          : load_function<decltype(ombre_search_pagmo)>(pagmo, "ombre_search_pagmo");
 }
 
 }  // namespace
@@ -52,7 +39,7 @@ const Method* find_method(const std::string& name) {
   return nullptr;
 }
 
-bool is_built(const Method& method) { return (is_nlopt(method) ? nlopt_module : pagmo_module) != nullptr; }
+bool is_built(const Method& method) { return has_module(is_nlopt(method) ? nlopt : pagmo); }
 
 void search(const Problem& problem, const SearchOptions& options) {
   const Method* const method = find_method(options.method);

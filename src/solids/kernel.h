@@ -49,5 +49,6 @@ class Kernel {
 // The one of this build. Throws Error when there is none.
 const Kernel& kernel();
 bool has_kernel();
+std::string without_kernel();  // what a person reads then
 
 }  // namespace ombre::solids

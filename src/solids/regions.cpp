@@ -1,4 +1,4 @@
-#ifdef OMBRE_SOLIDS
+#ifdef OMBRE_POLYGONS
 
 #include "solids/regions.h"
 

@@ -10,11 +10,10 @@
 
 namespace ombre::solids {
 
-#ifdef OMBRE_TETRAHEDRA_MODULE
-
-bool has_tetrahedra() { return true; }
-
 namespace {
+
+constexpr Module tetrahedra_by_cgal{"ombre_tetrahedra", "CGAL",         "tetrahedra",
+                                    "libcgal-dev",      "OMBRE_SOLIDS", "use bricks"};
 
 using Make = decltype(ombre_make_tetrahedra);
 
@@ -42,7 +41,7 @@ Error explain(HelperFailure) {
 }  // namespace
 
 Tetrahedra make_tetrahedra(const TetrahedraRequest& request) {
-  static Make* const make = load_function<Make>(OMBRE_TETRAHEDRA_MODULE, "ombre_make_tetrahedra", "tetrahedra");
+  static Make* const make = load_function<Make>(tetrahedra_by_cgal, "ombre_make_tetrahedra");
   constexpr double a_week = 7 * 24 * 3600.0;
   const HelperLimits limits{a_week, request.memory_bytes};
   const std::string bytes = run_in_helper([&] { return make_and_pack(make, request); }, limits, explain, request.stop);
@@ -56,17 +55,6 @@ Tetrahedra make_tetrahedra(const TetrahedraRequest& request) {
   return made;
 }
 
-#else
-
-bool has_tetrahedra() { return false; }
-
-Tetrahedra make_tetrahedra(const TetrahedraRequest&) {
-  throw Error(Code::library_missing,
-              "this ombre was built without CGAL, which makes tetrahedra; install libcgal-dev, configure with "
-              "-DOMBRE_SOLIDS=ON "
-              "and build again, or use bricks");
-}
-
-#endif
+bool has_tetrahedra() { return has_module(tetrahedra_by_cgal); }
 
 }  // namespace ombre::solids

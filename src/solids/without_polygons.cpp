@@ -1,16 +1,16 @@
 // What operations on regions are in builds without the polygon library: an error.
-#ifndef OMBRE_SOLIDS
+#ifndef OMBRE_POLYGONS
 
 #include "base/error.h"
-#include "solids/kernel.h"
 #include "solids/regions.h"
 
 namespace ombre::solids {
 namespace {
 
 [[noreturn]] void report() {
-  kernel();  // which is missing too, and says so
-  throw Error(Code::library_missing, "this ombre was built without polyclipping");
+  throw Error(Code::library_missing,
+              "this ombre was built without polyclipping, which polygons need; install libpolyclipping-dev, configure "
+              "with -DOMBRE_POLYGONS=ON and build again");
 }
 
 }  // namespace

@@ -166,7 +166,7 @@ std::shared_ptr<const ScadSolids> ScadRequest::load(sources::Loading& loading) {
   const Reader& reader = loading.reader();
   if (!solids::has_kernel()) {
     reader.diagnostics.error(Code::library_missing, reader.where,
-                             "OpenSCAD scripts cannot be used: this ombre was built without CGAL");
+                             "OpenSCAD scripts cannot be used: " + solids::without_kernel());
     return nullptr;
   }
   if (script.empty() && (!loading.find(file) || !loading.read_content(file))) return nullptr;

@@ -20,7 +20,7 @@ using voxel::TileBox;
 constexpr uint8_t fine_level = grid_level - 2;
 constexpr int32_t units = 1 << fine_level;            // from one corner of finer cells to the next
 constexpr int32_t per_cell = units_per_cell / units;  // of the grid, along an axis
-constexpr int64_t slab_layers = int64_t{4} * per_cell;
+constexpr int64_t fine_slab_layers = int64_t{4} * per_cell;
 constexpr int64_t strip_rows = 64;  // of a slab, whose labels are in memory at a time
 constexpr size_t edges_at_once = size_t{1} << 18;
 
@@ -121,12 +121,12 @@ void find_hidden_edges(const program::Program& label, const CellTree& tree, int 
     waiting.clear();
   };
   run_ordered<std::vector<CrossedEdge>>(
-      static_cast<size_t>((fine.count[2] + slab_layers - 1) / slab_layers), threads,
+      static_cast<size_t>((fine.count[2] + fine_slab_layers - 1) / fine_slab_layers), threads,
       2 * static_cast<size_t>(threads > 0 ? threads : core_count()),
       [&](size_t n) {
         std::vector<CrossedEdge> edges;
-        TileBox strip{{0, 0, static_cast<int64_t>(n) * slab_layers}, fine.count};
-        strip.hi[2] = std::min(strip.lo[2] + slab_layers, fine.count[2]);
+        TileBox strip{{0, 0, static_cast<int64_t>(n) * fine_slab_layers}, fine.count};
+        strip.hi[2] = std::min(strip.lo[2] + fine_slab_layers, fine.count[2]);
         for (; goes_on && strip.lo[1] < fine.count[1]; strip.lo[1] += strip_rows) {
           strip.hi[1] = std::min(strip.lo[1] + strip_rows, fine.count[1]);
           for (const FieldTile& tile : evaluator.tiles(strip, stop))

@@ -7,11 +7,8 @@
 namespace ombre::tiff {
 namespace {
 
-#ifdef OMBRE_LIBTIFF_MODULE
-constexpr const char* libtiff_module = OMBRE_LIBTIFF_MODULE;
-#else
-constexpr const char* libtiff_module = nullptr;
-#endif
+constexpr Module libtiff{"ombre_libtiff", "libtiff",    "TIFF images",
+                         "libtiff-dev",   "OMBRE_TIFF", "save the images as PNG"};
 
 }  // namespace
 
@@ -22,10 +19,7 @@ bool is_tiff(std::string_view bytes) {
 }
 
 std::vector<Page> read_pages(const std::string& name, std::string_view bytes, Wanted wanted, const StopFlag* stop) {
-  static const auto read = load_function<decltype(ombre_read_tiff)>(
-      libtiff_module, "ombre_read_tiff", "TIFF images",
-      "this ombre was built without libtiff; install libtiff-dev, configure with -DOMBRE_TIFF=ON and build again, or "
-      "save the images as PNG");
+  static const auto read = load_function<decltype(ombre_read_tiff)>(libtiff, "ombre_read_tiff");
   std::vector<Page> pages;
   read(&name, &bytes, wanted, stop, &pages);
   return pages;

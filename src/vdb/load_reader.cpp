@@ -3,9 +3,15 @@
 
 #include "base/module_loader.h"
 #include "vdb/grid_reader.h"
-#include "vdb/module_path.h"
 
 namespace ombre::vdb {
+namespace {
+
+constexpr Module reader_module{"ombre_openvdb", "OpenVDB",
+                               "sparse grids",  "libopenvdb-dev and libnanovdb-dev",
+                               "OMBRE_OPENVDB", "save the grid as a .nrrd file"};
+
+}  // namespace
 
 bool is_vdb(std::string_view bytes) {
   using namespace std::string_view_literals;
@@ -13,10 +19,7 @@ bool is_vdb(std::string_view bytes) {
 }
 
 DenseGrid read_grid(const std::string& path, const std::string& name, int channel, const StopFlag* stop) {
-  static const auto read = load_function<decltype(ombre_read_vdb_grid)>(
-      openvdb_module, "ombre_read_vdb_grid", "sparse grids",
-      "this ombre was built without OpenVDB; install libopenvdb-dev and libnanovdb-dev, configure with "
-      "-DOMBRE_OPENVDB=ON and build again, or save the grid as a .nrrd file");
+  static const auto read = load_function<decltype(ombre_read_vdb_grid)>(reader_module, "ombre_read_vdb_grid");
   DenseGrid grid;
   read(&path, &name, channel, stop, &grid);
   return grid;

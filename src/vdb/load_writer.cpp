@@ -3,15 +3,18 @@
 
 #include "base/module_loader.h"
 #include "vdb/grid_store.h"
-#include "vdb/module_path.h"
 
 namespace ombre::vdb {
+namespace {
+
+constexpr Module writer_module{"ombre_openvdb", "OpenVDB",
+                               "sparse grids",  "libopenvdb-dev and libnanovdb-dev",
+                               "OMBRE_OPENVDB", "write a .nrrd file"};
+
+}  // namespace
 
 SparseGrids::SparseGrids(Vec3 spacing_mm, Vec3 origin_mm) {
-  static const auto make = load_function<decltype(ombre_make_grid_store)>(
-      openvdb_module, "ombre_make_grid_store", "sparse grids",
-      "this ombre was built without OpenVDB; install libopenvdb-dev and libnanovdb-dev, configure with "
-      "-DOMBRE_OPENVDB=ON and build again, or write a .nrrd file");
+  static const auto make = load_function<decltype(ombre_make_grid_store)>(writer_module, "ombre_make_grid_store");
   store_.reset(make(&spacing_mm, &origin_mm));
 }
 

@@ -6,20 +6,27 @@ if(OMBRE_TESTS)
 endif()
 set(OMBRE_TEST_TIMEOUT 300) # s
 if(OMBRE_SANITIZE) # which make all take ten times as long
-  set(OMBRE_TEST_TIMEOUT 900)
+  set(OMBRE_TEST_TIMEOUT 400)
 endif()
 
 # A few sources of it at once, where heavy headers take longer than what includes them; few, so that a change of one
 # costs little.
 function(ombre_few_at_once target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   target_compile_options(${target} PRIVATE ${OMBRE_UNITY_OPTIONS})
 endfunction()
 
-# Tests are compiled in two thirds of the time when they are optimised less than what they test.
+# Code that runs once for each job, and never for each voxel, is compiled in two thirds of the time when it is optimised less.
+function(ombre_optimise_less)
+  foreach(target ${ARGV})
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> $<$<BOOL:${OMBRE_SANITIZE}>:-O0>)
+  endforeach()
+endfunction()
+
 function(ombre_test_options target)
+  set_property(GLOBAL APPEND PROPERTY OMBRE_TEST_PROGRAMS ${target})
   ombre_few_at_once(${target})
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  ombre_optimise_less(${target})
 endfunction()
 
 # ombre_folder(<name> [DEPENDS ombre libraries] [LINKS third-party libraries])
@@ -54,16 +61,31 @@ function(ombre_folder name)
   endif()
 endfunction()
 
-# ombre_module(<name> FOR <folder> SOURCES files [LINKS third-party libraries])
-# What src/<folder> loads from OMBRE_<NAME>_MODULE when it is first needed (base/module_loader.h), since loading the
-# libraries takes longer than many jobs. It shares no code with the program, and has its own of what errors need.
+# ombre_module(<name> SOURCES files [LINKS third-party libraries])
+# A module that is loaded when it is first needed (base/module_loader.h), since loading the libraries takes longer than many
+# jobs, and compiling it longer than the program. The program runs without it, says what is missing, and shares no code with
+# it; the module has its own of what errors need.
 function(ombre_module name)
-  cmake_parse_arguments(ARG "" "FOR" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
   add_library(ombre_${name} MODULE ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/src/base/phrase.cpp)
   target_include_directories(ombre_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(ombre_${name} PRIVATE ${ARG_LINKS})
-  string(TOUPPER ${name} variable)
-  target_compile_definitions(ombre_${ARG_FOR} PRIVATE OMBRE_${variable}_MODULE="$<TARGET_FILE:ombre_${name}>")
-  add_dependencies(ombre_${ARG_FOR} ombre_${name})
+  set_target_properties(ombre_${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/modules)
+  set_property(GLOBAL APPEND PROPERTY OMBRE_MODULES ombre_${name})
   install(TARGETS ombre_${name} LIBRARY DESTINATION ${OMBRE_MODULE_DIR} COMPONENT shared)
+endfunction()
+
+# The target "modules" makes all modules; the test programs load them.
+function(ombre_all_modules)
+  get_property(modules GLOBAL PROPERTY OMBRE_MODULES)
+  get_property(tests GLOBAL PROPERTY OMBRE_TEST_PROGRAMS)
+  add_custom_target(modules)
+  if(TARGET fuzz_targets)
+    list(APPEND tests fuzz_targets)
+  endif()
+  if(modules)
+    foreach(target modules ${tests})
+      add_dependencies(${target} ${modules})
+    endforeach()
+  endif()
 endfunction()
