@@ -58,10 +58,11 @@ std::optional<fea::Model> make_model(const HomogeniseChoices& a, const fea::Stud
   sampling.rules.seed = a.seed;
   const auto options = plan_options(sampling, a.work, session, diagnostics);
   if (!options) return std::nullopt;
-  const auto plan = compile::plan_slice(sampled, *options, diagnostics);
+  const auto plan = compile::plan_model(sampled, *options, a.fill, diagnostics);
   if (!plan) return std::nullopt;
   compile::FeaRequest request;
   request.assign = a.assign;
+  request.fill = a.fill;
   request.threads = a.work.threads;
   ProgressLine progress(session.console);
   auto model = compile::fea_model(sampled, *plan, study, request, diagnostics, &progress, &session.stop);

@@ -5,8 +5,10 @@
 #include <map>
 
 #include "base/text.h"
+#include "compile/brick_fills.h"
 #include "compile/grid_job.h"
 #include "compile/question.h"
+#include "compile/sampler.h"
 #include "compile/unusable_mixtures.h"
 
 namespace ombre::compile {
@@ -35,10 +37,11 @@ std::vector<float> numbers_of(const GridSlab& slab, size_t grid) {
 
 class ModelMaker {
  public:
-  ModelMaker(const LoadedPtr& loaded, const Plan& plan, const fea::Study& study, const FeaRequest& request,
+  ModelMaker(const LoadedPtr& loaded, const BrickPlan& plan, const fea::Study& study, const FeaRequest& request,
              Diagnostics& diagnostics, Progress* progress, const StopFlag* stop)
       : loaded_(loaded),
-        plan_(plan),
+        plan_(plan.bricks),
+        parts_(plan.parts),
         study_(study),
         request_(request),
         diagnostics_(diagnostics),
@@ -48,13 +51,15 @@ class ModelMaker {
   std::optional<fea::Model> make() {
     for (const int64_t count : plan_.request.lattice.count)
       if (count > most_along_axis) return fail("there are more than 2^30 bricks along an axis", "choose larger bricks");
-    if (!find_cells()) return std::nullopt;
+    if (!find_cells() || (parts_ && !find_fills())) return std::nullopt;
     if (cells_.empty())
-      return fail("no brick's centre is inside the design", "choose smaller bricks with " + spelled::option("--cell"));
+      return fail(parts_ ? "no brick is inside the design by enough" : "no brick's centre is inside the design",
+                  "choose smaller bricks with " + spelled::option("--cell"));
     fea::Model model;
     const voxel::Lattice& lattice = plan_.request.lattice;
     model.bricks = fea::make_bricks(lattice.origin, lattice.voxel_mm(), std::move(cells_), {}, stop_);
-    if (!find_fields(model) || !has_numbers(model.bricks)) return std::nullopt;
+    model.bricks.fills = std::move(fills_);
+    if (!find_fields(model) || !mend_fields(model) || !has_numbers(model.bricks)) return std::nullopt;
     auto sections = make_sections(*loaded_, study_, request_, {model.bricks.count(), drawn_, fractions_, &model.fields},
                                   diagnostics_);
     if (!sections) return std::nullopt;
@@ -92,6 +97,60 @@ class ModelMaker {
     return true;
   }
 
+  // Takes the bricks that are filled in place of those whose centre is inside, and finds materials for the others.
+  bool find_fills() {
+    auto filled = fill_bricks(design_here(), loaded_, *parts_, request_.threads, diagnostics_, stop_);
+    if (!filled) return false;
+    std::vector<MaterialId> drawn;
+    size_t next = 0;
+    for (const FilledBrick& brick : *filled) {
+      while (next < cells_.size() && fea::is_before(cells_[next], brick.cell)) ++next;
+      const bool has_centre = next < cells_.size() && cells_[next] == brick.cell;
+      drawn.push_back(has_centre ? drawn_[next] : brick.drawn);
+      fills_.push_back(brick.fill);
+      if (!has_centre) without_centre_.push_back({drawn.size() - 1, brick.place});
+    }
+    cells_.clear();
+    for (const FilledBrick& brick : *filled) cells_.push_back(brick.cell);
+    drawn_ = std::move(drawn);
+    return true;
+  }
+
+  design::Design design_here() const {
+    const voxel::Lattice& lattice = plan_.request.lattice;
+    design::Design design = design::for_lattice(loaded_->design, {lattice.origin, lattice.pitch});
+    design.stages = plan_.stages;
+    return design;
+  }
+
+  // Values of bricks whose centre is outside, where there is nothing, are those of a place inside.
+  bool mend_fields(fea::Model& model) {
+    if (without_centre_.empty()) return true;
+    SampleQuery query;
+    query.fractions = true;
+    for (size_t f = fractions_.size(); f < model.fields.size(); ++f) query.attributes.push_back(model.fields[f].name);
+    const auto sampler = Sampler::build(design_here(), query, diagnostics_);
+    if (!sampler) return false;
+    std::vector<Vec3> places;
+    for (const auto& [brick, place] : without_centre_) places.push_back(place);
+    std::vector<std::vector<double>> values(sampler->columns().size(), std::vector<double>(places.size()));
+    std::vector<double*> columns;
+    for (auto& column : values) columns.push_back(column.data());
+    sampler->sample(places, columns, request_.threads, stop_);
+    for (size_t f = 0; f < model.fields.size(); ++f)
+      for (size_t c = 0; c < values.size(); ++c)
+        if (is_of(sampler->columns()[c], model.fields[f], f))
+          for (size_t n = 0; n < places.size(); ++n)
+            model.fields[f].values[without_centre_[n].first] = static_cast<float>(values[c][n]);
+    return true;
+  }
+
+  bool is_of(const Sampler::Column& column, const fea::ValueField& field, size_t number) const {
+    if (number < fractions_.size())
+      return column.kind == Sampler::Column::Kind::fraction && column.material == fractions_[number];
+    return column.kind == Sampler::Column::Kind::attribute && column.name == field.name;
+  }
+
   bool find_fields(fea::Model& model) {
     GridQuery query;
     query.fractions = true;
@@ -122,25 +181,25 @@ class ModelMaker {
   }
 
   bool has_numbers(const fea::Bricks& bricks) {
-    const voxel::Lattice& lattice = plan_.request.lattice;
-    design::Design design = design::for_lattice(loaded_->design, {lattice.origin, lattice.pitch});
-    design.stages = plan_.stages;
-    const fea::MeshView view(bricks);
     std::vector<Vec3> middles;
-    for (size_t n = 0; n < view.count(); ++n) middles.push_back(view.centroid(n));
-    return check_mixtures(design, {middles, drawn_}, request_.threads, stop_, diagnostics_);
+    for (size_t n = 0; n < bricks.count(); ++n) middles.push_back(bricks.centroid(n));
+    for (const auto& [brick, place] : without_centre_) middles[brick] = place;
+    return check_mixtures(design_here(), {middles, drawn_}, request_.threads, stop_, diagnostics_);
   }
 
   const LoadedPtr& loaded_;
   const Plan& plan_;
+  const std::optional<Plan>& parts_;
   const fea::Study& study_;
   const FeaRequest& request_;
   Diagnostics& diagnostics_;
   Progress* progress_;
   const StopFlag* stop_;
   std::vector<fea::Cell> cells_;
-  std::vector<MaterialId> drawn_;      // of each cell
-  std::vector<MaterialId> fractions_;  // whose fields come first
+  std::vector<fea::Fill> fills_;                         // of each cell, where parts are looked at
+  std::vector<MaterialId> drawn_;                        // of each cell
+  std::vector<std::pair<size_t, Vec3>> without_centre_;  // cells whose centre is outside, and places inside
+  std::vector<MaterialId> fractions_;                    // whose fields come first
 };
 
 fea::ValueField tensors(const std::string& name, const std::string& unit,
@@ -191,7 +250,17 @@ std::vector<fea::ValueField> with_vectors(const std::vector<fea::ValueField>& fi
 
 }  // namespace
 
-std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const Plan& plan, const fea::Study& study,
+std::optional<BrickPlan> plan_model(const LoadedPtr& loaded, const PlanOptions& options, FeaRequest::Fill fill,
+                                    Diagnostics& diagnostics) {
+  auto bricks = plan_slice(loaded, options, diagnostics);
+  if (!bricks) return std::nullopt;
+  if (fill == FeaRequest::Fill::centre) return BrickPlan{std::move(*bricks), std::nullopt};
+  auto parts = plan_parts(loaded, options, bricks->request.lattice, diagnostics);
+  if (!parts) return std::nullopt;
+  return BrickPlan{std::move(*bricks), std::move(parts)};
+}
+
+std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const BrickPlan& plan, const fea::Study& study,
                                     const FeaRequest& request, Diagnostics& diagnostics, Progress* progress,
                                     const StopFlag* stop) {
   return ModelMaker(loaded, plan, study, request, diagnostics, progress, stop).make();

@@ -13,10 +13,21 @@
 
 namespace ombre::compile {
 
-// Bricks are those voxels of the plan's lattice whose centre is inside; their fields are the fractions of materials and
-// the attributes there. Properties are those of the study, then those of the materials file. Nothing, and diagnostics,
-// when there is no brick, or properties are missing. Throws Cancelled.
-std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const Plan& plan, const fea::Study& study,
+// Where bricks may be: voxels of a lattice; and another one of their parts, unless bricks go by their centres.
+struct BrickPlan {
+  Plan bricks;
+  std::optional<Plan> parts;
+};
+
+// Nothing, and diagnostics, as plan_slice.
+std::optional<BrickPlan> plan_model(const LoadedPtr& loaded, const PlanOptions& options, FeaRequest::Fill fill,
+                                    Diagnostics& diagnostics);
+
+// Bricks are those voxels of which at least fea::least_fill is inside, or, without parts, whose centre is. Their fields
+// are the fractions of materials and the attributes in their centre, or, where that is outside, at the place nearest to
+// the middle of what is inside. Properties are those of the study, then those of the materials file. Nothing, and
+// diagnostics, when there is no brick, or properties are missing. Throws Cancelled.
+std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const BrickPlan& plan, const fea::Study& study,
                                     const FeaRequest& request, Diagnostics& diagnostics, Progress* progress = nullptr,
                                     const StopFlag* stop = nullptr);
 

@@ -15,6 +15,7 @@ struct HomogeniseChoices {
   std::optional<Box> box;
   std::string study;
   FeaRequest::Assign assign = FeaRequest::Assign::draw;
+  FeaRequest::Fill fill = FeaRequest::Fill::exact;
   uint64_t seed = 0;
   std::string output;
   double tolerance = 1e-6;
@@ -35,6 +36,9 @@ struct HomogeniseChoices {
         choice("--assign", &H::assign, {"draw", "mix"},
                "What a brick of a mixture is made of: draw (default: one material, by the odds of its fractions) or\n"
                "mix (mean properties)",
+               "RULE"),
+        choice("--fill", &H::fill, {"exact", "centre"},
+               "exact (default): a brick is stiff by what of it is inside; centre: whole if its centre is inside",
                "RULE"),
         option("--seed", &H::seed, kind::seed, "Seed of draw (default 0)", "N"),
         option("-o,--output", &H::output, kind::file, "A chart of Young's modulus by direction, .svg", "FILE"),
