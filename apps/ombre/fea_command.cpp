@@ -255,6 +255,7 @@ compile::FeaResults solve_case(const FeaChoices& a, const Case& here, Session& s
     results.solution = fea::solve(*bricks, here.conditions, options, &progress, &session.stop);
   else
     results.solution = fea::solve_mesh(model, here.conditions, options, &progress, &session.stop);
+  if (results.solution) results.stresses = fea::stresses_of(model, *results.solution);
   progress.finish();
   tell_results(a, session.console, here, results, watch.seconds());
   if (results.solution) tell_mean_stress(session.console, here, *results.solution);

@@ -210,6 +210,12 @@ fea::ValueField tensors(const std::string& name, const std::string& unit,
   return field;
 }
 
+fea::ValueField von_mises_field(const std::string& name, const std::vector<std::array<double, 6>>& stresses) {
+  fea::ValueField field{name, "MPa", 1, {}};
+  for (const auto& stress : stresses) field.values.push_back(static_cast<float>(fea::von_mises(stress)));
+  return field;
+}
+
 fea::ValueField vectors(const std::string& name, const std::string& unit, const std::vector<Vec3>& values) {
   fea::ValueField field{name, unit, 3, {}};
   for (const Vec3& v : values)
@@ -287,11 +293,14 @@ std::vector<fea::ValueField> fea_element_fields(const fea::ModelView& model, fea
   fields.push_back(std::move(section));
   fields.push_back(std::move(property));
   if (const auto& solution = results.solution) {
-    fea::ValueField mises{"von Mises stress", "MPa", 1, {}};
-    for (const auto& stress : solution->stress_mpa) mises.values.push_back(static_cast<float>(fea::von_mises(stress)));
-    fields.push_back(std::move(mises));
+    fields.push_back(von_mises_field("von Mises stress", solution->stress_mpa));
     fields.push_back(tensors("stress", "MPa", solution->stress_mpa));
     fields.push_back(tensors("strain", "", solution->strain));
+  }
+  if (const auto& stresses = results.stresses) {
+    fea::ValueField greatest{"greatest von Mises stress at integration points", "MPa", 1, {}};
+    for (const double value : stresses->greatest_at_points_mpa) greatest.values.push_back(static_cast<float>(value));
+    fields.push_back(std::move(greatest));
   }
   if (const auto& conduction = results.conduction)
     fields.push_back(physics == fea::Physics::heat ? vectors("heat flux", "W/mm2", conduction->flux)
@@ -300,7 +309,13 @@ std::vector<fea::ValueField> fea_element_fields(const fea::ModelView& model, fea
 }
 
 std::vector<fea::ValueField> fea_node_fields(fea::Physics physics, const FeaResults& results) {
-  if (const auto& solution = results.solution) return {vectors("displacement", "mm", solution->displacement_mm)};
+  if (const auto& solution = results.solution) {
+    std::vector<fea::ValueField> fields{vectors("displacement", "mm", solution->displacement_mm)};
+    if (!results.stresses) return fields;
+    fields.push_back(von_mises_field("von Mises stress at nodes", results.stresses->at_nodes_mpa));
+    fields.push_back(tensors("stress at nodes", "MPa", results.stresses->at_nodes_mpa));
+    return fields;
+  }
   if (!results.conduction) return {};
   const bool is_heat = physics == fea::Physics::heat;
   fea::ValueField field{is_heat ? "temperature" : "potential", is_heat ? "C" : "V", 1, {}};

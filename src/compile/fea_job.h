@@ -9,6 +9,7 @@
 #include "fea/conduction.h"
 #include "fea/elastic.h"
 #include "fea/model.h"
+#include "fea/stresses.h"
 #include "fea/study.h"
 
 namespace ombre::compile {
@@ -34,14 +35,15 @@ std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const BrickPlan& pl
 // What a solver found: nothing, or what belongs to the study's physics.
 struct FeaResults {
   std::optional<fea::Solution> solution;
+  std::optional<fea::Stresses> stresses;  // of the solution
   std::optional<fea::Conduction> conduction;
 };
 
 // The fields of elements: those of the model, its main property, and with a solution stress, von Mises' stress and
-// strain, or the flux.
+// strain in the middle, and the greatest von Mises stress at integration points; or the flux.
 std::vector<fea::ValueField> fea_element_fields(const fea::ModelView& model, fea::Physics physics,
                                                 const FeaResults& results);
-// The displacements, temperatures or potentials of nodes; none without a solution.
+// The displacements and recovered stresses, temperatures or potentials of nodes; none without a solution.
 std::vector<fea::ValueField> fea_node_fields(fea::Physics physics, const FeaResults& results);
 
 }  // namespace ombre::compile
