@@ -89,9 +89,9 @@ void write_density(const std::string& path, const fea::Bricks& bricks, const std
 }
 
 // A table of the steps, a line of which is written as soon as its step is done.
-class History {
+class StepTable {
  public:
-  History(const std::string& path, bool has_goal) : has_goal_(has_goal), file_(begun(path, has_goal)) {}
+  StepTable(const std::string& path, bool has_goal) : has_goal_(has_goal), file_(begun(path, has_goal)) {}
 
   void add(const optimise::TopologyStep& step) {
     file_.append(std::to_string(step.number) + "," + format_number(step.compliance) + "," +
@@ -162,7 +162,7 @@ optimise::Topology search(const OptimiseChoices& a, const TopologyCase& made, Se
   const Vec3 size = made.model.bricks.size_mm;
   if (!(options.radius_mm > 0)) options.radius_mm = 1.5 * std::max({size.x, size.y, size.z});
   ProgressLine progress(session.console, Counted::steps);
-  History history(files_of(a)[2], made.goal.has_value());
+  StepTable history(files_of(a)[2], made.goal.has_value());
   const auto report = [&](const optimise::TopologyStep& step) {
     history.add(step);
     progress.update({step.number, options.steps});

@@ -110,15 +110,18 @@ class Refiner {
   Refiner(const voxel::Lattice& parts, std::vector<FilledBrick> bricks)
       : parts_(parts), bricks_(std::move(bricks)), found_(bricks_) {}
 
-  std::vector<FilledBrick> run(const Sampler& inside, int threads, const StopFlag* stop) {
+  FilledBricks run(const Sampler& inside, int threads, const StopFlag* stop) {
     add_near_surface();
     constexpr size_t bricks_at_once = size_t{1} << 13;
     for (size_t begin = 0; begin < near_.size(); begin += bricks_at_once)
       sample(begin, std::min(near_.size(), begin + bricks_at_once), inside, threads, stop);
     std::ranges::sort(found_,
                       [](const FilledBrick& a, const FilledBrick& b) { return fea::is_before(a.cell, b.cell); });
+    FilledBricks filled;
+    for (const FilledBrick& brick : found_) filled.filled_count += fea::fill_share(brick.fill);
     std::erase_if(found_, [](const FilledBrick& brick) { return fea::fill_share(brick.fill) < fea::least_fill; });
-    return std::move(found_);
+    filled.bricks = std::move(found_);
+    return filled;
   }
 
  private:
@@ -221,9 +224,8 @@ std::optional<Plan> plan_parts(const LoadedPtr& loaded, PlanOptions options, con
   return plan;
 }
 
-std::optional<std::vector<FilledBrick>> fill_bricks(const design::Design& design, const LoadedPtr& loaded,
-                                                    const Plan& parts, int threads, Diagnostics& diagnostics,
-                                                    const StopFlag* stop) {
+std::optional<FilledBricks> fill_bricks(const design::Design& design, const LoadedPtr& loaded, const Plan& parts,
+                                        int threads, Diagnostics& diagnostics, const StopFlag* stop) {
   GridQuery query;
   query.materials = true;
   const voxel::Lattice& lattice = parts.request.lattice;

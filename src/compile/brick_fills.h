@@ -20,11 +20,15 @@ struct FilledBrick {
 std::optional<Plan> plan_parts(const LoadedPtr& loaded, PlanOptions options, const voxel::Lattice& bricks,
                                Diagnostics& diagnostics);
 
-// Bricks of which at least fea::least_fill is inside, in the order of their cells. Each part of those near the surface
+struct FilledBricks {
+  std::vector<FilledBrick> bricks;  // of which at least fea::least_fill is inside, in the order of their cells
+  double filled_count = 0;          // how many full ones have the volume of all that is inside
+};
+
+// Each part of those near the surface
 // goes by one point, which lie at different heights along each axis, so that a plane cuts off its volume to a 64th part
 // of the brick. Nothing, and diagnostics, when the design cannot be sampled. Throws Cancelled.
-std::optional<std::vector<FilledBrick>> fill_bricks(const design::Design& design, const LoadedPtr& loaded,
-                                                    const Plan& parts, int threads, Diagnostics& diagnostics,
-                                                    const StopFlag* stop);
+std::optional<FilledBricks> fill_bricks(const design::Design& design, const LoadedPtr& loaded, const Plan& parts,
+                                        int threads, Diagnostics& diagnostics, const StopFlag* stop);
 
 }  // namespace ombre::compile

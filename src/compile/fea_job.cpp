@@ -53,12 +53,14 @@ class ModelMaker {
       if (count > most_along_axis) return fail("there are more than 2^30 bricks along an axis", "choose larger bricks");
     if (!find_cells() || (parts_ && !find_fills())) return std::nullopt;
     if (cells_.empty())
-      return fail(parts_ ? "no brick is inside the design by enough" : "no brick's centre is inside the design",
+      return fail(request_.fill == FeaRequest::Fill::exact ? "no brick is inside the design by enough"
+                                                           : "no brick's centre is inside the design",
                   "choose smaller bricks with " + spelled::option("--cell"));
     fea::Model model;
     const voxel::Lattice& lattice = plan_.request.lattice;
     model.bricks = fea::make_bricks(lattice.origin, lattice.voxel_mm(), std::move(cells_), {}, stop_);
     model.bricks.fills = std::move(fills_);
+    model.design_mm3 = filled_count_ * model.bricks.volume_mm3();
     if (!find_fields(model) || !mend_fields(model) || !has_numbers(model.bricks)) return std::nullopt;
     auto sections = make_sections(*loaded_, study_, request_, {model.bricks.count(), drawn_, fractions_, &model.fields},
                                   diagnostics_);
@@ -101,9 +103,11 @@ class ModelMaker {
   bool find_fills() {
     auto filled = fill_bricks(design_here(), loaded_, *parts_, request_.threads, diagnostics_, stop_);
     if (!filled) return false;
+    filled_count_ = filled->filled_count;
+    if (request_.fill == FeaRequest::Fill::centre) return true;
     std::vector<MaterialId> drawn;
     size_t next = 0;
-    for (const FilledBrick& brick : *filled) {
+    for (const FilledBrick& brick : filled->bricks) {
       while (next < cells_.size() && fea::is_before(cells_[next], brick.cell)) ++next;
       const bool has_centre = next < cells_.size() && cells_[next] == brick.cell;
       drawn.push_back(has_centre ? drawn_[next] : brick.drawn);
@@ -111,7 +115,7 @@ class ModelMaker {
       if (!has_centre) without_centre_.push_back({drawn.size() - 1, brick.place});
     }
     cells_.clear();
-    for (const FilledBrick& brick : *filled) cells_.push_back(brick.cell);
+    for (const FilledBrick& brick : filled->bricks) cells_.push_back(brick.cell);
     drawn_ = std::move(drawn);
     return true;
   }
@@ -196,6 +200,7 @@ class ModelMaker {
   Progress* progress_;
   const StopFlag* stop_;
   std::vector<fea::Cell> cells_;
+  double filled_count_ = 0;                              // full bricks that have the volume of what is inside
   std::vector<fea::Fill> fills_;                         // of each cell, where parts are looked at
   std::vector<MaterialId> drawn_;                        // of each cell
   std::vector<std::pair<size_t, Vec3>> without_centre_;  // cells whose centre is outside, and places inside
@@ -312,8 +317,8 @@ std::vector<fea::ValueField> fea_node_fields(fea::Physics physics, const FeaResu
   if (const auto& solution = results.solution) {
     std::vector<fea::ValueField> fields{vectors("displacement", "mm", solution->displacement_mm)};
     if (!results.stresses) return fields;
-    fields.push_back(von_mises_field("von Mises stress at nodes", results.stresses->at_nodes_mpa));
-    fields.push_back(tensors("stress at nodes", "MPa", results.stresses->at_nodes_mpa));
+    fields.push_back(von_mises_field("nodal von Mises stress", results.stresses->at_nodes_mpa));
+    fields.push_back(tensors("nodal stress", "MPa", results.stresses->at_nodes_mpa));
     return fields;
   }
   if (!results.conduction) return {};

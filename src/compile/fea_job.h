@@ -14,7 +14,8 @@
 
 namespace ombre::compile {
 
-// Where bricks may be: voxels of a lattice; and another one of their parts, unless bricks go by their centres.
+// Where bricks may be: voxels of a lattice; and another one of their parts, by which their fill is found, or the volume
+// of the design alone, where they go by their centres.
 struct BrickPlan {
   Plan bricks;
   std::optional<Plan> parts;

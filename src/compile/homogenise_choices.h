@@ -14,6 +14,8 @@ struct HomogeniseChoices {
   double cell_mm = 0;
   std::optional<Box> box;
   std::string study;
+  double density = 0;  // 0: not chosen
+  std::string by;
   FeaRequest::Assign assign = FeaRequest::Assign::draw;
   FeaRequest::Fill fill = FeaRequest::Fill::exact;
   uint64_t seed = 0;
@@ -33,6 +35,11 @@ struct HomogeniseChoices {
         option("--box", &H::box, kind::box, "The box that repeats, mm (default: that of the design)",
                "X0,Y0,Z0,X1,Y1,Z1"),
         option("--study", &H::study, kind::file, "Properties of materials; a .json file", "FILE"),
+        option("--density", &H::density, kind::number,
+               "Which share of the box is to be solid: a variable of the design is found for it", "X")
+            .between(1e-6, 1),
+        option("--by", &H::by, kind::text, "Of --density: the variable, and between which values it is searched",
+               "NAME=LOW:HIGH"),
         choice("--assign", &H::assign, {"draw", "mix"},
                "What a brick of a mixture is made of: draw (default: one material, by the odds of its fractions) or\n"
                "mix (mean properties)",

@@ -49,6 +49,7 @@ struct Model {
   std::vector<Section> sections;
   std::vector<uint16_t> section_of;  // of each brick
   std::vector<ValueField> fields;    // of bricks: fractions, attributes
+  double design_mm3 = 0;             // the volume of what the bricks stand for, where it was looked at; else 0
 
   const Elastic& elastic(size_t brick) const { return sections[section_of[brick]].elastic; }
 };
