@@ -60,6 +60,48 @@ def boxes_cut_and_repeat(ombre, folder):
     expect("modulus_mpa" not in found, "it says that it holds loads across")
 
 
+def shares_are_those_of_the_design(ombre, folder):
+    """A rod of 1.5 mm in a box of 4 mm: 0.140625 of it, whatever its bricks have."""
+    rod = 'rectprism([1.5, 1.5, 8], material="red");'
+    box = ("--cell", "0.8", "--box=-2,-2,-2,2,2,2")
+    found = homogenised(ombre, folder, rod, *box)
+    near(found["solid_share"], 0.140625, 0.03, "the solid share")
+    near(found["brick_share"], 0.140625, 0.03, "the share of the bricks")
+    near(found["stiffness_mpa"][2][2], 2850 * found["brick_share"], 1e-4, "the stiffness along the rod")
+    whole = homogenised(ombre, folder, rod, *box, "--fill", "centre")
+    near(whole["solid_share"], 0.140625, 0.03, "the solid share beside whole bricks")
+    near(whole["brick_share"], 1 / 25, 1e-9, "the share of whole bricks")
+
+
+def sizes_are_compared(ombre, folder):
+    """Richardson's rule, from numbers of two runs; a plain block has no error."""
+    cell = 'difference() { rectprism([4, 4, 4], material="red"); sphere(1.5); }'
+    fine, coarse = homogenised(ombre, folder, cell, "--cell", "0.5"), homogenised(ombre, folder, cell, "--cell", "1")
+    for axis in range(3):
+        near(fine["coarse_modulus_mpa"][axis], coarse["modulus_mpa"][axis], 1e-6, "the modulus of larger bricks")
+        difference = fine["modulus_mpa"][axis] - coarse["modulus_mpa"][axis]
+        near(fine["extrapolated_modulus_mpa"][axis], fine["modulus_mpa"][axis] + difference / 3, 1e-6, "the limit")
+        near(fine["modulus_error_mpa"][axis], abs(difference) / 3, 1e-3, "the error")
+    plain = homogenised(ombre, folder, 'rectprism([4, 4, 4], material="red");', "--cell", "1")
+    for value, error in zip(plain["extrapolated_modulus_mpa"], plain["modulus_error_mpa"]):
+        near(value, 2850, 1e-5, "the modulus of a block")
+        expect(error < 0.01, f"a block has an error of {error}")
+
+
+def densities_find_a_thickness(ombre, folder):
+    """A rod that fills a quarter of a box of 4 mm is 2 mm thick."""
+    rod = 'thickness = 1; rectprism([thickness, thickness, 8], material="red");'
+    box = ("--study", STUDY, "--cell", "0.5", "--box=-2,-2,-2,2,2,2")
+    lines = run(ombre, folder, rod, *box, "--density", "0.25", "--by", "thickness=0.2:3.5", "--json").stdout.splitlines()
+    events = {e["event"]: e for e in map(json.loads, lines)}
+    near(events["density"]["value"], 2, 0.01, "the thickness")
+    near(events["homogenised"]["solid_share"], 0.25, 0.002, "the share")
+    for by, wanted in (("thickness=0.2:1", "never 25 %"), ("thickness=3", "needs a variable"), ("width=1:3", "width")):
+        reported = run(ombre, folder, rod, *box, "--density", "0.25", "--by", by, status=1).stderr
+        expect(wanted in reported, reported)
+    expect("is of a density" in run(ombre, folder, rod, *box, "--by", "thickness=1:3", status=1).stderr, "--by alone")
+
+
 def draws_are_softer_than_means(ombre, folder):
     """A dithered mixture of half and half lies between the bounds that any arrangement has."""
     design = 'fgrade(["0.5", "0.5"], ["red", "blue"]) rectprism([4, 4, 4]);'
@@ -101,7 +143,7 @@ def wrong_use_is_reported(ombre, folder):
     study = ("--study", STUDY)
     expect('no elastic properties of "green"' in reported("sphere(2, green);", "--cell", "1", *study), "properties")
     expect("from 1 to 4096" in reported("cube(2, red);", "--cell", "0.0001", *study), "too many bricks")
-    expect("no brick's centre" in reported("cube(2, red);", "--cell", "1", "--box=8,8,8,9,9,9", *study), "nothing there")
+    expect("no brick is inside the design by enough" in reported("cube(2, red);", "--cell", "1", "--box=8,8,8,9,9,9", *study), "nothing there")
     expect(".svg" in reported("cube(2, red);", "--cell", "1", "-o", "chart.png", *study), "ending")
     expect("more than the" in reported("cube(9, red);", "--cell", "0.1", "--memory", "1M", *study, status=2), "memory")
 
@@ -115,7 +157,8 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             function(ombre, pathlib.Path(scratch))
 
-    checks = [plain_blocks_are_their_material, layers_share_strain_in_the_plane, boxes_cut_and_repeat,
+    checks = [plain_blocks_are_their_material, layers_share_strain_in_the_plane, boxes_cut_and_repeat, shares_are_those_of_the_design, sizes_are_compared,
+              densities_find_a_thickness,
               draws_are_softer_than_means, charts_are_written, layers_conduct_in_series_and_parallel,
               wrong_use_is_reported]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])

@@ -149,6 +149,95 @@ def searches_go_on(folder):
         expect(folder.read(f"whole/{name}") == folder.read(f"parts/{name}"), name + " differs")
 
 
+TETRAHEDRON = """solid t
+facet normal 0 0 -1
+outer loop
+vertex 0 0 0
+vertex 0 3 0
+vertex 3 0 0
+endloop
+endfacet
+facet normal 0 -1 0
+outer loop
+vertex 0 0 0
+vertex 3 0 0
+vertex 0 0 3
+endloop
+endfacet
+facet normal -1 0 0
+outer loop
+vertex 0 0 0
+vertex 0 0 3
+vertex 0 3 0
+endloop
+endfacet
+facet normal 1 1 1
+outer loop
+vertex 3 0 0
+vertex 0 3 0
+vertex 0 0 3
+endloop
+endfacet
+endsolid t
+"""
+
+
+def designs_are_turned(folder):
+    """A bar of 20 mm and 2000 MPa under 100 MPa grows by 1 mm; on its side, 3 mm high, by 0.15 mm."""
+    folder.write("bar.vcad", "w = 3; rectprism((w, 4, 20), red);")
+    study = {"variables": {"w": {"from": 2, "to": 4}}, "objectives": [{"minimise": "displacement", "axis": "z"}],
+             "fea": {**PULL, "materials": {"red": PULL["materials"]["red"]}}, "cell": 1, "evaluations": 3}
+    folder.write("bar.json", study)
+    folder.run("bar.vcad", "--study", "bar.json", "-o", "upright")
+    near(float(folder.table("upright/history.csv")[0]["displacement z [mm]"]), 1, 1e-5, "upright")
+    folder.run("bar.vcad", "--study", "bar.json", "-o", "flat", "--rotate", "0,90,0")
+    near(float(folder.table("flat/history.csv")[0]["displacement z [mm]"]), 0.15, 1e-5, "on its side")
+    expect("with --rotate 0,90,0" in folder.read("flat/best_1.vcad"), folder.read("flat/best_1.vcad"))
+
+
+def changed_files_are_noticed(folder):
+    """What a design includes and reads counts, and how it is turned: with another one the history is not gone on with."""
+    folder.write("part.scad", "size = 4;\n")
+    folder.write("shape.stl", TETRAHEDRON)
+    folder.write("whole.vcad", 'include <part.scad>\nx = 5;\necho(far = (x - 2) * (x - 2));\nmesh("shape.stl");\n')
+    folder.write("far.json", {**FRONT, "objectives": FRONT["objectives"][1:], "method": "cobyla", "evaluations": 8})
+    job = ["whole.vcad", "--study", "far.json", "-o", "whole"]
+    folder.run(*job)
+    folder.run(*job, "--resume")
+
+    def refused(name, *options):
+        before = folder.read("whole/history.csv")
+        reported = folder.run(*job, "--resume", *options, status=1).stderr
+        expect(f"of another study or design, since {name} differs" in reported, reported)
+        expect(folder.read("whole/history.csv") == before, "the history changed")
+
+    folder.write("part.scad", "size = 5;\n")
+    refused("part.scad")
+    folder.write("part.scad", "size = 4;\n")
+    folder.write("shape.stl", TETRAHEDRON.replace("3", "2"))
+    refused("shape.stl")
+    folder.write("shape.stl", TETRAHEDRON)
+    refused("--rotate", "--rotate", "0,0,90")
+    folder.run(*job, "--resume")
+
+
+def interrupted_topologies_leave_their_steps(folder):
+    folder.write("endless.json", {**MBB, "topology": {**MBB["topology"], "steps": 100000, "change": 1e-6}})
+    process = subprocess.Popen([folder.ombre, "optimise", STUDIES / "half_beam.vcad", "--study", "endless.json", "-o", "endless"],
+                               cwd=folder.path, env=program.environment(), text=True,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    history = folder.path / "endless/history.csv"
+    end = time.monotonic() + 60
+    while time.monotonic() < end and not (history.exists() and history.read_text().count("\n") > 3):
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+    expect(process.returncode == 130, f"status {process.returncode}")
+    rows = folder.table("endless/history.csv")
+    expect(len(rows) >= 3 and [row["step"] for row in rows] == [str(n + 1) for n in range(len(rows))], str(rows[:4]))
+    expect(float(rows[2]["compliance [N mm]"]) < float(rows[0]["compliance [N mm]"]), "the compliance does not fall")
+
+
 def ctrl_c_keeps_the_history(folder):
     folder.write("fine.json", {**LIGHT, "cell": 0.4})
     process = subprocess.Popen([folder.ombre, "optimise", "bars.vcad", "--study", "fine.json", "-o", "fine"],
@@ -335,7 +424,8 @@ def main():
             function(Folder(ombre, scratch))
 
     checks = [bars_are_as_light_as_hookes_law_lets_them, the_best_design_is_a_script, beams_follow_beam_theory,
-              fronts_are_found, whole_variables_are_whole, searches_go_on, ctrl_c_keeps_the_history,
+              fronts_are_found, whole_variables_are_whole, searches_go_on, designs_are_turned, changed_files_are_noticed,
+        interrupted_topologies_leave_their_steps, ctrl_c_keeps_the_history,
               wrong_studies_are_reported, designs_that_fail_are_left_out, topologies_are_as_stiff_as_published, projection_draws_densities_apart,
               displacements_are_goals_of_topologies,
               wrong_topologies_are_reported]

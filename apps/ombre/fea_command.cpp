@@ -15,6 +15,7 @@
 #include "fea/inp_writer.h"
 #include "fea/mesh_elastic.h"
 #include "fea/vtu_writer.h"
+#include "fea/walls.h"
 #include "formats/file.h"
 #include "ombre/commands.h"
 #include "ombre/fea_files.h"
@@ -97,11 +98,11 @@ void write_output(const FeaChoices& a, const std::string& path, const Case& here
   file.commit();
 }
 
-std::optional<compile::Plan> plan_bricks(const FeaChoices& a, const compile::LoadedPtr& loaded, Session& session,
-                                         Diagnostics& diagnostics) {
+std::optional<compile::BrickPlan> plan_bricks(const FeaChoices& a, const compile::LoadedPtr& loaded, Session& session,
+                                              Diagnostics& diagnostics) {
   const auto options = plan_options(a.sampling(), a.work, session, diagnostics);
   if (!options) return std::nullopt;
-  return compile::plan_slice(loaded, *options, diagnostics);
+  return compile::plan_model(loaded, *options, a.fill, diagnostics);
 }
 
 // The model of a study of this design; with a period it repeats.
@@ -158,6 +159,19 @@ std::optional<Case> case_of(std::optional<Model> model) {
   return Case{std::move(*model), {}};
 }
 
+// Tells where bricks are too large for the walls.
+void warn_of_thin_walls(const fea::ModelView& model, const fea::Study& study, Diagnostics& diagnostics) {
+  constexpr double many = 0.1;
+  if (!model.mesh.bricks()) return;
+  const double share = fea::share_of_thin_walls(*model.mesh.bricks());
+  if (share > many)
+    diagnostics.warning(
+        study.where,
+        format_rounded(100 * share, 2) + " % of the volume lies in walls fewer than " + format_number(fea::few_bricks) +
+            " bricks across, whose stresses and bending are rough",
+        "choose a smaller " + spelled::option("--cell") + ", or " + spelled::option("--elements", "tet10"));
+}
+
 // Elements that are too stiff for their material, and meshes that miss some of the part.
 void warn_of_mesh(const Case& here, const fea::Study& study, Diagnostics& diagnostics) {
   const fea::ModelView model = here.view();
@@ -169,6 +183,7 @@ void warn_of_mesh(const Case& here, const fea::Study& study, Diagnostics& diagno
                         "tet4 is far too stiff where poissons_ratio is above " +
                             format_number(fea::most_poissons_ratio_of_c3d4) + ", since its change of volume locks",
                         "use --elements tet10 or brick");
+  if (here.is_mechanics()) warn_of_thin_walls(model, study, diagnostics);
   if (!here.tetrahedra() || study.mean_strain) return;
   constexpr double most_off = 0.05;
   const double volume = model.mesh.total_volume_mm3(), wanted = here.tetrahedra()->surface_mm3;
@@ -240,6 +255,7 @@ compile::FeaResults solve_case(const FeaChoices& a, const Case& here, Session& s
     results.solution = fea::solve(*bricks, here.conditions, options, &progress, &session.stop);
   else
     results.solution = fea::solve_mesh(model, here.conditions, options, &progress, &session.stop);
+  if (results.solution) results.stresses = fea::stresses_of(model, *results.solution);
   progress.finish();
   tell_results(a, session.console, here, results, watch.seconds());
   if (results.solution) tell_mean_stress(session.console, here, *results.solution);

@@ -43,22 +43,41 @@ std::string solved_text(const compile::FeaChoices& a, size_t iterations, bool is
   return "solved " + way + format_rounded(seconds, 3) + " s";
 }
 
+// The greatest of some values, and which it is.
+struct Greatest {
+  size_t number = 0;
+  double value = 0;
+
+  explicit Greatest(const std::vector<double>& values)
+      : number(static_cast<size_t>(std::ranges::max_element(values) - values.begin())), value(values[number]) {}
+};
+
+std::vector<double> von_mises_of(const std::vector<std::array<double, 6>>& stresses) {
+  std::vector<double> values;
+  for (const auto& stress : stresses) values.push_back(fea::von_mises(stress));
+  return values;
+}
+
 void tell_solution(const compile::FeaChoices& a, const Console& console, const fea::MeshView& mesh,
-                   const fea::Solution& solution, double seconds) {
-  size_t far = 0, strong = 0;
+                   const fea::Solution& solution, const fea::Stresses& stresses, double seconds) {
+  size_t far = 0;
   for (size_t n = 0; n < solution.displacement_mm.size(); ++n)
     if (length(solution.displacement_mm[n]) > length(solution.displacement_mm[far])) far = n;
-  std::vector<double> mises;
-  for (const auto& stress : solution.stress_mpa) mises.push_back(fea::von_mises(stress));
-  strong = static_cast<size_t>(std::ranges::max_element(mises) - mises.begin());
+  const Greatest middle(von_mises_of(solution.stress_mpa)), points(stresses.greatest_at_points_mpa),
+      nodes(von_mises_of(stresses.at_nodes_mpa));
   Vec3 reaction;
   for (const fea::Prescribed& here : solution.reactions_n) reaction[here.axis] += here.value;
   const Vec3 u = solution.displacement_mm[far];
   console.say(solved_text(a, solution.iterations, solution.direct.has_value(), seconds));
   console.say("moves by at most " + format_rounded(length(u)) + " mm, " + format_point(u) + " at " +
               format_point(mesh.node(far)));
-  console.say("von Mises stress at most " + format_rounded(mises[strong]) + " MPa, at " +
-              format_point(mesh.centroid(strong)));
+  const auto stress_text = [](const Greatest& greatest, Vec3 place) {
+    return format_rounded(greatest.value) + " MPa, at " + format_point(place);
+  };
+  console.say("von Mises stress at most " + stress_text(middle, mesh.centroid(middle.number)) +
+              ", in the middle of an element");
+  console.say("  at an integration point at most " + stress_text(points, mesh.centroid(points.number)) +
+              "; at a node, averaged within a material, " + stress_text(nodes, mesh.node(nodes.number)));
   console.say("the supports hold with " + format_point(reaction, 5) + " N; strain energy " +
               format_rounded(solution.energy_mj, 5) + " mJ");
   console.event("solution", {{"iterations", static_cast<double>(solution.iterations)},
@@ -66,8 +85,12 @@ void tell_solution(const compile::FeaChoices& a, const Console& console, const f
                              {"seconds", seconds},
                              {"greatest_displacement_mm", triple(u)},
                              {"greatest_displacement_at_mm", triple(mesh.node(far))},
-                             {"greatest_von_mises_mpa", mises[strong]},
-                             {"greatest_von_mises_at_mm", triple(mesh.centroid(strong))},
+                             {"greatest_von_mises_mpa", middle.value},
+                             {"greatest_von_mises_at_mm", triple(mesh.centroid(middle.number))},
+                             {"greatest_von_mises_at_points_mpa", points.value},
+                             {"greatest_von_mises_at_points_at_mm", triple(mesh.centroid(points.number))},
+                             {"greatest_von_mises_at_nodes_mpa", nodes.value},
+                             {"greatest_von_mises_at_nodes_at_mm", triple(mesh.node(nodes.number))},
                              {"reaction_n", triple(reaction)},
                              {"strain_energy_mj", solution.energy_mj}});
 }
@@ -148,7 +171,7 @@ void tell_factorisation(const Console& console, const fea::DirectUse& use) {
 
 void tell_results(const compile::FeaChoices& a, const Console& console, const Case& here,
                   const compile::FeaResults& results, double seconds) {
-  if (results.solution) tell_solution(a, console, here.view().mesh, *results.solution, seconds);
+  if (results.solution) tell_solution(a, console, here.view().mesh, *results.solution, *results.stresses, seconds);
   if (results.conduction) tell_conduction(a, console, here, *results.conduction, seconds);
 }
 

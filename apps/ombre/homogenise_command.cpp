@@ -58,10 +58,11 @@ std::optional<fea::Model> make_model(const HomogeniseChoices& a, const fea::Stud
   sampling.rules.seed = a.seed;
   const auto options = plan_options(sampling, a.work, session, diagnostics);
   if (!options) return std::nullopt;
-  const auto plan = compile::plan_slice(sampled, *options, diagnostics);
+  const auto plan = compile::plan_model(sampled, *options, compile::FeaRequest::Fill::exact, diagnostics);
   if (!plan) return std::nullopt;
   compile::FeaRequest request;
   request.assign = a.assign;
+  request.fill = a.fill;
   request.threads = a.work.threads;
   ProgressLine progress(session.console);
   auto model = compile::fea_model(sampled, *plan, study, request, diagnostics, &progress, &session.stop);
@@ -84,8 +85,40 @@ std::string text_of(const std::array<double, 3>& values) {
   return format_rounded(values[0], 4) + ", " + format_rounded(values[1], 4) + ", " + format_rounded(values[2], 4);
 }
 
-void tell(const Console& console, const fea::Homogenised& found, double seconds) {
-  console.say(percent(found.solid_share) + " of the box is solid; solved in " + format_count(found.iterations) +
+// The share of the design's own volume beside that of the bricks.
+std::string share_text(double design_share, double brick_share) {
+  return percent(design_share) + " of the box is solid, " + percent(brick_share) + " by its bricks";
+}
+
+double design_share(const fea::Model& model) {
+  const fea::Bricks& bricks = model.bricks;
+  return model.design_mm3 / (bricks.volume_mm3() * bricks.period[0] * bricks.period[1] * bricks.period[2]);
+}
+
+// Young's moduli with bricks of twice the size, and what follows for bricks of none by Richardson's rule, where errors
+// go with the square of the size.
+struct Extrapolated {
+  std::array<double, 3> coarse{}, limit{}, error{};
+
+  Extrapolated(const std::array<double, 3>& fine, const std::array<double, 3>& twice) : coarse(twice) {
+    for (size_t n = 0; n < 3; ++n) {
+      limit[n] = fine[n] + (fine[n] - twice[n]) / 3;
+      error[n] = std::abs(fine[n] - twice[n]) / 3;
+    }
+  }
+};
+
+void tell_extrapolated(const Console& console, const Extrapolated& moduli, DataMembers& event) {
+  console.say("  with bricks of twice the size " + text_of(moduli.coarse) + " MPa; extrapolated " +
+              text_of(moduli.limit) + " MPa, within about " + text_of(moduli.error));
+  event.emplace_back("coarse_modulus_mpa", list_of(moduli.coarse));
+  event.emplace_back("extrapolated_modulus_mpa", list_of(moduli.limit));
+  event.emplace_back("modulus_error_mpa", list_of(moduli.error));
+}
+
+void tell(const Console& console, const fea::Homogenised& found, const std::optional<fea::Homogenised>& coarse,
+          double share, double seconds) {
+  console.say(share_text(share, found.solid_share) + "; solved in " + format_count(found.iterations) +
               " iterations and " + format_rounded(seconds, 3) + " s");
   console.say("stiffness, MPa (xx, yy, zz, xy, yz, zx):");
   // Values below a millionth of the greatest come from rounding, and are shown as 0.
@@ -102,13 +135,16 @@ void tell(const Console& console, const fea::Homogenised& found, double seconds)
   DataMembers event{{"stiffness_mpa", rows_of(found.stiffness_mpa)},
                     {"voigt_mpa", rows_of(found.voigt_mpa)},
                     {"reuss_mpa", rows_of(found.reuss_mpa)},
-                    {"solid_share", found.solid_share},
+                    {"solid_share", share},
+                    {"brick_share", found.solid_share},
                     {"iterations", static_cast<double>(found.iterations)},
                     {"seconds", seconds}};
   if (!constants) {
     console.say("it holds no load in some direction: what is solid does not hang together there");
   } else {
     console.say("Young's modulus along x, y, z: " + text_of(constants->modulus_mpa) + " MPa");
+    if (const auto twice = coarse ? fea::constants_of(coarse->stiffness_mpa) : std::nullopt)
+      tell_extrapolated(console, {constants->modulus_mpa, twice->modulus_mpa}, event);
     console.say("shear modulus xy, yz, zx: " + text_of(constants->shear_modulus_mpa) + " MPa");
     console.say("Poisson's ratio xy, yz, zx: " + text_of(constants->poissons_ratio));
     console.say("bulk modulus " + format_rounded(constants->bulk_modulus_mpa, 4) + " MPa; universal anisotropy " +
@@ -123,8 +159,9 @@ void tell(const Console& console, const fea::Homogenised& found, double seconds)
   console.event("homogenised", std::move(event));
 }
 
-void tell(const Console& console, const fea::HomogenisedConductivity& found, bool is_heat, double seconds) {
-  console.say(percent(found.solid_share) + " of the box is solid; solved in " + format_count(found.iterations) +
+void tell(const Console& console, const fea::HomogenisedConductivity& found, bool is_heat, double share,
+          double seconds) {
+  console.say(share_text(share, found.solid_share) + "; solved in " + format_count(found.iterations) +
               " iterations and " + format_rounded(seconds, 3) + " s");
   console.say(std::string("conductivity, ") + (is_heat ? "W/(m K)" : "S/m") + " (x, y, z):");
   DataList rows;
@@ -142,12 +179,32 @@ void tell(const Console& console, const fea::HomogenisedConductivity& found, boo
   console.event("homogenised", {{is_heat ? "conductivity_w_mk" : "conductivity_s_m", rows},
                                 {"arithmetic_mean", found.arithmetic_mean},
                                 {"harmonic_mean", found.harmonic_mean},
-                                {"solid_share", found.solid_share},
+                                {"solid_share", share},
+                                {"brick_share", found.solid_share},
                                 {"iterations", static_cast<double>(found.iterations)},
                                 {"seconds", seconds}});
 }
 
+// The variable that a share of solid is found by, and its bounds.
+struct Variable {
+  std::string name;
+  double low = 0, high = 0;
+};
+
+// NAME=LOW:HIGH.
+Variable variable_of(const HomogeniseChoices& a) {
+  const std::vector<std::string> sides = split(a.by, '='), bounds = split(sides.back(), ':');
+  const auto low = parse_number(bounds.front()), high = parse_number(bounds.back());
+  if (sides.size() != 2 || bounds.size() != 2 || !low || !high || !(*low < *high))
+    throw WrongArgument(spelled::option("--density") + " needs a variable of the design and its bounds: write " +
+                        spelled::option("--by", "thickness=0.2:2"));
+  return {std::string(trim(sides.front())), *low, *high};
+}
+
 void check_output(const HomogeniseChoices& a) {
+  if (a.density > 0) variable_of(a);
+  if (a.density == 0 && !a.by.empty())
+    throw WrongArgument(spelled::option("--by") + " is of a density: add " + spelled::option("--density", "0.25"));
   if (a.output.empty()) return;
   if (!to_lower(a.output).ends_with(".svg"))
     throw WrongArgument(spelled::option("-o", a.output) + " does not say a format; let it end in .svg");
@@ -163,13 +220,28 @@ void tell_size(const HomogeniseChoices& a, const Console& console, const fea::Br
   refuse_little_memory(bytes, a.work.memory_bytes, "choose larger bricks with " + spelled::option("--cell"));
 }
 
-void solve_stiffness(const HomogeniseChoices& a, const fea::Model& model, const fea::SolveOptions& options,
+// A model, and the physics of its study.
+struct HomogenisePlan {
+  fea::Model model;
+  std::optional<fea::Model> coarse;  // of bricks of twice the size, where that is the same design
+  fea::Physics physics = fea::Physics::mechanics;
+
+  bool is_mechanics() const { return physics == fea::Physics::mechanics; }
+  double solve_bytes() const {
+    return is_mechanics() ? fea::solve_bytes(model.bricks) : fea::conduct_bytes(model.bricks);
+  }
+};
+
+void solve_stiffness(const HomogeniseChoices& a, const HomogenisePlan& plan, const fea::SolveOptions& options,
                      Session& session, DataList& files) {
+  const fea::Model& model = plan.model;
   const Stopwatch watch;
   ProgressLine progress(session.console, Counted::steps);
   const fea::Homogenised found = fea::homogenise(model, options, &progress, &session.stop);
+  std::optional<fea::Homogenised> coarse;
+  if (plan.coarse) coarse = fea::homogenise(*plan.coarse, options, nullptr, &session.stop);
   progress.finish();
-  tell(session.console, found, watch.seconds());
+  tell(session.console, found, coarse, design_share(model), watch.seconds());
   if (a.output.empty()) return;
   exporting::write_file(a.output, fea::stiffness_chart(found.stiffness_mpa, a.design.design));
   session.console.say(a.output + " written");
@@ -181,27 +253,91 @@ void solve_conductivity(const fea::Model& model, const fea::SolveOptions& option
   ProgressLine progress(session.console, Counted::steps);
   const fea::HomogenisedConductivity found = fea::homogenise_conductivity(model, options, &progress, &session.stop);
   progress.finish();
-  tell(session.console, found, is_heat, watch.seconds());
+  tell(session.console, found, is_heat, design_share(model), watch.seconds());
 }
 
-// A model, and the physics of its study.
-struct HomogenisePlan {
-  fea::Model model;
-  fea::Physics physics = fea::Physics::mechanics;
+// How much of the box is solid with a value of the variable; a cell without bricks is empty.
+class Shares {
+ public:
+  Shares(const HomogeniseChoices& a, Variable variable, const fea::Study& study, Session& session,
+         Diagnostics& diagnostics)
+      : a_(a), variable_(std::move(variable)), study_(study), session_(session), diagnostics_(diagnostics) {}
 
-  bool is_mechanics() const { return physics == fea::Physics::mechanics; }
-  double solve_bytes() const {
-    return is_mechanics() ? fea::solve_bytes(model.bricks) : fea::conduct_bytes(model.bricks);
+  HomogeniseChoices with(double value) const {
+    HomogeniseChoices with = a_;
+    with.design.needed = {variable_.name};
+    with.design.definitions.push_back(variable_.name + "=" + format_number(value));
+    return with;
   }
+
+  std::optional<double> at(double value) {
+    Diagnostics found;
+    const auto model = make_model(with(value), study_, session_, found);
+    if (model) return design_share(*model);
+    for (const Diagnostic& diagnostic : found.list())
+      if (diagnostic.code == Code::nothing_inside) return 0;
+    diagnostics_.add_all(found);
+    return std::nullopt;
+  }
+
+ private:
+  const HomogeniseChoices& a_;
+  Variable variable_;
+  const fea::Study& study_;
+  Session& session_;
+  Diagnostics& diagnostics_;
 };
+
+// By halves, since the share of samples goes by small leaps.
+std::optional<HomogeniseChoices> with_density(const HomogeniseChoices& a, const fea::Study& study, Session& session,
+                                              Diagnostics& diagnostics) {
+  constexpr int most_halves = 30;
+  constexpr double close = 1e-3;
+  const Variable variable = variable_of(a);
+  Shares shares(a, variable, study, session, diagnostics);
+  double low = variable.low, high = variable.high;
+  const auto at_low = shares.at(low), at_high = at_low ? shares.at(high) : std::nullopt;
+  if (!at_high) return std::nullopt;
+  if ((*at_low - a.density) * (*at_high - a.density) > 0) {
+    diagnostics.error(Code::option, {make_source(a.design.design, ""), 0, 0},
+                      percent(*at_low) + " of the box is solid with " + variable.name + " = " + format_number(low) +
+                          ", " + percent(*at_high) + " with " + format_number(high) + ": never " + percent(a.density),
+                      "choose other bounds in " + spelled::option("--by"));
+    return std::nullopt;
+  }
+  double value = low, share = *at_low;
+  for (int n = 0; n < most_halves && std::abs(share - a.density) > close * a.density; ++n) {
+    value = 0.5 * (low + high);
+    const auto here = shares.at(value);
+    if (!here) return std::nullopt;
+    share = *here;
+    ((share < a.density) == (*at_low < a.density) ? low : high) = value;
+  }
+  session.console.say(variable.name + " = " + format_rounded(value, 6) + ": " + percent(share) +
+                      " of the box is solid");
+  session.console.event("density", {{"variable", variable.name}, {"value", value}, {"solid_share", share}});
+  return shares.with(value);
+}
 
 std::optional<HomogenisePlan> plan_job(const HomogeniseChoices& a, Session& session, Diagnostics& diagnostics) {
   const auto study = study_of(a, diagnostics);
   if (!study) return std::nullopt;
   if (study->physics != fea::Physics::mechanics && !a.output.empty())
     throw WrongArgument("-o is a chart of stiffness: conductivities have none");
-  auto model = make_model(a, *study, session, diagnostics);
-  return model ? std::optional(HomogenisePlan{std::move(*model), study->physics}) : std::nullopt;
+  std::optional<HomogeniseChoices> chosen = a;
+  if (a.density > 0) chosen = with_density(a, *study, session, diagnostics);
+  if (!chosen) return std::nullopt;
+  auto model = make_model(*chosen, *study, session, diagnostics);
+  if (!model) return std::nullopt;
+  HomogenisePlan plan{std::move(*model), std::nullopt, study->physics};
+  // Another draw of a mixture is another design.
+  const bool is_drawn = a.assign == compile::FeaRequest::Assign::draw && plan.model.sections.size() > 1;
+  if (!plan.is_mechanics() || is_drawn) return plan;
+  chosen->cell_mm *= 2;
+  Diagnostics ignored;  // a cell of few bricks has no coarser ones
+  plan.coarse = make_model(*chosen, *study, session, ignored);
+  if (plan.coarse && plan.coarse->bricks.period[0] * 2 != plan.model.bricks.period[0]) plan.coarse.reset();
+  return plan;
 }
 
 int solve(const HomogeniseChoices& a, const HomogenisePlan& plan, Session& session) {
@@ -212,7 +348,7 @@ int solve(const HomogeniseChoices& a, const HomogenisePlan& plan, Session& sessi
   options.memory_bytes = static_cast<double>(a.work.memory_bytes) - plan.solve_bytes();
   DataList files;
   if (plan.is_mechanics())
-    solve_stiffness(a, plan.model, options, session, files);
+    solve_stiffness(a, plan, options, session, files);
   else
     solve_conductivity(plan.model, options, plan.physics == fea::Physics::heat, session);
   session.console.event("done", {{"files", files}});

@@ -9,8 +9,10 @@
 #include "base/json.h"
 #include "base/tasks.h"
 #include "base/text.h"
+#include "compile/files_read.h"
 #include "compile/optimise_choices.h"
 #include "compile/optimise_job.h"
+#include "compile/turned.h"
 #include "export/output_file.h"
 #include "formats/file.h"
 #include "ombre/commands.h"
@@ -60,21 +62,69 @@ struct Folder {
   std::string key() const { return file("study.key"); }
 };
 
-// A text that is equal for two searches if they find the same, whatever number of designs each may measure.
-std::string key_of(const OptimiseChoices& a, const Data& study) {
-  DataMembers members;
-  for (const auto& [name, value] : *study.members())
-    if (name != "evaluations") members.emplace_back(name, value);
-  std::string text = print_json_line(Data(members)) + '\n' + formats::read_file(a.design.design);
-  if (const Data* fea = study.find("fea"); fea && fea->string())
-    text += '\n' + formats::read_file((fs::path(a.study).parent_path() / *fea->string()).string());
-  if (!a.design.materials.empty()) text += '\n' + formats::read_file(a.design.materials);
-  for (const std::string& definition : a.design.definitions) text += "\n-D " + definition;
-  return hash_bytes(text).hex() + "\n";
-}
+// What a search depends on, a line for each part: its name and the hash of its content. Equal for two searches that
+// find the same, whatever number of designs each may measure.
+class SearchKey {
+ public:
+  SearchKey(const OptimiseChoices& a, const Data& data, const OptimiseStudy& study) {
+    DataMembers members;
+    for (const auto& [name, value] : *data.members())
+      if (name != "evaluations") members.emplace_back(name, value);
+    add("the study", print_json_line(Data(members)));
+    if (const Data* fea = data.find("fea"); fea && fea->string())
+      add(*fea->string(), formats::read_file((fs::path(a.study).parent_path() / *fea->string()).string()));
+    std::string definitions;
+    for (const std::string& definition : a.design.definitions) definitions += definition + "\n";
+    add(spelled::option("-D").text(), definitions);
+    const Vec3 turn = a.design.rotate.value_or(Vec3{});
+    add(spelled::option("--rotate").text(),
+        format_number(turn.x) + "," + format_number(turn.y) + "," + format_number(turn.z));
+    add_files(a, study);
+  }
+
+  std::string text() const { return join(lines_, "\n") + "\n"; }
+
+  // The parts in which an earlier search differs, by name.
+  std::vector<std::string> differences(const std::string& earlier) const {
+    std::vector<std::string> before = split(earlier, '\n'), names;
+    const auto missing_in = [&](const std::vector<std::string>& lines, const std::vector<std::string>& others) {
+      for (const std::string& line : lines) {
+        const std::string name = line.substr(0, line.rfind(' '));
+        if (!line.empty() && std::ranges::find(others, line) == others.end() &&
+            std::ranges::find(names, name) == names.end())
+          names.push_back(name);
+      }
+    };
+    missing_in(lines_, before);
+    missing_in(before, lines_);
+    return names;
+  }
+
+ private:
+  void add(const std::string& name, const std::string& content) {
+    lines_.push_back(name + " " + hash_bytes(content).hex());
+  }
+
+  // The files that the first design reads.
+  void add_files(const OptimiseChoices& a, const OptimiseStudy& study) {
+    std::vector<double> start;
+    for (const compile::DesignVariable& variable : study.variables) start.push_back(variable.start);
+    compile::LoadOptions options{a.design.materials, a.design.definitions};
+    for (std::string& definition : compile::definitions_of(study, start))
+      options.definitions.push_back(std::move(definition));
+    Diagnostics ignored;  // measuring the first design reports them
+    const auto files = compile::files_read(a.design.design, options, ignored);
+    const fs::path folder = compile::whole_path(a.design.design).parent_path();
+    if (!files) return add(a.design.design, formats::read_file(a.design.design));
+    for (const fs::path& file : *files)
+      add(fs::proximate(file, folder).generic_string(), formats::read_file(file.string()));
+  }
+
+  std::vector<std::string> lines_;
+};
 
 // Makes the folder ready. The history of it counts when it is resumed.
-bool open_folder(const OptimiseChoices& a, const Folder& folder, const std::string& key, History& history,
+bool open_folder(const OptimiseChoices& a, const Folder& folder, const SearchKey& key, History& history,
                  Diagnostics& diagnostics) {
   std::error_code problem;
   fs::create_directories(folder.path, problem);
@@ -87,16 +137,17 @@ bool open_folder(const OptimiseChoices& a, const Folder& folder, const std::stri
   if (!has_history && a.resume)
     throw WrongArgument("there is no " + folder.history() + " to go on with; leave out " + spelled::option("--resume"));
   if (a.resume) {
-    if (!fs::exists(folder.key()) || formats::read_file(folder.key()) != key)
-      throw WrongArgument("the history in " + folder.path.string() +
-                          " is of another study, design or materials; choose another -o, or " +
-                          spelled::option("--force") + " to begin again");
+    const auto changed = key.differences(fs::exists(folder.key()) ? formats::read_file(folder.key()) : "");
+    if (!changed.empty())
+      throw WrongArgument("the history in " + folder.path.string() + " is of another study or design, since " +
+                          join(changed, ", ") + (changed.size() == 1 ? " differs" : " differ") + "; choose another " +
+                          spelled::option("-o") + ", or " + spelled::option("--force") + " to begin again");
     if (!history.read(folder.history(), formats::read_file(folder.history()), diagnostics)) return false;
   }
   std::string text = history.header();
   for (size_t row = 0; row < history.rows().size(); ++row) text += history.line(row);
   exporting::write_file(folder.history(), text);
-  exporting::write_file(folder.key(), key);
+  exporting::write_file(folder.key(), key.text());
   return true;
 }
 
@@ -180,11 +231,20 @@ std::string measures_text(const OptimiseStudy& study, const History::Row& row) {
   return join(parts, ", ");
 }
 
+// Measures of a turned design are those of the script with the same option.
+std::string turn_text(const OptimiseChoices& a) {
+  if (!a.design.rotate) return "";
+  const Vec3 turn = *a.design.rotate;
+  return "; with " +
+         spelled::option("--rotate", format_number(turn.x) + "," + format_number(turn.y) + "," + format_number(turn.z))
+             .text();
+}
+
 // A script that is the design with other values: the last value of a variable counts.
 std::string script_of(const OptimiseChoices& a, const OptimiseStudy& study, const Folder& folder,
                       const History::Row& row) {
   const fs::path design = fs::proximate(fs::absolute(a.design.design), fs::absolute(folder.path));
-  std::string text = "// " + measures_text(study, row) + "\ninclude <" + design.generic_string() + ">\n";
+  std::string text = "// " + measures_text(study, row) + turn_text(a) + "\ninclude <" + design.generic_string() + ">\n";
   for (size_t n = 0; n < row.values.size(); ++n)
     text += study.variables[n].name + " = " + format_number(row.values[n]) + ";\n";
   return text;
@@ -323,14 +383,15 @@ int optimise_variables(const OptimiseChoices& a, const OptimiseStudy& study, con
   const Folder folder{a.folder};
   History history(study);
   const bool is_open =
-      plan && !diagnostics.has_errors() && open_folder(a, folder, key_of(a, data), history, diagnostics);
+      plan && !diagnostics.has_errors() && open_folder(a, folder, SearchKey(a, data, study), history, diagnostics);
   session.console.diagnose(diagnostics);
   if (!is_open) return wrong_input;
 
   compile::LoadOptions options{a.design.materials, a.design.definitions};
   options.cache = &session.cache;
   const auto load = [&](const compile::LoadOptions& with, Diagnostics& found) {
-    return session.load(a.design.design, with, found);
+    const compile::LoadedPtr loaded = session.load(a.design.design, with, found);
+    return loaded ? compile::turned(loaded, a.design.rotate.value_or(Vec3{}), found) : nullptr;
   };
   const compile::DesignMeter meter(study, load, options, *plan);
   Evaluator evaluator(a, study, meter, history, folder, session);

@@ -88,15 +88,27 @@ void write_density(const std::string& path, const fea::Bricks& bricks, const std
   file.commit();
 }
 
-std::string history_of(const optimise::Topology& topology, bool has_goal) {
-  std::string text = "step,compliance [N mm],volume fraction,change,greyness";
-  text += has_goal ? ",displacement [mm]\n" : "\n";
-  for (const optimise::TopologyStep& step : topology.steps)
-    text += std::to_string(step.number) + "," + format_number(step.compliance) + "," +
-            format_number(step.volume_fraction) + "," + format_number(step.change) + "," +
-            format_rounded(step.greyness, 6) + (has_goal ? "," + format_number(step.displacement) : "") + "\n";
-  return text;
-}
+// A table of the steps, a line of which is written as soon as its step is done.
+class StepTable {
+ public:
+  StepTable(const std::string& path, bool has_goal) : has_goal_(has_goal), file_(begun(path, has_goal)) {}
+
+  void add(const optimise::TopologyStep& step) {
+    file_.append(std::to_string(step.number) + "," + format_number(step.compliance) + "," +
+                 format_number(step.volume_fraction) + "," + format_number(step.change) + "," +
+                 format_rounded(step.greyness, 6) + (has_goal_ ? "," + format_number(step.displacement) : "") + "\n");
+  }
+
+ private:
+  static std::string begun(const std::string& path, bool has_goal) {
+    const std::string titles = "step,compliance [N mm],volume fraction,change,greyness";
+    exporting::write_file(path, titles + (has_goal ? ",displacement [mm]\n" : "\n"));
+    return path;
+  }
+
+  bool has_goal_;
+  exporting::AppendFile file_;
+};
 
 std::string chart_of(const optimise::Topology& topology, bool has_goal) {
   optimise::Chart chart;
@@ -150,7 +162,11 @@ optimise::Topology search(const OptimiseChoices& a, const TopologyCase& made, Se
   const Vec3 size = made.model.bricks.size_mm;
   if (!(options.radius_mm > 0)) options.radius_mm = 1.5 * std::max({size.x, size.y, size.z});
   ProgressLine progress(session.console, Counted::steps);
-  const auto report = [&](const optimise::TopologyStep& step) { progress.update({step.number, options.steps}); };
+  StepTable history(files_of(a)[2], made.goal.has_value());
+  const auto report = [&](const optimise::TopologyStep& step) {
+    history.add(step);
+    progress.update({step.number, options.steps});
+  };
   optimise::Topology topology = optimise::find_topology(made.model, made.conditions, options, report, &session.stop);
   progress.finish();
   return topology;
@@ -182,7 +198,6 @@ int find_and_write(const OptimiseChoices& a, const TopologyCase& made, Session& 
   const std::vector<std::string> files = files_of(a);
   write_density(files[0], made.model.bricks, topology.density);
   exporting::write_file(files[1], script_of(a));
-  exporting::write_file(files[2], history_of(topology, made.goal.has_value()));
   exporting::write_file(files[3], chart_of(topology, made.goal.has_value()));
   tell(made, topology, files, session.console);
   return done;

@@ -10,6 +10,7 @@
 #include "base/temporary_folder.h"
 #include "base/text.h"
 #include "compile/data_folder.h"
+#include "compile/files_read.h"
 #include "compile/load.h"
 #include "export/output_file.h"
 #include "formats/file.h"
@@ -40,9 +41,6 @@ bool is_of_ombre(const fs::path& file) {
 
 bool is_of_system(const fs::path& file) { return is_within(file, "/usr") || is_of_ombre(file); }
 
-// A file's whole path, without links in its folders: a link to a file stays where the design sees it.
-fs::path whole_path(const fs::path& file) { return fs::canonical(fs::absolute(file).parent_path()) / file.filename(); }
-
 // A path in the bundle that leads nowhere else, on any system.
 bool is_sound(const std::string& name) {
   constexpr size_t longest = 1000;
@@ -51,18 +49,6 @@ bool is_sound(const std::string& name) {
     if (static_cast<unsigned char>(c) < ' ' || c == '\\' || c == ':') return false;
   return std::ranges::none_of(split(name, '/'),
                               [](const std::string& part) { return part.empty() || part == "." || part == ".."; });
-}
-
-// The files that loading a design reads.
-std::optional<std::set<fs::path>> files_read(const std::string& path, const LoadOptions& options,
-                                             Diagnostics& diagnostics) {
-  sources::SourceCache cache;
-  LoadOptions own = options;
-  own.cache = &cache;
-  if (!load_design(path, own, diagnostics)) return std::nullopt;
-  std::set<fs::path> files;
-  for (const std::string& file : cache.files().paths()) files.insert(whole_path(file));
-  return files;
 }
 
 std::string note_of(const std::string& design, const std::string& materials) {

@@ -48,6 +48,8 @@ void check_bricks(const FeaChoices& a) {
 }
 
 void check_tetrahedra(const FeaChoices& a) {
+  if (a.fill != FeaRequest::Fill::exact)
+    throw WrongValue(option("--fill") + " is of bricks; tetrahedra reach up to the surface");
   if (a.cell) throw WrongValue(option("--cell") + " is of bricks; write " + option("--size", "1.5"));
   if (a.solver == "multigrid" || a.solver == "direct")
     throw WrongValue(option("--solver", a.solver) + " is of bricks; leave it out");
@@ -73,7 +75,7 @@ SizeRequest FeaChoices::size() const {
 }
 
 FeaRequest FeaChoices::request() const {
-  return {assign, if_named(modulus), if_named(conductivity), static_cast<size_t>(sections), work.threads};
+  return {assign, fill, if_named(modulus), if_named(conductivity), static_cast<size_t>(sections), work.threads};
 }
 
 SamplingOptions FeaChoices::sampling() const {

@@ -19,6 +19,7 @@ struct FeaChoices {
   std::string study;
   Elements elements = Elements::brick;
   std::optional<options::Pitches> cell;
+  FeaRequest::Fill fill = FeaRequest::Fill::exact;
   double size_mm = 0, least_mm = 0, most_mm = 0;  // 0: not chosen
   std::string size_by, subdomains;
   std::vector<std::string> outputs;
@@ -44,10 +45,14 @@ struct FeaChoices {
         option("--study", &F::study, kind::file, "The study: properties, supports and loads; a .json file", "FILE")
             .required(),
         choice("--elements", &F::elements, {"brick", "tet4", "tet10"},
-               "brick (default: voxels whose centre is inside), or up to the surface tet4 or tet10: tetrahedra with\n"
+               "brick (default), or up to the surface tet4 or tet10: tetrahedra with\n"
                "linear or quadratic displacements",
                "KIND"),
         option("--cell", &F::cell, kind::voxel, "Size of bricks: one length, or x,y,z; mm", "X,Y,Z"),
+        choice("--fill", &F::fill, {"exact", "centre"},
+               "exact (default): a brick is stiff and heavy by what of it is inside; centre: whole if its centre is "
+               "inside",
+               "RULE"),
         option("--size", &F::size_mm, kind::number, "About the length of edges of tetrahedra; mm", "MM")
             .between(1e-6, 1e6),
         option("--size-by", &F::size_by, kind::text,

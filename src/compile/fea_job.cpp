@@ -5,8 +5,10 @@
 #include <map>
 
 #include "base/text.h"
+#include "compile/brick_fills.h"
 #include "compile/grid_job.h"
 #include "compile/question.h"
+#include "compile/sampler.h"
 #include "compile/unusable_mixtures.h"
 
 namespace ombre::compile {
@@ -35,10 +37,11 @@ std::vector<float> numbers_of(const GridSlab& slab, size_t grid) {
 
 class ModelMaker {
  public:
-  ModelMaker(const LoadedPtr& loaded, const Plan& plan, const fea::Study& study, const FeaRequest& request,
+  ModelMaker(const LoadedPtr& loaded, const BrickPlan& plan, const fea::Study& study, const FeaRequest& request,
              Diagnostics& diagnostics, Progress* progress, const StopFlag* stop)
       : loaded_(loaded),
-        plan_(plan),
+        plan_(plan.bricks),
+        parts_(plan.parts),
         study_(study),
         request_(request),
         diagnostics_(diagnostics),
@@ -48,13 +51,17 @@ class ModelMaker {
   std::optional<fea::Model> make() {
     for (const int64_t count : plan_.request.lattice.count)
       if (count > most_along_axis) return fail("there are more than 2^30 bricks along an axis", "choose larger bricks");
-    if (!find_cells()) return std::nullopt;
+    if (!find_cells() || (parts_ && !find_fills())) return std::nullopt;
     if (cells_.empty())
-      return fail("no brick's centre is inside the design", "choose smaller bricks with " + spelled::option("--cell"));
+      return fail(request_.fill == FeaRequest::Fill::exact ? "no brick is inside the design by enough"
+                                                           : "no brick's centre is inside the design",
+                  "choose smaller bricks with " + spelled::option("--cell"));
     fea::Model model;
     const voxel::Lattice& lattice = plan_.request.lattice;
     model.bricks = fea::make_bricks(lattice.origin, lattice.voxel_mm(), std::move(cells_), {}, stop_);
-    if (!find_fields(model) || !has_numbers(model.bricks)) return std::nullopt;
+    model.bricks.fills = std::move(fills_);
+    model.design_mm3 = filled_count_ * model.bricks.volume_mm3();
+    if (!find_fields(model) || !mend_fields(model) || !has_numbers(model.bricks)) return std::nullopt;
     auto sections = make_sections(*loaded_, study_, request_, {model.bricks.count(), drawn_, fractions_, &model.fields},
                                   diagnostics_);
     if (!sections) return std::nullopt;
@@ -92,6 +99,62 @@ class ModelMaker {
     return true;
   }
 
+  // Takes the bricks that are filled in place of those whose centre is inside, and finds materials for the others.
+  bool find_fills() {
+    auto filled = fill_bricks(design_here(), loaded_, *parts_, request_.threads, diagnostics_, stop_);
+    if (!filled) return false;
+    filled_count_ = filled->filled_count;
+    if (request_.fill == FeaRequest::Fill::centre) return true;
+    std::vector<MaterialId> drawn;
+    size_t next = 0;
+    for (const FilledBrick& brick : filled->bricks) {
+      while (next < cells_.size() && fea::is_before(cells_[next], brick.cell)) ++next;
+      const bool has_centre = next < cells_.size() && cells_[next] == brick.cell;
+      drawn.push_back(has_centre ? drawn_[next] : brick.drawn);
+      fills_.push_back(brick.fill);
+      if (!has_centre) without_centre_.push_back({drawn.size() - 1, brick.place});
+    }
+    cells_.clear();
+    for (const FilledBrick& brick : filled->bricks) cells_.push_back(brick.cell);
+    drawn_ = std::move(drawn);
+    return true;
+  }
+
+  design::Design design_here() const {
+    const voxel::Lattice& lattice = plan_.request.lattice;
+    design::Design design = design::for_lattice(loaded_->design, {lattice.origin, lattice.pitch});
+    design.stages = plan_.stages;
+    return design;
+  }
+
+  // Values of bricks whose centre is outside, where there is nothing, are those of a place inside.
+  bool mend_fields(fea::Model& model) {
+    if (without_centre_.empty()) return true;
+    SampleQuery query;
+    query.fractions = true;
+    for (size_t f = fractions_.size(); f < model.fields.size(); ++f) query.attributes.push_back(model.fields[f].name);
+    const auto sampler = Sampler::build(design_here(), query, diagnostics_);
+    if (!sampler) return false;
+    std::vector<Vec3> places;
+    for (const auto& [brick, place] : without_centre_) places.push_back(place);
+    std::vector<std::vector<double>> values(sampler->columns().size(), std::vector<double>(places.size()));
+    std::vector<double*> columns;
+    for (auto& column : values) columns.push_back(column.data());
+    sampler->sample(places, columns, request_.threads, stop_);
+    for (size_t f = 0; f < model.fields.size(); ++f)
+      for (size_t c = 0; c < values.size(); ++c)
+        if (is_of(sampler->columns()[c], model.fields[f], f))
+          for (size_t n = 0; n < places.size(); ++n)
+            model.fields[f].values[without_centre_[n].first] = static_cast<float>(values[c][n]);
+    return true;
+  }
+
+  bool is_of(const Sampler::Column& column, const fea::ValueField& field, size_t number) const {
+    if (number < fractions_.size())
+      return column.kind == Sampler::Column::Kind::fraction && column.material == fractions_[number];
+    return column.kind == Sampler::Column::Kind::attribute && column.name == field.name;
+  }
+
   bool find_fields(fea::Model& model) {
     GridQuery query;
     query.fractions = true;
@@ -122,25 +185,26 @@ class ModelMaker {
   }
 
   bool has_numbers(const fea::Bricks& bricks) {
-    const voxel::Lattice& lattice = plan_.request.lattice;
-    design::Design design = design::for_lattice(loaded_->design, {lattice.origin, lattice.pitch});
-    design.stages = plan_.stages;
-    const fea::MeshView view(bricks);
     std::vector<Vec3> middles;
-    for (size_t n = 0; n < view.count(); ++n) middles.push_back(view.centroid(n));
-    return check_mixtures(design, {middles, drawn_}, request_.threads, stop_, diagnostics_);
+    for (size_t n = 0; n < bricks.count(); ++n) middles.push_back(bricks.centroid(n));
+    for (const auto& [brick, place] : without_centre_) middles[brick] = place;
+    return check_mixtures(design_here(), {middles, drawn_}, request_.threads, stop_, diagnostics_);
   }
 
   const LoadedPtr& loaded_;
   const Plan& plan_;
+  const std::optional<Plan>& parts_;
   const fea::Study& study_;
   const FeaRequest& request_;
   Diagnostics& diagnostics_;
   Progress* progress_;
   const StopFlag* stop_;
   std::vector<fea::Cell> cells_;
-  std::vector<MaterialId> drawn_;      // of each cell
-  std::vector<MaterialId> fractions_;  // whose fields come first
+  double filled_count_ = 0;                              // full bricks that have the volume of what is inside
+  std::vector<fea::Fill> fills_;                         // of each cell, where parts are looked at
+  std::vector<MaterialId> drawn_;                        // of each cell
+  std::vector<std::pair<size_t, Vec3>> without_centre_;  // cells whose centre is outside, and places inside
+  std::vector<MaterialId> fractions_;                    // whose fields come first
 };
 
 fea::ValueField tensors(const std::string& name, const std::string& unit,
@@ -148,6 +212,12 @@ fea::ValueField tensors(const std::string& name, const std::string& unit,
   fea::ValueField field{name, unit, 6, {}};
   for (const auto& tensor : values)
     for (const double value : tensor) field.values.push_back(static_cast<float>(value));
+  return field;
+}
+
+fea::ValueField von_mises_field(const std::string& name, const std::vector<std::array<double, 6>>& stresses) {
+  fea::ValueField field{name, "MPa", 1, {}};
+  for (const auto& stress : stresses) field.values.push_back(static_cast<float>(fea::von_mises(stress)));
   return field;
 }
 
@@ -191,7 +261,17 @@ std::vector<fea::ValueField> with_vectors(const std::vector<fea::ValueField>& fi
 
 }  // namespace
 
-std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const Plan& plan, const fea::Study& study,
+std::optional<BrickPlan> plan_model(const LoadedPtr& loaded, const PlanOptions& options, FeaRequest::Fill fill,
+                                    Diagnostics& diagnostics) {
+  auto bricks = plan_slice(loaded, options, diagnostics);
+  if (!bricks) return std::nullopt;
+  if (fill == FeaRequest::Fill::centre) return BrickPlan{std::move(*bricks), std::nullopt};
+  auto parts = plan_parts(loaded, options, bricks->request.lattice, diagnostics);
+  if (!parts) return std::nullopt;
+  return BrickPlan{std::move(*bricks), std::move(parts)};
+}
+
+std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const BrickPlan& plan, const fea::Study& study,
                                     const FeaRequest& request, Diagnostics& diagnostics, Progress* progress,
                                     const StopFlag* stop) {
   return ModelMaker(loaded, plan, study, request, diagnostics, progress, stop).make();
@@ -218,11 +298,14 @@ std::vector<fea::ValueField> fea_element_fields(const fea::ModelView& model, fea
   fields.push_back(std::move(section));
   fields.push_back(std::move(property));
   if (const auto& solution = results.solution) {
-    fea::ValueField mises{"von Mises stress", "MPa", 1, {}};
-    for (const auto& stress : solution->stress_mpa) mises.values.push_back(static_cast<float>(fea::von_mises(stress)));
-    fields.push_back(std::move(mises));
+    fields.push_back(von_mises_field("von Mises stress", solution->stress_mpa));
     fields.push_back(tensors("stress", "MPa", solution->stress_mpa));
     fields.push_back(tensors("strain", "", solution->strain));
+  }
+  if (const auto& stresses = results.stresses) {
+    fea::ValueField greatest{"greatest von Mises stress at integration points", "MPa", 1, {}};
+    for (const double value : stresses->greatest_at_points_mpa) greatest.values.push_back(static_cast<float>(value));
+    fields.push_back(std::move(greatest));
   }
   if (const auto& conduction = results.conduction)
     fields.push_back(physics == fea::Physics::heat ? vectors("heat flux", "W/mm2", conduction->flux)
@@ -231,7 +314,13 @@ std::vector<fea::ValueField> fea_element_fields(const fea::ModelView& model, fea
 }
 
 std::vector<fea::ValueField> fea_node_fields(fea::Physics physics, const FeaResults& results) {
-  if (const auto& solution = results.solution) return {vectors("displacement", "mm", solution->displacement_mm)};
+  if (const auto& solution = results.solution) {
+    std::vector<fea::ValueField> fields{vectors("displacement", "mm", solution->displacement_mm)};
+    if (!results.stresses) return fields;
+    fields.push_back(von_mises_field("nodal von Mises stress", results.stresses->at_nodes_mpa));
+    fields.push_back(tensors("nodal stress", "MPa", results.stresses->at_nodes_mpa));
+    return fields;
+  }
   if (!results.conduction) return {};
   const bool is_heat = physics == fea::Physics::heat;
   fea::ValueField field{is_heat ? "temperature" : "potential", is_heat ? "C" : "V", 1, {}};

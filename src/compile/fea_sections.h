@@ -16,7 +16,12 @@ struct FeaRequest {
     draw,  // of each element's mixture one material, with the odds of its fractions, by the plan's dither and seed
     mix,   // mean properties, by the fractions (Voigt)
   };
+  enum class Fill : uint8_t {
+    exact,   // bricks are stiff and heavy by what is inside of them
+    centre,  // bricks are whole where their centre is inside
+  };
   Assign assign = Assign::draw;
+  Fill fill = Fill::exact;
   std::optional<std::string> modulus;       // an attribute that is Young's modulus in MPa; else that of the materials
   std::optional<std::string> conductivity;  // the same of conduction, W/(m K) or S/m
   size_t most_sections = 64;                // elements of mean properties are gathered into so many

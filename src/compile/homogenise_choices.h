@@ -14,7 +14,10 @@ struct HomogeniseChoices {
   double cell_mm = 0;
   std::optional<Box> box;
   std::string study;
+  double density = 0;  // 0: not chosen
+  std::string by;
   FeaRequest::Assign assign = FeaRequest::Assign::draw;
+  FeaRequest::Fill fill = FeaRequest::Fill::exact;
   uint64_t seed = 0;
   std::string output;
   double tolerance = 1e-6;
@@ -32,9 +35,17 @@ struct HomogeniseChoices {
         option("--box", &H::box, kind::box, "The box that repeats, mm (default: that of the design)",
                "X0,Y0,Z0,X1,Y1,Z1"),
         option("--study", &H::study, kind::file, "Properties of materials; a .json file", "FILE"),
+        option("--density", &H::density, kind::number,
+               "Which share of the box is to be solid: a variable of the design is found for it", "X")
+            .between(1e-6, 1),
+        option("--by", &H::by, kind::text, "Of --density: the variable, and between which values it is searched",
+               "NAME=LOW:HIGH"),
         choice("--assign", &H::assign, {"draw", "mix"},
                "What a brick of a mixture is made of: draw (default: one material, by the odds of its fractions) or\n"
                "mix (mean properties)",
+               "RULE"),
+        choice("--fill", &H::fill, {"exact", "centre"},
+               "exact (default): a brick is stiff by what of it is inside; centre: whole if its centre is inside",
                "RULE"),
         option("--seed", &H::seed, kind::seed, "Seed of draw (default 0)", "N"),
         option("-o,--output", &H::output, kind::file, "A chart of Young's modulus by direction, .svg", "FILE"),

@@ -58,7 +58,9 @@ LoadedPtr sampled_by(const LoadedPtr& loaded, const PeriodicBox& box) {
 
 fea::Model repeating(fea::Model model, const PeriodicBox& box, const StopFlag* stop) {
   fea::Bricks& bricks = model.bricks;
+  std::vector<fea::Fill> fills = std::move(bricks.fills);
   bricks = fea::make_bricks(bricks.origin, bricks.size_mm, std::move(bricks.cells), box.count, stop);
+  bricks.fills = std::move(fills);
   return model;
 }
 

@@ -69,6 +69,7 @@ std::optional<ModelChoice> read_model_choice(StudyMembers& members, Diagnostics&
     read_brick_count(*bricks, choice, members);
   // Draws change by leaps where a design changes little, and mean properties do not.
   if (members.choice("assign", "mix", {"draw", "mix"}) == "mix") choice.request.assign = FeaRequest::Assign::mix;
+  if (members.choice("fill", "exact", {"exact", "centre"}) == "centre") choice.request.fill = FeaRequest::Fill::centre;
   if (members.has("modulus")) choice.request.modulus = members.text("modulus", std::nullopt);
   choice.request.most_sections = static_cast<size_t>(members.number("sections", 1000, 1, 60'000));
   auto study = read_fea(*fea, diagnostics);

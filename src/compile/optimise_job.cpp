@@ -40,7 +40,7 @@ struct Solved {
 
 double mass_of(const fea::Model& model) {
   double sum = 0;
-  for (size_t n = 0; n < model.bricks.count(); ++n) sum += model.elastic(n).density_t_mm3;
+  for (size_t n = 0; n < model.bricks.count(); ++n) sum += model.bricks.share(n) * model.elastic(n).density_t_mm3;
   return sum * model.bricks.volume_mm3() * gram_per_tonne;
 }
 
@@ -54,8 +54,9 @@ double share_of(const fea::Model& model, const std::string& material) {
   for (const fea::ValueField& field : model.fields) {
     if (to_lower(field.name) != "fraction of " + to_lower(material)) continue;
     double sum = 0;
-    for (const float share : field.values) sum += share;
-    return sum / static_cast<double>(model.bricks.count());
+    for (size_t n = 0; n < model.bricks.count(); ++n)
+      sum += model.bricks.share(n) * static_cast<double>(field.values[n]);
+    return sum / model.bricks.filled_count();
   }
   return 0;
 }
@@ -73,7 +74,7 @@ double displacement_of(const Solved& solved, const Measure& measure) {
 double stress_of(const Solved& solved, const Measure& measure) {
   double most = -1;
   for (size_t n = 0; n < solved.model.bricks.count(); ++n)
-    if (!measure.in || measure.in->contains(solved.model.bricks.centroid(n)))
+    if (!measure.in || measure.in->contains(solved.model.bricks.centre_of_fill(n)))
       most = std::max(most, fea::von_mises(solved.solution->stress_mpa[n]));
   return most;
 }
@@ -146,7 +147,7 @@ class Evaluation {
   double value_of(const Measure& measure) {
     switch (measure.kind) {
       case Measure::Kind::volume:
-        return static_cast<double>(solved_.model.bricks.count()) * solved_.model.bricks.volume_mm3();
+        return solved_.model.bricks.filled_count() * solved_.model.bricks.volume_mm3();
       case Measure::Kind::mass:
         if (lacks_density(solved_.model))
           failure_ = "the mass is unknown, since a material has no density_kg_m3; write it into the study";
@@ -240,8 +241,8 @@ void check_variables(const OptimiseStudy& study, const SourcePtr& script, Diagno
   }
 }
 
-std::optional<Plan> plan_bricks(const LoadedPtr& loaded, const ModelChoice& choice, PlanOptions options,
-                                Diagnostics& diagnostics) {
+std::optional<BrickPlan> plan_bricks(const LoadedPtr& loaded, const ModelChoice& choice, PlanOptions options,
+                                     Diagnostics& diagnostics) {
   options.pitch = choice.cell;
   if (choice.brick_count) {
     const auto box = design_box(loaded->design, diagnostics);
@@ -251,7 +252,7 @@ std::optional<Plan> plan_bricks(const LoadedPtr& loaded, const ModelChoice& choi
       options.pitch[at] = Pitch::from_mm(box->size()[axis] / static_cast<double>((*choice.brick_count)[at]));
     }
   }
-  return plan_slice(loaded, options, diagnostics);
+  return plan_model(loaded, options, choice.request.fill, diagnostics);
 }
 
 std::vector<double> values_at(const OptimiseStudy& study, const optimise::Point& point) {

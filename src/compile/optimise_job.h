@@ -46,8 +46,8 @@ std::vector<std::string> definitions_of(const OptimiseStudy& study, const std::v
 void check_variables(const OptimiseStudy& study, const SourcePtr& script, Diagnostics& diagnostics);
 
 // Plans the bricks of a design.
-std::optional<Plan> plan_bricks(const LoadedPtr& loaded, const ModelChoice& choice, PlanOptions options,
-                                Diagnostics& diagnostics);
+std::optional<BrickPlan> plan_bricks(const LoadedPtr& loaded, const ModelChoice& choice, PlanOptions options,
+                                     Diagnostics& diagnostics);
 
 // A point's values of the variables: within their ranges, whole where they are to be.
 std::vector<double> values_at(const OptimiseStudy& study, const optimise::Point& point);

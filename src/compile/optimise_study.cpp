@@ -45,11 +45,11 @@ class OptimiseReader {
  public:
   OptimiseReader(const Data& data, Diagnostics& diagnostics)
       : diagnostics_(diagnostics),
-        members_(
-            data, "a study",
-            with({"variables", "objectives", "constraints", "method", "evaluations", "population", "seed", "tolerance"},
-                 model_members),
-            diagnostics) {}
+        members_(data, "a study",
+                 with({"variables", "objectives", "constraints", "method", "evaluations", "population", "seed",
+                       "tolerance", "fill"},
+                      model_members),
+                 diagnostics) {}
 
   std::optional<OptimiseStudy> read() {
     if (diagnostics_.has_errors()) return std::nullopt;

@@ -78,6 +78,7 @@ std::optional<TopologyStudy> read_topology_study(const Data& data, Diagnostics& 
   auto model = read_model_choice(members, diagnostics);
   if (!model) return std::nullopt;
   study.model = std::move(*model);
+  study.model.request.fill = FeaRequest::Fill::centre;  // densities are those of whole bricks
   check_conditions(study.model.fea, *members.find("fea"), diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   return study;

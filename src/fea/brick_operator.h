@@ -8,18 +8,9 @@
 #include "base/progress.h"
 #include "fea/brick_stiffness.h"
 #include "fea/bricks.h"
+#include "fea/own_matrices.h"
 
 namespace ombre::fea {
-
-// Shear and bulk modulus of a brick, MPa.
-struct Moduli {
-  double shear = 0, bulk = 0;
-};
-
-// Converts Young's modulus and Poisson's ratio.
-inline Moduli moduli_of(double modulus_mpa, double poissons_ratio) {
-  return {modulus_mpa / (2 * (1 + poissons_ratio)), modulus_mpa / (3 * (1 - 2 * poissons_ratio))};
-}
 
 // A number for each degree of freedom: x, y, z of node 0, and so on; of conduction one for each node.
 using Vector = std::vector<double>;
@@ -30,9 +21,9 @@ class BrickOperator {
  public:
   // `free` is 1 for degrees of freedom that are solved for, else 0; the others count as held at zero. It has three for
   // each node, or one in conduction. `more_diagonal` is what comes to the diagonal, at all degrees of freedom; empty:
-  // 0.
+  // 0. Moduli of bricks with a matrix of their own are means over the whole brick, for coarser grids.
   BrickOperator(Bricks bricks, std::vector<Moduli> moduli, std::vector<uint8_t> free, int threads,
-                Vector more_diagonal = {});
+                Vector more_diagonal = {}, OwnMatrices own = {});
 
   const Bricks& bricks() const { return bricks_; }
   const std::vector<Moduli>& moduli() const { return moduli_; }
@@ -41,6 +32,9 @@ class BrickOperator {
   size_t size() const { return free_.size(); }
   size_t unknowns() const { return unknowns_; }  // of a node: 3 or 1
   int threads() const { return threads_; }
+  bool has_own_matrix(size_t brick) const { return own_.of(brick) != nullptr; }
+  // The forces of displacements of a brick's nodes, as many as it has unknowns.
+  void brick_forces(size_t brick, const double* displacements, double* forces) const;
 
   // The forces of these displacements; at all degrees of freedom, of all displacements.
   void all_forces(const Vector& displacements, Vector& forces) const;
@@ -50,6 +44,8 @@ class BrickOperator {
   const Vector& inverse_diagonal() const { return inverse_diagonal_; }
 
  private:
+  void add_all(const std::vector<uint32_t>& colour, bool is_own, const Vector& displacements, Vector& forces) const;
+  void add_own(uint32_t brick, const Vector& displacements, Vector& forces) const;
   void add_of(const uint32_t* begin, const uint32_t* end, const Vector& displacements, Vector& forces) const;
   void add_forces_of(uint32_t brick, const Vector& displacements, Vector& forces) const;
   void add_forces_of_four(const uint32_t* bricks, const Vector& displacements, Vector& forces) const;
@@ -61,12 +57,13 @@ class BrickOperator {
   std::vector<uint8_t> free_;
   int threads_;
   Vector more_diagonal_;
+  OwnMatrices own_;
   size_t unknowns_;
   BrickStiffness stiffness_;
   BrickConductance conductance_;
   // Bricks of one colour share no node, so their forces can be added at the same time, in any order. Along an axis with
   // an odd period the last one needs a third colour.
-  std::array<std::vector<uint32_t>, 27> colours_;
+  std::array<std::vector<uint32_t>, 27> colours_, own_colours_;
   Vector inverse_diagonal_;
 };
 

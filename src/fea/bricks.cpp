@@ -7,8 +7,7 @@
 namespace ombre::fea {
 namespace {
 
-template <class List>
-size_t find(const List& list, const Cell& cell) {
+size_t find_in(const std::vector<Cell>& list, const Cell& cell) {
   const auto place = std::ranges::lower_bound(list, cell, is_before);
   return place != list.end() && *place == cell ? static_cast<size_t>(place - list.begin()) : list.size();
 }
@@ -30,8 +29,10 @@ void check_stop(const StopFlag* stop) {
 
 }  // namespace
 
+size_t Bricks::find(const Cell& cell) const { return find_in(cells, cell); }
+
 Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells, const Cell& period, const StopFlag* stop) {
-  Bricks bricks{origin, size_mm, std::move(cells), {}, {}, period};
+  Bricks bricks{origin, size_mm, std::move(cells), {}, {}, period, {}};
   bricks.corners.reserve(bricks.cells.size() * 2);
   // Layer by layer, so that no more than two layers' corners are there several times; those of the first layer come
   // again at the end where the mesh repeats along z.
@@ -59,7 +60,7 @@ Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells, const Cel
     if (n % bricks_between_checks == 0) check_stop(stop);
     for (size_t c = 0; c < 8; ++c)
       bricks.nodes[n][c] =
-          static_cast<uint32_t>(find(bricks.corners, corner_of(bricks.cells[n], brick_corners[c], period)));
+          static_cast<uint32_t>(find_in(bricks.corners, corner_of(bricks.cells[n], brick_corners[c], period)));
   }
   return bricks;
 }
@@ -71,7 +72,7 @@ std::vector<OuterFace> outer_faces(const Bricks& bricks) {
       for (const bool is_upper : {false, true}) {
         Cell beside = bricks.cells[n];
         beside[axis] += is_upper ? 1 : -1;
-        if (find(bricks.cells, beside) == bricks.count()) faces.push_back({static_cast<uint32_t>(n), axis, is_upper});
+        if (bricks.find(beside) == bricks.count()) faces.push_back({static_cast<uint32_t>(n), axis, is_upper});
       }
   return faces;
 }

@@ -7,6 +7,7 @@
 
 #include "base/box.h"
 #include "base/progress.h"
+#include "fea/fill.h"
 
 namespace ombre::fea {
 
@@ -28,12 +29,29 @@ struct Bricks {
   std::vector<std::array<uint32_t, 8>> nodes;
   // After how many bricks along an axis the mesh repeats, so that its last bricks share nodes with its first; 0: never.
   Cell period{};
+  std::vector<Fill> fills = {};  // of each brick; empty: all are full
 
   size_t count() const { return cells.size(); }
   size_t node_count() const { return corners.size(); }
   Vec3 node(size_t n) const { return at(corners[n], 0); }      // mm
   Vec3 centroid(size_t n) const { return at(cells[n], 0.5); }  // mm
-  double volume_mm3() const { return size_mm.x * size_mm.y * size_mm.z; }
+  // Of what is inside.
+  Vec3 centre_of_fill(size_t n) const {
+    if (fill(n) == full_fill) return centroid(n);
+    const Vec3 corner = at(cells[n], 0), within = fill_centre(fill(n));
+    return {corner.x + within.x * size_mm.x, corner.y + within.y * size_mm.y, corner.z + within.z * size_mm.z};
+  }
+  // The number of the brick in this cell; count() where there is none.
+  size_t find(const Cell& cell) const;
+  double volume_mm3() const { return size_mm.x * size_mm.y * size_mm.z; }  // of a full one
+  Fill fill(size_t n) const { return fills.empty() ? full_fill : fills[n]; }
+  double share(size_t n) const { return fills.empty() ? 1 : fill_share(fills[n]); }
+  // The sum of all shares: how many full bricks would have the volume.
+  double filled_count() const {
+    double sum = 0;
+    for (size_t n = 0; n < count(); ++n) sum += share(n);
+    return sum;
+  }
 
  private:
   Vec3 at(const Cell& cell, double offset) const {

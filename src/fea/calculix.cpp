@@ -231,6 +231,11 @@ PrintedResults read_printed(const std::string& text, size_t nodes, size_t elemen
   return found;
 }
 
+// The deck has the stress of a cut brick's material spread over the whole brick.
+static double share_of(const MeshView& mesh, size_t element) {
+  return mesh.bricks() ? mesh.bricks()->share(element) : 1;
+}
+
 Solution solve_by_calculix(const ModelView& model, const Conditions& conditions, const CalculixOptions& options,
                            const StopFlag* stop) {
   const PrintedResults results = results_of(model, conditions, options, stop);
@@ -248,7 +253,10 @@ Solution solve_by_calculix(const ModelView& model, const Conditions& conditions,
   for (const Prescribed& held : conditions.displacements)
     solution.reactions_n.push_back(
         {held.node, held.axis, results.forces[held.node][held.axis] - loads[3 * size_t{held.node} + held.axis]});
-  for (const auto& stress : results.stresses) solution.stress_mpa.push_back(in_order(stress));
+  for (size_t n = 0; n < results.stresses.size(); ++n) {
+    solution.stress_mpa.push_back(in_order(results.stresses[n]));
+    for (double& stress : solution.stress_mpa.back()) stress /= share_of(model.mesh, n);
+  }
   for (const auto& tensor : results.strains) {
     auto strain = in_order(tensor);
     for (size_t n = 3; n < 6; ++n) strain[n] *= 2;  // engineering shear
@@ -275,7 +283,10 @@ Conduction conduct_by_calculix(const ModelView& model, const Conditions& conditi
   for (const Prescribed& flow : found.flows) found.lost_w += flow.value;
   for (const double flow : flows) found.lost_w += flow;
   if (conditions.films.empty()) found.lost_w = 0;
-  for (const auto& flux : results.fluxes) found.flux.push_back({milli * flux[0], milli * flux[1], milli * flux[2]});
+  for (size_t n = 0; n < results.fluxes.size(); ++n) {
+    const auto& flux = results.fluxes[n];
+    found.flux.push_back((milli / share_of(model.mesh, n)) * Vec3{flux[0], flux[1], flux[2]});
+  }
   return found;
 }
 

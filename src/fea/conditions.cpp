@@ -137,42 +137,39 @@ class Selector {
   std::vector<OuterSide> sides_;  // all, once they are needed
 };
 
-// The shares of a weight that an element's nodes have: the integrals of their shape functions.
-std::vector<double> shares_of_element(const ElementShape& shape) {
-  if (shape.nodes == 10) return {-0.05, -0.05, -0.05, -0.05, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2};
-  return std::vector<double>(shape.nodes, 1 / static_cast<double>(shape.nodes));
-}
-
 // Forces at all nodes, or heat in their x.
 class NodeForces {
  public:
-  explicit NodeForces(const MeshView& mesh)
-      : mesh_(mesh), of_side_(side_shares(mesh.shape())), at_(mesh.node_count()) {}
+  explicit NodeForces(const MeshView& mesh) : mesh_(mesh), at_(mesh.node_count()) {}
 
   // Over the sides, by their areas; without any, evenly over the nodes.
   void add(const Chosen& chosen, Vec3 force) {
     double area = 0;
-    for (const OuterSide& side : chosen.sides) area += length(side_area(mesh_, side));
-    for (const OuterSide& side : chosen.sides) share(side, (length(side_area(mesh_, side)) / area) * force);
-    if (!chosen.sides.empty()) return;
+    for (const OuterSide& side : chosen.sides)
+      for (const NodeShare& here : side_shares(mesh_, side)) area += here.share;
+    if (area > 0) {
+      for (const OuterSide& side : chosen.sides) share(side, (1 / area) * force);
+      return;
+    }
     const std::vector<uint32_t> nodes = chosen.list();
     for (const uint32_t n : nodes) at_[n] = at_[n] + (1 / static_cast<double>(nodes.size())) * force;
   }
 
   void add_pressure(const Chosen& chosen, double pressure) {
-    for (const OuterSide& side : chosen.sides) share(side, -pressure * side_area(mesh_, side));
+    for (const OuterSide& side : chosen.sides) {
+      const Vec3 area = side_area(mesh_, side);
+      share(side, (-pressure / length(area)) * area);
+    }
   }
 
   void add_flux(const Chosen& chosen, double flux) {
-    for (const OuterSide& side : chosen.sides) share(side, {flux * length(side_area(mesh_, side)), 0, 0});
+    for (const OuterSide& side : chosen.sides) share(side, {flux, 0, 0});
   }
 
   void add_weight(const ModelView& model, Vec3 gravity) {
-    const std::vector<double> shares = shares_of_element(mesh_.shape());
     for (size_t element = 0; element < mesh_.count(); ++element) {
-      const Vec3 weight = (model.elastic(element).density_t_mm3 * mesh_.volume_mm3(element)) * gravity;
-      const auto nodes = mesh_.nodes(element);
-      for (size_t n = 0; n < nodes.size(); ++n) at_[nodes[n]] = at_[nodes[n]] + shares[n] * weight;
+      const Vec3 weight = model.elastic(element).density_t_mm3 * gravity;
+      for (const NodeShare& here : volume_shares(mesh_, element)) at_[here.node] = at_[here.node] + here.share * weight;
     }
   }
 
@@ -185,13 +182,12 @@ class NodeForces {
   }
 
  private:
-  void share(const OuterSide& side, Vec3 force) {
-    const std::vector<uint32_t> nodes = side_nodes(mesh_, side);
-    for (size_t n = 0; n < nodes.size(); ++n) at_[nodes[n]] = at_[nodes[n]] + of_side_[n] * force;
+  // N or W for each mm2.
+  void share(const OuterSide& side, Vec3 traction) {
+    for (const NodeShare& here : side_shares(mesh_, side)) at_[here.node] = at_[here.node] + here.share * traction;
   }
 
   const MeshView& mesh_;
-  std::vector<double> of_side_;
   std::vector<Vec3> at_;
 };
 

@@ -9,10 +9,9 @@ namespace {
 constexpr double per_mm_of_per_m = 1e-3, per_mm2_of_per_m2 = 1e-6;
 
 // W/K that each node of a film's side loses.
-std::vector<double> film_shares(const MeshView& mesh, const Film& film) {
-  const double all = film.coefficient_w_m2k * per_mm2_of_per_m2 * length(side_area(mesh, film.side));
-  std::vector<double> shares = side_shares(mesh.shape());
-  for (double& share : shares) share *= all;
+std::vector<NodeShare> film_shares(const MeshView& mesh, const Film& film) {
+  std::vector<NodeShare> shares = side_shares(mesh, film.side);
+  for (NodeShare& here : shares) here.share *= film.coefficient_w_m2k * per_mm2_of_per_m2;
   return shares;
 }
 
@@ -26,14 +25,11 @@ struct Setup {
     for (const Prescribed& held : conditions.displacements) free[held.node] = 0;
     for (const Prescribed& flow : conditions.forces) flows[flow.node] = flow.value;
     if (!conditions.films.empty()) film_diagonal.resize(mesh.node_count());
-    for (const Film& film : conditions.films) {
-      const std::vector<double> shares = film_shares(mesh, film);
-      const std::vector<uint32_t> nodes = side_nodes(mesh, film.side);
-      for (size_t n = 0; n < nodes.size(); ++n) {
-        film_diagonal[nodes[n]] += shares[n];
-        from_films[nodes[n]] += shares[n] * film.ambient_c;
+    for (const Film& film : conditions.films)
+      for (const NodeShare& here : film_shares(mesh, film)) {
+        film_diagonal[here.node] += here.share;
+        from_films[here.node] += here.share * film.ambient_c;
       }
-    }
   }
 };
 
@@ -107,11 +103,14 @@ struct BrickSolver {
 };
 
 BrickOperator conductance_of(const ModelView& model, const Setup& setup, int threads) {
+  const Bricks& bricks = *model.mesh.bricks();
   std::vector<Moduli> conductivities;
   conductivities.reserve(model.mesh.count());
   for (size_t brick = 0; brick < model.mesh.count(); ++brick)
-    conductivities.push_back({model.section(brick).conductivity * per_mm_of_per_m, 0});
-  return {*model.mesh.bricks(), std::move(conductivities), setup.free, threads, setup.film_diagonal};
+    conductivities.push_back({bricks.share(brick) * model.section(brick).conductivity * per_mm_of_per_m, 0});
+  return {
+      bricks,  std::move(conductivities), setup.free,
+      threads, setup.film_diagonal,       own_conductance(bricks, model.sections, model.section_of, per_mm_of_per_m)};
 }
 
 }  // namespace
@@ -142,8 +141,8 @@ double conduct_bytes(const Bricks& bricks) {
   // and its flux. Coarser levels have a seventh of it.
   constexpr double of_node = 20.0 * sizeof(double) + 24, of_brick = 2.0 * (sizeof(Cell) + 32 + 8) + 24;
   constexpr double all_levels = 8.0 / 7;
-  return all_levels *
-         (of_node * static_cast<double>(bricks.node_count()) + of_brick * static_cast<double>(bricks.count()));
+  return own_matrix_bytes(bricks, 1) + all_levels * (of_node * static_cast<double>(bricks.node_count()) +
+                                                     of_brick * static_cast<double>(bricks.count()));
 }
 
 }  // namespace ombre::fea

@@ -70,7 +70,10 @@ void Gradients::factorise() {
   prepared_ = std::make_unique<Factorisation>(stiffness_, progress_, stop_);
   const auto use = use_of(prepared_->cost(), options_.memory_bytes);
   if (!use) refuse_memory(prepared_->cost().bytes_on_disk, options_.memory_bytes);
-  take(*use);
+  if (!take(*use))
+    throw Error(Code::not_solved,
+                "the equations could not be factorised, in double precision either, or memory is short for that; solve "
+                "by multigrid, or allow more memory");
 }
 
 // Iterations that are left, should the residual go on to fall as it has fallen since the last judgement.
@@ -92,15 +95,41 @@ bool Gradients::change(double iterations) {
   may_change_ = use.has_value();
   if (!use || use->operations > operations_of_brick * left) return false;
   may_change_ = false;
-  take(*use);
+  return take(*use);
+}
+
+// Returns false where there is no factorisation; then it goes on as before.
+bool Gradients::take(const DirectUse& use) {
+  if (options_.announce) options_.announce(use);
+  is_single_ = prepared_->factorise(use.disk_bytes > 0, Precision::single);
+  if (!is_single_) return take_twofold();
+  direct_ = use;
+  preconditioner_ = std::move(prepared_);
   return true;
 }
 
-void Gradients::take(const DirectUse& use) {
-  if (options_.announce) options_.announce(use);
-  prepared_->factorise(use.disk_bytes > 0);
-  preconditioner_ = std::move(prepared_);
+// A factor that helps little has lost too many digits.
+bool Gradients::leave_single() {
+  preconditioner_.reset();
+  direct_.reset();
+  prepared_ = std::make_unique<Factorisation>(stiffness_, progress_, stop_);
+  if (!take_twofold()) multigrid();
+  return true;
+}
+
+bool Gradients::take_twofold() {
+  is_single_ = false;
+  FactorisationCost cost = prepared_->cost();
+  cost.bytes *= 2, cost.bytes_on_disk *= 2, cost.factor_bytes *= 2;
+  const auto use = use_of(cost, options_.memory_bytes);
+  if (use && options_.announce) options_.announce(*use);
+  if (!use || !prepared_->factorise(use->disk_bytes > 0, Precision::twofold)) {
+    prepared_.reset();
+    return false;
+  }
   direct_ = use;
+  preconditioner_ = std::move(prepared_);
+  return true;
 }
 
 Convergence Gradients::run(Vector residual, Vector& x) {
@@ -129,8 +158,11 @@ Convergence Gradients::run(Vector residual, Vector& x) {
     if (!std::isfinite(solution.residual) || solution.iterations >= options_.most_iterations)
       fail_to_converge(solution, stiffness_.unknowns() == 1);
     bool has_changed = false;
-    if (may_change_ && solution.iterations % between_judgements == 0) {
-      has_changed = change(iterations_left(solution.residual, last_judged));
+    if (solution.iterations % between_judgements == 0) {
+      if (may_change_)
+        has_changed = change(iterations_left(solution.residual, last_judged));
+      else if (is_single_)
+        has_changed = leave_single();
       last_judged = solution.residual;
     }
     preconditioner_->apply(residual, z);

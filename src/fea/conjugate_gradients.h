@@ -39,7 +39,9 @@ class Gradients {
   void factorise();
   double iterations_left(double residual, double last) const;
   bool change(double iterations);
-  void take(const DirectUse& use);
+  bool take(const DirectUse& use);
+  bool take_twofold();
+  bool leave_single();
 
   const BrickOperator& stiffness_;
   const SolveOptions& options_;
@@ -48,7 +50,7 @@ class Gradients {
   std::unique_ptr<Preconditioner> preconditioner_;
   std::unique_ptr<Factorisation> prepared_;  // ordered and counted, no more
   std::optional<DirectUse> direct_;
-  bool may_change_ = false;
+  bool may_change_ = false, is_single_ = false;
   Stopwatch watch_;
   uint64_t farthest_ = 0;
 };

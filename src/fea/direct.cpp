@@ -40,28 +40,21 @@ void number_unknowns(const BrickOperator& stiffness, ElementEquations& equations
 }
 
 // The stiffness of a brick, row by row.
-void brick_matrix(const BrickOperator& stiffness, const Moduli& moduli, std::vector<double>& matrix) {
+void brick_matrix(const BrickOperator& stiffness, size_t brick, std::vector<double>& matrix) {
   const size_t size = 8 * stiffness.unknowns();
-  matrix.assign(size * size, 0);
-  if (stiffness.unknowns() == 1) {
-    const BrickConductance brick = brick_conductance(stiffness.bricks().size_mm);
-    for (size_t n = 0; n < size; ++n) {
-      std::array<double, 8> unit{}, flows{};
-      unit[n] = 1;
-      brick.add_flows(moduli.shear, unit, flows);
-      std::ranges::copy(flows, matrix.begin() + static_cast<std::ptrdiff_t>(n * size));
-    }
-    return;
+  matrix.resize(size * size);
+  BrickVector unit{};
+  for (size_t n = 0; n < size; ++n) {
+    unit[n] = 1;
+    stiffness.brick_forces(brick, unit.data(), matrix.data() + n * size);
+    unit[n] = 0;
   }
-  const BrickStiffness brick = brick_stiffness(stiffness.bricks().size_mm);
-  for (size_t n = 0; n < size; ++n)
-    for (size_t m = 0; m < size; ++m)
-      matrix[n * size + m] =
-          moduli.shear * brick.shear[n][m] + moduli.bulk * brick.volume_mm3 * brick.dilation[n] * brick.dilation[m];
 }
 
 // What is added to the diagonal comes with the first brick of each node.
-void fill_matrices(const BrickOperator& stiffness, ElementEquations& equations) {
+template <class Real>
+std::vector<Real> element_matrices(const BrickOperator& stiffness, const ElementEquations& equations) {
+  std::vector<Real> matrices;
   const Bricks& bricks = stiffness.bricks();
   const size_t unknowns = stiffness.unknowns(), size = 8 * unknowns;
   Vector more = stiffness.more_diagonal();
@@ -69,9 +62,10 @@ void fill_matrices(const BrickOperator& stiffness, ElementEquations& equations) 
   std::vector<double> matrix;
   for (size_t brick = 0; brick < bricks.count(); ++brick) {
     const Moduli& moduli = stiffness.moduli()[brick];
-    if (!last || last->shear != moduli.shear || last->bulk != moduli.bulk) {
-      brick_matrix(stiffness, moduli, matrix);
-      last = moduli;
+    const bool is_cut = stiffness.has_own_matrix(brick);
+    if (is_cut || !last || last->shear != moduli.shear || last->bulk != moduli.bulk) {
+      brick_matrix(stiffness, brick, matrix);
+      last = is_cut ? std::nullopt : std::optional(moduli);
     }
     const auto place = [&](size_t n) { return bricks.nodes[brick][n / unknowns] * unknowns + n % unknowns; };
     for (size_t column = 0; column < size; ++column) {
@@ -80,10 +74,11 @@ void fill_matrices(const BrickOperator& stiffness, ElementEquations& equations) 
         if (equations.numbers[place(row)] == 0) continue;
         double value = matrix[row * size + column];
         if (row == column && !more.empty()) value += std::exchange(more[place(row)], 0);
-        equations.matrices.push_back(static_cast<float>(value));
+        matrices.push_back(static_cast<Real>(value));
       }
     }
   }
+  return matrices;
 }
 
 }  // namespace
@@ -118,13 +113,12 @@ class Server {
         make_(&equations_, &factoriser_);
         packer.add(factoriser_->cost());
         break;
-      case Step::factorise:
-        fill_matrices(stiffness_, equations_);
-        factoriser_->factorise(std::string(unpacker.get_text()));
-        equations_.matrices = {};
-        break;
+      case Step::factorise: {
+        const auto precision = unpacker.get<Precision>();
+        packer.add(factorise(precision, std::string(unpacker.get_text())));
+      } break;
       case Step::solve:
-        std::vector<float> values = unpacker.get_list<float>();
+        std::vector<double> values = unpacker.get_list<double>();
         factoriser_->solve(values);
         packer.add_list(values);
         break;
@@ -133,6 +127,17 @@ class Server {
   }
 
  private:
+  bool factorise(Precision precision, const std::string& folder) {
+    if (precision == Precision::single)
+      equations_.matrices = element_matrices<float>(stiffness_, equations_);
+    else
+      equations_.double_matrices = element_matrices<double>(stiffness_, equations_);
+    const bool is_done = factoriser_->factorise(folder, precision);
+    equations_.matrices = {};
+    equations_.double_matrices = {};
+    return is_done;
+  }
+
   const BrickOperator& stiffness_;
   decltype(ombre_make_factoriser)* make_;
   ElementEquations equations_;
@@ -182,13 +187,18 @@ std::string Factorisation::ask(const std::string& request, const std::string& st
   return helper_->ask(request, stop_, tell);
 }
 
-void Factorisation::factorise(bool on_disk) {
+bool Factorisation::factorise(bool on_disk, Precision precision) {
+  folder_.reset();
   if (on_disk) folder_.emplace();
   BytePacker request;
   request.add(Step::factorise);
+  request.add(precision);
   request.add_text(folder_ ? folder_->path().string() : "");
   const double rate = usual_share * cost_.operations_a_second;
-  ask(request.take(), "factorising the equations", rate > 0 ? cost_.operations / rate : 0);
+  const double expected = rate > 0 ? cost_.operations / rate : 0;
+  const std::string answer =
+      ask(request.take(), "factorising the equations", precision == Precision::single ? expected : 2 * expected);
+  return ByteUnpacker(answer).get<bool>();
 }
 
 void Factorisation::apply(const Vector& forces, Vector& displacements) {
@@ -197,17 +207,17 @@ void Factorisation::apply(const Vector& forces, Vector& displacements) {
   for (const double force : forces) scale = std::max(scale, std::abs(force));
   displacements.assign(forces.size(), 0);
   if (!(scale > 0)) return;
-  std::vector<float> values;
+  std::vector<double> values;
   for (size_t n = 0; n < forces.size(); ++n)
-    if (stiffness_.free()[n] != 0) values.push_back(static_cast<float>(forces[n] / scale));
+    if (stiffness_.free()[n] != 0) values.push_back(forces[n] / scale);
   BytePacker request;
   request.add(Step::solve);
   request.add_list(values);
   const std::string answer = helper_->ask(request.take(), stop_);
-  values = ByteUnpacker(answer).get_list<float>();
+  values = ByteUnpacker(answer).get_list<double>();
   size_t next = 0;
   for (size_t n = 0; n < forces.size(); ++n)
-    if (stiffness_.free()[n] != 0) displacements[n] = scale * static_cast<double>(values[next++]);
+    if (stiffness_.free()[n] != 0) displacements[n] = scale * values[next++];
 }
 
 }  // namespace ombre::fea

@@ -1,5 +1,5 @@
-// The equations of bricks by a factorisation of their matrix in single precision, as a preconditioner: one to three
-// iterations are enough then, whatever the materials and shapes.
+// The equations of bricks by a factorisation of their matrix as a preconditioner: one to three iterations are enough
+// then, whatever the materials and shapes.
 #pragma once
 
 #include <memory>
@@ -31,9 +31,9 @@ class Factorisation : public Preconditioner {
   ~Factorisation() override;
 
   const FactorisationCost& cost() const { return cost_; }
-  // Keeps the factor in a temporary folder or in memory. Throws Error when memory or the disk is short, or the matrix
-  // has no inverse in single precision.
-  void factorise(bool on_disk);
+  // Keeps the factor in a temporary folder or in memory. Returns false where the precision is not enough. Throws Error
+  // when memory or the disk is short.
+  bool factorise(bool on_disk, Precision precision);
   void apply(const Vector& forces, Vector& displacements) override;
 
  private:

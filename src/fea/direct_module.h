@@ -15,10 +15,16 @@ struct ElementEquations {
   size_t nodes_of_element = 0;
   std::vector<int> element_nodes;       // from 0, of one element after another
   std::vector<int> begins{1}, members;  // the free unknowns of an element are members[begins[n] - 1] and on
-  std::vector<float> matrices;          // of one element after another: its lower triangle, column by column
+  // Of one element after another: its lower triangle, column by column; in the precision that is factorised.
+  std::vector<float> matrices;
+  std::vector<double> double_matrices;
 
   int size = 0;  // free unknowns
 };
+
+// Single precision is enough for a preconditioner, unless the equations are too near to having no single solution for
+// it, as those of thin plates are.
+enum class Precision : uint8_t { single, twofold };
 
 // What a factorisation takes, in single precision.
 struct FactorisationCost {
@@ -35,9 +41,10 @@ class Factoriser {
   // Of what is analysed when it is made: matrices may be empty until factorise().
   virtual FactorisationCost cost() const = 0;
   // With a folder the factor is kept in files there.
-  virtual void factorise(const std::string& folder) = 0;
+  // Returns false where the precision is not enough.
+  virtual bool factorise(const std::string& folder, Precision precision) = 0;
   // Replaces the right side by the solution.
-  virtual void solve(std::vector<float>& values) = 0;
+  virtual void solve(std::vector<double>& values) = 0;
 };
 
 }  // namespace ombre::fea

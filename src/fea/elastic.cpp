@@ -17,10 +17,13 @@ BrickOperator operator_of(const Model& model, const Conditions& conditions, int 
   for (const Section& section : model.sections)
     of_sections.push_back(moduli_of(section.elastic.modulus_mpa, section.elastic.poissons_ratio));
   moduli.reserve(model.bricks.count());
-  for (const uint16_t section : model.section_of) moduli.push_back(of_sections[section]);
+  for (size_t n = 0; n < model.bricks.count(); ++n) {
+    const Moduli& full = of_sections[model.section_of[n]];
+    moduli.push_back({model.bricks.share(n) * full.shear, model.bricks.share(n) * full.bulk});
+  }
   std::vector<uint8_t> free(3 * model.bricks.node_count(), 1);
   for (const Prescribed& held : conditions.displacements) free[3 * size_t{held.node} + held.axis] = 0;
-  return {model.bricks, std::move(moduli), std::move(free), threads};
+  return {model.bricks, std::move(moduli), std::move(free), threads, {}, own_stiffness(model)};
 }
 
 }  // namespace
@@ -52,9 +55,11 @@ Solution solve(const Model& model, const Conditions& conditions, const SolveOpti
     solution.reactions_n.push_back({held.node, held.axis, forces[n] - loads[n]});
   }
   for (size_t n = 0; n < x.size(); n += 3) solution.displacement_mm.push_back({x[n], x[n + 1], x[n + 2]});
-  const auto gradients = shape_gradients(model.bricks.size_mm, {0.5, 0.5, 0.5});
+  const auto in_middle = shape_gradients(model.bricks.size_mm, {0.5, 0.5, 0.5});
   for (size_t n = 0; n < model.bricks.count(); ++n) {
-    const Moduli& moduli = stiffness.moduli()[n];
+    const Fill fill = model.bricks.fill(n);
+    const Moduli moduli = moduli_of(model.elastic(n).modulus_mpa, model.elastic(n).poissons_ratio);
+    const auto gradients = fill == full_fill ? in_middle : shape_gradients(model.bricks.size_mm, fill_centre(fill));
     solution.strain.push_back(strain_of(model.bricks.nodes[n], gradients, x));
     solution.stress_mpa.push_back(stress_of(solution.strain.back(), moduli.shear, moduli.bulk));
   }
@@ -66,8 +71,8 @@ double solve_bytes(const Bricks& bricks) {
   // and moduli twice. Coarser levels have a seventh of it.
   constexpr double of_node = 48.0 * sizeof(double) + 24, of_brick = 2.0 * (sizeof(Cell) + 32 + 8) + 100;
   constexpr double all_levels = 8.0 / 7;
-  return all_levels *
-         (of_node * static_cast<double>(bricks.node_count()) + of_brick * static_cast<double>(bricks.count()));
+  return own_matrix_bytes(bricks, 3) + all_levels * (of_node * static_cast<double>(bricks.node_count()) +
+                                                     of_brick * static_cast<double>(bricks.count()));
 }
 
 }  // namespace ombre::fea

@@ -14,7 +14,7 @@ namespace ombre::fea {
 // What conjugate gradients on bricks are preconditioned with.
 enum class Solver : uint8_t {
   multigrid,
-  direct,     // a factorisation in single precision (direct.h)
+  direct,     // a factorisation (direct.h)
   automatic,  // multigrid at first; a factorisation, where multigrid is slow and that is expected to be quicker and
               // fits
 };
@@ -35,10 +35,11 @@ struct SolveOptions {
 };
 
 struct Solution {
-  std::vector<Vec3> displacement_mm;              // of nodes
-  std::vector<std::array<double, 6>> stress_mpa;  // in the middle of each brick: xx, yy, zz, xy, yz, zx
-  std::vector<std::array<double, 6>> strain;      // engineering shear
-  std::vector<Prescribed> reactions_n;            // at what is held, in the order of the conditions
+  std::vector<Vec3> displacement_mm;  // of nodes
+  std::vector<std::array<double, 6>>
+      stress_mpa;                             // in the middle of what is inside of each brick: xx, yy, zz, xy, yz, zx
+  std::vector<std::array<double, 6>> strain;  // engineering shear
+  std::vector<Prescribed> reactions_n;        // at what is held, in the order of the conditions
   size_t iterations = 0;
   std::optional<DirectUse> direct;
   double residual = 0;   // of the last iteration, in the norm of the right side

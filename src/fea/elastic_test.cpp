@@ -8,8 +8,10 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/json.h"
 #include "fea/brick_stiffness.h"
 #include "fea/direct.h"
+#include "fea/study.h"
 #include "fea/test_models.h"
 
 namespace ombre::fea {
@@ -237,6 +239,56 @@ double force_of(const Solution& solution, const Bricks& bricks) {
   return force;
 }
 
+// The deflection of a strip's end under a force of 1 N, by the work of the force.
+double deflection(const Model& model) {
+  Diagnostics diagnostics;
+  const auto data = parse_json(make_source("strip.json", R"({
+      "supports": [{"on": "xmin", "fix": "xyz"}], "loads": [{"on": "xmax", "force_n": [0, 0, -1]}]})"),
+                               diagnostics);
+  const auto conditions = conditions_of(*read_study(*data, diagnostics), model, diagnostics);
+  const Solution solution = solve(model, *conditions, {1e-10, 20000, 2});
+  double work = 0;
+  for (const Prescribed& force : conditions->forces)
+    work += force.value * solution.displacement_mm[force.node][force.axis];
+  return work;
+}
+
+// Timoshenko's beam of 20 x 4 x 1 mm and 1000 MPa, without Poisson's effect: F L^3 / (3 E I) = 8 mm, and 0.012 of
+// shear, F L / (5/6 G A). Bricks as thick as the strip, or twice, bend as it does, since they have linear strains.
+TEST(Elastic, StripsBendByTheirThicknessWhateverTheBricks) {
+  for (const double brick_mm : {2.0, 1.0, 0.8, 0.5}) {
+    const Model model = model_of(test::cut_block({20, 4, 1}, brick_mm), {1000, 0});
+    EXPECT_NEAR(model.bricks.filled_count() * model.bricks.volume_mm3(), 80, 1e-9) << brick_mm;
+    EXPECT_NEAR(deflection(model), 8.012, 0.03) << brick_mm;
+  }
+}
+
+// A strip of full bricks, of which one lies across, is as thick as they are, and too stiff.
+TEST(Elastic, FullBricksAreAsThickAsTheyAre) {
+  const double wanted = 4.0 * 20 * 20 * 20 / (1000 * 4.0 * 8);
+  EXPECT_NEAR(deflection(model_of(block({10, 2, 1}, {2, 2, 2}), {1000, 0})), wanted, 0.15 * wanted);
+}
+
+// An even strain gives an even stress, however bricks are cut.
+TEST(Elastic, CutBricksPassThePatchTest) {
+  Bricks bricks = block({3, 3, 3}, {1, 1.5, 0.75});
+  for (size_t n = 0; n < bricks.count(); ++n) bricks.fills.push_back(n % 2 == 0 ? full_fill : full_fill << (n + 1));
+  const Model model = model_of(std::move(bricks), {1000, 0.3});
+  const auto even = [](Vec3 p) {
+    return Vec3{0.01 * p.x + 0.003 * p.y, -0.004 * p.y + 0.002 * p.z, 0.005 * p.z + 0.001 * p.x};
+  };
+  const Conditions conditions = held(
+      model.bricks, [](Vec3) { return true; }, even);
+  const Solution solution = solve(model, conditions, {1e-10, 20000, 2});
+  const double shear = 1000 / 2.6, bulk = 1000 / 1.2, dilation = 0.011;
+  double volume = 0;
+  for (size_t n = 0; n < model.bricks.count(); ++n) volume += model.bricks.share(n) * model.bricks.volume_mm3();
+  double deviators = -dilation * dilation / 3 * 2;
+  for (const double strain : {0.01, -0.004, 0.005}) deviators += 2 * strain * strain;
+  for (const double strain : {0.003, 0.002, 0.001}) deviators += strain * strain;
+  EXPECT_NEAR(solution.energy_mj, 0.5 * volume * (shear * deviators + bulk * dilation * dilation), 1e-9);
+}
+
 TEST(Elastic, AFactorisationGivesWhatMultigridGives) {
   if (!has_factorisations()) GTEST_SKIP() << "built without MUMPS";
   const Model model = graded_lattice();
@@ -275,6 +327,25 @@ TEST(Elastic, WhatIsSlowIsFactorised) {
   EXPECT_FALSE(solve(model, compressed(model.bricks), options).direct);
   const Model even = model_of(block({12, 12, 12}, {0.3, 0.3, 0.3}), rigid);
   EXPECT_FALSE(solve(even, compressed(even.bricks), {1e-8, 20000, 0, Solver::automatic}).direct);
+}
+
+// A plate of 60 x 20 x 1 mm is too near to singular for single precision: a factorisation in double precision follows.
+TEST(Elastic, ThinPlatesAreFactorisedInDoublePrecision) {
+  if (!has_factorisations()) GTEST_SKIP() << "built without MUMPS";
+  const Model model = model_of(block({60, 20, 2}, {1, 1, 0.5}), {1000, 0.3});
+  Diagnostics diagnostics;
+  const auto data = parse_json(make_source("plate.json", R"({
+      "supports": [{"on": "xmin", "fix": "xyz"}], "loads": [{"on": "xmax", "force_n": [0, 0, -1]}]})"),
+                               diagnostics);
+  const auto conditions = conditions_of(*read_study(*data, diagnostics), model, diagnostics);
+  const Solution slow = solve(model, *conditions, {1e-9, 20000, 2});
+  for (const Solver solver : {Solver::direct, Solver::automatic}) {
+    const Solution found = solve(model, *conditions, {1e-9, 20000, 2, solver});
+    EXPECT_NEAR(found.energy_mj, slow.energy_mj, 1e-5 * slow.energy_mj);
+  }
+  // Without room for it multigrid goes on.
+  EXPECT_NEAR(solve(model, *conditions, {1e-9, 20000, 2, Solver::automatic, 1e5}).energy_mj, slow.energy_mj,
+              1e-5 * slow.energy_mj);
 }
 
 TEST(Elastic, AFactorisationStops) {

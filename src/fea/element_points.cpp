@@ -96,7 +96,11 @@ void find_points(const MeshView& mesh, size_t element, ElementPoints& found) {
 }
 
 ElementPoint middle_point(const MeshView& mesh, size_t element) {
-  if (mesh.kind() == ElementKind::c3d8) return hexahedron_at(mesh, element, {}, 8);
+  if (mesh.kind() == ElementKind::c3d8) {
+    const Fill fill = mesh.bricks() ? mesh.bricks()->fill(element) : full_fill;
+    const Vec3 at = fill == full_fill ? Vec3{} : 2.0 * fill_centre(fill) - Vec3{1, 1, 1};
+    return hexahedron_at(mesh, element, {at.x, at.y, at.z}, 8);
+  }
   const Barycentric tetrahedron = barycentric(mesh, element);
   if (mesh.kind() == ElementKind::c3d4) return linear(tetrahedron);
   return quadratic_at(tetrahedron, {0.25, 0.25, 0.25, 0.25}, tetrahedron.volume_mm3);

@@ -70,7 +70,6 @@ class Cell6 {
   Cell6(const Model& model, const SolveOptions& options, Progress* progress, const StopFlag* stop)
       : model_(model),
         progress_(progress),
-        brick_(brick_stiffness(model.bricks.size_mm)),
         operator_(operator_of(model, options.threads)),
         gradients_(operator_, options, nullptr, stop) {}
 
@@ -78,7 +77,7 @@ class Cell6 {
     Homogenised result;
     const Bricks& bricks = model_.bricks;
     const double cells = 1.0 * bricks.period[0] * bricks.period[1] * bricks.period[2];
-    result.solid_share = static_cast<double>(bricks.count()) / cells;
+    result.solid_share = bricks.filled_count() / cells;
     add_bounds(result, cells);
     for (size_t load = 0; load < 6; ++load) {
       Strain strain{};
@@ -99,16 +98,16 @@ class Cell6 {
   static BrickOperator operator_of(const Model& model, int threads) {
     std::vector<Moduli> moduli;
     for (size_t n = 0; n < model.bricks.count(); ++n)
-      moduli.push_back(moduli_of(model.elastic(n).modulus_mpa, model.elastic(n).poissons_ratio));
+      moduli.push_back(
+          moduli_of(model.bricks.share(n) * model.elastic(n).modulus_mpa, model.elastic(n).poissons_ratio));
     std::vector<uint8_t> free(3 * model.bricks.node_count(), 1);
     for (size_t axis = 0; axis < 3; ++axis) free[axis] = 0;
-    return {model.bricks, std::move(moduli), std::move(free), threads};
+    return {model.bricks, std::move(moduli), std::move(free), threads, {}, own_stiffness(model)};
   }
 
   BrickVector brick_forces(size_t brick, const BrickVector& u) const {
     BrickVector f{};
-    const Moduli& moduli = operator_.moduli()[brick];
-    brick_.add_forces(moduli.shear, moduli.bulk, u, f);
+    operator_.brick_forces(brick, u.data(), f.data());
     return f;
   }
 
@@ -148,23 +147,22 @@ class Cell6 {
 
   void add_bounds(Homogenised& result, double cells) const {
     Matrix6 stiffness = Matrix6::Zero(), compliance = Matrix6::Zero();
-    std::vector<size_t> counts(model_.sections.size());
-    for (const uint16_t section : model_.section_of) ++counts[section];
+    std::vector<double> counts(model_.sections.size());
+    for (size_t n = 0; n < model_.bricks.count(); ++n) counts[model_.section_of[n]] += model_.bricks.share(n);
     for (size_t n = 0; n < counts.size(); ++n) {
       const Elastic& elastic = model_.sections[n].elastic;
       const Matrix6 own = isotropic(moduli_of(elastic.modulus_mpa, elastic.poissons_ratio));
-      const double share = static_cast<double>(counts[n]) / cells;
+      const double share = counts[n] / cells;
       stiffness += share * own;
       compliance += share * own.inverse();
     }
     result.voigt_mpa = stiffness_of(stiffness);
-    const bool has_void = model_.bricks.count() < static_cast<size_t>(cells);
+    const bool has_void = model_.bricks.filled_count() < cells;
     if (!has_void) result.reuss_mpa = stiffness_of(compliance.inverse());
   }
 
   const Model& model_;
   Progress* progress_;
-  BrickStiffness brick_;
   BrickOperator operator_;
   Gradients gradients_;
 };

@@ -18,10 +18,7 @@ BrickValues rising(size_t axis, Vec3 size_mm) {
 class ConductingCell {
  public:
   ConductingCell(const Model& model, const SolveOptions& options, const StopFlag* stop)
-      : model_(model),
-        conductance_(brick_conductance(model.bricks.size_mm)),
-        operator_(operator_of(model, options.threads)),
-        gradients_(operator_, options, nullptr, stop) {
+      : model_(model), operator_(operator_of(model, options.threads)), gradients_(operator_, options, nullptr, stop) {
     for (size_t axis = 0; axis < 3; ++axis) rising_[axis] = rising(axis, model.bricks.size_mm);
   }
 
@@ -44,9 +41,9 @@ class ConductingCell {
     double sum = 0, inverses = 0;
     for (size_t n = 0; n < model_.bricks.count(); ++n) {
       sum += operator_.moduli()[n].shear;
-      inverses += 1 / operator_.moduli()[n].shear;
+      inverses += model_.bricks.share(n) / model_.sections[model_.section_of[n]].conductivity;
     }
-    const auto count = static_cast<double>(model_.bricks.count());
+    const double count = model_.bricks.filled_count();
     result.solid_share = count / cells();
     result.arithmetic_mean = sum / cells();
     if (count == cells()) result.harmonic_mean = count / inverses;
@@ -61,15 +58,21 @@ class ConductingCell {
   // One node is held, since an even value changes nothing.
   static BrickOperator operator_of(const Model& model, int threads) {
     std::vector<Moduli> conductivities;
-    for (const uint16_t section : model.section_of) conductivities.push_back({model.sections[section].conductivity, 0});
+    for (size_t n = 0; n < model.bricks.count(); ++n)
+      conductivities.push_back({model.bricks.share(n) * model.sections[model.section_of[n]].conductivity, 0});
     std::vector<uint8_t> free(model.bricks.node_count(), 1);
     free[0] = 0;
-    return {model.bricks, std::move(conductivities), std::move(free), threads};
+    return {model.bricks,
+            std::move(conductivities),
+            std::move(free),
+            threads,
+            {},
+            own_conductance(model.bricks, model.sections, model.section_of, 1)};
   }
 
   BrickValues flows_of(size_t brick, const BrickValues& values) const {
     BrickValues flows{};
-    conductance_.add_flows(operator_.moduli()[brick].shear, values, flows);
+    operator_.brick_forces(brick, values.data(), flows.data());
     return flows;
   }
 
@@ -85,7 +88,6 @@ class ConductingCell {
   }
 
   const Model& model_;
-  BrickConductance conductance_;
   BrickOperator operator_;
   Gradients gradients_;
   std::array<BrickValues, 3> rising_{};

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <limits>
+#include <map>
 #include <set>
 
+#include "base/error.h"
 #include "base/text.h"
 
 namespace ombre::fea {
@@ -172,8 +175,15 @@ void write_static_step(const ModelView& model, const Conditions& conditions, boo
   lines << "*END STEP\n";
 }
 
+// How much of a side's area there is to act on.
+double share_of_side(const MeshView& mesh, const OuterSide& side) {
+  double area = 0;
+  for (const NodeShare& here : side_shares(mesh, side)) area += here.share;
+  return area / length(side_area(mesh, side));
+}
+
 // Temperatures are degree of freedom 11.
-void write_heat_step(const Conditions& conditions, bool prints, Lines& lines) {
+void write_heat_step(const MeshView& mesh, const Conditions& conditions, bool prints, Lines& lines) {
   constexpr double milli = 1000;
   lines << "*STEP\n*HEAT TRANSFER, STEADY STATE\n";
   if (!conditions.displacements.empty()) lines << "*BOUNDARY\n";
@@ -185,7 +195,7 @@ void write_heat_step(const Conditions& conditions, bool prints, Lines& lines) {
   if (!conditions.films.empty()) lines << "*FILM\n";
   for (const Film& film : conditions.films)
     lines << size_t{film.side.element} + 1 << ", F" << size_t{film.side.side} + 1 << ", " << film.ambient_c << ", "
-          << film.coefficient_w_m2k / milli << "\n";
+          << share_of_side(mesh, film.side) * film.coefficient_w_m2k / milli << "\n";
   if (prints)
     write_prints("NT, RFL", "HFL", lines);
   else
@@ -198,10 +208,48 @@ std::string_view element_name(const MeshView& mesh, BrickType type, Physics phys
   return is_plain ? mesh.shape().name : type_name(type);
 }
 
+// Elements of a deck are whole: bricks that are cut become sections, whose properties are those of the material times
+// the share that is inside.
+struct DeckSections {
+  std::vector<Section> sections;
+  std::vector<uint16_t> section_of;
+};
+
+Section cut_section(const Section& whole, Fill fill) {
+  const double share = fill_share(fill);
+  Section cut = whole;
+  cut.name += " filled " + std::to_string(std::popcount(fill)) + " of " + std::to_string(parts_of_brick);
+  cut.elastic.modulus_mpa *= share;
+  cut.elastic.density_t_mm3 *= share;
+  cut.conductivity *= share;
+  return cut;
+}
+
+DeckSections deck_sections(const ModelView& model) {
+  DeckSections made{model.sections, model.section_of};
+  if (!model.mesh.bricks()) return made;
+  std::map<std::pair<uint16_t, int>, size_t> known;
+  for (size_t n = 0; n < model.mesh.count(); ++n) {
+    const Fill fill = model.mesh.bricks()->fill(n);
+    if (fill == full_fill) continue;
+    const auto [place, is_new] = known.try_emplace({model.section_of[n], std::popcount(fill)}, made.sections.size());
+    if (is_new) made.sections.push_back(cut_section(model.section(n), fill));
+    if (made.sections.size() > std::numeric_limits<uint16_t>::max())
+      throw Error(
+          Code::limit,
+          "the deck would have more than 65,535 sections, since each share of a cut brick needs its own; choose "
+          "fewer sections, or bricks by their centres");
+    made.section_of[n] = static_cast<uint16_t>(place->second);
+  }
+  return made;
+}
+
 }  // namespace
 
-void write_inp(const ModelView& model, const Conditions& conditions, BrickType type, const std::string& title,
+void write_inp(const ModelView& whole, const Conditions& conditions, BrickType type, const std::string& title,
                const Sink& sink, bool prints) {
+  const DeckSections split = deck_sections(whole);
+  const ModelView model(whole, split.sections, split.section_of);
   const bool is_mechanics = conditions.physics == Physics::mechanics;
   const std::vector<std::string> names = deck_names(model.sections);
   Lines lines(sink);
@@ -215,7 +263,7 @@ void write_inp(const ModelView& model, const Conditions& conditions, BrickType t
   if (is_mechanics)
     write_static_step(model, conditions, prints, lines);
   else
-    write_heat_step(conditions, prints, lines);
+    write_heat_step(model.mesh, conditions, prints, lines);
   lines.flush();
 }
 

@@ -20,8 +20,8 @@ enum class BrickType : uint8_t {
 // as what lies a period along x, y, z away moves, so that the forces on them are mean stresses times sides of the cell;
 // results U, RF, S and E. Conduction becomes a steady heat transfer, in mW and degrees Celsius, with results NT, RFL
 // and HFL; currents stand for heat, so that potentials are temperatures and mA are mW. Names are in capitals, with _
-// for what decks do not take. `type` is that of hexahedra in mechanics. With `prints` the results go as text to
-// job.dat, for calculix.h.
+// for what decks do not take. Bricks that are cut have properties times the share that is inside. `type` is that of
+// hexahedra in mechanics. With `prints` the results go as text to job.dat, for calculix.h.
 void write_inp(const ModelView& model, const Conditions& conditions, BrickType type, const std::string& title,
                const Sink& sink, bool prints = false);
 

@@ -37,6 +37,86 @@ double dihedral(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   return std::atan2(length(cross(u, v)), dot(u, v)) * 180 / std::numbers::pi;
 }
 
+// What acts at a place of a brick, by the trilinear functions of its nodes; coordinates go from 0 to 1.
+void add_at(const Bricks& bricks, size_t brick, Vec3 at, double amount, std::vector<NodeShare>& shares) {
+  for (size_t c = 0; c < 8; ++c) {
+    double weight = amount;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double along = at[static_cast<int>(axis)];
+      weight *= brick_corners[c][axis] == 1 ? along : 1 - along;
+    }
+    if (weight == 0) continue;
+    const uint32_t node = bricks.nodes[brick][c];
+    const auto known = std::ranges::find(shares, node, &NodeShare::node);
+    if (known != shares.end())
+      known->share += weight;
+    else
+      shares.push_back({node, weight});
+  }
+}
+
+// Looks through columns of parts from a side inwards.
+class Surface {
+ public:
+  Surface(const Bricks& bricks, const OuterSide& side) : bricks_(bricks), first_(side.element) {
+    while (brick_sides[axis_][0] != side.side && brick_sides[axis_][1] != side.side) ++axis_;
+    is_upper_ = brick_sides[axis_][1] == side.side;
+  }
+
+  std::vector<NodeShare> shares() const {
+    const double area = bricks_.volume_mm3() / bricks_.size_mm[static_cast<int>(axis_)];
+    std::vector<NodeShare> shares;
+    for (size_t a = 0; a < parts_along; ++a)
+      for (size_t b = 0; b < parts_along; ++b) add_column(a, b, area / (parts_along * parts_along), shares);
+    return shares;
+  }
+
+ private:
+  // At the first part inside, of this brick or of one behind it.
+  void add_column(size_t a, size_t b, double area, std::vector<NodeShare>& shares) const {
+    std::array<size_t, 3> part{};
+    part[(axis_ + 1) % 3] = a;
+    part[(axis_ + 2) % 3] = b;
+    for (size_t brick = first_; brick < bricks_.count(); brick = behind(brick))
+      for (size_t n = 0; n < parts_along; ++n) {
+        part[axis_] = is_upper_ ? parts_along - 1 - n : n;
+        if (!has_part(bricks_.fill(brick), part[0], part[1], part[2])) continue;
+        Vec3 at;
+        for (size_t axis = 0; axis < 3; ++axis) {
+          const double within = axis != axis_ ? 0.5 : is_upper_ ? 1 : 0;
+          at[static_cast<int>(axis)] = (static_cast<double>(part[axis]) + within) / parts_along;
+        }
+        return add_at(bricks_, brick, at, area, shares);
+      }
+  }
+
+  size_t behind(size_t brick) const {
+    Cell cell = bricks_.cells[brick];
+    cell[axis_] += is_upper_ ? -1 : 1;
+    return bricks_.find(cell);
+  }
+
+  const Bricks& bricks_;
+  size_t first_, axis_ = 0;
+  bool is_upper_ = false;
+};
+
+std::vector<NodeShare> surface_shares(const Bricks& bricks, const OuterSide& side) {
+  return Surface(bricks, side).shares();
+}
+
+std::vector<NodeShare> fill_shares(const Bricks& bricks, size_t brick) {
+  std::vector<NodeShare> shares;
+  const double volume = bricks.volume_mm3() / parts_of_brick;
+  const auto middle = [](size_t part) { return (static_cast<double>(part) + 0.5) / parts_along; };
+  for (size_t z = 0; z < parts_along; ++z)
+    for (size_t y = 0; y < parts_along; ++y)
+      for (size_t x = 0; x < parts_along; ++x)
+        if (has_part(bricks.fills[brick], x, y, z))
+          add_at(bricks, brick, {middle(x), middle(y), middle(z)}, volume, shares);
+  return shares;
+}
+
 }  // namespace
 
 const ElementShape& shape_of(ElementKind kind) {
@@ -47,7 +127,7 @@ const ElementShape& shape_of(ElementKind kind) {
 }
 
 Vec3 MeshView::centroid(size_t element) const {
-  if (bricks_) return bricks_->centroid(element);
+  if (bricks_) return bricks_->centre_of_fill(element);
   const auto nodes_here = nodes(element);
   const size_t corners = shape().corners;
   Vec3 sum;
@@ -56,7 +136,7 @@ Vec3 MeshView::centroid(size_t element) const {
 }
 
 double MeshView::volume_mm3(size_t element) const {
-  if (bricks_) return bricks_->volume_mm3();
+  if (bricks_) return bricks_->share(element) * bricks_->volume_mm3();
   const auto n = nodes(element);
   if (shape().corners == 4) return tetrahedron_volume(node(n[0]), node(n[1]), node(n[2]), node(n[3]));
   // Six tetrahedra around the diagonal 1-7.
@@ -134,9 +214,25 @@ Vec3 side_area(const MeshView& mesh, const OuterSide& side) {
   return 0.5 * cross(c - a, mesh.node(n[3]) - b);
 }
 
-std::vector<double> side_shares(const ElementShape& shape) {
-  if (shape.side_nodes == 6) return {0, 0, 0, 1.0 / 3, 1.0 / 3, 1.0 / 3};
-  return std::vector<double>(shape.side_nodes, 1 / static_cast<double>(shape.side_nodes));
+std::vector<NodeShare> side_shares(const MeshView& mesh, const OuterSide& side) {
+  if (mesh.bricks() && !mesh.bricks()->fills.empty()) return surface_shares(*mesh.bricks(), side);
+  const double area = length(side_area(mesh, side));
+  std::vector<NodeShare> shares;
+  for (const uint32_t node : side_nodes(mesh, side)) shares.push_back({node, 0});
+  // The integrals of shape functions: corners of a quadratic triangle have none.
+  const size_t first = shares.size() == 6 ? 3 : 0;
+  for (size_t n = first; n < shares.size(); ++n) shares[n].share = area / static_cast<double>(shares.size() - first);
+  return shares;
+}
+
+std::vector<NodeShare> volume_shares(const MeshView& mesh, size_t element) {
+  if (mesh.bricks() && mesh.bricks()->fill(element) != full_fill) return fill_shares(*mesh.bricks(), element);
+  const auto nodes = mesh.nodes(element);
+  const double volume = mesh.volume_mm3(element), even = volume / static_cast<double>(nodes.size());
+  std::vector<NodeShare> shares;
+  for (size_t n = 0; n < nodes.size(); ++n)
+    shares.push_back({nodes[n], nodes.size() != 10 ? even : (n < 4 ? -0.05 : 0.2) * volume});
+  return shares;
 }
 
 std::vector<uint32_t> pieces_of(const MeshView& mesh) {

@@ -51,7 +51,7 @@ class MeshView {
     const size_t each = shape().nodes;
     return {mesh_->nodes.data() + element * each, each};
   }
-  Vec3 centroid(size_t element) const;      // the mean of its corners
+  Vec3 centroid(size_t element) const;      // the mean of its corners; of a brick that of what is inside
   double volume_mm3(size_t element) const;  // negative where it is inside out
   double total_volume_mm3() const;
   Box bounds() const;
@@ -71,10 +71,18 @@ struct OuterSide {
 std::vector<OuterSide> outer_sides(const MeshView& mesh);
 // The side's nodes, corners first.
 std::vector<uint32_t> side_nodes(const MeshView& mesh, const OuterSide& side);
-// Outwards, as long as the side's area in mm2.
+// A node, and how much of something comes to it.
+struct NodeShare {
+  uint32_t node = 0;
+  double share = 0;
+};
+// What acts evenly on a side: mm2 for each node. Where a brick is cut, it acts on the surface inside, as seen from the
+// side, of this brick or of those behind it.
+std::vector<NodeShare> side_shares(const MeshView& mesh, const OuterSide& side);
+// What acts evenly on the volume of an element: mm3 for each node.
+std::vector<NodeShare> volume_shares(const MeshView& mesh, size_t element);
+// Outwards, as long as the whole side's area in mm2.
 Vec3 side_area(const MeshView& mesh, const OuterSide& side);
-// The shares of what acts evenly on a side that its nodes have: the integrals of their shape functions.
-std::vector<double> side_shares(const ElementShape& shape);
 
 // The number of the piece of each element, from 0: elements that share a node belong together.
 std::vector<uint32_t> pieces_of(const MeshView& mesh);

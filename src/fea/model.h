@@ -20,6 +20,16 @@ struct Elastic {
   bool operator==(const Elastic&) const = default;
 };
 
+// Shear and bulk modulus, MPa.
+struct Moduli {
+  double shear = 0, bulk = 0;
+};
+
+// Converts Young's modulus and Poisson's ratio.
+inline Moduli moduli_of(double modulus_mpa, double poissons_ratio) {
+  return {modulus_mpa / (2 * (1 + poissons_ratio)), modulus_mpa / (3 * (1 - 2 * poissons_ratio))};
+}
+
 // Elements of the same properties.
 struct Section {
   std::string name;
@@ -39,6 +49,7 @@ struct Model {
   std::vector<Section> sections;
   std::vector<uint16_t> section_of;  // of each brick
   std::vector<ValueField> fields;    // of bricks: fractions, attributes
+  double design_mm3 = 0;             // the volume of what the bricks stand for, where it was looked at; else 0
 
   const Elastic& elastic(size_t brick) const { return sections[section_of[brick]].elastic; }
 };
@@ -59,6 +70,9 @@ struct ModelView {
       : mesh(model.bricks), sections(model.sections), section_of(model.section_of), fields(model.fields) {}
   ModelView(const MeshModel& model)  // NOLINT
       : mesh(model.mesh), sections(model.sections), section_of(model.section_of), fields(model.fields) {}
+  // With other sections.
+  ModelView(const ModelView& model, const std::vector<Section>& others, const std::vector<uint16_t>& other_of)
+      : mesh(model.mesh), sections(others), section_of(other_of), fields(model.fields) {}
 
   MeshView mesh;
   const std::vector<Section>& sections;

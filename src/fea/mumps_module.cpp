@@ -1,11 +1,13 @@
 // Sparse factorisations by MUMPS (Amestoy, Duff, L'Excellent and Koster, 2001) in an order by METIS' nested dissection
 // (Karypis and Kumar, 1998).
+#include <dmumps_c.h>
 #include <metis.h>
 #include <smumps_c.h>
 
 #include <algorithm>
 #include <cstring>
 #include <ctime>
+#include <optional>
 #include <string>
 
 #include "base/error.h"
@@ -27,7 +29,7 @@ enum Control : size_t { errors = 1, diagnostics, information, verbosity, element
 constexpr int start = -1, end = -2, analyse = 1, factorise_numbers = 2, solve_for = 3;
 constexpr int positive_definite = 1, order_is_given = 1;
 constexpr double bytes_of_megabyte = 1e6;
-constexpr int out_of_disk = -90, out_of_memory = -13, singular = -10;
+constexpr int out_of_disk = -90, out_of_memory = -13, singular = -10, not_positive = -40;
 
 // The elements at each node; nodes that share one are neighbours.
 std::vector<idx_t> neighbours_of(const ElementEquations& equations, std::vector<idx_t>& begins) {
@@ -90,9 +92,26 @@ double operations_a_second() {
   return best;
 }
 
-class Mumps : public Factoriser {
+template <class Real>
+struct Interface;
+template <>
+struct Interface<float> {
+  using State = SMUMPS_STRUC_C;
+  static void run(State& state) { smumps_c(&state); }
+  static std::vector<float>& matrices(ElementEquations& equations) { return equations.matrices; }
+};
+template <>
+struct Interface<double> {
+  using State = DMUMPS_STRUC_C;
+  static void run(State& state) { dmumps_c(&state); }
+  static std::vector<double>& matrices(ElementEquations& equations) { return equations.double_matrices; }
+};
+
+// Equations in one precision, analysed when they are made.
+template <class Real>
+class Factors {
  public:
-  explicit Mumps(ElementEquations& equations) : equations_(equations), order_(order_of(equations)) {
+  Factors(ElementEquations& equations, std::vector<int>& order) : equations_(equations) {
     std::memset(&mumps_, 0, sizeof mumps_);
     mumps_.par = 1;
     mumps_.sym = positive_definite;
@@ -101,7 +120,7 @@ class Mumps : public Factoriser {
     control(verbosity) = 0;
     control(elemental) = 1;
     control(ordering) = order_is_given;
-    mumps_.perm_in = order_.data();
+    mumps_.perm_in = order.data();
     mumps_.n = equations_.size;
     mumps_.nelt = static_cast<int>(equations_.begins.size()) - 1;
     mumps_.eltptr = equations_.begins.data();
@@ -112,22 +131,25 @@ class Mumps : public Factoriser {
       finish();
       throw;
     }
+  }
+  ~Factors() { finish(); }
+  Factors(const Factors&) = delete;
+  Factors& operator=(const Factors&) = delete;
+
+  FactorisationCost cost() const {
     constexpr size_t in_core = 17, beside_disk = 27, entries = 3;
-    cost_.operations = mumps_.rinfog[0];
-    cost_.bytes = bytes_of_megabyte * mumps_.infog[in_core - 1];
-    cost_.bytes_on_disk = bytes_of_megabyte * mumps_.infog[beside_disk - 1];
+    FactorisationCost cost;
+    cost.operations = mumps_.rinfog[0];
+    cost.bytes = bytes_of_megabyte * mumps_.infog[in_core - 1];
+    cost.bytes_on_disk = bytes_of_megabyte * mumps_.infog[beside_disk - 1];
     // Negative numbers are millions.
     const double count = mumps_.infog[entries - 1];
-    cost_.operations_a_second = operations_a_second();
-    cost_.factor_bytes = sizeof(float) * (count < 0 ? -1e6 * count : count);
+    cost.factor_bytes = sizeof(Real) * (count < 0 ? -1e6 * count : count);
+    return cost;
   }
-  ~Mumps() override { finish(); }
-  Mumps(const Mumps&) = delete;
-  Mumps& operator=(const Mumps&) = delete;
 
-  FactorisationCost cost() const override { return cost_; }
-
-  void factorise(const std::string& folder) override {
+  // Returns false where the equations are no longer positive definite in this precision.
+  bool factorise(const std::string& folder) {
     if (folder.size() >= sizeof mumps_.ooc_tmpdir)
       throw Error(Code::cannot_write, "the name of the folder " + folder + " is too long");
     if (!folder.empty()) {
@@ -135,36 +157,34 @@ class Mumps : public Factoriser {
       std::memcpy(mumps_.ooc_prefix, "factor", sizeof "factor");
       control(out_of_core) = 1;
     }
-    mumps_.a_elt = equations_.matrices.data();
-    call(factorise_numbers);
+    mumps_.a_elt = Interface<Real>::matrices(equations_).data();
+    if (!call(factorise_numbers)) return false;
     constexpr size_t negative_pivots = 12;
-    if (mumps_.infog[negative_pivots - 1] > 0) throw Error(Code::not_solved, too_near_to_singular);
+    return mumps_.infog[negative_pivots - 1] == 0;
   }
 
-  void solve(std::vector<float>& values) override {
+  void solve(std::vector<Real>& values) {
     mumps_.rhs = values.data();
     mumps_.nrhs = 1;
     call(solve_for);
   }
 
  private:
-  static constexpr const char* too_near_to_singular =
-      "the equations could not be factorised: they are too near to having no single solution for single precision; "
-      "parts may hang together at an edge or a corner";
-
   int& control(Control which) { return mumps_.icntl[which - 1]; }
 
-  void call(int job) {
+  // Returns false where a matrix has no inverse.
+  bool call(int job) {
     if (openblas_set_num_threads) openblas_set_num_threads(1);
     mumps_.job = job;
     constexpr int of_sequential_mpi = -987654;
     mumps_.comm_fortran = of_sequential_mpi;
-    smumps_c(&mumps_);
-    if (const int failure = mumps_.infog[0]; failure < 0) fail(failure);
+    Interface<Real>::run(mumps_);
+    const int failure = mumps_.infog[0];
+    if (failure < 0 && failure != singular && failure != not_positive) fail(failure);
+    return failure >= 0;
   }
 
   [[noreturn]] void fail(int failure) const {
-    if (failure == singular) throw Error(Code::not_solved, too_near_to_singular);
     if (failure == out_of_memory) throw Error(Code::memory, "memory ran out while the equations were factorised");
     if (failure == out_of_disk)
       throw Error(Code::cannot_write, "the factorisation could not be written to " + std::string(mumps_.ooc_tmpdir) +
@@ -175,12 +195,43 @@ class Mumps : public Factoriser {
 
   void finish() {
     mumps_.job = end;
-    smumps_c(&mumps_);
+    Interface<Real>::run(mumps_);
   }
 
   ElementEquations& equations_;
+  typename Interface<Real>::State mumps_;
+};
+
+class Mumps : public Factoriser {
+ public:
+  explicit Mumps(ElementEquations& equations)
+      : equations_(equations), order_(order_of(equations)), single_(std::in_place, equations_, order_) {
+    cost_ = single_->cost();
+    cost_.operations_a_second = operations_a_second();
+  }
+
+  FactorisationCost cost() const override { return cost_; }
+
+  bool factorise(const std::string& folder, Precision precision) override {
+    if (precision == Precision::single) return single_->factorise(folder);
+    single_.reset();
+    twofold_.emplace(equations_, order_);
+    return twofold_->factorise(folder);
+  }
+
+  void solve(std::vector<double>& values) override {
+    if (twofold_) return twofold_->solve(values);
+    std::vector<float> rounded;
+    for (const double value : values) rounded.push_back(static_cast<float>(value));
+    single_->solve(rounded);
+    std::ranges::copy(rounded, values.begin());
+  }
+
+ private:
+  ElementEquations& equations_;
   std::vector<int> order_;
-  SMUMPS_STRUC_C mumps_;
+  std::optional<Factors<float>> single_;
+  std::optional<Factors<double>> twofold_;
   FactorisationCost cost_;
 };
 

@@ -1,6 +1,7 @@
 // Blocks of bricks for tests.
 #pragma once
 
+#include <cmath>
 #include <functional>
 
 #include "fea/model.h"
@@ -13,6 +14,36 @@ inline Bricks block(Cell count, Vec3 size_mm, Vec3 origin = {}) {
     for (int32_t j = 0; j < count[1]; ++j)
       for (int32_t i = 0; i < count[0]; ++i) cells.push_back({i, j, k});
   return make_bricks(origin, size_mm, std::move(cells));
+}
+
+// A block from the origin that ends anywhere, as bricks with their fill.
+inline Bricks cut_block(Vec3 block_mm, double brick_mm) {
+  const auto part_is_inside = [&](const Cell& cell, const std::array<size_t, 3>& part) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto at = static_cast<size_t>(axis);
+      const double middle = cell[at] + (static_cast<double>(part[at]) + 0.5) / parts_along;
+      if (middle * brick_mm > block_mm[axis]) return false;
+    }
+    return true;
+  };
+  const auto fill_of = [&](const Cell& cell) {
+    Fill fill = 0;
+    for (size_t n = 0; n < parts_of_brick; ++n)
+      if (part_is_inside(cell, {n % 4, n / 4 % 4, n / 16})) fill |= Fill{1} << n;
+    return fill;
+  };
+  std::vector<Cell> cells;
+  std::vector<Fill> fills;
+  const auto along = [&](int axis) { return static_cast<int32_t>(std::ceil(block_mm[axis] / brick_mm - 1e-9)); };
+  for (int32_t k = 0; k < along(2); ++k)
+    for (int32_t j = 0; j < along(1); ++j)
+      for (int32_t i = 0; i < along(0); ++i) {
+        cells.push_back({i, j, k});
+        fills.push_back(fill_of({i, j, k}));
+      }
+  Bricks bricks = make_bricks({}, {brick_mm, brick_mm, brick_mm}, std::move(cells));
+  bricks.fills = std::move(fills);
+  return bricks;
 }
 
 // A model of one material.
