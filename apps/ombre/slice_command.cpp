@@ -57,7 +57,7 @@ class SliceProgress : public Progress {
 int dry_run(const compile::Plan& plan, const compile::SliceOptions& options, Session& session, const StopFlag& stop) {
   compile::SliceEstimate estimate;
   try {
-    estimate = compile::estimate_slice(plan.request, plan.producer, options, &stop);
+    estimate = compile::estimate_slice(plan.request, plan.samples, options, &stop);
   } catch (const Cancelled&) {
     return interrupted;
   }

@@ -53,6 +53,7 @@ struct PlanOptions : SamplingRules {
 struct Plan {
   SliceRequest request;
   RegionProducer regions;
+  RegionProducer samples;  // what `regions` gives, or voxels that are as much work and do not need whole layers
   LayerProducer producer;  // of whole layers, by `regions`
   JobStagesPtr stages;     // to be prepared before layers are made
 };

@@ -171,10 +171,12 @@ SliceRequest base_request(const PlanOptions& options, const voxel::Lattice& latt
   return request;
 }
 
-LayerProducer whole_layers(const RegionProducer& regions, const voxel::Lattice& lattice) {
-  return [regions, count = lattice.count](int64_t begin, int64_t end, const StopFlag* stop) {
-    return regions({{0, 0, begin}, {count[0], count[1], end}}, stop);
-  };
+// Errors go no further than the borders of this lattice.
+std::vector<voxel::LayerResult> diffused_alone(const voxel::MaterialProgram& program, const voxel::Lattice& lattice,
+                                               uint64_t seed, const voxel::EvaluatorOptions& how,
+                                               const StopFlag* stop) {
+  const voxel::LayerEvaluator evaluator(program, lattice, voxel::Dither::diffusion, seed, how);
+  return evaluator.layers(0, lattice.count[2], stop);
 }
 
 design::Design design_on(const design::Design& design, const voxel::Lattice& lattice, const PlanOptions& options) {
@@ -199,6 +201,7 @@ std::optional<Plan> plan_shades(const LoadedPtr& loaded, PlanOptions options, co
   plan.regions = [loaded, regions = std::move(*regions)](const voxel::TileBox& region, const StopFlag* stop) {
     return regions(region, stop);
   };
+  plan.samples = plan.regions;
   plan.producer = whole_layers(plan.regions, lattice);
   return plan;
 }
@@ -258,6 +261,12 @@ std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const Pla
   plan.regions = [loaded, evaluator](const voxel::TileBox& region, const StopFlag* stop) {
     return evaluator->region(region, stop);
   };
+  plan.samples = plan.regions;
+  if (options.dither == voxel::Dither::diffusion)
+    plan.samples = [loaded, program = built->materials, lattice = *lattice, seed = options.seed, how](
+                       const voxel::TileBox& region, const StopFlag* stop) {
+      return diffused_alone(program, voxel::part_of(lattice, region), seed, how, stop);
+    };
   plan.producer = whole_layers(plan.regions, *lattice);
   return plan;
 }

@@ -69,6 +69,9 @@ using RegionProducer =
 // Layers [begin, end), lowest first. Called from several threads. Throws Cancelled when asked to stop.
 using LayerProducer = std::function<std::vector<voxel::LayerResult>(int64_t begin, int64_t end, const StopFlag* stop)>;
 
+// Layers of the whole width and height of the lattice.
+LayerProducer whole_layers(RegionProducer regions, const voxel::Lattice& lattice);
+
 enum class FolderUse {
   fresh,    // the folder must be empty or missing
   resume,   // continue the job there, if there is one
@@ -109,7 +112,7 @@ struct SliceReport {
 struct SliceEstimate {
   double seconds = 0;
   uint64_t bytes = 0;               // of image files
-  bool is_least = false;            // no layer was done in time: it takes this long at least, and bytes are unknown
+  bool is_least = false;            // nothing was done in time: it takes this long at least, and bytes are unknown
   size_t memory_bytes = 0;          // most that layers in flight can take
   std::vector<CheckReport> checks;  // that failed in the layers looked at
 };
