@@ -218,6 +218,40 @@ def boxes_cut_layers(job):
         expect(part.rows == wanted, f"{form}: {part.width} x {part.height} other pixels")
 
 
+def boxes_cut_jobs(job):
+    """slice --box: the pixels, names and checks of the whole job, in whatever way mixtures become voxels."""
+    # x from -1 to 2.5 mm, y from -3 to 4 mm and z from 0.95 to 1.2 mm of a part that begins at -5 mm
+    box = "--box=-1,-3,0.95,2.5,4,1.2"
+    for dither in ("stochastic", "blue-noise", "diffusion"):
+        options = [*SMALL, "--dither", dither, "--seed", "2"]
+        job.slice("whole " + dither, *options, "--layers", "59:62")
+        job.slice(dither, *options, box)
+        names = [p.name for p in layers(job.folder / dither)]
+        expect(names == ["slice_00059.png", "slice_00060.png", "slice_00061.png"], f"{dither}: {names}")
+        for name in names:
+            whole, part = (png.read(job.folder / folder / name) for folder in ("whole " + dither, dither))
+            expect(part.rows == [row[40:75] for row in whole.rows[10:80]], f"{dither}: other pixels in {name}")
+    about = json.loads((job.folder / "stochastic" / "job.json").read_text(encoding="utf-8"))
+    sampling = about["sampling"]
+    expect(sampling["voxels"] == [35, 70, 3] and sampling["part_of"] == {"first_voxel": [40, 20, 59],
+                                                                         "voxels": [100, 100, 100]}, str(sampling))
+    expect([round(c, 9) for c in sampling["origin_mm"]] == [-1, -3, 0.9], str(sampling))
+    expect(about["status"] == "complete" and about["images"]["first_index"] == 59, str(about))
+    before = files(job.folder / "stochastic")
+    job.slice("stochastic", *SMALL, "--seed", "2", box, "--resume")
+    expect(files(job.folder / "stochastic") == before, "--resume changed it")
+    result = job.slice("stochastic", *SMALL, "--seed", "2", "--box=-1,-3,0.95,2.5,4,1.3", "--resume", status=2)
+    expect("another job" in result.stderr, result.stderr)
+    for arguments, part in (([box, "--layers", "0:3"], "--layers"), (["--box", "1,2,3"], "x0,y0,z0,x1,y1,z1"),
+                            (["--box", "5,5,5,6,6,6"], "from -5,-5,-5 to 5,5,5 mm")):
+        result = job.slice("wrong", *SMALL, *arguments, status=1)
+        expect(part in result.stderr, f"{arguments}: {result.stderr}")
+    design = job.write("failing.vcad", 'fgrade(["x > 1 && z > 1 ? 0 : 1"], [red]) cube(10, red);')
+    checked = job.slice("checked", "--voxel", "1", "--box", "0,0,0,4,4,4", "--json", design=design)
+    check = next(e for e in map(json.loads, checked.stdout.splitlines()) if e["event"] == "check")
+    expect(check["voxels"] == 3 * 4 * 3 and check["first_mm"] == [1.5, 0.5, 1.5], str(check))
+
+
 def layers_have_names_and_are_not_overwritten(job):
     ombre_layer(job, *SMALL, "--index", "7")
     name = job.folder / "ball_slice_00007.png"
@@ -366,7 +400,7 @@ CHECKS = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make
           printed_designs_are_the_same_job, roundabout_rotations_keep_the_voxels, images_lie_as_the_design_does,
           images_tell_their_resolution, palettes_of_any_size, materials_have_masks_of_their_own,
           gray_images_show_brightness, masks_resume_and_are_replaced, layers_of_masks_have_several_files,
-          layers_are_those_of_the_job, boxes_cut_layers, layers_have_names_and_are_not_overwritten,
+          layers_are_those_of_the_job, boxes_cut_layers, boxes_cut_jobs, layers_have_names_and_are_not_overwritten,
           wrong_layers_are_explained, links_lead_to_what_lies_beside_them, bundles_slice_as_their_designs_do, reference_is_up_to_date,
           examples_of_nodes_slice, suggestions_of_examples_work, designs_of_openscad_are_explained]
 

@@ -192,6 +192,21 @@ def smoothing_takes_the_half(scene):
     expect((found == (share >= 0.5))[clear].all(), "smooth differs")
 
 
+def smoothing_may_keep_the_volume(scene):
+    """Of each label as many voxels as before, and those with the greatest shares of the Gaussian."""
+    for label in (1, 2):
+        solid = np.pad(scene.labels == label, [(int(np.ceil(0.7 / s)),) * 2 for s in SPACING])
+        share = ndimage.gaussian_filter(solid.astype(float), [0.7 / s for s in SPACING], mode="constant")
+        corner = [-np.ceil(0.7 / s) * s for s in SPACING]
+        end = [c + n * s for c, n, s in zip(corner, solid.shape, SPACING)]
+        text = ("root((%r, %r, %r), (%r, %r, %r), (%r, %r, %r)) " % (*corner, *end, *SPACING) +
+                f'smooth(0.7, keep_volume=true) volume_solid("labels.nrrd", "red", label={label});')
+        found = sum(scene.sample_text(text, "fractions").values()) > 0.5
+        expect(found.sum() == solid.sum(), f"label {label}: {found.sum()} voxels of {solid.sum()}")
+        expect(share[found].min() >= share[~found].max() - 1e-6, f"label {label}: other voxels than those with most")
+    expect((share >= 0.5).sum() < 0.5 * solid.sum(), "one half would keep the volume of the rarer label")
+
+
 def parts_are_those_of_scipy(scene):
     solid = scene.labels == 1
     labels, count = ndimage.label(solid)
@@ -298,7 +313,7 @@ def main():
     checks = [convolutions_are_those_of_scipy, products_of_lists_are_the_same_kernel, boxes_are_kernels_of_ones,
               sharpening_keeps_no_negative_share, gaussians_are_those_of_scipy, attributes_are_filtered_inside,
               medians_are_those_of_scipy, majorities_count_materials, morphology_is_that_of_scipy,
-              smoothing_takes_the_half, a_noisy_scan_becomes_clearer, parts_are_those_of_scipy, distances_are_those_of_a_ball,
+              smoothing_takes_the_half, smoothing_may_keep_the_volume, a_noisy_scan_becomes_clearer, parts_are_those_of_scipy, distances_are_those_of_a_ball,
               stacks_of_slices_are_read_back, grey_stacks_are_volumes]
     ombre = str(pathlib.Path(options.ombre).resolve())
     for check in checks:

@@ -542,6 +542,56 @@ def large_files_stay_on_disk(folder):
     expect(np.allclose(values_at(folder / "large.nrrd", points), points[:, 2] - 300), "values of a large file")
 
 
+def write_segmentation(path, layers, segments, has_numbers=True):
+    """As 3D Slicer writes them: layers of labels (x, y, z), and (name, label, layer, colour) of each segment."""
+    shape, voxels = layers[0].shape, np.stack(layers)
+    is_layered = len(layers) > 1
+    lines = ["NRRD0004", "# Complete NRRD file format specification at:", "type: unsigned char",
+             f"dimension: {3 + is_layered}", "space: left-posterior-superior",
+             "sizes: " + (f"{len(layers)} " if is_layered else "") + "%d %d %d" % shape,
+             "space directions: " + ("none " if is_layered else "") + "(0.5,0,0) (0,0.75,0) (0,0,3)",
+             "kinds: " + ("list " if is_layered else "") + "domain domain domain", "encoding: gzip", "space origin: (1,2,3)"]
+    for n, (name, label, layer, colour) in enumerate(segments):
+        lines += [f"Segment{n}_ID:=Segment_{n + 1}", f"Segment{n}_Name:={name}", f"Segment{n}_Color:=%g %g %g" % colour]
+        if has_numbers:
+            lines += [f"Segment{n}_LabelValue:={label}", f"Segment{n}_Layer:={layer}"]
+    lines += ["Segmentation_ContainedRepresentationNames:=Binary labelmap|Closed surface|", "", ""]
+    path.write_bytes("\n".join(lines).encode() + gzip.compress(voxels.ravel(order="F").tobytes()))
+
+
+def segments_have_names_and_colours(folder):
+    x, y, z = np.indices(SHAPE)
+    bone, kidney, cyst = x < 4, (x >= 4) & (y > 6), (x >= 2) & (x < 6) & (z > 3)  # the last overlaps both
+    colours = {"bone": (0.945, 0.839, 0.569), "left kidney": (0.725, 0.4, 0.325), "Zyste é": (0, 1, 0.2)}
+    wanted = {"bone": bone, "left kidney": kidney, "Zyste é": cyst}
+    places = np.array([1, 2, 3]) + np.stack([x, y, z], -1).reshape(-1, 3) * [0.5, 0.75, 3]
+    one = (1 * bone + 5 * kidney).astype(np.uint8)
+    of = lambda *named: [(name, label, layer, colours[name]) for name, label, layer in named]
+    write_segmentation(folder / "one.seg.nrrd", [one], of(("bone", 1, 0), ("left kidney", 5, 0)))
+    write_segmentation(folder / "two.seg.nrrd", [one, cyst.astype(np.uint8)],
+                       of(("bone", 1, 0), ("left kidney", 5, 0), ("Zyste é", 1, 1)))
+    write_segmentation(folder / "old.seg.nrrd", [bone.astype(np.uint8), kidney.astype(np.uint8), cyst.astype(np.uint8)],
+                       of(("bone", 1, 0), ("left kidney", 1, 1), ("Zyste é", 1, 2)), has_numbers=False)
+    for file in ("one", "two", "old"):
+        path = folder / f"{file}.seg.nrrd"
+        facts = ombre.volume_info(path)["segments"]
+        expect([s["name"] for s in facts] == list(wanted)[:2 if file == "one" else 3], f"{file}: {facts}")
+        for segment in facts:
+            mask, colour = wanted[segment["name"]], colours[segment["name"]]
+            expect(segment["voxels"] == mask.sum(), f"{file}: {segment} has {mask.sum()} voxels")
+            expect(segment["colour"] == "#" + "".join(f"{int(255 * c + 0.5):02x}" for c in colour), f"{file}: {segment}")
+            for name in (segment["name"], segment["id"]):
+                design = ombre.load_text(f'volume_solid("{path}", "red", segment="{name}");')
+                expect((design.inside(places) == mask.ravel()).all(), f"{file}: other voxels in {name}")
+    result = subprocess.run([sys.executable, "-m", "ombre", "info", folder / "two.seg.nrrd"], capture_output=True, text=True)
+    expect(f"left kidney  5      0      #b96653  {kidney.sum()}" in result.stdout, result.stdout + result.stderr)
+    whole = (folder / "two.seg.nrrd").read_bytes()
+    for key, right, wrong in (("LabelValue", b"LabelValue:=5", b"LabelValue:=-5"), ("Layer", b"Layer:=1", b"Layer:=x"),
+                              ("Color", b"Color:=0.9", b"Color:=7.9")):
+        (folder / f"{key}.seg.nrrd").write_bytes(whole.replace(right, wrong, 1))
+        fails(folder / f"{key}.seg.nrrd", "_" + key)
+
+
 def sparse_grids_are_read(folder):
     part = ombre.load_text('root((-5, -5, -5), (5, 5, 5), (0.25, 0.25, 0.5)) attribute("heat", "x + 2*y") sphere(4);')
     part.write_voxels(folder / "ball.vdb", what="distance,heat")
@@ -561,7 +611,8 @@ def main():
               what_is_no_image_is_passed_over, broken_files_are_errors, wrong_volumes_are_errors, nifti_affines_are_honoured,
               meta_images_are_read, arrays_are_volumes, files_of_many_frames_are_read, tiles_and_planes_are_read, stacks_of_images_are_read,
               vtk_images_are_read, image_data_of_ours_are_read_back, voxels_may_be_counted,
-              facts_and_pictures_name_nobody, large_files_stay_on_disk, sparse_grids_are_read]
+              facts_and_pictures_name_nobody, large_files_stay_on_disk, segments_have_names_and_colours,
+              sparse_grids_are_read]
     for check in checks:
         with tempfile.TemporaryDirectory() as scratch:
             check(pathlib.Path(scratch))

@@ -52,7 +52,9 @@ Block white(const Size& size, const Fraction& fraction) {
 }
 
 Block blue(const Size& size, const Fraction& fraction) {
-  return by_draw(size, fraction, [](int64_t i, int64_t j, int64_t k) { return blue_noise_row(0, j, k)[i] * 0x1p-24; });
+  return by_draw(size, fraction, [](int64_t i, int64_t j, int64_t k) {
+    return blue_noise_row(blue_noise_draws, 0, j, k)[i] * 0x1p-24;
+  });
 }
 
 Block diffusion(const Size& size, const Fraction& fraction) {

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "compile/job_folder.h"
+#include "compile/plan_part.h"
 #include "compile/slice_choices.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
@@ -26,6 +27,7 @@ constexpr const char* slice_footer =
     "  ombre slice part.vcad --dpi 600,300 --layer-height 0.027\n"
     "  ombre slice part.vcad -D wall=1.5 -D lid=false       set variables of the design\n"
     "  ombre slice part.vcad --layers 100:110               a few layers, named as in the whole job\n"
+    "  ombre slice part.vcad --box -5,-5,0,5,5,2            a box of it, in the voxels of the whole job\n"
     "  ombre slice part.vcad --dry-run                      size, memory and time; writes nothing\n"
     "  ombre slice part.vcad -o part/ --resume              go on after an interruption\n";
 
@@ -57,7 +59,7 @@ class SliceProgress : public Progress {
 int dry_run(const compile::Plan& plan, const compile::SliceOptions& options, Session& session, const StopFlag& stop) {
   compile::SliceEstimate estimate;
   try {
-    estimate = compile::estimate_slice(plan.request, plan.producer, options, &stop);
+    estimate = compile::estimate_slice(plan.request, plan.samples, options, &stop);
   } catch (const Cancelled&) {
     return interrupted;
   }
@@ -120,9 +122,15 @@ int slice(const SliceChoices& a, Session& session) {
     if (!a.dry_run) compile::refuse_used_folder(a.output_folder(), a.folder_use());
   };
   steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::Plan> {
-    const auto options = plan_options(a.sampling, a.work, session, diagnostics, a.images);
+    auto options = plan_options(a.sampling, a.work, session, diagnostics, a.images);
     const compile::LoadedPtr loaded = options ? load_sliced(a, session, diagnostics) : nullptr;
-    return loaded ? compile::plan_slice(loaded, *options, diagnostics) : std::nullopt;
+    if (!loaded) return std::nullopt;
+    ProgressLine progress(session.console);
+    options->progress = &progress;
+    auto plan = compile::plan_slice(loaded, *options, diagnostics);
+    if (!plan) return std::nullopt;
+    const voxel::TileBox region = compile::chosen_region(a.box, plan->request.lattice);
+    return compile::part_of(std::move(*plan), region);
   };
   steps.run = [&](const compile::Plan& plan) {
     const compile::SliceOptions options = compile::slice_options(a, plan);

@@ -69,7 +69,7 @@ void tell_estimate(const Console& console, const compile::SliceRequest& request,
                              " of memory for layers in flight; nothing was written";
   if (estimate.is_least)
     console.say("more than " + duration_text(estimate.seconds) +
-                ": a few layers alone take longer than this look at them; " + memory);
+                ": a few rows of a layer alone take longer than this look at them; " + memory);
   else
     console.say("about " + duration_text(estimate.seconds) + ", " + format_bytes(static_cast<double>(estimate.bytes)) +
                 " of images (" + voxel::to_text(request.format) + "), " + memory);

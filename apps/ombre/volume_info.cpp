@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <functional>
 #include <map>
 #include <type_traits>
 
@@ -97,6 +99,79 @@ std::string labels_text(const std::map<int64_t, uint64_t>& labels) {
   return text;
 }
 
+// A segment of a segmentation, and in how many voxels it is.
+struct CountedSegment {
+  formats::VolumeSegment segment;
+  uint64_t voxels = 0;
+};
+
+uint64_t count_label(const formats::VoxelVolume& volume, int64_t label) {
+  return formats::visit_numbers(volume, [&](const auto& numbers) {
+    uint64_t count = 0;
+    for (size_t n = 0; n < numbers.size(); ++n) count += static_cast<double>(numbers[n]) == static_cast<double>(label);
+    return count;
+  });
+}
+
+bool is_layered(const std::vector<formats::VolumeSegment>& segments) {
+  return std::ranges::any_of(segments, [](const formats::VolumeSegment& segment) { return segment.layer > 0; });
+}
+
+// `read` gives a channel of the file.
+std::vector<CountedSegment> count_segments(const std::vector<formats::VolumeSegment>& segments,
+                                           const std::function<formats::VoxelVolume(int channel)>& read) {
+  const bool has_layers = is_layered(segments);
+  std::vector<CountedSegment> counted;
+  for (const formats::VolumeSegment& segment : segments) counted.push_back({segment});
+  std::map<int, std::vector<CountedSegment*>> by_layer;
+  for (CountedSegment& segment : counted) by_layer[segment.segment.layer].push_back(&segment);
+  for (const auto& [layer, of_layer] : by_layer) {
+    const formats::VoxelVolume volume = read(has_layers ? layer : -1);
+    for (CountedSegment* segment : of_layer) segment->voxels = count_label(volume, segment->segment.label);
+  }
+  return counted;
+}
+
+std::string hex_colour(const std::array<double, 3>& colour) {
+  std::string text = "#";
+  for (const double channel : colour) {
+    char digits[3];
+    std::snprintf(digits, sizeof digits, "%02x", static_cast<unsigned>(std::lround(255 * channel)));
+    text += digits;
+  }
+  return text;
+}
+
+std::string padded(std::string text, size_t width) {
+  text.resize(std::max(text.size() + 1, width), ' ');
+  return text;
+}
+
+std::string segments_text(const std::vector<CountedSegment>& segments) {
+  if (segments.empty()) return "";
+  const std::string heading = "segment";
+  size_t width = heading.size();
+  for (const CountedSegment& counted : segments) width = std::max(width, counted.segment.name.size());
+  std::string text = "\n  " + padded(heading, width + 2) + "label  layer  colour   voxels\n";
+  for (const auto& [segment, voxels] : segments)
+    text += "  " + padded(segment.name, width + 2) + padded(std::to_string(segment.label), 7) +
+            padded(std::to_string(segment.layer), 7) + padded(segment.colour ? hex_colour(*segment.colour) : "-", 9) +
+            format_count(voxels) + "\n";
+  return text;
+}
+
+DataList segments_data(const std::vector<CountedSegment>& segments) {
+  DataList list;
+  for (const auto& [segment, voxels] : segments)
+    list.emplace_back(DataMembers{{"name", segment.name},
+                                  {"id", segment.id},
+                                  {"label", static_cast<double>(segment.label)},
+                                  {"layer", static_cast<double>(segment.layer)},
+                                  {"colour", segment.colour ? Data(hex_colour(*segment.colour)) : Data()},
+                                  {"voxels", static_cast<double>(voxels)}});
+  return list;
+}
+
 std::string volume_text(const std::string& path, const formats::VoxelVolume& volume, const ValueCounts& values) {
   const auto& [nx, ny, nz] = volume.count;
   return path + ": a volume\n  size      " + std::to_string(nx) + " x " + std::to_string(ny) + " x " +
@@ -109,7 +184,8 @@ std::string volume_text(const std::string& path, const formats::VoxelVolume& vol
          labels_text(values.labels);
 }
 
-DataMembers volume_members(const std::string& path, const formats::VoxelVolume& volume, const ValueCounts& values) {
+DataMembers volume_members(const std::string& path, const formats::VoxelVolume& volume, const ValueCounts& values,
+                           const std::vector<CountedSegment>& segments) {
   DataList counts, histogram, steps, labels;
   for (const auto& [label, count] : values.labels)
     labels.emplace_back(DataList{static_cast<double>(label), static_cast<double>(count)});
@@ -124,6 +200,7 @@ DataMembers volume_members(const std::string& path, const formats::VoxelVolume& 
                       {"otsu", sources::otsu_level(volume)},
                       {"histogram", std::move(histogram)},
                       {"labels", std::move(labels)},
+                      {"segments", segments_data(segments)},
                       {"channels", static_cast<double>(volume.channels)},
                       {"slope", volume.slope},
                       {"intercept", volume.intercept}};
@@ -146,8 +223,16 @@ int show_volume(const std::string& path, const VolumeArguments& arguments, Sessi
   sources::FileStore files;
   const sources::ReadFile read = [&](const std::string& file) { return files.view(file, files.content(file)); };
   std::vector<std::string> warnings;
-  const formats::VoxelVolume volume = sources::read_volume_parts(path, sources::volume_parts(path, read),
-                                                                 arguments.choice, read, &session.stop, warnings);
+  const sources::VolumeParts files_of_volume = sources::volume_parts(path, read);
+  const auto read_channel = [&](int channel) {
+    return sources::read_volume_parts(path, files_of_volume, {arguments.choice.name, channel}, read, &session.stop,
+                                      warnings);
+  };
+  // Of a segmentation in layers, the first: all are told of.
+  const bool has_layers = is_layered(files_of_volume.segments);
+  const int channel = has_layers ? std::max(arguments.choice.channel, 0) : arguments.choice.channel;
+  const formats::VoxelVolume volume = read_channel(channel);
+  const std::vector<CountedSegment> segments = count_segments(files_of_volume.segments, read_channel);
   Diagnostics remarks;
   for (const std::string& warning : warnings) remarks.warning({}, warning);
   session.console.diagnose(remarks);
@@ -155,9 +240,9 @@ int show_volume(const std::string& path, const VolumeArguments& arguments, Sessi
   const ValueCounts values = count_values(volume, parts);
   if (!arguments.picture.empty()) write_planes(volume, arguments);
   if (session.console.voice() == Voice::programs)
-    session.console.event("volume", volume_members(path, volume, values));
+    session.console.event("volume", volume_members(path, volume, values, segments));
   else
-    session.console.print(volume_text(path, volume, values));
+    session.console.print(volume_text(path, volume, values) + segments_text(segments));
   return done;
 }
 

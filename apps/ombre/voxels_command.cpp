@@ -9,6 +9,7 @@
 #include "base/file_ending.h"
 #include "base/text.h"
 #include "compile/grid_choices.h"
+#include "compile/plan_part.h"
 #include "compile/sparse_file.h"
 #include "compile/volume_files.h"
 #include "compile/vti_files.h"
@@ -77,16 +78,6 @@ Format chosen_format(const GridChoices& a) {
 }
 
 bool is_sparse(const Format& format) { return std::holds_alternative<vdb::FileFormat>(format); }
-
-std::string corner(Vec3 p) { return mm_text(p.x) + "," + mm_text(p.y) + "," + mm_text(p.z); }
-
-voxel::TileBox chosen_region(const GridChoices& a, const voxel::Lattice& lattice) {
-  if (!a.box) return {{0, 0, 0}, lattice.count};
-  if (const auto region = compile::region_over(lattice, *a.box)) return *region;
-  const Box box = lattice.box();
-  throw WrongArgument(spelled::option("--box", corner(a.box->lo) + "," + corner(a.box->hi)) +
-                      " is beside the part, which lies from " + corner(box.lo) + " to " + corner(box.hi) + " mm");
-}
 
 void tell_plan(const Console& console, const compile::GridJob& job, int threads, const std::vector<std::string>& paths,
                const std::string& bytes) {
@@ -193,7 +184,8 @@ std::optional<compile::GridJob> plan_job(const GridChoices& a, const compile::Gr
   if (!loaded) return std::nullopt;
   const auto plan = compile::plan_slice(loaded, *options, diagnostics);
   if (!plan) return std::nullopt;
-  auto job = compile::plan_grids(loaded, *plan, query, chosen_region(a, plan->request.lattice), diagnostics);
+  auto job =
+      compile::plan_grids(loaded, *plan, query, compile::chosen_region(a.box, plan->request.lattice), diagnostics);
   if (job) job->memory_bytes = a.work.memory_bytes;
   return job;
 }

@@ -206,8 +206,7 @@ Answer estimate_answer(OpenDesign& design, const Request& request, const StopFla
   const CutDesignPtr cut = design.cut(read_job_choices(request, {}));
   compile::SliceOptions options;
   options.stages = cut->plan.stages;
-  const compile::SliceEstimate estimate =
-      compile::estimate_slice(cut->plan.request, cut->plan.producer, options, &stop);
+  const compile::SliceEstimate estimate = compile::estimate_slice(cut->plan.request, cut->plan.samples, options, &stop);
   DataList checks;
   for (const compile::CheckReport& check : estimate.checks) checks.emplace_back(check.text);
   return {{{"seconds", estimate.seconds},

@@ -213,17 +213,6 @@ std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, con
   return job;
 }
 
-std::optional<TileBox> region_over(const voxel::Lattice& lattice, const Box& box) {
-  TileBox region;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const auto voxels = voxels_over(lattice, axis, box.axis(static_cast<int>(axis)));
-    if (!voxels) return std::nullopt;
-    region.lo[axis] = voxels->first;
-    region.hi[axis] = voxels->second;
-  }
-  return region;
-}
-
 GridWork size_grid_work(const GridJob& job, int threads) {
   const auto stages = static_cast<double>(job.stages->memory_bytes({threads, job.memory_bytes, nullptr, nullptr}));
   const double allowed = std::min(window_bytes, static_cast<double>(job.memory_bytes) - stages);

@@ -70,9 +70,6 @@ std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const Pla
 std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, const GridQuery& query,
                                   const voxel::TileBox& region, Diagnostics& diagnostics);
 
-// The voxels that share volume with the box; nothing when none does. Its corners are finite.
-std::optional<voxel::TileBox> region_over(const voxel::Lattice& lattice, const Box& box);
-
 // Calls `take` with all tiles of one slab of layers after the other, lowest first; `tiles` reach no further than
 // `slab`. Slabs begin at multiples of 8 voxels. Throws Cancelled.
 struct GridSlab {

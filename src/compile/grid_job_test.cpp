@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "compile/plan_part.h"
 #include "compile/test_designs.h"
 #include "compile/volume_files.h"
 #include "formats/file.h"

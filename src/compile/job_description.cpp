@@ -30,6 +30,12 @@ Data sampling(const SliceRequest& request) {
                       {"voxels", voxels},
                       {"origin_mm", triple(lattice.origin)},
                       {"size_mm", triple(lattice.box().size())}};
+  if (request.part) {
+    DataList first, count;
+    for (const int64_t n : request.part->first) first.push_back(number(n));
+    for (const int64_t n : request.part->count) count.push_back(number(n));
+    members.emplace_back("part_of", DataMembers{{"first_voxel", first}, {"voxels", count}});
+  }
   const DataMembers rules = SamplingRules::options().describe(request);
   members.insert(members.end(), rules.begin(), rules.end());
   return members;

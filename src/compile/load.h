@@ -45,6 +45,7 @@ struct PlanOptions : SamplingRules {
   int threads = 0;                            // that read the design; 0: all cores
   size_t memory_bytes = size_t{2} << 30;      // of the job
   const StopFlag* stop = nullptr;             // must live as long as the plan
+  Progress* progress = nullptr;               // of planning, where that takes long
   // Where stages that are computed as a whole keep their values for other jobs; null: nowhere. Must live as long, too.
   design::SubDesignMemory* memory = nullptr;
   std::optional<ValueChoice> value;  // shades of gray by this in place of materials
@@ -53,6 +54,7 @@ struct PlanOptions : SamplingRules {
 struct Plan {
   SliceRequest request;
   RegionProducer regions;
+  RegionProducer samples;  // what `regions` gives, or voxels that are as much work and do not need whole layers
   LayerProducer producer;  // of whole layers, by `regions`
   JobStagesPtr stages;     // to be prepared before layers are made
 };

@@ -7,6 +7,7 @@
 #include "compile/build.h"
 #include "compile/grid_job.h"
 #include "compile/load.h"
+#include "compile/seen_materials.h"
 #include "export/material_stack.h"
 #include "voxel/layers.h"
 
@@ -171,10 +172,12 @@ SliceRequest base_request(const PlanOptions& options, const voxel::Lattice& latt
   return request;
 }
 
-LayerProducer whole_layers(const RegionProducer& regions, const voxel::Lattice& lattice) {
-  return [regions, count = lattice.count](int64_t begin, int64_t end, const StopFlag* stop) {
-    return regions({{0, 0, begin}, {count[0], count[1], end}}, stop);
-  };
+// Errors go no further than the borders of this lattice.
+std::vector<voxel::LayerResult> diffused_alone(const voxel::MaterialProgram& program, const voxel::Lattice& lattice,
+                                               uint64_t seed, const voxel::EvaluatorOptions& how,
+                                               const StopFlag* stop) {
+  const voxel::LayerEvaluator evaluator(program, lattice, voxel::Dither::diffusion, seed, how);
+  return evaluator.layers(0, lattice.count[2], stop);
 }
 
 design::Design design_on(const design::Design& design, const voxel::Lattice& lattice, const PlanOptions& options) {
@@ -199,8 +202,35 @@ std::optional<Plan> plan_shades(const LoadedPtr& loaded, PlanOptions options, co
   plan.regions = [loaded, regions = std::move(*regions)](const voxel::TileBox& region, const StopFlag* stop) {
     return regions(region, stop);
   };
+  plan.samples = plan.regions;
   plan.producer = whole_layers(plan.regions, lattice);
   return plan;
+}
+
+// Where there seem to be more materials than the printer has, those that no voxel has are left out of the request:
+// another solid hides them everywhere. False, and a diagnostic, where more are left.
+bool prints_materials(Plan& plan, const PlanOptions& options, const SourceRange& where, Diagnostics& diagnostics) {
+  const auto most = static_cast<size_t>(options.printer.max_materials);
+  std::vector<SliceMaterial>& materials = plan.request.materials;
+  if (materials.size() <= most) return true;
+  SliceOptions work;
+  work.threads = options.threads;
+  work.memory_bytes = options.memory_bytes;
+  plan.stages->prepare({options.threads, options.memory_bytes, options.progress, options.stop, options.memory});
+  const std::set<MaterialId> seen =
+      seen_materials(plan.request, plan.producer, most, work, options.progress, options.stop);
+  if (seen.size() > most) {
+    diagnostics.error(Code::limit, where,
+                      "the design uses more than the " + std::to_string(most) +
+                          (most == 1 ? " material that " : " materials that ") + options.printer.title + " prints",
+                      "use fewer, or choose another printer");
+    return false;
+  }
+  const MaterialId kept = materials.front().id;  // a job has a material, also where all is void
+  std::erase_if(materials, [&](const SliceMaterial& material) {
+    return !seen.contains(material.id) && !(seen.empty() && material.id == kept);
+  });
+  return true;
 }
 
 }  // namespace
@@ -239,17 +269,9 @@ std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const Pla
     const design::Material& material = design.materials.all()[id];
     request.materials.push_back({material.name, id, material.colour});
   }
-  warn_of_grays(request, {loaded->source, 0, 0}, diagnostics);
   for (const design::Check& check : built->checks) {
     request.check_texts.push_back(check.message);
     request.check_places.push_back(place_text(check.where));
-  }
-  if (static_cast<int>(request.materials.size()) > options.printer.max_materials) {
-    diagnostics.error(Code::limit, {loaded->source, 0, 0},
-                      "the design uses " + std::to_string(request.materials.size()) + " materials, " +
-                          options.printer.title + " prints at most " + std::to_string(options.printer.max_materials),
-                      "use fewer, or choose another printer");
-    return std::nullopt;
   }
   voxel::EvaluatorOptions how = options.speed;
   how.evaluator = request.evaluator;
@@ -258,7 +280,15 @@ std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const Pla
   plan.regions = [loaded, evaluator](const voxel::TileBox& region, const StopFlag* stop) {
     return evaluator->region(region, stop);
   };
+  plan.samples = plan.regions;
+  if (options.dither == voxel::Dither::diffusion)
+    plan.samples = [loaded, program = built->materials, lattice = *lattice, seed = options.seed, how](
+                       const voxel::TileBox& region, const StopFlag* stop) {
+      return diffused_alone(program, voxel::part_of(lattice, region), seed, how, stop);
+    };
   plan.producer = whole_layers(plan.regions, *lattice);
+  if (!prints_materials(plan, options, {loaded->source, 0, 0}, diagnostics)) return std::nullopt;
+  warn_of_grays(request, {loaded->source, 0, 0}, diagnostics);
   return plan;
 }
 

@@ -12,9 +12,10 @@ namespace ombre::compile {
 SliceReport slice(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options,
                   Progress* progress = nullptr, const StopFlag* stop = nullptr);
 
-// Evaluates and encodes layers here and there, for two seconds or so, four at most, and as many at once as slicing
-// does, and extrapolates. Writes nothing: the time to write files is a guess for a disk that is not busy.
-SliceEstimate estimate_slice(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options,
+// Evaluates and encodes layers here and there, or rows of them where layers take long, for two seconds or so, four at
+// most, and as many at once as slicing does, and extrapolates. Writes nothing: the time to write files is a guess for a
+// disk that is not busy. `regions` gives rows of layers over the whole width.
+SliceEstimate estimate_slice(const SliceRequest& request, const RegionProducer& regions, const SliceOptions& options,
                              const StopFlag* stop = nullptr);
 
 }  // namespace ombre::compile

@@ -13,6 +13,7 @@ struct SliceChoices {
   SamplingOptions sampling;
   ImageOptions images;
   std::string folder, layers;
+  std::optional<Box> box;
   WorkOptions work;
   bool force = false, resume = false, dry_run = false, strict = false;
   std::string emit;
@@ -27,6 +28,12 @@ struct SliceChoices {
                "Folder for the layers (default: the design's name and _slices)", "DIR"),
         option("--layers", &SliceChoices::layers, kind::text,
                "Only these layers, a:b as in Python (b excluded), a:, :b or a", "A:B"),
+        option(
+            "--box", &SliceChoices::box, kind::box,
+            "Only the voxels that touch this box, with the materials and in layers with the names that they have in\n"
+            "the whole job; mm",
+            "X0,Y0,Z0,X1,Y1,Z1")
+            .excludes({"--layers"}),
         group(&SliceChoices::work,
               WorkOptions::options("Most memory for layers in flight, with their images and what evaluating them takes "
                                    "(default 2G)")),

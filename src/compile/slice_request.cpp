@@ -28,6 +28,12 @@ void use_printer(SliceRequest& request, const voxel::Printer& printer, std::opti
   if (request.format == ImageFormat::mask) request.files = request.files.with_material();
 }
 
+LayerProducer whole_layers(RegionProducer regions, const voxel::Lattice& lattice) {
+  return [regions = std::move(regions), count = lattice.count](int64_t begin, int64_t end, const StopFlag* stop) {
+    return regions({{0, 0, begin}, {count[0], count[1], end}}, stop);
+  };
+}
+
 std::optional<LayerRange> parse_layer_range(std::string_view text, int64_t layer_count) {
   const size_t colon = text.find(':');
   const std::string_view first = trim(text.substr(0, colon));

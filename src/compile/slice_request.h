@@ -1,6 +1,7 @@
 // What slice jobs are made from, and what they report.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -32,11 +33,17 @@ struct ShadeMeaning {
   int bits = 8;  // of a pixel: 8 or 16
 };
 
+// What a box of a larger job's voxels is in that.
+struct PartOfJob {
+  std::array<int64_t, 3> first{}, count{};  // the least voxel, and the voxels of the whole
+};
+
 // Everything that decides the voxels of a job, already resolved.
 struct Sampling : SamplingRules {
   std::string program;      // "ombre 0.1.0"
   std::string design_hash;  // hex
   voxel::Lattice lattice;
+  std::optional<PartOfJob> part;          // where the lattice is a part of another
   std::vector<SliceMaterial> materials;   // those used, by ascending id, without void
   std::optional<ShadeMeaning> shades;     // where voxels show a value; then materials are its shades
   std::vector<std::string> check_texts;   // one for each check of the program: what failed, for people
@@ -68,6 +75,9 @@ using RegionProducer =
 
 // Layers [begin, end), lowest first. Called from several threads. Throws Cancelled when asked to stop.
 using LayerProducer = std::function<std::vector<voxel::LayerResult>(int64_t begin, int64_t end, const StopFlag* stop)>;
+
+// Layers of the whole width and height of the lattice.
+LayerProducer whole_layers(RegionProducer regions, const voxel::Lattice& lattice);
 
 enum class FolderUse {
   fresh,    // the folder must be empty or missing
@@ -109,7 +119,7 @@ struct SliceReport {
 struct SliceEstimate {
   double seconds = 0;
   uint64_t bytes = 0;               // of image files
-  bool is_least = false;            // no layer was done in time: it takes this long at least, and bytes are unknown
+  bool is_least = false;            // nothing was done in time: it takes this long at least, and bytes are unknown
   size_t memory_bytes = 0;          // most that layers in flight can take
   std::vector<CheckReport> checks;  // that failed in the layers looked at
 };

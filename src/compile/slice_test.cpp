@@ -139,7 +139,7 @@ TEST_F(Slice, MemoryBoundsWhatIsInFlight) {
 TEST_F(Slice, EstimatesWriteNothing) {
   SliceRequest request = ball_request();
   request.lattice.count[2] = 4000;
-  const SliceEstimate estimate = estimate_slice(request, ball(request), options());
+  const SliceEstimate estimate = estimate_slice(request, ball_rows(request), options());
   EXPECT_GT(estimate.bytes, 4000U * 60);
   EXPECT_GT(estimate.seconds, 0);
   EXPECT_FALSE(fs::exists(folder()));
@@ -149,7 +149,7 @@ TEST_F(Slice, EstimatesWriteNothing) {
 TEST_F(Slice, EstimatesEndInTime) {
   SliceRequest request = ball_request();
   request.lattice.count[2] = 4000;
-  const LayerProducer slow = [](int64_t, int64_t, const StopFlag* stop) -> std::vector<voxel::LayerResult> {
+  const RegionProducer slow = [](const voxel::TileBox&, const StopFlag* stop) -> std::vector<voxel::LayerResult> {
     while (!stop->requested()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     throw Cancelled();
   };
@@ -163,9 +163,26 @@ TEST_F(Slice, EstimatesEndInTime) {
   EXPECT_THROW(estimate_slice(request, slow, one, &stop), Cancelled);
 }
 
+// A slab of such layers takes 16 s, so a look of four seconds sees none of them whole.
+TEST_F(Slice, EstimatesOfSlowLayersComeFromTheirRows) {
+  SliceRequest request = ball_request();
+  request.lattice.pitch[1] = Pitch{1, 500};
+  request.lattice.pitch[2] = Pitch{1, 100};
+  request.lattice.count = {40, 2000, 400};
+  const RegionProducer slow = [rows = ball_rows(request)](const voxel::TileBox& box, const StopFlag* stop) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(box.size(1) * box.size(2)));
+    return rows(box, stop);
+  };
+  const SliceEstimate estimate = estimate_slice(request, slow, options());
+  EXPECT_FALSE(estimate.is_least);
+  EXPECT_GE(estimate.seconds, 0.99 * 400 * 2000 * 1e-3 / 2);  // a millisecond for each row, on two threads
+  const auto whole = static_cast<double>(run(request, options()).bytes_written);
+  EXPECT_NEAR(static_cast<double>(estimate.bytes) / whole, 1, 0.2);
+}
+
 TEST_F(Slice, EstimatesFollowTheShape) {
   SliceRequest request = ball_request();
-  const auto bytes = [&] { return estimate_slice(request, ball(request), options()).bytes; };
+  const auto bytes = [&] { return estimate_slice(request, ball_rows(request), options()).bytes; };
   EXPECT_EQ(bytes(), run(request, options()).bytes_written);  // a small job is sampled whole
   request.lattice.pitch[2] = Pitch{1, 500};
   request.lattice.count[2] = 2000;

@@ -85,6 +85,25 @@ inline LayerProducer ball(const SliceRequest& request, bool with_checks = true) 
   };
 }
 
+// The rows of the ball's layers that lie in a box, over the whole width.
+inline RegionProducer ball_rows(const SliceRequest& request) {
+  return [request](const voxel::TileBox& box, const StopFlag*) {
+    std::vector<voxel::LayerResult> layers;
+    for (int64_t k = box.lo[2]; k < box.hi[2]; ++k) {
+      voxel::LayerResult layer = ball_layer(request, k, true);
+      RunLayer rows(layer.runs.width());
+      std::vector<MaterialId> row(layer.runs.width());
+      for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
+        layer.runs.row(static_cast<uint32_t>(j)).unpack(row.data());
+        rows.append_row(row.data());
+      }
+      layer.runs = std::move(rows);
+      layers.push_back(std::move(layer));
+    }
+    return layers;
+  };
+}
+
 inline Contents contents(const fs::path& folder) {
   Contents all;
   for (const auto& entry : fs::directory_iterator(folder))

@@ -23,6 +23,17 @@ std::optional<uint8_t> channel(const Data& entry, std::string_view key, std::opt
   return std::nullopt;
 }
 
+// Is the material marked as support? Whatever is not a truth value is an error.
+bool is_marked_as_support(const DataMembers& properties, Diagnostics& diagnostics) {
+  for (const auto& [key, value] : properties) {
+    if (key != "support") continue;
+    if (const bool* flag = value.boolean()) return *flag;
+    diagnostics.error(value.where, "expected true or false, found " + describe(value),
+                      "write \"support\": true for the material that supports are made of");
+  }
+  return false;
+}
+
 }  // namespace
 
 MaterialTable::MaterialTable() : all_(std::make_shared<std::vector<Material>>()) {
@@ -65,6 +76,14 @@ std::optional<MaterialTable> MaterialTable::read(const Data& data, Diagnostics& 
       break;
     }
     material.id = static_cast<MaterialId>(all.size());
+    if (is_marked_as_support(material.properties, diagnostics)) {
+      if (table.support_ != 0)
+        diagnostics.error(
+            entry.where,
+            "\"" + all[table.support_].name + "\" and \"" + material.name + "\" are both marked as support",
+            "leave \"support\": true with one of them; support(material=...) takes the other");
+      table.support_ = material.id;
+    }
     all.push_back(std::move(material));
   }
   if (all.size() == 1 && diagnostics.error_count() == errors_before)
@@ -94,6 +113,8 @@ const Material* MaterialTable::find(std::string_view name) const {
     if (to_lower(material.name) == lower) return &material;
   return nullptr;
 }
+
+const Material* MaterialTable::support() const { return support_ != 0 ? find(support_) : find("support"); }
 
 std::vector<std::string> MaterialTable::names() const {
   std::vector<std::string> names;

@@ -19,7 +19,7 @@ struct Material {
   std::string name;
   MaterialId id = 0;
   Rgba colour{};
-  DataMembers properties;  // modulus, density, ...: kept as written
+  DataMembers properties;  // modulus, density, support, ...: kept as written
 };
 
 // `void` is id 0; the others count from 1 in the order of their file.
@@ -34,11 +34,15 @@ class MaterialTable {
   const std::vector<Material>& all() const { return *all_; }  // by id, void first
   const Material* find(std::string_view name) const;          // names match without regard to case
   const Material* find(MaterialId id) const { return id < all_->size() ? &(*all_)[id] : nullptr; }
+  // What holds parts up while they are printed: the material with the property "support": true, else the one of this
+  // name; null if there is neither.
+  const Material* support() const;
   const Material& first() const { return (*all_)[all_->size() > 1 ? 1 : 0]; }  // what is meant when none is given
   std::vector<std::string> names() const;
 
  private:
   std::shared_ptr<std::vector<Material>> all_;  // copies share it: nodes point at materials
+  MaterialId support_ = 0;                      // the one that is marked; 0: none is
 };
 
 }  // namespace ombre::design

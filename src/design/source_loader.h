@@ -202,8 +202,10 @@ struct VolumeGrid {
 struct VolumeRequest {
   using Result = VolumeGrid;
   FilePath file;
-  std::string series = {};  // of several in a folder: its number or UID; empty: there is one
-  int channel = -1;         // of several values in each voxel, counted from 0; -1: there is one
+  std::string series = {};   // of several in a folder: its number or UID; empty: there is one
+  int channel = -1;          // of several values in each voxel, counted from 0; -1: there is one
+  std::string segment = {};  // of a segmentation, the name of one; it decides the channel; empty: none is meant
+  int64_t label = -1;        // the segment's number, once it is loaded
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 

@@ -43,6 +43,25 @@ class NrrdReader {
     return name;
   }
 
+  // 3D Slicer's keys (extensions of NRRD, Segmentation file): before version 4.11 each segment had a layer of its own,
+  // in which its voxels are 1.
+  std::vector<VolumeSegment> segments() const {
+    std::vector<VolumeSegment> segments;
+    for (int n = 0;; ++n) {
+      const std::string prefix = "Segment" + std::to_string(n) + "_";
+      const auto id = note(prefix + "ID"), name = note(prefix + "Name");
+      if (!id && !name) return segments;
+      const auto label = note(prefix + "LabelValue"), layer = note(prefix + "Layer");
+      VolumeSegment segment{name.value_or(*id), id.value_or("")};
+      if (label) segment.label = whole(prefix + "LabelValue", *label);
+      if (segment.label < 0 || segment.label > most_label) fail("has a wrong \"" + prefix + "LabelValue\"");
+      segment.layer = layer ? static_cast<int>(whole(prefix + "Layer", *layer)) : label ? 0 : n;
+      if (segment.layer < 0 || segment.layer > most_layers) fail("has a wrong \"" + prefix + "Layer\"");
+      if (const auto colour = note(prefix + "Color")) segment.colour = read_colour(prefix + "Color", *colour);
+      segments.push_back(std::move(segment));
+    }
+  }
+
   VoxelVolume read(const VolumeFile& file) const {
     VoxelVolume volume;
     volume.type = type();
@@ -56,6 +75,8 @@ class NrrdReader {
 
  private:
   using Words = std::vector<std::string>;
+  static constexpr int most_layers = 100000;
+  static constexpr int64_t most_label = (1 << 24) - 1;  // that floats tell from its neighbours
 
   [[noreturn]] void fail(const std::string& message) const { fail_volume(path_, message); }
 
@@ -65,11 +86,42 @@ class NrrdReader {
   }
 
   void take_line(const std::string& line) {
-    if (line[0] == '#' || line.find(":=") != std::string::npos) return;
+    if (line[0] == '#') return;
+    if (const size_t equals = line.find(":="); equals != std::string::npos) {
+      notes_[line.substr(0, equals)] = unescaped(std::string_view(line).substr(equals + 2));
+      return;
+    }
     const size_t colon = line.find(": ");
     if (colon == std::string::npos)
       return fail("has a line in its header that is no field: \"" + line.substr(0, 60) + '"');
     fields_[to_lower(line.substr(0, colon))] = std::string(trim(line.substr(colon + 2)));
+  }
+
+  // Of a value, where "\\n" stands for the end of a line and "\\\\" for a backslash.
+  static std::string unescaped(std::string_view text) {
+    std::string result;
+    for (size_t n = 0; n < text.size(); ++n) {
+      const bool is_escape = text[n] == '\\' && n + 1 < text.size() && (text[n + 1] == 'n' || text[n + 1] == '\\');
+      if (is_escape) ++n;
+      result += is_escape && text[n] == 'n' ? '\n' : text[n];
+    }
+    return result;
+  }
+
+  std::optional<std::string> note(const std::string& key) const {
+    const auto found = notes_.find(key);
+    return found == notes_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  std::array<double, 3> read_colour(const std::string& key, const std::string& text) const {
+    const Words words = words_of(text);
+    if (words.size() != 3) fail("has a wrong \"" + key + "\": three numbers from 0 to 1 are a colour");
+    std::array<double, 3> colour{};
+    for (size_t n = 0; n < 3; ++n) {
+      colour[n] = number(key, words[n]);
+      if (!(colour[n] >= 0 && colour[n] <= 1)) fail("has a wrong \"" + key + "\": its numbers lie from 0 to 1");
+    }
+    return colour;
   }
 
   std::string field_or(const std::string& name, const std::string& otherwise) const {
@@ -304,7 +356,7 @@ class NrrdReader {
   }
 
   const std::string& path_;
-  std::map<std::string, std::string> fields_;
+  std::map<std::string, std::string> fields_, notes_;
   std::string_view rest_;
 };
 
@@ -313,6 +365,10 @@ class NrrdReader {
 std::string nrrd_data_path(const std::string& path, std::string_view bytes) {
   const std::string name = NrrdReader(path, bytes).data_file();
   return name.empty() ? "" : (fs::path(path).parent_path() / name).string();
+}
+
+std::vector<VolumeSegment> nrrd_segments(const std::string& path, std::string_view bytes) {
+  return NrrdReader(path, bytes).segments();
 }
 
 VoxelVolume read_nrrd(const VolumeFile& file) { return NrrdReader(file.path, file.bytes).read(file); }

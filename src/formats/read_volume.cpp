@@ -20,6 +20,10 @@ std::string companion_of(const std::string& path, std::string_view bytes) {
   return path + ".json";
 }
 
+std::vector<VolumeSegment> segments_of(const std::string& path, std::string_view bytes) {
+  return is_nrrd(bytes) ? nrrd_segments(path, bytes) : std::vector<VolumeSegment>();
+}
+
 namespace {
 
 VoxelVolume read_packed(const VolumeFile& file) {

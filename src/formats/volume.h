@@ -70,6 +70,14 @@ decltype(auto) visit_numbers(const VoxelVolume& volume, const Visit& visit) {
       volume.values);
 }
 
+// A part of a segmentation, as 3D Slicer writes them (.seg.nrrd): the voxels with a number in a layer.
+struct VolumeSegment {
+  std::string name, id;  // names need not differ
+  int64_t label = 1;
+  int layer = 0;                                     // the channel of the file
+  std::optional<std::array<double, 3>> colour = {};  // red, green and blue from 0 to 1
+};
+
 // What is taken of a file that holds several grids, or several values in each voxel.
 struct VolumeChoice {
   std::string name;  // of one of several arrays; empty: there is one
@@ -91,6 +99,9 @@ std::string_view name(VolumeSpace space);
 // The file in which the rest of this one is: a header's numbers, or the description of numbers (path + ".json", which
 // need not be there). Empty where this one holds all. Throws Error.
 std::string companion_of(const std::string& path, std::string_view bytes);
+
+// The segments that a file names, in its order; none where it is no segmentation. Throws Error.
+std::vector<VolumeSegment> segments_of(const std::string& path, std::string_view bytes);
 
 // Throws Error, naming the path and what is wrong.
 VoxelVolume read_volume(const VolumeFile& file);

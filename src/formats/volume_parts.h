@@ -55,6 +55,8 @@ std::string metaimage_data_path(const std::string& path, std::string_view bytes)
 VoxelVolume read_nrrd(const VolumeFile& file);
 // The path of the file that holds the numbers; empty where the header's own does.
 std::string nrrd_data_path(const std::string& path, std::string_view bytes);
+// Of the header's keys; none where it has no such keys.
+std::vector<VolumeSegment> nrrd_segments(const std::string& path, std::string_view bytes);
 VoxelVolume read_npy(const VolumeFile& file);
 VoxelVolume read_raw(const VolumeFile& file);
 

@@ -84,6 +84,30 @@ TEST(Volume, SpacesAndUnitsAreThoseOfTheFile) {
   EXPECT_EQ((*volume.space_from_index)({0, 1, 2}), (Vec3{20, 20, 40}));
 }
 
+// Keys as 3D Slicer 5 writes them, and before version 4.11, when each segment had a layer of its own.
+TEST(Volume, SegmentsHaveNamesNumbersAndColours) {
+  const std::string both = "encoding: ascii\nSegment0_ID:=S_1\nSegment0_Name:=left\\\\right\\n lung\n";
+  const auto segments = segments_of(
+      "v",
+      nrrd_with("uint8", both + "Segment0_LabelValue:=3\nSegment0_Layer:=1\nSegment0_Color:=0.5 0 1\nSegment1_ID:=S_2",
+                ""));
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_EQ(segments[0].name, "left\\right\n lung");
+  EXPECT_EQ(segments[0].id, "S_1");
+  EXPECT_EQ(segments[0].label, 3);
+  EXPECT_EQ(segments[0].layer, 1);
+  EXPECT_EQ(segments[0].colour, (std::array<double, 3>{0.5, 0, 1}));
+  EXPECT_EQ(segments[1].name, "S_2");
+  EXPECT_EQ(segments[1].label, 1);
+  EXPECT_EQ(segments[1].layer, 1);
+  EXPECT_FALSE(segments[1].colour);
+  EXPECT_TRUE(segments_of("v", nrrd_with("uint8", "encoding: ascii", "1 2 3 4 5 6")).empty());
+  EXPECT_TRUE(segments_of("v", "\x93NUMPY").empty());
+  for (const auto& [key, value] :
+       {std::pair{"LabelValue", "-1"}, {"LabelValue", "1.5"}, {"Layer", "-1"}, {"Color", "1 1"}, {"Color", "0 0 255"}})
+    EXPECT_THROW(segments_of("v", nrrd_with("uint8", both + "Segment0_" + key + ":=" + value, "")), Error) << key;
+}
+
 TEST(Volume, NumbersMayLieBesideTheHeader) {
   const std::string header = nrrd_with("uint8", "encoding: raw\nbyte skip: -1\ndata file: numbers.raw", "");
   EXPECT_EQ(companion_of("folder/v.nhdr", header), "folder/numbers.raw");

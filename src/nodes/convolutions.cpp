@@ -8,6 +8,7 @@
 #include "nodes/filter_stages.h"
 #include "nodes/shapes.h"
 #include "nodes/stage_fields.h"
+#include "nodes/whole_stages.h"
 
 namespace ombre::nodes {
 namespace {
@@ -286,6 +287,7 @@ struct Median {
 
 struct Smooth {
   double sigma = 0;
+  bool keep_volume = false;
   std::optional<Vec3> sigma_voxels, pitch;
   StagePtr stage;
 
@@ -295,7 +297,9 @@ struct Smooth {
             "Smooths the surface of its child: inside is where at least half of a Gaussian around the place is inside.",
             {{"sigma", &Smooth::sigma, about_sigma, unit::not_negative_mm},
              {"sigma_voxels", &Smooth::sigma_voxels, about_sigma_voxels, from_to(0, 200)},
-             {"pitch", &Smooth::pitch, about_pitch, unit::positive_mm}},
+             {"pitch", &Smooth::pitch, about_pitch, unit::positive_mm},
+             {"keep_volume", &Smooth::keep_volume,
+              "In place of half of the Gaussian, the part with which the volume stays"}},
             one_solid,
             "smooth(1) rectprism((10, 6, 4), \"red\");"};
   }
@@ -303,19 +307,20 @@ struct Smooth {
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
     if (!check_width(reader, sigma, sigma_voxels)) return false;
     const Width width{sigma, sigma_voxels};
-    stage = make_linear_stage(inputs[0], {false, false, {}, pitch}, "smooth " + width.key(),
-                              [width](Vec3 cell_mm) { return gaussian_in(width, cell_mm); });
+    const auto filter = [width](Vec3 cell_mm) { return gaussian_in(width, cell_mm); };
+    if (keep_volume) return make_kept(reader, inputs[0], width, filter);
+    stage = make_linear_stage(inputs[0], {false, false, {}, pitch}, "smooth " + width.key(), filter);
     return true;
   }
 
   Metric metric() const { return Metric::implicit(); }
-  // A flat side has half of the Gaussian beyond it: nothing leaves the child's box.
-  Box reach(const Inputs& in, const Box& where, double margin) const {
-    const Box box = in.bounds(0, design_space());
+  // A flat side has half of the Gaussian beyond it: nothing leaves the child's box, unless more is kept.
+  Box reach(const Inputs&, const Box& where, double margin) const {
+    const Box box = stage->bounds();
     return box.is_empty() ? box : intersect(box.expanded(margin), where);
   }
   Field distance(const Inputs& in, const Point& p) const {
-    const Box box = in.input(0).bounds(design_space());
+    const Box box = stage->bounds();
     if (box.is_empty()) return p.constant(Box::inf);
     const Vec3 c = box.center(), h = 0.5 * box.size();
     const Field from_box = corner(abs(p.x - c.x) - h.x, abs(p.y - c.y) - h.y, abs(p.z - c.z) - h.z);
@@ -324,6 +329,22 @@ struct Smooth {
   }
   Composition composition(const Inputs& in, const Point& p, Demand) const {
     return in.composition(0, p, Demand::everywhere);
+  }
+
+ private:
+  bool make_kept(const Reader& reader, const NodePtr& child, const Width& width,
+                 const std::function<LinearFilter(Vec3)>& filter) {
+    if (width.voxels && !pitch) {
+      reader.diagnostics.error(reader.where, "keep_volume needs to know how wide the Gaussian is in mm",
+                               "write for example " + spelled::parameter("sigma", "0.5") + " in place of sigma_voxels");
+      return false;
+    }
+    // Sides move out by less than a sigma, since they lose what corners and edges gain.
+    const Vec3 voxels = width.voxels.value_or(Vec3{});
+    const double widest =
+        width.voxels ? std::max({voxels.x * pitch->x, voxels.y * pitch->y, voxels.z * pitch->z}) : width.mm;
+    stage = make_kept_volume_stage(child, {widest, pitch}, width.key(), filter);
+    return is_bounded(reader, stage);
   }
 };
 

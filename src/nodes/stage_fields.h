@@ -15,6 +15,15 @@ inline program::Field read_channel(const design::Inputs& in, const design::Stage
   return p.builder().source(source, source->channel(channel), p.x, p.y, p.z);
 }
 
+// False, and a diagnostic, where a stage that reads all voxels would have no end of them.
+inline bool is_bounded(const design::Reader& reader, const design::StagePtr& stage) {
+  const Box box = stage->bounds();
+  if (box.is_empty() || length(box.size()) < 2 * design::design_limit_mm) return true;
+  reader.diagnostics.error(Code::unbounded, reader.where, std::string(reader.node) + " needs a solid that ends",
+                           "intersect it with a box first");
+  return false;
+}
+
 // What a stage flags as "inside"; materials are those of the child, or of what is nearest in it.
 struct StagedSolid {
   design::StagePtr stage;

@@ -27,20 +27,27 @@ struct Support {
         {{"angle", &Support::angle,
           "From the vertical: surfaces that hang over by no more support themselves; 0: all that hangs is supported",
           angles},
-         {"material", &Support::material, "Its material; none: \"support\", if there is one"},
+         {"material", &Support::material, "Its material; none: the one that the materials file marks as support"},
          {"clearance", &Support::clearance, "Gap that stays open between it and the solid", unit::not_negative_mm},
          {"pitch", &Support::pitch, "Size of the cells by which it is found; none: the job's voxels",
           unit::positive_mm}},
         one_solid,
         "support(angle=45) { cylinder(3, 20); translate(0, 0, 11) rectprism((20, 20, 2)); }"};
     spec.parameters[1].fill = [](Support& node, const Reader& reader) {
-      const Material* usual = reader.materials.find("support");
-      if (!node.material.material) node.material.material = usual ? usual : &reader.materials.first();
+      if (!node.material.is_given()) node.material.material = reader.materials.support();
     };
     return spec;
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
+    if (!material.is_given()) {
+      reader.diagnostics.error(Code::parameter_missing, reader.where,
+                               "support has no material, and no material of the design is marked as support",
+                               "write " + spelled::parameter("material", '"' + reader.materials.first().name + '"') +
+                                   ", or add \"support\": true to one in the materials file",
+                               {{"node", "support"}, {"parameter", "material"}});
+      return false;
+    }
     if (!reader.loader) {
       reader.diagnostics.error(reader.where, "supports cannot be found here");
       return false;

@@ -24,11 +24,12 @@ bool fail(const design::Reader& reader, const std::string& message, const Phrase
 
 }  // namespace
 
-bool VolumePlace::read_volume(const design::Reader& reader) {
+bool VolumePlace::read_volume(const design::Reader& reader, const std::string& segment) {
   if (!reader.loader) return fail(reader, "volumes cannot be read here", "");
-  design::VolumeRequest request{path, series, voxel_channel};
+  design::VolumeRequest request{path, series, voxel_channel, segment};
   grid = reader.loader->source(request, reader);
   if (!grid) return false;
+  segment_label = request.label;
   path = request.file;
   if (!grid->space_from_index && !spacing && space != "index")
     return fail(reader, "the volume \"" + path.path + "\" does not say how large its voxels are",

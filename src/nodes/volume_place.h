@@ -13,11 +13,13 @@ struct VolumePlace {
   std::string series;
   int voxel_channel = -1;
   std::shared_ptr<const design::VolumeGrid> grid;  // read when the node is made
+  int64_t segment_label = -1;                      // the same; the number of the segment that is meant
   Affine here_from_index, index_from_here;
 
  protected:
-  // Reads the file; false, and diagnostics, where that fails or it does not say enough.
-  bool read_volume(const design::Reader& reader);
+  // Reads the file; false, and diagnostics, where that fails or it does not say enough. `segment` is the name of one,
+  // or empty.
+  bool read_volume(const design::Reader& reader, const std::string& segment = "");
   int channel(const char* name) const;
 
   // The parameters of T, which derives from this.

@@ -21,31 +21,35 @@ struct VolumeSolid : VolumePlace {
   double level = 0.5;
   std::optional<double> upper;
   int label = -1;
+  std::string segment;
   bool above = true;
   Choice between = "linear", by = "level";
 
   static Spec<VolumeSolid> spec() {
+    std::vector<Parameter<VolumeSolid>> parameters = with_place<VolumeSolid>(
+        {{"material", &VolumeSolid::material, "Its material"},
+         {"level", &VolumeSolid::level, "Inside are values of at least this"},
+         {"upper", &VolumeSolid::upper, "Inside are values of at most this too"},
+         {"label", &VolumeSolid::label,
+          "Inside are the voxels with this number, whole and not interpolated; -1: by level",
+          from_to(-1, greatest_label)},
+         {"above", &VolumeSolid::above, "Inside are values above the level; false: those below it"},
+         {"between", &VolumeSolid::between, "Values between voxels' centres", one_of({"linear", "nearest", "cubic"})},
+         {"by", &VolumeSolid::by, "Where the level comes from: it is given, or found by Otsu's method",
+          one_of({"level", "otsu"})}});
+    parameters.emplace_back("segment", &VolumeSolid::segment,
+                            "In place of a label: the name, or the ID, of a segment of a .seg.nrrd file");
     return {"volume_solid",
             "imported",
             "Everything in a grid of numbers (a scan, say) where they reach a level, or where they are a label.",
-            with_place<VolumeSolid>(
-                {{"material", &VolumeSolid::material, "Its material"},
-                 {"level", &VolumeSolid::level, "Inside are values of at least this"},
-                 {"upper", &VolumeSolid::upper, "Inside are values of at most this too"},
-                 {"label", &VolumeSolid::label,
-                  "Inside are the voxels with this number, whole and not interpolated; -1: by level",
-                  from_to(-1, greatest_label)},
-                 {"above", &VolumeSolid::above, "Inside are values above the level; false: those below it"},
-                 {"between", &VolumeSolid::between, "Values between voxels' centres",
-                  one_of({"linear", "nearest", "cubic"})},
-                 {"by", &VolumeSolid::by, "Where the level comes from: it is given, or found by Otsu's method",
-                  one_of({"level", "otsu"})}}),
+            std::move(parameters),
             no_inputs,
             "volume_solid(\"models/two_lobes.nrrd\", \"red\", level=100);"};
   }
 
   bool complete(const Reader& reader) {
-    if (!read_volume(reader)) return false;
+    if (!segment.empty() && !check_segment(reader)) return false;
+    if (!read_volume(reader, segment)) return false;
     if (by == "otsu") level = grid->otsu_level;
     if (!upper || (above && *upper >= level)) return true;
     reader.diagnostics.error(
@@ -71,19 +75,32 @@ struct VolumeSolid : VolumePlace {
     const Vec3 c = cells.center(), h = 0.5 * cells.size();
     const Field from_grid = corner(abs(at.x - c.x) - h.x, abs(at.y - c.y) - h.y, abs(at.z - c.z) - h.z);
     const Field read = p.builder().source(grid->source, channel(), at.x, at.y, at.z);
-    Field value = label >= 0 ? abs(read - label) - 0.5 : above ? level - read : read - level;
-    if (label < 0 && upper) value = program::max(value, read - *upper);
+    const bool has_number = number() >= 0;
+    Field value = has_number ? abs(read - static_cast<double>(number())) - 0.5 : above ? level - read : read - level;
+    if (!has_number && upper) value = program::max(value, read - *upper);
     return select(from_grid <= 0, value, program::max(value, from_grid));
   }
 
  private:
+  bool check_segment(const Reader& reader) const {
+    if (label < 0 && voxel_channel < 0) return true;
+    reader.diagnostics.error(
+        reader.where, std::string("a segment has a number of its own") + (label < 0 ? ", in a channel of its own" : ""),
+        label < 0 ? "leave channel out" : "leave label out, or segment");
+    return false;
+  }
+
+  // Of the label or segment that is meant; below 0: neither is.
+  int64_t number() const { return segment.empty() ? label : segment_label; }
+
   static constexpr int greatest_label = (1 << 24) - 1;  // that floats tell from its neighbours
 
-  int channel() const { return VolumePlace::channel(label >= 0 ? "nearest" : channel_between(between)); }
+  int channel() const { return VolumePlace::channel(number() >= 0 ? "nearest" : channel_between(between)); }
 
   // Values where g is `margin` or less.
   Interval wanted(double margin) const {
-    if (label >= 0) return {label - 0.5 - margin, label + 0.5 + margin};
+    if (const auto wanted = static_cast<double>(number()); wanted >= 0)
+      return {wanted - 0.5 - margin, wanted + 0.5 + margin};
     if (upper) return {level - margin, *upper + margin};
     return above ? Interval(level - margin, Box::inf) : Interval(-Box::inf, level + margin);
   }

@@ -11,14 +11,6 @@ namespace {
 
 using namespace design;
 
-bool check_bounds(const Reader& reader, const StagePtr& stage) {
-  const Box box = stage->bounds();
-  if (box.is_empty() || length(box.size()) < 2 * design_limit_mm) return true;
-  reader.diagnostics.error(Code::unbounded, reader.where, std::string(reader.node) + " needs a solid that ends",
-                           "intersect it with a box first");
-  return false;
-}
-
 struct KeepPartsOf : StagedSolid {
   Choice keep = "largest";
   double volume = 0;
@@ -44,7 +36,7 @@ struct KeepPartsOf : StagedSolid {
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
     const KeepParts what = keep == "largest" ? KeepParts::largest : keep == "above" ? KeepParts::above : KeepParts::at;
     stage = make_parts_stage(inputs[0], {what, volume, seeds.at.empty() ? std::vector{at} : seeds.at}, pitch);
-    return check_bounds(reader, stage);
+    return is_bounded(reader, stage);
   }
 };
 
@@ -64,7 +56,7 @@ struct FillHoles : StagedSolid {
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
     stage = make_fill_stage(inputs[0], volume, pitch);
-    return check_bounds(reader, stage);
+    return is_bounded(reader, stage);
   }
 };
 
@@ -88,7 +80,7 @@ struct Redistance {
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
     stage = make_distance_stage(inputs[0], pitch, 2 * margin);
-    return check_bounds(reader, stage);
+    return is_bounded(reader, stage);
   }
 
   Metric metric() const { return Metric::bounded(); }

@@ -1,7 +1,10 @@
 // Stages that read all voxels of a solid at once.
 #pragma once
 
+#include <functional>
+
 #include "design/stage.h"
+#include "nodes/linear_filter.h"
 
 namespace ombre::nodes {
 
@@ -26,5 +29,17 @@ design::StagePtr make_fill_stage(const design::NodePtr& solid, double most_mm3, 
 // computation of the distance function using grids, 2002). The mark "known": 1 where that is known.
 design::StagePtr make_distance_stage(const design::NodePtr& solid, const std::optional<Vec3>& cell_mm,
                                      double margin_mm);
+
+// Beyond the solid's box by how much its smoothed surface may move, and in which cells it is found.
+struct KeptVolumeUse {
+  double margin_mm = 0;
+  std::optional<Vec3> cell_mm;
+};
+
+// The channel "share": the filter's weighted sum of voxels inside, moved by a number, so that as many voxels have 1/2
+// or more as are inside of the solid (but for voxels that have the same sum). Weights are not negative, and `key` says
+// what they are.
+design::StagePtr make_kept_volume_stage(const design::NodePtr& solid, const KeptVolumeUse& use, const std::string& key,
+                                        std::function<LinearFilter(Vec3 cell_mm)> filter);
 
 }  // namespace ombre::nodes

@@ -1,9 +1,11 @@
 // Volumes of designs: grids of numbers.
 #include "formats/volume.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "import/volume_source.h"
 #include "sources/loading.h"
 #include "sources/volume_parts.h"
@@ -66,12 +68,60 @@ std::optional<Hash> content_of(const VolumeParts& parts, const VolumeRequest& re
   return key.hash();
 }
 
+std::vector<std::string> segment_names(const std::vector<formats::VolumeSegment>& segments) {
+  std::vector<std::string> names;
+  for (const formats::VolumeSegment& segment : segments) names.push_back(segment.name);
+  return names;
+}
+
+// By its name, or where several have that, by its ID. Null, and a diagnostic, where there is none.
+const formats::VolumeSegment* find_segment(const VolumeParts& parts, const VolumeRequest& request,
+                                           const Reader& reader) {
+  const auto& segments = parts.segments;
+  const std::string file = "the volume \"" + request.file.path + '"';
+  const std::string name = '"' + request.segment + '"';
+  const auto is_meant = [&](const formats::VolumeSegment& s) { return s.name == request.segment; };
+  const auto found = std::ranges::find_if(segments, is_meant);
+  const auto count = std::ranges::count_if(segments, is_meant);
+  if (count == 1) return &*found;
+  const auto by_id = std::ranges::find(segments, request.segment, &formats::VolumeSegment::id);
+  if (by_id != segments.end()) return &*by_id;
+  const auto fail = [&](const std::string& message, const Phrase& hint) {
+    reader.diagnostics.error(Code::unknown_object, reader.where, message, hint,
+                             {{"file", request.file.path}, {"name", request.segment}});
+    return nullptr;
+  };
+  if (count > 1)
+    return fail(
+        file + " has " + std::to_string(count) + " segments " + name,
+        "write the ID of the one that is meant, such as " + spelled::parameter("segment", '"' + found->id + '"'));
+  if (segments.empty())
+    return fail(file + " names no segments",
+                "write its number: " + spelled::parameter("label", "1") + "; names are read from .seg.nrrd files");
+  const std::vector<std::string> names = segment_names(segments);
+  std::string hint = did_you_mean(request.segment, names);
+  if (hint.empty()) hint = "there are \"" + join(names, "\", \"") + '"';
+  return fail(file + " has no segment " + name, hint);
+}
+
+// Takes the channel and the number of the segment that is meant. False, and a diagnostic, where there is none.
+bool choose_segment(const VolumeParts& parts, VolumeRequest& request, const Reader& reader) {
+  if (request.segment.empty()) return true;
+  const formats::VolumeSegment* segment = find_segment(parts, request, reader);
+  if (!segment) return false;
+  request.label = segment->label;
+  const auto has_layer = [](const formats::VolumeSegment& s) { return s.layer > 0; };
+  if (std::ranges::any_of(parts.segments, has_layer)) request.channel = segment->layer;
+  return true;
+}
+
 }  // namespace
 
 std::shared_ptr<const VolumeGrid> VolumeRequest::load(sources::Loading& loading) {
   if (!loading.find(file)) return nullptr;
   const auto parts = parts_of(file, loading);
-  const auto content = parts ? content_of(*parts, *this, loading) : std::nullopt;
+  if (!parts || !choose_segment(*parts, *this, loading.reader())) return nullptr;
+  const auto content = content_of(*parts, *this, loading);
   if (!content) return nullptr;
   file.content = *content;
   using Made = sources::Loading::Made<VolumeGrid>;

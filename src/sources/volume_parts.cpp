@@ -156,6 +156,7 @@ VolumeParts volume_parts(const std::string& path, const ReadFile& read) {
   if (vdb::is_vdb(file.bytes)) parts.kind = VolumeParts::Kind::vdb;
   if (is_image(file.bytes)) parts.kind = VolumeParts::Kind::images;
   if (parts.kind != VolumeParts::Kind::numbers) return parts;
+  parts.segments = formats::segments_of(path, file.bytes);
   const std::string companion = formats::companion_of(path, file.bytes);
   parts.has_companion = !companion.empty() && fs::exists(companion, error);
   if (parts.has_companion) parts.files.push_back(companion);

@@ -22,6 +22,7 @@ struct VolumeParts {
   Kind kind = Kind::numbers;
   std::vector<std::string> files;  // the first is the volume itself, or all of a folder in the order of their numbers
   bool has_companion = false;      // the second file holds the rest of the first
+  std::vector<formats::VolumeSegment> segments = {};  // that the volume names
 };
 
 // `path` is a file, or a folder of DICOM files or of images. Throws Error.

@@ -242,9 +242,7 @@ class BatchLeaf : public LeafEvaluator {
     if (has_unknown(row.inside)) redo_unknown(row.inside);
   }
 
-  Draws draws() const {
-    return choices_.empty() ? Draws{} : draws_of_row(job_.dither, job_.seed, stretch_.at.j, stretch_.k);
-  }
+  Draws draws() const { return choices_.empty() ? Draws{} : draws_of_row(job_, stretch_.at.j, stretch_.k); }
 
   bool has_unknown(const eval::Values& inside) const {
     for (const size_t n : unknown_outputs_)

@@ -12,17 +12,31 @@ namespace {
 constexpr int64_t width = blue_noise_width, height = blue_noise_height, depth = blue_noise_depth;
 constexpr int64_t tile = width * height * depth;
 
-double draw(int64_t i, int64_t j, int64_t k, uint64_t seed = 0) { return blue_noise_row(seed, j, k)[i] * 0x1p-24; }
-
-// Voxels whose draw lies in [from, to), in layer k.
-SquarePattern layer(int64_t k, double from, double to, uint64_t seed = 0) {
-  return {width, [=](int64_t i, int64_t j) { return draw(i, j, k, seed) >= from && draw(i, j, k, seed) < to; }};
+double draw(int64_t i, int64_t j, int64_t k, uint64_t seed = 0, const uint32_t* mask = blue_noise_draws) {
+  return blue_noise_row(mask, seed, j, k)[i] * 0x1p-24;
 }
 
-std::vector<SquarePattern> layers(double from, double to) {
+// Square voxels, and those that are longer along y.
+constexpr const uint32_t* masks[] = {blue_noise_draws, blue_noise_long_draws};
+
+// Voxels whose draw lies in [from, to), in layer k.
+SquarePattern layer(int64_t k, double from, double to, uint64_t seed = 0, const uint32_t* mask = blue_noise_draws) {
+  return {width, [=](int64_t i, int64_t j) {
+            const double value = draw(i, j, k, seed, mask);
+            return value >= from && value < to;
+          }};
+}
+
+std::vector<SquarePattern> layers(double from, double to, const uint32_t* mask = blue_noise_draws) {
   std::vector<SquarePattern> all;
-  for (int64_t k = 0; k < depth; ++k) all.push_back(layer(k, from, to));
+  for (int64_t k = 0; k < depth; ++k) all.push_back(layer(k, from, to, 0, mask));
   return all;
+}
+
+double share_of(const SquarePattern& pattern) {
+  double count = 0;
+  for (const double value : pattern.values) count += value;
+  return count / static_cast<double>(pattern.values.size());
 }
 
 std::vector<SquarePattern> white_layers(double fraction) {
@@ -36,13 +50,51 @@ std::vector<SquarePattern> white_layers(double fraction) {
 }  // namespace
 
 TEST(BlueNoise, EachRankIsThereOnce) {
-  std::set<uint32_t> draws;
-  for (int64_t k = 0; k < depth; ++k)
-    for (int64_t j = 0; j < height; ++j)
-      for (int64_t i = 0; i < width; ++i) draws.insert(blue_noise_row(5, j, k)[i]);
-  ASSERT_EQ(static_cast<int64_t>(draws.size()), tile);
-  EXPECT_EQ(*draws.begin(), 128U);
-  EXPECT_EQ(*draws.rbegin(), (1U << 24) - 128);
+  for (const uint32_t* mask : masks) {
+    std::set<uint32_t> draws;
+    for (int64_t k = 0; k < depth; ++k)
+      for (int64_t j = 0; j < height; ++j)
+        for (int64_t i = 0; i < width; ++i) draws.insert(blue_noise_row(mask, 5, j, k)[i]);
+    ASSERT_EQ(static_cast<int64_t>(draws.size()), tile);
+    EXPECT_EQ(*draws.begin(), 128U);
+    EXPECT_EQ(*draws.rbegin(), (1U << 24) - 128);
+  }
+}
+
+// To the voxel: a layer of 4096 cannot do better.
+TEST(BlueNoise, LayersKeepFractions) {
+  for (const uint32_t* mask : masks)
+    for (const double fraction : {1e-5, 0.01, 0.03, 0.1, 1.0 / 3, 0.5, 0.77, 0.999})
+      for (int64_t k = 0; k < depth; ++k)
+        EXPECT_LT(std::abs(share_of(layer(k, 0, fraction, 3, mask)) - fraction), 1.0 / (width * height)) << fraction;
+}
+
+TEST(BlueNoise, VoxelsHaveTheMaskOfTheirShape) {
+  const Pitch dpi600{127, 3000}, dpi300{127, 1500}, connex{127, 3000}, tenth{1, 10}, most{14, 100}, more{15, 100};
+  EXPECT_EQ(blue_noise_mask(tenth, tenth), blue_noise_draws);
+  EXPECT_EQ(blue_noise_mask(dpi600, connex), blue_noise_draws);
+  EXPECT_EQ(blue_noise_mask(dpi600, dpi300), blue_noise_long_draws);
+  EXPECT_EQ(blue_noise_mask(tenth, most), blue_noise_draws);
+  EXPECT_EQ(blue_noise_mask(tenth, more), blue_noise_long_draws);
+  // Voxels that are long along x have the same mask, turned.
+  const uint32_t* turned = blue_noise_mask(dpi300, dpi600);
+  for (size_t n = 0; n < blue_noise_voxels; n += 7) {
+    const size_t x = n % 64, y = n / 64 % 64, z = n / 4096;
+    ASSERT_EQ(turned[n], blue_noise_long_draws[z * 4096 + x * 64 + y]);
+  }
+}
+
+// Waves of the same length in millimetres have the same power along x and y; those of the mask for square voxels would
+// not.
+TEST(BlueNoise, NoiseOfLongVoxelsIsBlueInMillimetres) {
+  for (const double fraction : {0.1, 0.25, 0.5}) {
+    const auto x_for_y = [&](const uint32_t* mask) {
+      const Spectrum spectrum(layers(0, fraction, mask), fraction);
+      return spectrum.mean_along(0, 0.125, 0.25, 2) / spectrum.mean_along(1, 0.125, 0.25, 2);
+    };
+    EXPECT_NEAR(std::log2(x_for_y(blue_noise_long_draws)), 0, 0.5) << fraction;
+    EXPECT_LT(x_for_y(blue_noise_draws), 0.5) << fraction;
+  }
 }
 
 TEST(BlueNoise, WholeTilesKeepFractions) {
@@ -74,7 +126,8 @@ TEST(BlueNoise, LayersAreBlue) {
   for (const double fraction : {0.1, 0.25, 0.5, 0.75}) {
     const double white = Spectrum(white_layers(fraction), fraction).low();
     EXPECT_NEAR(white, 1, 0.1);
-    EXPECT_LT(Spectrum(layers(0, fraction), fraction).low(), 0.1 * white) << fraction;
+    for (const uint32_t* mask : masks)
+      EXPECT_LT(Spectrum(layers(0, fraction, mask), fraction).low(), 0.1 * white) << fraction;
   }
 }
 

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "voxel/blue_noise.h"
-#include "voxel/dither.h"
+#include "voxel/leaf.h"
 #include "voxel/row_kernels.h"
 
 namespace ombre::voxel {
 
 // The draws of row j of layer k. Where fractions are 0 or 1, or errors are diffused, it does not matter which.
-inline Draws draws_of_row(Dither dither, uint64_t seed, int64_t j, int64_t k) {
-  if (dither != Dither::blue_noise) return {row_hash(seed, j, k), nullptr, 0};
-  const BlueNoiseRow row = blue_noise_row(seed, j, k);
+inline Draws draws_of_row(const VoxelJob& job, int64_t j, int64_t k) {
+  if (job.dither != Dither::blue_noise) return {row_hash(job.seed, j, k), nullptr, 0};
+  const BlueNoiseRow row = blue_noise_row(job.noise, job.seed, j, k);
   return {0, row.draws, row.offset};
 }
 

@@ -10,6 +10,15 @@ Box Lattice::box() const {
   return {origin, hi};
 }
 
+Lattice part_of(const Lattice& lattice, const TileBox& box) {
+  Lattice part = lattice;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    part.origin[static_cast<int>(axis)] += lattice.pitch[axis].times(static_cast<double>(box.lo[axis]));
+    part.count[axis] = box.size(static_cast<int>(axis));
+  }
+  return part;
+}
+
 int64_t voxels_along(double size_mm, Pitch pitch) {
   constexpr double slack = 1e-6;  // a size that is a whole number of voxels but for rounding
   const double exact = size_mm * static_cast<double>(pitch.denominator) / static_cast<double>(pitch.numerator);

@@ -34,4 +34,7 @@ int64_t voxels_along(double size_mm, Pitch pitch);
 // Voxels [lo, hi) on each axis.
 using TileBox = IndexBox;
 
+// The box as a lattice of its own.
+Lattice part_of(const Lattice& lattice, const TileBox& box);
+
 }  // namespace ombre::voxel

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "eval/batch/kernels.h"
+#include "voxel/blue_noise.h"
+#include "voxel/dither.h"
 #include "voxel/selector.h"
 #include "voxel/tile.h"
 
@@ -15,6 +17,7 @@ struct VoxelJob {
   Lattice lattice;
   Dither dither = Dither::stochastic;
   uint64_t seed = 0;
+  const uint32_t* noise = blue_noise_mask(lattice.pitch[0], lattice.pitch[1]);
 };
 
 // One thread's evaluator. `program` is what is left of the selector's in a tile, `ranges` its values there.

@@ -36,7 +36,7 @@ class ReferenceLeaf : public LeafEvaluator {
     const auto inside = rows_.values(program.outputs[0]);
     if (std::all_of(inside.begin(), inside.end(), [](double v) { return v == 0; })) return;
     rows_.run(program, early, program.code.size(), source_row);
-    const Draws draws = draws_of_row(job_.dither, job_.seed, j, k);
+    const Draws draws = draws_of_row(job_, j, k);
     MaterialId* out = voxels.at(tile.lo[0], j, k);
     for (size_t n = 0; n < inside.size(); ++n)
       if (inside[n] != 0) out[n] = choose(program, n, tile.lo[0] + static_cast<int64_t>(n), j, k, draws, voxels);

@@ -52,6 +52,23 @@ class Spectrum {
     return sum / count;
   }
 
+  // The same of waves that run along an axis, x or y, by a good 26 degrees, where voxels are `y_per_x` times as long
+  // along y as along x; in cycles for the side of a square as large as a voxel.
+  double mean_along(int axis, double from, double to, double y_per_x) const {
+    double sum = 0, count = 0;
+    for (int64_t y = 0; y < n_; ++y)
+      for (int64_t x = 0; x < n_; ++x) {
+        const double along_x = static_cast<double>(std::min(x, n_ - x)) / static_cast<double>(n_) * std::sqrt(y_per_x),
+                     along_y = static_cast<double>(std::min(y, n_ - y)) / static_cast<double>(n_) / std::sqrt(y_per_x);
+        const double q = std::hypot(along_x, along_y);
+        const bool runs_along = axis == 0 ? along_x > 2 * along_y : along_y > 2 * along_x;
+        if (!runs_along || q <= from || q > to) continue;
+        sum += power_[static_cast<size_t>(y * n_ + x)];
+        ++count;
+      }
+    return sum / count;
+  }
+
   // What one would see as unevenness: periods of more than 8 voxels.
   double low() const { return mean(0, 0.125); }
 

@@ -6,7 +6,8 @@ from ._commands import run
 
 def volume_info(path, series=None, channel=None, picture=None, force=False):
     """What a volume holds: the members that `ombre info --json` prints, such as "size" (voxels along its axes),
-    "steps_mm" and "origin_mm" (where it says its lengths), "space", "least", "greatest", "histogram" and "labels".
+    "steps_mm" and "origin_mm" (where it says its lengths), "space", "least", "greatest", "histogram", "labels" and, of
+    segmentations, "segments".
 
     >>> import ombre, numpy
     >>> from ombre._volumes import stored
