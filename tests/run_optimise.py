@@ -227,11 +227,10 @@ def interrupted_topologies_leave_their_steps(folder):
                                cwd=folder.path, env=program.environment(), text=True,
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     history = folder.path / "endless/history.csv"
-    end = time.monotonic() + 60
-    while time.monotonic() < end and not (history.exists() and history.read_text().count("\n") > 3):
-        time.sleep(0.05)
+    processes.wait_until(lambda: process.poll() is not None or (history.exists() and history.read_text().count("\n") > 3),
+                         "three steps are in the history")
     process.send_signal(signal.SIGINT)
-    process.communicate(timeout=60)
+    process.communicate(timeout=processes.PATIENCE_S)
     expect(process.returncode == 130, f"status {process.returncode}")
     rows = folder.table("endless/history.csv")
     expect(len(rows) >= 3 and [row["step"] for row in rows] == [str(n + 1) for n in range(len(rows))], str(rows[:4]))

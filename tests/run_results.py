@@ -203,7 +203,7 @@ def wrong_use_is_reported(folder):
     def error(design, status=1):
         folder.write("wrong.vcad", design + "\ncube(10, mix(red, blue, r.value));")
         return folder.run("slice", "wrong.vcad", "--voxel", "1", "-o", "never", status=status).stderr
-    for call, what in ((("none.vtu",), "none.vtu"), (("cube.vtu",), 'has the fields "displacement", "fraction of red"'),
+    for call, what in ((("none.vtu",), "none.vtu"), (("cube.vtu",), 'has the fields "displacement", "nodal von Mises stress"'),
                        (("cube.vtu", "heat"), '"heat"'), (("cube.vtu", "s"), '"s"'),
                        (("cube.vtu", "stress"), 'write component="xx"'),
                        (("cube.vtu", "von_mises", "x"), "leave component out"),

@@ -17,7 +17,7 @@ namespace {
 using voxel::FieldTile;
 using voxel::TileBox;
 
-constexpr int64_t most_along_axis = int64_t{1} << 30;
+constexpr int64_t most_bricks_along_axis = int64_t{1} << 30;
 
 // The numbers of one grid in a slab, x fastest, then y, then z.
 std::vector<float> numbers_of(const GridSlab& slab, size_t grid) {
@@ -50,7 +50,8 @@ class ModelMaker {
 
   std::optional<fea::Model> make() {
     for (const int64_t count : plan_.request.lattice.count)
-      if (count > most_along_axis) return fail("there are more than 2^30 bricks along an axis", "choose larger bricks");
+      if (count > most_bricks_along_axis)
+        return fail("there are more than 2^30 bricks along an axis", "choose larger bricks");
     if (!find_cells() || (parts_ && !find_fills())) return std::nullopt;
     if (cells_.empty())
       return fail(request_.fill == FeaRequest::Fill::exact ? "no brick is inside the design by enough"

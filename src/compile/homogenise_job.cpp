@@ -9,7 +9,7 @@
 namespace ombre::compile {
 namespace {
 
-constexpr int32_t most_along_axis = 4096;
+constexpr int32_t most_bricks_of_cell = 4096;
 
 // The nearest number of the form m * 2^k with m up to 7.
 int32_t halvable(double wanted) {
@@ -29,10 +29,10 @@ std::optional<PeriodicBox> periodic_box(const LoadedPtr& loaded, const std::opti
   PeriodicBox result{*wanted, {}};
   for (int axis = 0; axis < 3; ++axis) {
     const double count = result.box.size()[axis] / cell_mm;
-    if (!(count >= 0.5) || count > most_along_axis) {
+    if (!(count >= 0.5) || count > most_bricks_of_cell) {
       diagnostics.error(Code::option, whole,
                         "the box has " + format_rounded(count) + " bricks along " + std::string(1, "xyz"[axis]) +
-                            "; from 1 to " + std::to_string(most_along_axis) + " are possible",
+                            "; from 1 to " + std::to_string(most_bricks_of_cell) + " are possible",
                         "choose another " + spelled::option("--cell") + " or " + spelled::option("--box"));
       return std::nullopt;
     }

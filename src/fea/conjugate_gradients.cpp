@@ -61,10 +61,10 @@ void Gradients::multigrid() { preconditioner_ = std::make_unique<Multigrid>(stif
 
 void Gradients::factorise() {
   if (!can_factorise(stiffness_))
-    throw Error(
-        Code::not_solved,
-        has_factorisations() ? "the equations cannot be factorised, since a brick touches itself; solve by multigrid"
-                             : without_factorisations());
+    throw Error(Code::not_solved,
+                has_factorisations()
+                    ? "the equations cannot be factorised, since a brick touches itself; solve by multigrid"
+                    : without_factorisations());
   if (const double least = element_matrix_bytes(stiffness_); least > options_.memory_bytes)
     refuse_memory(least, options_.memory_bytes);
   prepared_ = std::make_unique<Factorisation>(stiffness_, progress_, stop_);

@@ -90,7 +90,7 @@ class BrickStresses {
   }
 
   void find_place(Fill fill, const Moduli& moduli, bool is_own) {
-    place_.emplace();
+    place_ = Place{};
     place_->fill = fill;
     place_->moduli = moduli;
     place_->is_own = is_own;

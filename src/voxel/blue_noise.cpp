@@ -13,7 +13,7 @@ std::vector<uint32_t> turned(const uint32_t* mask) {
   std::vector<uint32_t> turned(blue_noise_voxels);
   for (size_t n = 0; n < blue_noise_voxels; ++n) {
     const size_t x = n % blue_noise_width, y = n / blue_noise_width % blue_noise_height,
-                 layer = n - n % (blue_noise_width * blue_noise_height);
+                 layer = n - n % (size_t{blue_noise_width} * blue_noise_height);
     turned[layer + x * blue_noise_width + y] = mask[n];
   }
   return turned;

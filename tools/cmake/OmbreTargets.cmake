@@ -18,8 +18,12 @@ endfunction()
 
 # Code that runs once for each job, and never for each voxel, is compiled in two thirds of the time when it is optimised less.
 function(ombre_optimise_less)
+  set(option $<$<CONFIG:Release>:-O1>)
+  if(OMBRE_SANITIZE)
+    set(option -O0)
+  endif()
   foreach(target ${ARGV})
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> $<$<BOOL:${OMBRE_SANITIZE}>:-O0>)
+    target_compile_options(${target} PRIVATE ${option})
   endforeach()
 endfunction()
 
