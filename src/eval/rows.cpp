@@ -60,8 +60,15 @@ void RowEvaluator::run_input(int axis, double* out) const {
     std::copy_n(given.data(), given.size(), out);
 }
 
+// All values are written before they are read, so none are set here.
+void RowEvaluator::make_room(const Program& program) {
+  if (program.code.size() <= room_) return;
+  values_ = std::make_unique_for_overwrite<double[]>(program.code.size() * width_);
+  room_ = program.code.size();
+}
+
 void RowEvaluator::run(const Program& program, size_t begin, size_t end, const SourceRow& source_row) {
-  if (values_.size() < program.code.size() * width_) values_.resize(program.code.size() * width_);
+  make_room(program);
   const size_t n = xs_.size();
   if (!program.reads.empty()) done_.assign(program.code.size(), false);
   for (size_t i = begin; i < end; ++i) {

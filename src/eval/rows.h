@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -24,20 +25,22 @@ class RowEvaluator {
   void set_points(std::span<const double> xs, std::span<const double> ys, std::span<const double> zs);
   // Instructions [begin, end); those before `begin` were run on this row already.
   void run(const program::Program& program, size_t begin, size_t end, const SourceRow& source_row);
-  std::span<const double> values(program::ValueId id) const { return {values_.data() + id * width_, xs_.size()}; }
+  std::span<const double> values(program::ValueId id) const { return {values_.get() + id * width_, xs_.size()}; }
 
  private:
   void run_input(int axis, double* out) const;
   // Instruction i, and those like it before `end` that ask the same source at the same points for other channels.
   void run_source(const program::Program& program, size_t i, size_t end, const SourceRow& source_row);
-  double* row(program::ValueId id) { return values_.data() + id * width_; }
+  double* row(program::ValueId id) { return values_.get() + id * width_; }
+  void make_room(const program::Program& program);
 
   size_t width_;
   std::span<const double> xs_, ys_, zs_;  // ys_ and zs_ are empty where the points are a row
   double y_ = 0, z_ = 0;
-  std::vector<double> values_;
-  std::vector<Vec3> points_;  // of a source
-  std::vector<bool> done_;    // together with another channel
+  std::unique_ptr<double[]> values_;  // of instructions, each at `width_` points
+  size_t room_ = 0;                   // for so many instructions
+  std::vector<Vec3> points_;          // of a source
+  std::vector<bool> done_;            // together with another channel
   std::vector<int> channels_;
   std::vector<double*> channel_rows_;
 };

@@ -13,7 +13,7 @@ namespace ombre::surface {
 namespace {
 
 constexpr size_t most_points = 8192;  // of a task
-constexpr size_t fewest_points = 32;  // for which a program is shortened once more
+constexpr size_t fewest_points = 8;   // for which a program is shortened once more
 constexpr size_t most_work = 40000;   // points times operations of a program that is not shortened further
 
 using Numbers = std::span<uint32_t>;

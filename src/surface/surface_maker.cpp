@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "surface/doubled_edges.h"
+#include "surface/join_coplanar.h"
+#include "surface/snap_to_planes.h"
 #include "surface/unfold.h"
 #include "surface/volume_fit.h"
 
@@ -12,6 +14,9 @@ namespace {
 
 constexpr int most_rounds = 40, most_crossing_rounds = 6, most_far_rounds = 12, most_fitting_rounds = 6,
               most_undoing_rounds = 6;
+// How far vertices of one plane lie from it: by their rounding, which is nothing beside what facets may lie off; the
+// few near edges whose normals were mixed farther, within what facets are kept closer than the tolerance.
+constexpr double coplanar_of_tolerance = 1e-3, nearly_coplanar_of_tolerance = 0.05;
 // Clusters of the highest level are taken apart first, vertices never.
 constexpr int vertex_rank = -1;
 
@@ -124,11 +129,18 @@ std::vector<uint32_t> SurfaceMaker::moved_around_far() const {
   return moved;
 }
 
+void SurfaceMaker::join_planes(RegionSurface& made) const {
+  const double exact_mm = coplanar_of_tolerance * options_.tolerance_mm;
+  snap_to_planes(made, exact_mm, nearly_coplanar_of_tolerance * options_.tolerance_mm, options_.workers);
+  join_coplanar(made, exact_mm, options_.workers);
+}
+
 RegionSurface SurfaceMaker::build() const {
   RegionSurface made = surface_.build();
   made.report.at_mean_points = at_mean_points_;
   made.report.intersections = pairs_left_;
   made.report.farthest_in_tolerances = check_.farthest_in_tolerances(surface_);
+  if (options_.join_flat) join_planes(made);
   cut_doubled_edges(made);
   return made;
 }

@@ -45,6 +45,8 @@ class SurfaceMaker {
   bool split_far();
   bool move_back(const std::vector<uint32_t>& vertices);
   bool is_far(uint32_t quad) const;
+  // Leaves planes as few triangles as they need.
+  void join_planes(RegionSurface& made) const;
   int rank(uint32_t cluster) const;
 
   const CellTree& tree_;
