@@ -197,10 +197,16 @@ def values():
             for name, share in shares.items()]
 
 
+def depths(data):
+    """Two materials by the distance to the nearest of 96,800 triangles."""
+    graded = f'fgrade(["1 + d/4", "-d/4"], ["magenta", "gray"]) mesh("{data}/bumpy_ball.stl");'
+    return [Job("depth in a mesh", lambda: graded, *centred((51, 51, 51)), (255, 255, 255), published=False)]
+
+
 def all_jobs(data, size, full=False):
     counts = STRUTS + (MORE_STRUTS if full else ())
     tiny = size == "tiny"
     if tiny:
         counts = STRUTS[:3]
     return (table_3(data) + table_4(data) + [struts_job(count) for count in counts]
-            + (lattices(3, 200) if tiny else lattices()) + values())
+            + (lattices(3, 200) if tiny else lattices()) + values() + depths(data))

@@ -87,10 +87,33 @@ def screwdriver(stations=161, around=152):
     return triangles
 
 
+def bumpy_ball(cuts=110):
+    """A ball of about 48 mm with bumps of two sizes: an octahedron whose faces are cut, 8 cuts^2 triangles."""
+    def place(corner):
+        x, y, z = (c / math.hypot(*corner) for c in corner)
+        radius = (24 + 1.2 * math.sin(9 * x + 1) * math.sin(11 * y + 2) * math.sin(10 * z)
+                  + 0.4 * math.sin(31 * x) * math.sin(29 * y) * math.sin(37 * z))
+        return (radius * x, radius * y, radius * z)
+
+    triangles = []
+    for signs in [(sx, sy, sz) for sx in (1, -1) for sy in (1, -1) for sz in (1, -1)]:
+        def corner(i, j):
+            return place(tuple(s * c for s, c in zip(signs, (i, j, cuts - i - j))))
+
+        for i in range(cuts):
+            for j in range(cuts - i):
+                found = [(corner(i, j), corner(i + 1, j), corner(i, j + 1))]
+                if i + j < cuts - 1:
+                    found.append((corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)))
+                triangles += found if math.prod(signs) > 0 else [(a, c, b) for a, b, c in found]
+    return triangles
+
+
 def make(folder):
     """Writes the meshes that are not in the folder yet."""
     folder.mkdir(parents=True, exist_ok=True)
-    makers = {"text.stl": lambda: block_letters("OpenVCAD", (140, 7, 28)), "screwdriver.stl": screwdriver}
+    makers = {"text.stl": lambda: block_letters("OpenVCAD", (140, 7, 28)), "screwdriver.stl": screwdriver,
+              "bumpy_ball.stl": bumpy_ball}
     for name, maker in makers.items():
         if not (folder / name).exists():
             write_stl(folder / name, maker())

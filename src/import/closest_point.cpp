@@ -3,6 +3,8 @@
 
 #ifdef OMBRE_EMBREE_VERSION
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <future>
 #include <limits>
@@ -10,6 +12,7 @@
 #include "base/error.h"
 #include "base/module_loader.h"
 #include "import/embree_calls.h"
+#include "import/triangle_clusters.h"
 #include "import/triangle_distance.h"
 
 namespace ombre::importing {
@@ -40,48 +43,80 @@ using Device = std::unique_ptr<RTCDeviceTy, Release>;
 using Scene = std::unique_ptr<RTCSceneTy, Release>;
 using Geometry = std::unique_ptr<RTCGeometryTy, Release>;
 
-// Embree sees the mesh moved and scaled into a cube of half-width one.
-struct Frame {
-  Vec3 center;
-  double scale = 1;
+struct Query {
+  const Surface* surface;
+  const TriangleCluster* clusters;
+  Vec3 point;
+  std::array<float, 3> at;  // in the frame
+  double scale, room;       // of the frame; added to radii there
 
-  explicit Frame(const Box& box) : center(box.center()) {
-    const Vec3 half = 0.5 * box.size();
-    const double widest = std::max({half.x, half.y, half.z});
-    if (widest > 0) scale = 1 / widest;
+  Query(const Surface& of, const std::vector<TriangleCluster>& all, const Frame& frame, Vec3 p)
+      : surface(&of), clusters(all.data()), point(p), scale(frame.scale) {
+    const Vec3 framed = frame(p);
+    at = {static_cast<float>(framed.x), static_cast<float>(framed.y), static_cast<float>(framed.z)};
+    room = rounding_room * (1 + length(framed));
   }
-  Vec3 operator()(Vec3 p) const { return scale * (p - center); }
+
+  float radius(double distance_mm) const { return static_cast<float>(distance_mm * scale + room); }
+
+  // Calls for those triangles of a cluster that may be within the radius.
+  template <class Take>
+  void each_within(uint32_t cluster, float radius, const Take& take) const {
+    const TriangleCluster& all = clusters[cluster];
+    for (uint32_t left = all.within(at, radius); left != 0; left &= left - 1)
+      take(all.triangles[static_cast<size_t>(std::countr_zero(left))]);
+  }
 };
 
 struct Search {
-  const Surface* surface;
-  Vec3 point;
-  double scale;
-  double room;                                            // added to radii, in the frame
-  double best = std::numeric_limits<double>::infinity();  // squared
+  Query query;
+  double squared = std::numeric_limits<double>::infinity();
+  ClosestPoint::Nearest nearest = {};
+
+  // Whether it is nearer than all before.
+  bool take(uint32_t triangle) {
+    const double found = squared_distance(query.point, query.surface->corners(triangle));
+    if (found >= squared) return false;
+    squared = found;
+    nearest = {std::sqrt(found), triangle};
+    return true;
+  }
 };
 
 bool visit(RTCPointQueryFunctionArguments* arguments) {
   Search& search = *static_cast<Search*>(arguments->userPtr);
-  const double squared = squared_distance(search.point, search.surface->corners(arguments->primID));
-  if (squared >= search.best) return false;
-  search.best = squared;
-  arguments->query->radius = static_cast<float>(std::sqrt(squared) * search.scale + search.room);
-  return true;
+  bool is_nearer = false;
+  search.query.each_within(arguments->primID, search.query.radius(search.nearest.distance_mm),
+                           [&](uint32_t triangle) { is_nearer |= search.take(triangle); });
+  if (is_nearer) arguments->query->radius = search.query.radius(search.nearest.distance_mm);
+  return is_nearer;
 }
 
 struct Neighbours {
-  const Surface* surface;
-  Vec3 point;
-  double squared_distance;
+  Query query;
+  double distance_mm;
   const std::function<void(uint32_t)>* visit;
 };
 
-bool visit_neighbour(RTCPointQueryFunctionArguments* arguments) {
+bool visit_neighbours(RTCPointQueryFunctionArguments* arguments) {
   const Neighbours& search = *static_cast<Neighbours*>(arguments->userPtr);
-  if (squared_distance(search.point, search.surface->corners(arguments->primID)) <= search.squared_distance)
-    (*search.visit)(arguments->primID);
+  const Query& query = search.query;
+  query.each_within(arguments->primID, query.radius(search.distance_mm), [&](uint32_t triangle) {
+    const double squared = squared_distance(query.point, query.surface->corners(triangle));
+    if (squared <= search.distance_mm * search.distance_mm) (*search.visit)(triangle);
+  });
   return false;
+}
+
+void bounds_of_cluster(const RTCBoundsFunctionArguments* arguments) {
+  const TriangleCluster& cluster = static_cast<const TriangleCluster*>(arguments->geometryUserPtr)[arguments->primID];
+  RTCBounds& box = *arguments->bounds_o;
+  box.lower_x = cluster.lo[0];
+  box.lower_y = cluster.lo[1];
+  box.lower_z = cluster.lo[2];
+  box.upper_x = cluster.hi[0];
+  box.upper_y = cluster.hi[1];
+  box.upper_z = cluster.hi[2];
 }
 
 }  // namespace
@@ -89,69 +124,60 @@ bool visit_neighbour(RTCPointQueryFunctionArguments* arguments) {
 struct ClosestPoint::Tree {
   SurfacePtr surface;
   Frame frame;
+  std::vector<TriangleCluster> clusters;
   Device device;
   Scene scene;
 
-  explicit Tree(SurfacePtr of) : surface(std::move(of)), frame(bounds(*surface)), device(embree().new_device(nullptr)) {
+  explicit Tree(SurfacePtr of)
+      : surface(std::move(of)),
+        frame(bounds(*surface)),
+        clusters(cluster_triangles(*surface, frame)),
+        device(embree().new_device(nullptr)) {
     if (!device) throw Error("Embree, which measures distances to meshes, cannot start on this machine");
     scene.reset(embree().new_scene(device.get()));
     embree().set_scene_flags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-    add_triangles();
+    add_clusters();
     embree().commit_scene(scene.get());
     if (embree().get_device_error(device.get()) != RTC_ERROR_NONE)
       throw Error(Code::memory,
                   "Embree cannot build the search tree for distances to a mesh (is there enough memory?)");
   }
 
-  void add_triangles() {
-    const Geometry geometry(embree().new_geometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    auto* const points = static_cast<float*>(embree().set_new_geometry_buffer(
-        geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), surface->vertices.size()));
-    auto* const corners = static_cast<uint32_t*>(embree().set_new_geometry_buffer(
-        geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), surface->triangles.size()));
-    if (points == nullptr || corners == nullptr) throw Error(Code::memory, "out of memory for distances to a mesh");
-    for (size_t i = 0; i < surface->vertices.size(); ++i) {
-      const Vec3 p = frame(surface->vertices[i]);
-      for (int axis = 0; axis < 3; ++axis) points[3 * i + axis] = static_cast<float>(p[axis]);
-    }
-    for (size_t i = 0; i < surface->triangles.size(); ++i)
-      for (size_t corner = 0; corner < 3; ++corner) corners[3 * i + corner] = surface->triangles[i][corner];
+  void add_clusters() {
+    const Geometry geometry(embree().new_geometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+    embree().set_primitive_count(geometry.get(), static_cast<unsigned>(clusters.size()));
+    embree().set_user_data(geometry.get(), clusters.data());
+    embree().set_bounds(geometry.get(), bounds_of_cluster, nullptr);
     embree().commit_geometry(geometry.get());
     embree().attach_geometry(scene.get(), geometry.get());
   }
 
-  void ask(Vec3 at, double radius, RTCPointQueryFunction answer, void* search) const {
+  Query query_at(Vec3 p) const { return {*surface, clusters, frame, p}; }
+
+  void ask(const Query& at, double distance_mm, RTCPointQueryFunction answer, void* search) const {
     RTCPointQuery query{};
-    query.x = static_cast<float>(at.x);
-    query.y = static_cast<float>(at.y);
-    query.z = static_cast<float>(at.z);
-    query.radius = static_cast<float>(radius);
+    query.x = at.at[0];
+    query.y = at.at[1];
+    query.z = at.at[2];
+    query.radius = at.radius(distance_mm);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     embree().point_query(scene.get(), &query, &context, answer, search);
   }
 
-  static double room_at(Vec3 at) { return rounding_room * (1 + length(at)); }
-
   void visit_within(Vec3 p, double distance_mm, const std::function<void(uint32_t)>& visit) const {
-    const Vec3 at = frame(p);
-    Neighbours search{surface.get(), p, distance_mm * distance_mm, &visit};
-    ask(at, distance_mm * frame.scale + room_at(at), visit_neighbour, &search);
+    Neighbours search{query_at(p), distance_mm, &visit};
+    ask(search.query, distance_mm, visit_neighbours, &search);
   }
 
-  double distance(Vec3 p, double at_most) const {
-    const Vec3 at = frame(p);
-    Search search{surface.get(), p, frame.scale, room_at(at)};
-    ask(at, at_most * frame.scale + search.room, visit, &search);
-    return std::sqrt(std::isinf(search.best) ? squared_distance_to_all(p) : search.best);
-  }
-
-  // So far away that Embree's numbers overflow.
-  double squared_distance_to_all(Vec3 p) const {
-    double best = std::numeric_limits<double>::infinity();
-    for (uint32_t i = 0; i < surface->triangles.size(); ++i)
-      best = std::min(best, squared_distance(p, surface->corners(i)));
-    return best;
+  Nearest nearest(Vec3 p, uint32_t guess) const {
+    Search search{query_at(p)};
+    if (guess != none) search.take(guess);
+    ask(search.query, search.nearest.distance_mm, visit, &search);
+    // So far away that Embree's numbers overflow.
+    if (search.nearest.triangle == none)
+      for (uint32_t n = 0; n < surface->triangles.size(); ++n) search.take(n);
+    return search.nearest;
   }
 };
 
@@ -162,8 +188,8 @@ ClosestPoint::ClosestPoint(SurfacePtr surface)
 
 ClosestPoint::~ClosestPoint() = default;
 
-double ClosestPoint::distance(Vec3 p, double at_most) const {
-  return is_finite(p) ? tree_->distance(p, at_most) : std::numeric_limits<double>::infinity();
+ClosestPoint::Nearest ClosestPoint::nearest(Vec3 p, uint32_t guess) const {
+  return is_finite(p) ? tree_->nearest(p, guess) : Nearest{};
 }
 
 void ClosestPoint::visit_within(Vec3 p, double distance_mm, const std::function<void(uint32_t)>& visit) const {
@@ -185,7 +211,7 @@ bool has_mesh_distance() { return false; }
 struct ClosestPoint::Tree {};
 ClosestPoint::ClosestPoint(SurfacePtr) { ASSERT(has_mesh_distance()); }
 ClosestPoint::~ClosestPoint() = default;
-double ClosestPoint::distance(Vec3, double) const { return std::numeric_limits<double>::infinity(); }
+ClosestPoint::Nearest ClosestPoint::nearest(Vec3, uint32_t) const { return {}; }
 void ClosestPoint::visit_within(Vec3, double, const std::function<void(uint32_t)>&) const {}
 
 }  // namespace ombre::importing

@@ -22,9 +22,14 @@ class ClosestPoint {
   ClosestPoint(const ClosestPoint&) = delete;
   ClosestPoint& operator=(const ClosestPoint&) = delete;
 
-  // In mm, without a sign; infinite for points that are not finite. `at_most`: it is known to be no more, but for
-  // rounding; the answer is the same, and comes sooner.
-  double distance(Vec3 p, double at_most = std::numeric_limits<double>::infinity()) const;
+  static constexpr uint32_t none = ~uint32_t{0};
+  struct Nearest {
+    double distance_mm = std::numeric_limits<double>::infinity();  // without a sign
+    uint32_t triangle = none;                                      // one of those that are so near, if any
+  };
+  // Infinite for points that are not finite. With a triangle that may be near as a guess, the distance is the same, and
+  // comes sooner.
+  Nearest nearest(Vec3 p, uint32_t guess = none) const;
 
   // Calls `visit` with all triangles that are no farther away, in any order.
   void visit_within(Vec3 p, double distance_mm, const std::function<void(uint32_t triangle)>& visit) const;

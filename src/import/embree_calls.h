@@ -19,7 +19,9 @@ struct EmbreeCalls {
   decltype(&rtcCommitScene) commit_scene = rtcCommitScene;
   decltype(&rtcNewGeometry) new_geometry = rtcNewGeometry;
   decltype(&rtcReleaseGeometry) release_geometry = rtcReleaseGeometry;
-  decltype(&rtcSetNewGeometryBuffer) set_new_geometry_buffer = rtcSetNewGeometryBuffer;
+  decltype(&rtcSetGeometryUserPrimitiveCount) set_primitive_count = rtcSetGeometryUserPrimitiveCount;
+  decltype(&rtcSetGeometryUserData) set_user_data = rtcSetGeometryUserData;
+  decltype(&rtcSetGeometryBoundsFunction) set_bounds = rtcSetGeometryBoundsFunction;
   decltype(&rtcCommitGeometry) commit_geometry = rtcCommitGeometry;
   decltype(&rtcAttachGeometry) attach_geometry = rtcAttachGeometry;
   decltype(&rtcPointQuery) point_query = rtcPointQuery;

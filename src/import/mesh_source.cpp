@@ -58,22 +58,31 @@ class MeshSource final : public program::FieldSource {
 
   double sample(int channel, Vec3 p) const override {
     if (channel == inside_channel) return contains(p) ? 1 : 0;
-    const double distance = closest().distance(p);
+    const double distance = closest().nearest(p).distance_mm;
     return contains(p) ? -distance : distance;
   }
 
-  // A distance changes by no more than the way from the last point, and its sign only on a way to the surface.
+  // What was nearest to the last point is near, or, where the next row begins, to the first of the last row. A distance
+  // changes by no more than the way from there, and its sign only on a way to the surface.
   void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const override {
     if (channel != distance_channel) return FieldSource::sample_all(channel, points, values);
     const double sure = has_reliable_sign() ? 1 - mesh_rounding : 0;  // of the way to the surface: no sign changes
-    double distance = std::numeric_limits<double>::infinity();
-    bool is_inside = false;
+    struct Known {
+      Vec3 at;
+      ClosestPoint::Nearest nearest;
+      bool is_inside = false;
+    } last, first_of_row;
     for (size_t n = 0; n < points.size(); ++n) {
-      const double way = n > 0 ? length(points[n] - points[n - 1]) : 0, before = distance;
-      const bool is_known = std::isfinite(before) && std::isfinite(way);
-      distance = closest().distance(points[n], is_known ? before + way : std::numeric_limits<double>::infinity());
-      if (!is_known || !(way < sure * std::max(before, distance))) is_inside = contains(points[n]);
-      values[n] = is_inside ? -distance : distance;
+      const bool begins = n == 0 || !(length(points[n] - last.at) <= length(points[n] - first_of_row.at));
+      const Known& known = begins ? first_of_row : last;
+      const double way = length(points[n] - known.at), before = known.nearest.distance_mm;
+      Known now{points[n], closest().nearest(points[n], known.nearest.triangle), known.is_inside};
+      const double distance = now.nearest.distance_mm;
+      const bool is_known = std::isfinite(before) && way < sure * std::max(before, distance);
+      if (!is_known) now.is_inside = contains(points[n]);
+      values[n] = now.is_inside ? -distance : distance;
+      last = now;
+      if (begins) first_of_row = now;
     }
   }
 
@@ -90,6 +99,8 @@ class MeshSource final : public program::FieldSource {
         values[c][n] = channels[c] == distance_channel ? distances[n] : std::signbit(distances[n]) ? 1 : 0;
     }
   }
+
+  double ops_of_sample(int channel) const override { return channel == distance_channel ? 500 : 1; }
 
   Interval range(int channel, const Box& box) const override {
     if (channel == distance_channel) return distance_range(box);

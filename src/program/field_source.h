@@ -76,6 +76,8 @@ class FieldSource : public HostObject {
     for (size_t c = 0; c < channels.size(); ++c) sample_all(channels[c], points, {values[c], points.size()});
   }
   virtual Interval range(int, const Box&) const { return Interval::everything(); }
+  // About what a sample costs beside an op, so that tiles are cut where ranges spare samples.
+  virtual double ops_of_sample(int) const { return 1; }
   // Gives exact row spans of a channel that is 1 inside and 0 outside, and values of others where they need no
   // rounding, under an affine map from index coordinates (voxel (i, j, k) has its centre at index (i, j, k)) to the
   // source's space. Null if the source cannot.

@@ -178,7 +178,7 @@ class BatchLeaf : public LeafEvaluator {
   }
 
   void finish_row() {
-    batch_.finish_row();
+    batch_.finish_row_inside();
     for (const size_t n : used_) outputs_[n] = batch_.output(n);
   }
 

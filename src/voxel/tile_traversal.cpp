@@ -39,7 +39,9 @@ bool TileTraversal::is_small(const program::Program& program, const TileBox& til
 // What is computed for each voxel. The rest is computed for rows and columns, and costs little.
 size_t TileTraversal::voxel_ops(const program::Program& program) {
   const std::vector<uint8_t> masks = program::axis_masks(program);
-  return static_cast<size_t>(std::count(masks.begin(), masks.end(), uint8_t{7}));
+  auto ops = static_cast<double>(std::count(masks.begin(), masks.end(), uint8_t{7}));
+  for (const program::Read& read : program.reads) ops += read.source->ops_of_sample(read.channel) - 1;
+  return static_cast<size_t>(ops);
 }
 
 // Will asking about the tile spare more than it costs?

@@ -131,6 +131,12 @@ void BatchEvaluator::begin_row(size_t j) {
 
 void BatchEvaluator::finish_row() { run(steps_[late], j_, width_); }
 
+void BatchEvaluator::finish_row_inside() {
+  inside_ = output(0);
+  finish_row();
+  inside_ = {};
+}
+
 Values BatchEvaluator::output(size_t n) const {
   const ValueId id = program_->outputs[n];
   return {place_for(id, all_axes).at(j_), row_axis(facts_[id].mask) != axis_x};
@@ -379,20 +385,28 @@ RowsToFill BatchEvaluator::rows_of(const Step& step, size_t j, size_t count) con
   return {k_, 0, box_rows_, step.out.at(j), box_width_, padded(box_width_)};
 }
 
+size_t BatchEvaluator::choose_lanes(size_t begin, size_t count, uint8_t* lanes) const {
+  size_t chosen = 0;
+  for (size_t i = 0; i < count; ++i)
+    if (inside_.row == nullptr || inside_[begin + i] != 0) lanes[chosen++] = static_cast<uint8_t>(i);
+  return chosen;
+}
+
 void BatchEvaluator::sample(const Step& step, size_t j, size_t count) const {
   const float *a = step.a.at(j), *b = step.b.at(j), *c = step.c.at(j);
   const auto value = [&](const float* row, size_t n, unsigned number) {
     return static_cast<double>(row[step.numbers & number ? 0 : n]);
   };
   constexpr size_t most = 128, most_channels = 8;
+  std::array<uint8_t, most> lanes;  // NOLINT: those that are read are set before
   std::array<Vec3, most> points;
-  std::array<double, most * most_channels> values;  // NOLINT: those that are read are set before
+  std::array<double, most * most_channels> values;  // NOLINT: likewise
   std::array<int, most_channels> channels{};
   std::array<double*, most_channels> rows{};
   for (size_t begin = 0; begin < count; begin += most) {
-    const size_t here = std::min(most, count - begin);
-    for (size_t i = 0; i < here; ++i) {
-      const size_t n = begin + i;
+    const size_t here = std::min(most, count - begin), chosen = choose_lanes(begin, here, lanes.data());
+    for (size_t i = 0; i < chosen; ++i) {
+      const size_t n = begin + lanes[i];
       points[i] = {value(a, n, a_is_number), value(b, n, b_is_number), value(c, n, c_is_number)};
     }
     for (size_t first = 0; first < step.channel_count; first += most_channels) {
@@ -402,11 +416,12 @@ void BatchEvaluator::sample(const Step& step, size_t j, size_t count) const {
         channels[m] = requested[m].first;
         rows[m] = values.data() + m * most;
       }
-      step.read->source->sample_channels(std::span(channels).first(together), std::span(points).first(here),
+      step.read->source->sample_channels(std::span(channels).first(together), std::span(points).first(chosen),
                                          std::span(rows).first(together));
       for (size_t m = 0; m < together; ++m) {
         float* const out = requested[m].second.at(j) + begin;
-        for (size_t i = 0; i < here; ++i) out[i] = static_cast<float>(rows[m][i]);
+        if (chosen < here) std::fill_n(out, here, 0.0F);
+        for (size_t i = 0; i < chosen; ++i) out[lanes[i]] = static_cast<float>(rows[m][i]);
       }
     }
   }

@@ -87,9 +87,11 @@ class BatchEvaluator {
   void place(const PointList& points);
 
   void begin_layer(size_t k);
-  // Computes output 0 along row j of the layer; finish_row then the other outputs.
+  // Computes output 0 along row j of the layer; finish_row then the other outputs, and finish_row_inside those whose
+  // values mean nothing where output 0 is 0: sources are not sampled there.
   void begin_row(size_t j);
   void finish_row();
+  void finish_row_inside();
   Values output(size_t n) const;
 
  private:
@@ -147,6 +149,8 @@ class BatchEvaluator {
   size_t row_length(uint8_t mask) const;
   void run(const std::vector<Step>& steps, size_t j, size_t count);
   void sample(const Step& step, size_t j, size_t count) const;
+  // Which lanes of `count` from `begin` on are sampled: their numbers, one after the other.
+  size_t choose_lanes(size_t begin, size_t count, uint8_t* lanes) const;
   RowsToFill rows_of(const Step& step, size_t j, size_t count) const;
 
   const KernelSet& kernels_;
@@ -165,6 +169,7 @@ class BatchEvaluator {
   LargeArray<float> memory_;
   size_t memory_floats_ = 0;
   float* next_ = nullptr;
+  Values inside_;  // where sources are sampled; no row: everywhere
 };
 
 }  // namespace ombre::eval

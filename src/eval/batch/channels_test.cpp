@@ -27,6 +27,21 @@ class FourChannels : public program::FieldSource {
   mutable std::vector<size_t> group_sizes;
 };
 
+// Says x, and remembers where it was asked.
+class QueriedPoints : public program::FieldSource {
+ public:
+  std::string name() const override { return "queried points"; }
+  Hash content() const override { return {1, 5}; }
+  Box bounds() const override { return Box::centered({9, 9, 9}); }
+  int channel(std::string_view) const override { return 0; }
+  double sample(int, Vec3 p) const override {
+    queried.push_back(p.x);
+    return p.x;
+  }
+
+  mutable std::vector<double> queried;
+};
+
 // All channels at (x, y, z), and one at (y, x, z).
 program::Program program_of(const std::shared_ptr<FourChannels>& source) {
   Builder builder;
@@ -84,6 +99,35 @@ TEST(Channels, BatchesAskForThemTogether) {
     for (size_t n = 0; n < xs.size(); ++n)
       ASSERT_EQ(batch.output(channel + 1)[n], xs[n] + static_cast<float>(channel) * ys[n]);
   for (size_t n = 0; n < xs.size(); ++n) ASSERT_EQ(batch.output(5)[n], ys[n] + xs[n]);
+}
+
+// Where output 0 is 0, values mean nothing and cost nothing.
+TEST(Channels, AreQueriedOnlyInside) {
+  if (kernel_sets().empty()) GTEST_SKIP() << "no instruction set for batches";
+  const auto source = std::make_shared<QueriedPoints>();
+  Builder builder;
+  const auto x = builder.input(0), y = builder.input(1), z = builder.input(2);
+  const program::Program program = builder.finish({{"inside", y}, {"value", builder.source(source, 0, x, y, z)}});
+  std::vector<float> xs, ys, zs;
+  std::vector<double> inside;
+  for (size_t n = 0; n < padded(200); ++n) {
+    xs.push_back(static_cast<float>(n));
+    ys.push_back(n % 3 == 0 ? 1 : 0);
+    zs.push_back(0);
+    if (n % 3 == 0) inside.push_back(static_cast<double>(n));
+  }
+  const std::vector<Interval> ranges(program.code.size(), Interval::everything());
+  BatchEvaluator batch(kernel_sets().front());
+  const PointRows none;
+  batch.compile_for_list(program, ranges, xs.size(), none);
+  batch.place(PointList{xs, ys, zs});
+  batch.begin_layer(0);
+  batch.begin_row(0);
+  batch.finish_row_inside();
+  EXPECT_EQ(source->queried, inside);
+  for (size_t n = 0; n < xs.size(); n += 3) ASSERT_EQ(batch.output(1)[n], xs[n]);
+  batch.finish_row();
+  EXPECT_EQ(source->queried.size(), inside.size() + xs.size());
 }
 
 }  // namespace ombre::eval
