@@ -136,6 +136,50 @@ def materials_get_a_body_each(meshes):
         near(body["volume_mm3"], 500, 1e-6, body["name"])
 
 
+def extruders(path):
+    with zipfile.ZipFile(path) as archive:
+        config = archive.read("Metadata/Slic3r_PE_model.config").decode()
+    return re.findall('key="extruder" value="([^"]*)"', config)
+
+
+def materials_are_not_joined_in_silence(meshes):
+    """Without --by: a body for each material, bands of mixtures; a warning where a file cannot hold bodies."""
+    (meshes.folder / "two.vcad").write_text('part("left") translate(-5, 0, 0) cube(10, "red");\n'
+                                            'part("right") translate(5, 0, 0) cube(10, "blue");', encoding="utf-8")
+    for ending in ("amf", "glb", "obj", "3mf"):
+        result = meshes.mesh("-o", "two." + ending, "--flavour", "prusa", design="two.vcad")
+        if "without libzip" in result.stderr:
+            return "skipped: no libzip"
+        for name in ("red", "blue"):
+            expect(f"{name}: 12 triangles, 1000 mm3" in result.stderr, result.stderr)
+    expect(extruders(meshes.folder / "two.3mf") == ["1", "2"], "materials have no extruders of their own")
+    meshes.mesh("-o", "parts.3mf", "--by", "parts", "--flavour", "prusa", design="two.vcad")
+    expect(extruders(meshes.folder / "parts.3mf") == ["1", "2"], "parts have no extruders of their own")
+    for ending in ("stl", "ply", "off"):
+        result = meshes.mesh("-o", "two." + ending, design="two.vcad")
+        expect(result.stderr.count("warning") == 1 and "red, blue are joined" in result.stderr, result.stderr)
+        expect("ends in .3mf, .amf, .glb, .obj, or --by" in result.stderr, result.stderr)
+        result = meshes.mesh("-o", "two." + ending, "--by", "whole", "--force", design="two.vcad")
+        expect("warning" not in result.stderr and "2000 mm3" in result.stderr, result.stderr)
+    whole = meshes.bodies("-o", "whole.3mf", "--by", "whole", design="two.vcad")
+    expect([round(b["volume_mm3"], 3) for b in whole["bodies"]] == [2000], str(whole))
+    result = meshes.mesh("-o", "bar.3mf")
+    expect("mixtures of red, blue become bodies by bands" in result.stderr, result.stderr)
+    expect(result.stderr.count(", 250 mm3") == 4, result.stderr)
+
+
+def many_cells_are_coarser(meshes):
+    """Two walls of a gyroid in 20 mm would have a million cells of 0.08 mm; a block of planes keeps its thousandth."""
+    (meshes.folder / "gyroid.vcad").write_text('intersection(materials="first") { '
+                                               'tpms("gyroid", cell=(10, 10, 10), thickness=1); cube(20); }', encoding="utf-8")
+    result = meshes.mesh("-o", "gyroid.stl", design="gyroid.vcad")
+    expect("within 0.06 mm of each other; a smaller --tolerance takes longer" in result.stderr, result.stderr)
+    (meshes.folder / "block.vcad").write_text("rotate(0, 0, 30) rectprism(20, 12, 8);", encoding="utf-8")
+    result = meshes.mesh("-o", "block.stl", design="block.vcad")
+    expect("part: 12 triangles, 1920 mm3, 992 mm2\n" in result.stderr, result.stderr)
+    expect("within 0.02 mm of each other\n" in result.stderr, result.stderr)
+
+
 def steps_have_borders(meshes):
     """Beyond the step both fractions are the same, and the first material wins."""
     (meshes.folder / "step.vcad").write_text('fgrade(["if(x < 0.1, 0, 0.5)", "if(x < 0.1, 1, 0.5)"], ["red", "blue"]) '
@@ -236,7 +280,8 @@ def thin_parts_are_reported(meshes):
     expect("missing" not in result.stderr, result.stderr)
 
 
-CHECKS = [wing_is_right_where_cells_can_follow_it, bands_fill_the_whole, materials_get_a_body_each, steps_have_borders,
+CHECKS = [wing_is_right_where_cells_can_follow_it, bands_fill_the_whole, materials_get_a_body_each,
+          materials_are_not_joined_in_silence, many_cells_are_coarser, steps_have_borders,
           materials_come_back, slicers_get_settings_of_each_band, slips_get_remedies, files_are_kept,
           interrupts_leave_nothing, memory_is_reported_and_kept, thin_parts_are_reported]
 

@@ -63,8 +63,8 @@ void Console::event(const std::string& event_name, DataMembers members) const {
   on_event_ ? on_event_(members) : put_data(print_json_line(members) + '\n');
 }
 
-void Console::say(const std::string& text) const {
-  if (voice_ == Voice::people) put(stderr, text + '\n');
+void Console::say(const Phrase& text) const {
+  if (voice_ == Voice::people) put(stderr, text.in({{}, front_end_}) + '\n');
 }
 
 void Console::warn(const Phrase& message, Code code) const {

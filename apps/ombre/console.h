@@ -30,7 +30,7 @@ class Console {
   // {"event": name, ...members} for programs, nothing for others.
   void event(const std::string& name, DataMembers members) const;
   // A remark for people, without line end.
-  void say(const std::string& text) const;
+  void say(const Phrase& text) const;
   // Programs get them as events.
   void warn(const Phrase& message, Code code = Code::design) const;
   void error(Code code, const Phrase& message, const CodeValues& values = {}) const;

@@ -33,9 +33,10 @@ constexpr const char* mesh_footer =
     "What is thinner than a cell may be lost. Cells are cut finer where the surface would lie farther off than the\n"
     "tolerance, and triangles are drawn together where it is flat within it. A warning says what remains.\n\n"
     "Examples:\n"
-    "  ombre mesh part.vcad -o part.stl                   one body\n"
+    "  ombre mesh part.vcad                               a body for each material, in part.3mf\n"
+    "  ombre mesh part.vcad --by whole -o part.stl        one body\n"
     "  ombre mesh part.vcad --tolerance 0.01\n"
-    "  ombre mesh part.vcad --by materials -o part.3mf    a body for each material\n"
+    "  ombre mesh part.vcad --by parts --flavour prusa    a body for each named part, with its own extruder\n"
     "  ombre mesh part.vcad --beams -o part.3mf           struts as beams of a 3MF file, all else as "
     "triangles\n"
     "  ombre mesh part.vcad --bands 4                     four bodies by the fraction that varies most\n"
@@ -70,7 +71,7 @@ void add_attributes(const compile::Region& region, std::vector<std::pair<std::st
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<SlicerSetting>& settings, size_t body,
-                                                             const compile::MeshedDesign& made) {
+                                                             const compile::MeshedDesign& made, bool is_by_part) {
   std::vector<std::pair<std::string, std::string>> values;
   for (const SlicerSetting& setting : settings) {
     if (setting.listed() > 0 && setting.listed() != made.bodies.size())
@@ -79,14 +80,14 @@ std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<S
     values.emplace_back(setting.key(), setting.value(body, made.bodies[body].share));
   }
   add_attributes(made.bodies[body].region, values);
-  // Bodies of materials print with an extruder each, in the order of the materials; bands with the same.
+  // Bodies of materials and parts print with an extruder each, in their order; bands with the same.
   const bool is_given = std::ranges::any_of(settings, [](const SlicerSetting& s) { return s.key() == "extruder"; });
-  if (!is_given && !made.bodies[body].region.material) values.emplace_back("extruder", "1");
+  if (!is_given && !made.bodies[body].region.material && !is_by_part) values.emplace_back("extruder", "1");
   return values;
 }
 
 formats::MeshDocument document_of(compile::MeshedDesign& made, const std::string& title,
-                                  const std::vector<SlicerSetting>& settings) {
+                                  const std::vector<SlicerSetting>& settings, bool is_by_part) {
   formats::MeshDocument document;
   document.title = title;
   for (size_t n = 0; n < made.bodies.size(); ++n) {
@@ -94,7 +95,7 @@ formats::MeshDocument document_of(compile::MeshedDesign& made, const std::string
     const std::string name = made.bodies.size() == 1 && body.region.name.empty() ? title : body.region.name;
     formats::MeshBody written;
     written.name = name;
-    written.settings = settings_of(settings, n, made);
+    written.settings = settings_of(settings, n, made, is_by_part);
     written.material = static_cast<uint32_t>(n);
     document.materials.push_back({name, body.colour});
     written.vertices = std::move(body.body.vertices);
@@ -135,6 +136,31 @@ void tell_bodies(const Console& console, const compile::MeshedDesign& made) {
                            {"lost_places", static_cast<double>(made.report.lost.places)}});
 }
 
+// The file to write, and its format.
+struct MeshOutput {
+  std::string stem, path;
+  exporting::MeshFormat format = exporting::MeshFormat::three_mf;
+};
+
+std::string short_list(const std::vector<std::string>& names) {
+  constexpr size_t most = 6;
+  if (names.size() <= most) return join(names, ", ");
+  return join({names.begin(), names.begin() + most}, ", ") + " and " + std::to_string(names.size() - most) + " more";
+}
+
+// Says what became of several materials where nobody chose regions.
+void tell_materials(const Console& console, const compile::MeshedDesign& made, const MeshOutput& output) {
+  const std::vector<std::string>& names = made.materials.names;
+  if (names.size() < 2) return;
+  if (made.is_by_bands) return console.say("mixtures of " + short_list(names) + " become bodies by bands of fractions");
+  if (exporting::holds_bodies(output.format) && made.materials.are_mixed)
+    return console.say("mixtures of " + short_list(names) + " go to the body of the material that they have most of");
+  if (exporting::holds_bodies(output.format)) return;
+  console.warn(short_list(names) + " are joined: " + output.path +
+               " cannot say which is where; write a file that ends in " + exporting::endings_with_bodies() + ", or " +
+               spelled::option("--by", "whole") + " if they are to be one");
+}
+
 void warn_of_folds(const Console& console, const compile::MeshedDesign& made) {
   const uint64_t folded = made.report.folded, crossing = made.report.intersections;
   std::vector<std::string> what;
@@ -147,8 +173,11 @@ void warn_of_folds(const Console& console, const compile::MeshedDesign& made) {
                format_rounded(made.cell_mm, 3) + " mm; choose a smaller " + spelled::option("--cell"));
 }
 
-void warn_of_distance(const Console& console, const compile::MeshedDesign& made) {
+void tell_distance(const Console& console, const compile::MeshedDesign& made) {
   const double farthest = made.report.farthest_in_tolerances;
+  if (farthest <= 1 && !made.bodies.empty())
+    return console.say("triangles and design lie within " + format_rounded(made.tolerance_mm, 3) + " mm of each other" +
+                       (made.is_coarser ? "; a smaller " + spelled::option("--tolerance") + " takes longer" : ""));
   if (farthest <= 1) return;
   console.warn("the triangles lie up to " + format_rounded(farthest, 2) + " tolerances, " +
                format_rounded(farthest * made.tolerance_mm, 2) + " mm, from the design in places; choose a smaller " +
@@ -186,12 +215,6 @@ void check_beams(const MeshChoices& a, const compile::MeshRequest& request, cons
                         ", or leave " + spelled::option("--beams") + " out");
 }
 
-// The file to write, and its format.
-struct MeshOutput {
-  std::string stem, path;
-  exporting::MeshFormat format = exporting::MeshFormat::three_mf;
-};
-
 MeshOutput output_of(const MeshChoices& a) {
   const std::string stem = std::filesystem::path(a.design.design).stem().string();
   const std::string path = a.output.empty() ? stem + ".3mf" : a.output;
@@ -200,6 +223,12 @@ MeshOutput output_of(const MeshChoices& a) {
     throw WrongArgument(spelled::option("-o", path) + " does not say a format; let it end in " +
                         exporting::mesh_endings());
   return {stem, path, *format};
+}
+
+// Colours of vertices say of what materials they are.
+compile::UsualRegions usual_regions(const MeshChoices& a, exporting::MeshFormat format) {
+  if (a.regions.are_chosen() || a.colour_by == "materials") return compile::UsualRegions::as_requested;
+  return exporting::holds_bodies(format) ? compile::UsualRegions::separate : compile::UsualRegions::joined;
 }
 
 void refuse(const MeshChoices& a, const compile::MeshRequest& request, const MeshOutput& output) {
@@ -249,7 +278,7 @@ std::optional<compile::MeshedDesign> make_mesh(const compile::Loaded& loaded, co
 
 int write(const MeshChoices& a, const compile::Loaded& loaded, compile::MeshedDesign& made, const MeshOutput& output,
           const std::vector<SlicerSetting>& settings, PrintedDiagnostics& printed, Session& session) {
-  formats::MeshDocument document = document_of(made, output.stem, settings);
+  formats::MeshDocument document = document_of(made, output.stem, settings, a.regions.by == "parts");
   if (!a.colour_by.empty()) {
     const compile::VertexColouring colouring{a.colour_by, a.palette, a.range};
     const bool good =
@@ -263,9 +292,10 @@ int write(const MeshChoices& a, const compile::Loaded& loaded, compile::MeshedDe
 }
 
 int mesh(const MeshChoices& a, Session& session) {
-  const compile::MeshRequest request = a.request();
+  compile::MeshRequest request = a.request();
   const std::vector<SlicerSetting> settings(a.settings.begin(), a.settings.end());
   const MeshOutput output = output_of(a);
+  request.usual = usual_regions(a, output.format);
   const Stopwatch watch;
   JobSteps<compile::LoadedPtr> steps;
   steps.refuse = [&] { refuse(a, request, output); };
@@ -277,9 +307,10 @@ int mesh(const MeshChoices& a, Session& session) {
     PrintedDiagnostics printed(session.console);
     auto made = make_mesh(*loaded, request, printed, session);
     if (!made) return wrong_input;
+    tell_materials(session.console, *made, output);
     tell_bodies(session.console, *made);
     warn_of_folds(session.console, *made);
-    warn_of_distance(session.console, *made);
+    tell_distance(session.console, *made);
     warn_of_lost_parts(session.console, *made);
     if (const int code = write(a, *loaded, *made, output, settings, printed, session); code != done) return code;
     session.console.say(output.path + " written in " + format_rounded(watch.seconds(), 3) + " s");

@@ -1,6 +1,7 @@
 #include "compile/mesh_job.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
 #include "compile/build.h"
@@ -60,6 +61,30 @@ StageLoan loan(const MeshRequest& request, Progress* progress, const StopFlag* s
   return loan;
 }
 
+std::optional<MaterialsInside> materials_of(const design::Design& design, int threads, Diagnostics& diagnostics) {
+  const std::optional<Box> box = design_box(design, diagnostics);
+  return box ? find_materials(design, *box, threads, diagnostics) : std::nullopt;
+}
+
+// Bands of all materials but one say of every mixture what it is: the last is what the others leave.
+void separate(const MaterialsInside& materials, MeshRequest& request) {
+  constexpr size_t most_crossed = 4;  // 4^4 bodies are as many as there may be
+  if (materials.names.size() < 2) return;
+  const size_t crossed = materials.names.size() - 1;
+  if (!materials.are_mixed || request.beams || crossed > most_crossed) {
+    request.by_material = true;
+    return;
+  }
+  request.bands = BandRequest{};
+  if (crossed == 1) return;
+  request.bands->of = materials.names[0];
+  for (size_t n = 1; n < crossed; ++n) request.crossed.push_back({.of = materials.names[n]});
+}
+
+// Where nobody says how fine: so many cells at the surface take some seconds, of several times as many coarser ones do.
+constexpr double usual_cells = 200'000;
+constexpr double most_coarser = 5;
+
 // One run of the mesher, of a design or of what is left of it.
 class Mesher {
  public:
@@ -71,7 +96,7 @@ class Mesher {
   std::optional<MeshedDesign> mesh(const design::Design& whole, const design::NodePtr& shape) {
     const std::optional<Box> box = design_box(shape ? alone(whole, shape) : whole, diagnostics_);
     if (!box) return std::nullopt;
-    const auto fineness = choose_fineness(whole, *box, request_, diagnostics_);
+    const auto fineness = usual_fineness(whole, *box, shape);
     if (!fineness) return std::nullopt;
     const design::Design design = for_tolerance(whole, fineness->tolerance_mm);
     const auto program = build_regions(design, *box, request_, diagnostics_, shape);
@@ -83,6 +108,7 @@ class Mesher {
     MeshedDesign made;
     made.tolerance_mm = fineness->tolerance_mm;
     made.cell_mm = fineness->cell.mm();
+    made.is_coarser = is_coarser_;
     surface::ContourOptions options;
     options.corners = corners_over(*box, fineness->cell);
     options.tolerance_mm = made.tolerance_mm;
@@ -115,6 +141,25 @@ class Mesher {
   }
 
  private:
+  // As fine as the design's size says; up to five times coarser where that would make many cells. These are counted in
+  // a design that is as coarse as it may become, whose stages are soon done.
+  std::optional<Fineness> usual_fineness(const design::Design& whole, const Box& box, const design::NodePtr& shape) {
+    const auto fine = choose_fineness(whole, box, request_, diagnostics_);
+    if (!fine || request_.tolerance_mm || request_.cell_mm) return fine;
+    Diagnostics reported_later;
+    const design::Design coarse = for_tolerance(whole, most_coarser * fine->tolerance_mm);
+    const auto program = build_regions(coarse, box, request_, reported_later, shape);
+    if (!program) return fine;
+    stages_of(coarse)->prepare(loan(request_, progress_, stop_));
+    const double cells = plan_mesh(*program, box, *fine, request_.threads).cells;
+    const double coarser = std::clamp(std::ceil(std::sqrt(cells / usual_cells)), 1.0, most_coarser);
+    if (coarser == 1) return fine;
+    is_coarser_ = true;
+    RegionRequest chosen = request_;
+    chosen.tolerance_mm = coarser * fine->tolerance_mm;
+    return choose_fineness(whole, box, chosen, diagnostics_);
+  }
+
   static design::Design alone(const design::Design& design, const design::NodePtr& solid) {
     design::Design part = design;
     part.parts = {{"", solid}};
@@ -192,6 +237,7 @@ class Mesher {
   Progress* progress_;
   const StopFlag* stop_;
   size_t graded_ = 0;
+  bool is_coarser_ = false;
 };
 
 }  // namespace
@@ -199,8 +245,20 @@ class Mesher {
 std::optional<MeshedDesign> mesh_design(const Loaded& loaded, const MeshRequest& request, Diagnostics& diagnostics,
                                         Progress* progress, const StopFlag* stop) {
   const Loaded own{loaded.path, loaded.source, with_stages(loaded.design, loan(request, progress, stop))};
-  Mesher mesher(own, request, diagnostics, progress, stop);
-  return request.beams ? mesher.mesh_beams() : mesher.mesh(own.design, nullptr);
+  MeshRequest chosen = request;
+  MaterialsInside materials;
+  if (request.usual != UsualRegions::as_requested) {
+    auto found = materials_of(own.design, request.threads, diagnostics);
+    if (!found) return std::nullopt;
+    materials = std::move(*found);
+    if (request.usual == UsualRegions::separate) separate(materials, chosen);
+  }
+  Mesher mesher(own, chosen, diagnostics, progress, stop);
+  auto made = request.beams ? mesher.mesh_beams() : mesher.mesh(own.design, nullptr);
+  if (!made) return std::nullopt;
+  made->materials = std::move(materials);
+  made->is_by_bands = chosen.bands.has_value();
+  return made;
 }
 
 }  // namespace ombre::compile

@@ -9,6 +9,7 @@
 #include "compile/beam_bodies.h"
 #include "compile/loaded.h"
 #include "compile/region_request.h"
+#include "compile/region_survey.h"
 #include "surface/bodies.h"
 
 namespace ombre::compile {
@@ -20,9 +21,17 @@ struct MeshPlan {
   double memory_bytes = 0;
 };
 
+// What becomes of several materials where nobody chose regions.
+enum class UsualRegions : uint8_t {
+  as_requested,  // what the request says
+  separate,      // none are joined: a body for each material, or bands of mixtures; where there are beams, materials
+  joined,        // the whole is one body
+};
+
 struct MeshRequest : RegionRequest {
-  bool beams = false;     // struts become beams, where they can; not with bands
-  bool join_flat = true;  // cells are joined where the surface is flat
+  UsualRegions usual = UsualRegions::as_requested;  // not with regions of other kinds
+  bool beams = false;                               // struts become beams, where they can; not with bands
+  bool join_flat = true;                            // cells are joined where the surface is flat
   int threads = 0;
   size_t memory_bytes = 0;                                       // most that cells may take; 0: no limit
   std::function<void(const MeshPlan& plan)> announce = nullptr;  // called before each surface; may be empty
@@ -41,7 +50,10 @@ struct MeshedDesign {
   std::vector<BeamBody> beams;       // where beams were wanted; not counted among the bodies
   std::vector<surface::Body> clips;  // which cut the beams
   double tolerance_mm = 0, cell_mm = 0;
+  bool is_coarser = false;  // than a thousandth of the longest side, since nobody chose and there would be many cells
   surface::ContourReport report;
+  MaterialsInside materials;  // where nobody chose regions
+  bool is_by_bands = false;   // of a mixture
 };
 
 // Nothing, and diagnostics, when the design is empty, or cannot be cut so. Throws Cancelled.

@@ -146,6 +146,89 @@ TEST(Mesh, KeepsTheVolumeOfCurvedSolids) {
     }
 }
 
+// Solids of planes have the triangles that their corners need, by Euler's formula 2 V - 4, wherever they lie on the
+// grid.
+TEST(Mesh, OfPlanesHasNoMoreTrianglesThanTheyNeed) {
+  struct Case {
+    std::string text;
+    size_t triangles;
+    double volume_mm3;
+  };
+  const Case cases[] = {
+      {"rectprism(20, 12, 8);", 12, 1920},
+      {"rotate(0, 0, 30) rectprism(20, 12, 8);", 12, 1920},
+      {"rotate(10, 20, 30) rectprism(20, 12, 8);", 12, 1920},
+      // A plane cuts off an edge: a prism over a triangle with legs of 4 mm.
+      {"difference() { rectprism(20, 12, 8); translate(10, 0, 4) rotate(0, 45, 0) rectprism(5.656854249492381, 40, "
+       "5.656854249492381); }",
+       16, 1920 - 8 * 12},
+  };
+  for (const Case& c : cases)
+    for (const double tolerance : {0.02, 0.1, 0.5}) {
+      MeshRequest request;
+      request.tolerance_mm = tolerance;
+      const MeshedDesign made = mesh_text(c.text, request);
+      ASSERT_EQ(made.bodies.size(), 1u);
+      expect_manifold(made.bodies[0].body);
+      EXPECT_EQ(made.bodies[0].body.triangles.size(), c.triangles) << c.text << ", tolerance " << tolerance;
+      EXPECT_NEAR(made.bodies[0].volume_mm3, c.volume_mm3, 1e-6 * c.volume_mm3) << c.text;
+    }
+}
+
+// Two blocks of two materials share the face between them, corner by corner.
+TEST(Mesh, OfTwoBlocksThatTouchHasTwelveTrianglesEach) {
+  for (const std::string turn : {"", "rotate(0, 0, 30) "})
+    for (const double tolerance : {0.02, 0.1}) {
+      MeshRequest request;
+      request.tolerance_mm = tolerance;
+      request.by_material = true;
+      const MeshedDesign made = mesh_text(
+          turn + R"(union() { translate(-5, 0, 0) cube(10, "red"); translate(5, 0, 0) cube(10, "blue"); })", request);
+      ASSERT_EQ(made.bodies.size(), 2u);
+      for (const RegionBody& body : made.bodies) {
+        expect_manifold(body.body);
+        EXPECT_EQ(body.body.triangles.size(), 12u) << turn << tolerance;
+        EXPECT_NEAR(body.volume_mm3, 1000, 1e-3);
+      }
+    }
+}
+
+// The blue block is far smaller than the samples that tell mixtures.
+TEST(Mesh, OfSeveralMaterialsHasABodyForEach) {
+  MeshRequest request = cells_of(0.02, 0.01);
+  request.usual = UsualRegions::separate;
+  const std::string speck = R"(union(materials="first") { translate(1.03, 0, 0) cube(0.1, "blue"); cube(4, "red"); })";
+  const MeshedDesign made = mesh_text(speck, request);
+  EXPECT_EQ(made.materials.names, (std::vector<std::string>{"red", "blue"}));
+  EXPECT_FALSE(made.materials.are_mixed);
+  ASSERT_EQ(made.bodies.size(), 2u);
+  std::map<std::string, double> volumes;
+  for (const RegionBody& body : made.bodies) volumes[body.region.name] = body.volume_mm3;
+  EXPECT_NEAR(volumes["red"], 63.999, 1e-4);
+  EXPECT_NEAR(volumes["blue"], 0.001, 1e-6);
+  request.usual = UsualRegions::joined;
+  EXPECT_EQ(mesh_text(speck, request).bodies.size(), 1u);
+}
+
+TEST(Mesh, OfMixturesHasBodiesByBands) {
+  MeshRequest request = cells_of(0.5, 0.1);
+  request.usual = UsualRegions::separate;
+  // A fraction rises evenly over 20 mm: four bands of 250 mm3.
+  const MeshedDesign two =
+      mesh_text(R"(fgrade(["x/20 + 0.5", "0.5 - x/20"], ["red", "blue"]) rectprism(20, 10, 5);)", request);
+  EXPECT_TRUE(two.is_by_bands && two.materials.are_mixed);
+  ASSERT_EQ(two.bodies.size(), 4u);
+  for (const RegionBody& body : two.bodies) EXPECT_NEAR(body.volume_mm3, 250, 1e-3);
+  // A third material beside the mixture is a body of its own.
+  const MeshedDesign three = mesh_text(
+      R"(union(materials="first") { fgrade(["x/20 + 0.5", "0.5 - x/20"], ["red", "blue"]) rectprism(20, 10, 5);
+         translate(0, 20, 0) cube(4, "gray"); })",
+      request);
+  EXPECT_NEAR(volume(three), 1064, 1e-2);
+  EXPECT_TRUE(
+      std::ranges::any_of(three.bodies, [](const RegionBody& b) { return std::abs(b.volume_mm3 - 64) < 1e-3; }));
+}
+
 // Cells are 0.4 times the radius long; what two cylinders across each other share is Steinmetz's solid.
 TEST(Mesh, KeepsTheVolumeOfStrutsOfFewCells) {
   const double r = 0.7, long_mm = 6;

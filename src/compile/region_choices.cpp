@@ -23,7 +23,7 @@ RegionRequest RegionOptions::request() const {
   request.by_material = by == "materials";
   request.by_part = by == "parts";
   const bool has_bands = bands > 0 || !borders.empty();
-  const bool is_without_bands = request.by_material || request.by_part;
+  const bool is_without_bands = request.by_material || request.by_part || by == "whole";
   if (is_without_bands && has_bands)
     throw options::WrongValue("--by " + by + " has no bands; leave out " + spelled::option("--bands") + " and " +
                               spelled::option("--borders") + ", or name a material: " + spelled::option("--by", "red"));

@@ -23,17 +23,21 @@ struct RegionOptions {
   int bands = 0;  // 0: not chosen
   std::vector<double> borders;
 
-  // `piece` is what a region becomes: "A body".
-  static options::Spec<RegionOptions> options(const std::string& piece) {
+  // `piece` is what a region becomes, "A body"; `usual` says the regions where none are chosen, and `usual_tolerance`
+  // the tolerance.
+  static options::Spec<RegionOptions> options(const std::string& piece, const std::string& usual,
+                                              const std::string& usual_tolerance) {
     using namespace options;
     return {option("--tolerance", &RegionOptions::tolerance_mm, kind::length,
-                   "Largest distance to the design's surface; mm (default: a thousandth of its longest side)", "MM"),
+                   "Largest distance to the design's surface; mm (default: " + usual_tolerance + ")", "MM"),
             option("--cell", &RegionOptions::cell_mm, kind::length,
                    "Edge of the smallest cells; mm (default: 4 times the tolerance)", "MM"),
             option("--by", &RegionOptions::by, kind::text,
-                   piece + " for each of the materials or named parts, or for bands of a material's fraction or an "
-                           "attribute; of\nseveral, with commas, for each combination of their bands",
-                   "materials|parts|NAME"),
+                   piece +
+                       " for the whole, each of the materials or named parts, or bands of a material's fraction or "
+                       "an attribute; of\nseveral, with commas, for each combination of their bands (default: " +
+                       usual + ")",
+                   "whole|materials|parts|NAME"),
             option("--bands", &RegionOptions::bands, kind::whole,
                    "Number of bands of equal width (default 4, of the fraction that varies most)", "N")
                 .between(2, 1000),
@@ -41,6 +45,7 @@ struct RegionOptions {
                    "Values between bands: fractions from 0 to 1, or the attribute's", "V1,V2,...")
                 .excludes({"--bands"})};
   }
+  bool are_chosen() const { return !by.empty() || bands > 0 || !borders.empty(); }
   // Throws options::WrongValue for what does not go together.
   RegionRequest request() const;
 };
@@ -64,13 +69,17 @@ struct ContourChoices {
         option("--layer-height", &ContourChoices::layer_height, kind::layer_height,
                "Height of layers; mm (default: the design's own, else 0.1)", "MM"),
         option("--z", &ContourChoices::z_mm, kind::height, "Only one layer: what is cut at this height; mm", "MM"),
-        group(&ContourChoices::regions, RegionOptions::options("An outline")),
+        group(&ContourChoices::regions,
+              RegionOptions::options("An outline", "whole", "a thousandth of its longest side")),
         group(&ContourChoices::work, WorkOptions::options("Most memory for layers in flight and stages (default 2G)")),
         flag("--force", &ContourChoices::force, "Replace files that are there")};
     return spec;
   }
   ContourRequest request() const;
 };
+
+inline constexpr const char* usual_bodies =
+    "materials, bands of mixtures; in .stl, .ply and .off, which hold no bodies, the whole";
 
 struct MeshChoices {
   DesignOptions design;
@@ -91,7 +100,9 @@ struct MeshChoices {
         group(&MeshChoices::design),
         option("-o,--output", &MeshChoices::output, kind::file,
                "The file to write; its ending says the format (default: the design's name and .3mf)", "FILE"),
-        group(&MeshChoices::regions, RegionOptions::options("A body")),
+        group(&MeshChoices::regions, RegionOptions::options("A body", usual_bodies,
+                                                            "a thousandth of its longest side, up to five where "
+                                                            "there would be many cells")),
         option("--colour-by,--color-by", &MeshChoices::colour_by, kind::text,
                "Colours of vertices by an attribute, or by the mixture: materials; not for .stl and .off",
                "materials|NAME"),

@@ -13,9 +13,9 @@ namespace ombre::compile {
 
 // How many bands a value is cut into, or where; of a material or an attribute, or of the material that varies most.
 struct BandRequest {
-  int count = 4;                // of equal width: of fractions from 0 to 1, of attributes from least to greatest
-  std::vector<double> borders;  // instead, if there are any
-  std::string of;               // empty: the fraction that varies most
+  int count = 4;                     // of equal width: of fractions from 0 to 1, of attributes from least to greatest
+  std::vector<double> borders = {};  // instead, if there are any
+  std::string of = {};               // empty: the fraction that varies most
 };
 
 struct RegionRequest {
@@ -23,7 +23,7 @@ struct RegionRequest {
   bool by_part = false;                // or for each part that has a name
   std::optional<BandRequest> bands;    // or for each band; else one for all
   std::vector<BandRequest> crossed;    // further values, whose bands are crossed with those
-  std::optional<double> tolerance_mm;  // else a thousandth of the longest side, rounded
+  std::optional<double> tolerance_mm;  // else a thousandth of the longest side, rounded; mesh_job.h may take more
   std::optional<double> cell_mm;       // else cells_of_tolerance times the tolerance
 };
 constexpr double cells_of_tolerance = 4;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "compile/build.h"
 #include "compile/field_program.h"
 #include "compile/question.h"
 #include "voxel/fields.h"
@@ -74,6 +75,19 @@ std::vector<bool> inside_of(const std::vector<std::vector<float>>& fractions) {
   return inside;
 }
 
+bool are_mixed(const std::vector<std::vector<float>>& fractions) {
+  for (size_t n = 0; n < fractions.front().size(); ++n) {
+    float sum = 0, greatest = 0;
+    for (const auto& values : fractions) {
+      const float fraction = std::max(values[n], 0.0f);
+      sum += fraction;
+      greatest = std::max(greatest, fraction);
+    }
+    if (greatest < (1 - about_equal) * sum) return true;
+  }
+  return false;
+}
+
 // Of the values that are numbers, where the mark is greater than 0.
 std::optional<Interval> range_inside(const std::vector<float>& values, const std::vector<float>& flags) {
   std::optional<Interval> range;
@@ -106,6 +120,21 @@ std::optional<MaterialId> most_varying_material(const design::Design& design, co
     most = ids[m];
   }
   return most;
+}
+
+std::optional<MaterialsInside> find_materials(const design::Design& design, const Box& box, int threads,
+                                              Diagnostics& diagnostics) {
+  auto built = build_flat_program(design, diagnostics, threads);
+  if (!built) return std::nullopt;
+  leave_out_impossible(*built, box, threads);
+  MaterialsInside found;
+  for (const MaterialId id : built->materials.materials) found.names.push_back(design.materials.all()[id].name);
+  if (found.names.size() < 2) return found;
+  std::vector<MaterialId> ids;
+  const auto fractions = sample_fractions(design, box, ids, diagnostics);
+  if (!fractions) return std::nullopt;
+  found.are_mixed = are_mixed(*fractions);
+  return found;
 }
 
 std::optional<Interval> value_range(const design::Design& design, const Box& box, const std::string& name,

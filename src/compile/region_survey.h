@@ -18,6 +18,16 @@ std::vector<std::vector<float>> sample_coarsely(const program::Program& program,
 // The material whose fraction differs most within the design; of about equals the first. Nothing when it is empty.
 std::optional<MaterialId> most_varying_material(const design::Design& design, const Box& box, Diagnostics& diagnostics);
 
+struct MaterialsInside {
+  std::vector<std::string> names;  // in the order of the design's materials
+  bool are_mixed = false;          // some sample has more than one
+};
+
+// The materials that a design can have inside, by intervals, which miss none, however small. Nothing, and a diagnostic,
+// when the programs would not fit into memory.
+std::optional<MaterialsInside> find_materials(const design::Design& design, const Box& box, int threads,
+                                              Diagnostics& diagnostics);
+
 // From the least to the greatest value inside of a material's fraction or of an attribute. Nothing when nothing is
 // inside, or, and a diagnostic, when the design has none of that name.
 std::optional<Interval> value_range(const design::Design& design, const Box& box, const std::string& name,

@@ -1,5 +1,6 @@
 #include "export/mesh_file.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <system_error>
@@ -19,14 +20,15 @@ using formats::MeshDocument;
 struct Ending {
   std::string_view text;
   MeshFormat format;
+  bool holds_bodies;
 };
-constexpr std::array<Ending, 7> endings{{{".3mf", MeshFormat::three_mf},
-                                         {".amf", MeshFormat::amf},
-                                         {".glb", MeshFormat::glb},
-                                         {".obj", MeshFormat::obj},
-                                         {".off", MeshFormat::off},
-                                         {".ply", MeshFormat::ply},
-                                         {".stl", MeshFormat::stl}}};
+constexpr std::array<Ending, 7> endings{{{".3mf", MeshFormat::three_mf, true},
+                                         {".amf", MeshFormat::amf, true},
+                                         {".glb", MeshFormat::glb, true},
+                                         {".obj", MeshFormat::obj, true},
+                                         {".off", MeshFormat::off, false},
+                                         {".ply", MeshFormat::ply, false},
+                                         {".stl", MeshFormat::stl, false}}};
 
 void append_to(NewFile& file, const LazyBytes& bytes) {
   bytes.write([&file](std::string_view piece) { file.append(piece); });
@@ -76,6 +78,15 @@ std::optional<MeshFormat> mesh_format_of(const std::string& path) {
 std::string mesh_endings() {
   std::vector<std::string> texts;
   for (const Ending& ending : endings) texts.emplace_back(ending.text);
+  return join(texts, ", ");
+}
+
+bool holds_bodies(MeshFormat format) { return std::ranges::find(endings, format, &Ending::format)->holds_bodies; }
+
+std::string endings_with_bodies() {
+  std::vector<std::string> texts;
+  for (const Ending& ending : endings)
+    if (ending.holds_bodies) texts.emplace_back(ending.text);
   return join(texts, ", ");
 }
 

@@ -12,8 +12,12 @@ enum class MeshFormat { stl, obj, ply, off, amf, three_mf, glb };
 
 // What the ending of a path asks for; nothing if it is none of ours.
 std::optional<MeshFormat> mesh_format_of(const std::string& path);
+// Whether its files say which triangles are which body.
+bool holds_bodies(MeshFormat format);
 // The endings, for messages: ".3mf, .amf, ...".
 std::string mesh_endings();
+// Those of formats that hold bodies.
+std::string endings_with_bodies();
 
 // The file of materials beside an .obj file: part.mtl for part.obj.
 std::string material_library_path(const std::string& path);

@@ -140,7 +140,7 @@ class MeshCompiler(_Compiler):
     def compile(self) -> None:
         design = self._root._ombre_design_(self._materials)
         os.makedirs(self._folder, exist_ok=True)
-        bands: dict[str, Any] = {"bands": self._bands} if self._bands > 1 and len(self._root.material_list()) > 1 else {}
+        bands: dict[str, Any] = {"bands": self._bands} if self._bands > 1 and len(self._root.material_list()) > 1 else {"by": "whole"}
         design.mesh(os.path.join(self._folder, self._prefix + ".3mf"), tolerance=min(self._voxel) / 8, force=True,
                     progress=self._callback, **bands)
         self._report(1.0)
