@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include "base/error.h"
 #include "base/point_text.h"
@@ -12,6 +14,7 @@
 #include "compile/sampler.h"
 #include "compile/sharp_edges.h"
 #include "compile/unusable_mixtures.h"
+#include "import/triangle_distance.h"
 #include "solids/tetrahedra.h"
 #include "voxel/quantise.h"
 
@@ -25,6 +28,13 @@ constexpr double cell_share = 0.5, tolerance_share = 0.01, most_cells_along = 50
 constexpr double volume_of_cube = 0.115, questions_of_element = 60;
 constexpr double most_questions = 400;  // of an expected element: then refinement would not end
 constexpr double bytes_of_element = 700;
+// By how much elements grow with the distance from edges at which they are small, and how many more questions they
+// take.
+constexpr double growth_from_edges = 0.3;
+constexpr uint64_t more_questions = 8;
+// Elements are as large as edges lie apart, unless these are far closer together than their size: then they are left
+// out.
+constexpr double most_of_gap = 1, least_share_of_size = 0.2;
 constexpr double rough_share = 0.2;  // of the size: how far faces may lie from a surface whose edges are cut off
 constexpr double least_share = 0.9;  // of the surface's volume that tetrahedra fill
 constexpr double draws = 16777216;   // 2^24
@@ -33,6 +43,29 @@ constexpr double draws = 16777216;   // 2^24
 Box with_room(const Box& box) {
   const Vec3 size = box.size();
   return box.expanded(0.05 * std::max({size.x, size.y, size.z}));
+}
+
+double distance_to(const std::vector<solids::Polyline>& lines, Vec3 p) {
+  double squared = std::numeric_limits<double>::infinity();
+  for (const solids::Polyline& line : lines)
+    for (size_t n = 0; n + 1 < line.size(); ++n)
+      squared = std::min(squared, importing::squared_distance_to_segment(p, line[n], line[n + 1]));
+  return std::sqrt(squared);
+}
+
+// How close lines come to others that do not end where they do.
+double least_gap(const std::vector<solids::Polyline>& lines, const std::vector<solids::Polyline>& all) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const solids::Polyline& line : lines) {
+    const auto meets = [&](const solids::Polyline& other) {
+      return other.front() == line.front() || other.front() == line.back() || other.back() == line.front() ||
+             other.back() == line.back();
+    };
+    std::vector<solids::Polyline> others;
+    std::ranges::remove_copy_if(all, std::back_inserter(others), meets);
+    for (const Vec3 p : line) least = std::min(least, distance_to(others, p));
+  }
+  return least;
 }
 
 class TetraMaker {
@@ -210,8 +243,31 @@ class TetraMaker {
       add_face_points();
       made = make();
     }
+    if (!made.edges_left_out.empty()) keep_edges(wanted, size, made);
     warn_of_left_out(made.edges_left_out);
     return made;
+  }
+
+  // Thin plates keep their edges, which lie closer together than elements are large, with smaller elements beside
+  // these.
+  void keep_edges(solids::TetrahedraRequest wanted, ElementSize& size, solids::Tetrahedra& made) {
+    const std::vector<solids::Polyline> edges = made.edges_left_out;
+    const double share = most_of_gap * least_gap(edges, wanted.sharp_edges) / size.least_mm();
+    if (share < least_share_of_size || share >= 1) return;
+    wanted.size_mm = [&](Vec3 p) {
+      const double usual = size.at(p);
+      return std::min(usual, share * usual + growth_from_edges * distance_to(edges, p));
+    };
+    wanted.least_size_mm = share * size.least_mm();
+    wanted.most_questions *= more_questions;
+    questions_ = 0;
+    solids::Tetrahedra finer = solids::make_tetrahedra(wanted);
+    if (!finer.edges_left_out.empty()) return;
+    diagnostics_.warning({loaded_->source, 0, 0},
+                         "elements are down to " + format_rounded(wanted.least_size_mm, 3) +
+                             " mm small beside sharp edges that lie closer together than their size",
+                         "choose a smaller " + spelled::option("--size") + ", or bricks");
+    made = std::move(finer);
   }
 
   void warn_of_left_out(const std::vector<solids::Polyline>& edges) {

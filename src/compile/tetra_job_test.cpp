@@ -80,6 +80,20 @@ TEST_F(Tetra, EdgesThatLieTooCloseAreLeftOut) {
   EXPECT_EQ(made->quality.inverted, 0U);
 }
 
+// A plate half as thick as elements are large: it is as long, wide and thick as it was, to its corners.
+TEST_F(Tetra, ThinPlatesKeepTheirEdges) {
+  const LoadedPtr loaded = design_of("rectprism((20, 4, 1), red);");
+  Diagnostics diagnostics;
+  const auto made = tetra_model(loaded, any_study(), of_size(2), diagnostics);
+  ASSERT_TRUE(made) << to_text(diagnostics);
+  EXPECT_NEAR(fea::MeshView(made->model.mesh).total_volume_mm3(), 80, 0.01);
+  size_t corners = 0;
+  for (const Vec3& p : made->model.mesh.points)
+    if (std::abs(std::abs(p.x) - 10) + std::abs(std::abs(p.y) - 2) + std::abs(std::abs(p.z) - 0.5) < 1e-3) ++corners;
+  EXPECT_EQ(corners, 8U);
+  EXPECT_EQ(to_text(diagnostics).find("cut off"), std::string::npos) << to_text(diagnostics);
+}
+
 // Round surfaces apart from each other, one inside of another, are all found.
 TEST_F(Tetra, SmoothSurfacesAreAllFound) {
   const auto made = tetrahedra_of(
