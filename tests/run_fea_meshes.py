@@ -53,6 +53,19 @@ def tetrahedra_of_any_size_come_to_an_end(folder):
     near(mesh("slab.vcad", "3.75"), 20 * 5 * 2, 0.1, "the slab's volume")
 
 
+def wide_plates_keep_their_edges(folder):
+    """Half as thick as elements are large: the box's volume, and a side that can be held."""
+    if not has_tetrahedra(folder):
+        return
+    folder.write("plate.vcad", "rectprism((50, 50, 1), red);")
+    folder.write("held.json", json.dumps({**PULL, "supports": [{"on": "xmin", "fix": "xyz"}], "loads": []}))
+    job = ("plate.vcad", "--study", "held.json", "--elements", "tet4", "--size", "2", "-o", "held.inp")
+    done = folder.run(*job)
+    expect("elements are down to 1 mm small beside sharp edges" in done.stderr and "cut off" not in done.stderr, done.stderr)
+    expect("0 inverted" in done.stderr and "the surface has 2500 mm3" in done.stderr, done.stderr)
+    near(folder.events(*job, "--force")["model"]["volume_mm3"], 2500, 2.5, "the volume")
+
+
 GYROID = ('root((-5, -5, -5), (5, 5, 5), (0.5, 0.5, 0.5)) { intersection() { rectprism((10.001, 10.001, 10.001), red); function('
           '"sin(2*pi*x/10)*cos(2*pi*y/10) + sin(2*pi*y/10)*cos(2*pi*z/10) + sin(2*pi*z/10)*cos(2*pi*x/10)", red); } }')
 
@@ -144,5 +157,5 @@ def adaptive_meshes_cost_less(folder):
 
 if __name__ == "__main__":
     raise SystemExit(check_all(pathlib.Path(sys.argv[1]).resolve(), [
-        tetrahedra_reach_the_surface, tetrahedra_of_any_size_come_to_an_end, cells_that_repeat_fit_their_copies,
-        designs_with_rough_edges_come_to_an_end, adaptive_meshes_cost_less]))
+        tetrahedra_reach_the_surface, tetrahedra_of_any_size_come_to_an_end, wide_plates_keep_their_edges,
+        cells_that_repeat_fit_their_copies, designs_with_rough_edges_come_to_an_end, adaptive_meshes_cost_less]))
