@@ -1,5 +1,5 @@
 // Draws the pictures of docs/user/dithering.md and prints its figures:
-// ninja -C build/dev draw_dithering && build/dev/tools/draw_dithering docs
+// ninja -C build/dev draw_dithering && build/dev/tools/draw_dithering docs/user
 #include <array>
 #include <cstdio>
 #include <cstdlib>
