@@ -288,7 +288,7 @@ class Shares {
   Diagnostics& diagnostics_;
 };
 
-// By halves, since the share of samples goes by small leaps.
+// Finds the variable's value for a density by halving its range: the share of samples leaps, so slopes would mislead.
 std::optional<HomogeniseChoices> with_density(const HomogeniseChoices& a, const fea::Study& study, Session& session,
                                               Diagnostics& diagnostics) {
   constexpr int most_halves = 30;

@@ -62,8 +62,8 @@ struct Folder {
   std::string key() const { return file("study.key"); }
 };
 
-// What a search depends on, a line for each part: its name and the hash of its content. Equal for two searches that
-// find the same, whatever number of designs each may measure.
+// Lists what a search depends on, a line for each part: its name and the hash of its content. Two searches that find
+// the same have equal keys, whatever number of designs each may measure.
 class SearchKey {
  public:
   SearchKey(const OptimiseChoices& a, const Data& data, const OptimiseStudy& study) {

@@ -23,8 +23,8 @@ std::string without(const Module& module);
 // A function of a library by its C name. Throws Error: "`what` need `path`, which cannot be loaded".
 void* load_symbol(const std::string& path, const char* function, const std::string& what);
 
-// The same of a module, which lies beside this code, where it is installed, or in the build folder. Throws Error with
-// without() where it is missing.
+// Finds a function in a module, which lies beside this code, where it is installed, or in the build folder. Throws
+// Error with without() where the module is missing.
 void* load_symbol(const Module& module, const char* function);
 
 template <class Function>

@@ -27,7 +27,8 @@ int64_t off_centre(size_t x, size_t y, size_t z) {
   return square(x) + square(y) + square(z);
 }
 
-// Where a part's point lies in its brick, from 0 to 1 along each axis: along each one the 64 points have 64 places.
+// Returns where a part's point lies in its brick, from 0 to 1 along each axis. No two of the 64 points share a
+// coordinate.
 Vec3 point_of(size_t x, size_t y, size_t z) {
   const auto within = [](size_t part, size_t a, size_t b) {
     constexpr size_t columns = parts_along * parts_along, stride = 7;

@@ -14,8 +14,8 @@
 
 namespace ombre::compile {
 
-// Where bricks may be: voxels of a lattice; and another one of their parts, by which their fill is found, or the volume
-// of the design alone, where they go by their centres.
+// The voxels of a lattice may become bricks. A finer lattice of their parts says how full each is; where bricks go by
+// their centres, there is none.
 struct BrickPlan {
   Plan bricks;
   std::optional<Plan> parts;

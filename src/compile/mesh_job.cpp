@@ -81,7 +81,8 @@ void separate(const MaterialsInside& materials, MeshRequest& request) {
   for (size_t n = 1; n < crossed; ++n) request.crossed.push_back({.of = materials.names[n]});
 }
 
-// Where nobody says how fine: so many cells at the surface take some seconds, of several times as many coarser ones do.
+// Meshes for which nobody chose a tolerance may have so many cells at the surface, which take some seconds. A design
+// that would have more gets a tolerance of up to most_coarser times the usual one.
 constexpr double usual_cells = 200'000;
 constexpr double most_coarser = 5;
 
@@ -141,8 +142,8 @@ class Mesher {
   }
 
  private:
-  // As fine as the design's size says; up to five times coarser where that would make many cells. These are counted in
-  // a design that is as coarse as it may become, whose stages are soon done.
+  // Chooses a tolerance by the design's size, and a coarser one where that would make too many cells. Cells are counted
+  // in a design that is as coarse as it may become, whose stages are soon done.
   std::optional<Fineness> usual_fineness(const design::Design& whole, const Box& box, const design::NodePtr& shape) {
     const auto fine = choose_fineness(whole, box, request_, diagnostics_);
     if (!fine || request_.tolerance_mm || request_.cell_mm) return fine;

@@ -21,7 +21,7 @@ struct MeshPlan {
   double memory_bytes = 0;
 };
 
-// What becomes of several materials where nobody chose regions.
+// Says what becomes of several materials where nobody chose regions.
 enum class UsualRegions : uint8_t {
   as_requested,  // what the request says
   separate,      // none are joined: a body for each material, or bands of mixtures; where there are beams, materials

@@ -28,8 +28,8 @@ constexpr double cell_share = 0.5, tolerance_share = 0.01, most_cells_along = 50
 constexpr double volume_of_cube = 0.115, questions_of_element = 60;
 constexpr double most_questions = 400;  // of an expected element: then refinement would not end
 constexpr double bytes_of_element = 700;
-// By how much elements grow with the distance from edges at which they are small, and how many more questions they
-// take.
+// Elements beside edges are small and grow with the distance by this share; the mesher may then ask so many times more
+// often.
 constexpr double growth_from_edges = 0.3;
 constexpr uint64_t more_questions = 8;
 // Elements are as large as edges lie apart, unless these are far closer together than their size: then they are left

@@ -16,7 +16,7 @@ std::optional<MeshFormat> mesh_format_of(const std::string& path);
 bool holds_bodies(MeshFormat format);
 // The endings, for messages: ".3mf, .amf, ...".
 std::string mesh_endings();
-// Those of formats that hold bodies.
+// The endings of formats that hold bodies, for messages.
 std::string endings_with_bodies();
 
 // The file of materials beside an .obj file: part.mtl for part.obj.

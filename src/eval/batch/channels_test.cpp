@@ -59,6 +59,23 @@ class PointRows : public SourceRows {
   void fill(const program::Read&, const RowsToFill&) const override {}
 };
 
+// Evaluates output 0 at a list of points.
+class ListEvaluation {
+ public:
+  ListEvaluation(const program::Program& program, const PointList& points, size_t count) {
+    const std::vector<Interval> ranges(program.code.size(), Interval::everything());
+    batch.compile_for_list(program, ranges, count, rows_);
+    batch.place(points);
+    batch.begin_layer(0);
+    batch.begin_row(0);
+  }
+
+  BatchEvaluator batch{kernel_sets().front()};
+
+ private:
+  PointRows rows_;
+};
+
 }  // namespace
 
 TEST(Channels, ReferenceAsksForThemTogether) {
@@ -85,13 +102,8 @@ TEST(Channels, BatchesAskForThemTogether) {
     ys.push_back(static_cast<float>(n % 7));
     zs.push_back(0);
   }
-  std::vector<Interval> ranges(program.code.size(), Interval::everything());
-  BatchEvaluator batch(kernel_sets().front());
-  const PointRows none;
-  batch.compile_for_list(program, ranges, xs.size(), none);
-  batch.place(PointList{xs, ys, zs});
-  batch.begin_layer(0);
-  batch.begin_row(0);
+  ListEvaluation evaluation(program, PointList{xs, ys, zs}, xs.size());
+  BatchEvaluator& batch = evaluation.batch;
   batch.finish_row();
   // 128 points at a time.
   EXPECT_EQ(source->group_sizes, (std::vector<size_t>{4, 4, 1, 1}));
@@ -101,7 +113,7 @@ TEST(Channels, BatchesAskForThemTogether) {
   for (size_t n = 0; n < xs.size(); ++n) ASSERT_EQ(batch.output(5)[n], ys[n] + xs[n]);
 }
 
-// Where output 0 is 0, values mean nothing and cost nothing.
+// A source is not queried at points where output 0 is 0, since values mean nothing there.
 TEST(Channels, AreQueriedOnlyInside) {
   if (kernel_sets().empty()) GTEST_SKIP() << "no instruction set for batches";
   const auto source = std::make_shared<QueriedPoints>();
@@ -116,13 +128,8 @@ TEST(Channels, AreQueriedOnlyInside) {
     zs.push_back(0);
     if (n % 3 == 0) inside.push_back(static_cast<double>(n));
   }
-  const std::vector<Interval> ranges(program.code.size(), Interval::everything());
-  BatchEvaluator batch(kernel_sets().front());
-  const PointRows none;
-  batch.compile_for_list(program, ranges, xs.size(), none);
-  batch.place(PointList{xs, ys, zs});
-  batch.begin_layer(0);
-  batch.begin_row(0);
+  ListEvaluation evaluation(program, PointList{xs, ys, zs}, xs.size());
+  BatchEvaluator& batch = evaluation.batch;
   batch.finish_row_inside();
   EXPECT_EQ(source->queried, inside);
   for (size_t n = 0; n < xs.size(); n += 3) ASSERT_EQ(batch.output(1)[n], xs[n]);
